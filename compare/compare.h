@@ -1,0 +1,36 @@
+// The main job: one scene through both renderers and up the ladder.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "compare/comparison.h"
+#include "raster/renderer.h"
+#include "scene/expected.h"
+
+namespace gnomon::compare {
+
+struct CompareOptions {
+  raster::RasterOptions raster;
+  raytrace::RaytraceOptions raytrace;
+  raytrace::Accel accel = raytrace::Accel::bvh;
+  std::string light;  ///< name of the one light to compare; empty: all
+  int bias_curve_points = 129;
+};
+
+/// Called as work proceeds with a stage name and the share done in [0, 1].
+using Progress = std::function<void(std::string_view stage, double done)>;
+
+/// Renders and compares. The renderer must have been created for `world`.
+Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer, const CompareOptions& options,
+                                   const Progress& progress = {});
+
+/// Compares two finished frames of the same world, camera and size (the viewer's entry).
+Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,
+                                                      const raster::RasterFrame& drawn,
+                                                      const raytrace::RayTracedFrame& truth,
+                                                      const CompareOptions& options);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,121 @@
+// The comparison as plain data: the visibility ladder of every pixel, its label, and what the program says about it.
+// Everything that writes files (result.json, pictures, report) reads this and nothing else.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raster/frame.h"
+#include "raytrace/frame.h"
+#include "scene/effects.h"
+#include "scene/image.h"
+#include "scene/timing.h"
+#include "scene/world.h"
+
+namespace gnomon::compare {
+
+/// V0 … V6: the truth, and what changes one thing at a time until it is what the rasterizer drew.
+enum class Rung : std::uint8_t { truth, point, texel, flat, stored, biased, drawn };
+inline constexpr std::size_t rung_count = 7;
+
+/// The step down to rung k + 1 is charged to cause k.
+enum class Cause : std::uint8_t { light_size, sampling, slope, precision, bias, filter };
+inline constexpr std::size_t cause_count = 6;
+std::string_view cause_name(Cause cause);
+
+/// Values are those of the class.V channel.
+enum class Label : std::int8_t {
+  uncertain = -4, silhouette = -3, facing_away = -2, background = -1, right = 0,
+  acne, precision, peter_panning, light_leak, aliasing, missed_feature, false_feature, blur, light_size, outside_map
+};
+inline constexpr std::size_t class_count = 10;  ///< the wrong ones, acne … outside_map
+std::string_view label_name(Label label);       ///< as in result.json; "right", "background", … for the others
+inline bool is_wrong(Label label) { return static_cast<int>(label) > 0; }
+inline bool is_compared(Label label) { return static_cast<int>(label) >= 0; }
+
+struct PixelCounts {
+  std::uint64_t total = 0, background = 0, facing_away = 0, silhouette = 0, uncertain = 0, compared = 0;
+};
+
+struct ErrorStats {
+  std::uint64_t wrong = 0, false_shadow = 0, missed_shadow = 0;
+  double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0;  ///< of V6 - V0 over compared pixels
+  double flip = 0.0;  ///< mean FLIP (Andersson et al. 2020) of the drawn against the true visibility picture
+};
+
+struct BudgetStep {
+  double signed_mean = 0.0;    ///< mean of V[k+1] - V[k] over compared pixels; the six sum to mean(V6 - V0)
+  double absolute_mean = 0.0;  ///< mean of |V[k+1] - V[k]|
+};
+
+struct EdgeStats {
+  std::uint64_t edges = 0;     ///< true shadow edges measured (pixel pairs)
+  double mean_texels = 0.0;    ///< signed, > 0 where the drawn shadow is larger than the true one
+  double rms_texels = 0.0, rms_pixels = 0.0;
+};
+
+/// How far the drawn shadow starts from its caster, on pixels that the bias lets light through to.
+struct Detachment {
+  std::uint64_t pixels = 0;
+  double mean_world = 0.0, max_world = 0.0;
+};
+
+struct BiasCurvePoint {
+  double bias = 0.0;  ///< constant, world units along the light ray
+  std::uint64_t false_shadow = 0, missed_shadow = 0;
+};
+
+/// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right everywhere.
+struct BestBias {
+  double constant_world = 0.0;
+  double wrong_fraction = 0.0;
+  bool feasible = false;         ///< some constant bias makes every compared pixel right
+  double needs_more_than = 0.0;  ///< the largest gap among truly lit pixels: a smaller bias shadows one
+  double needs_less_than = 0.0;  ///< the smallest gap among truly shadowed pixels: a bias from here on lights one
+  std::uint64_t lit_pixels_above = 0;       ///< lit pixels whose gap >= needs_less_than (they contradict)
+  std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels whose gap <= needs_more_than
+};
+
+struct LightComparison {
+  std::uint32_t light = 0;           ///< index in Scene::lights
+  std::size_t record = 0;            ///< index in RasterFrame::lights and RayTracedFrame::lights
+  PixelCounts pixels;
+  ErrorStats error;
+  std::array<BudgetStep, cause_count> budget{};
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … outside_map; they sum to error.wrong
+  EdgeStats edges;
+  Detachment detachment;
+  std::vector<BiasCurvePoint> bias_curve;
+  BestBias best_bias;
+  std::array<double, 3> texel_world{};  ///< min, median, max over compared receivers
+  Times classify;
+
+  std::array<Image<float>, rung_count> rungs;  ///< 1 lit, 0 shadowed; 1 where not compared and no receiver
+  Image<Label> labels;
+};
+
+struct MachineInfo {
+  std::string cpu, os;
+  int cores = 0;
+};
+
+struct Comparison {
+  const World* world = nullptr;
+  std::string command;   ///< as the user could type it again
+  std::uint64_t seed = 0;
+  int threads = 0;
+  MachineInfo machine;
+  EffectPlan plan;
+  raster::RasterFrame raster;
+  raytrace::RayTracedFrame raytraced;
+  std::vector<LightComparison> lights;
+  double exposure = 1.0;  ///< linear factor applied to both pictures before sRGB encoding
+  double load_ms = 0.0, accel_build_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+}  // namespace gnomon::compare

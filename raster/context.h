@@ -1,0 +1,25 @@
+// An OpenGL 4.5 core context: offscreen through OSMesa (loaded at run time) or EGL surfaceless, or one that a window owns.
+#pragma once
+
+#include <memory>
+
+#include "raster/frame.h"
+#include "raster/options.h"
+#include "scene/expected.h"
+
+namespace gnomon::raster {
+
+class Context {
+ public:
+  using Procedure = void (*)();
+  virtual ~Context() = default;
+  /// Makes the context current on the calling thread.
+  virtual bool make_current() = 0;
+  virtual Procedure procedure(const char* name) const = 0;
+  virtual const char* backend() const = 0;
+};
+
+/// Backend::automatic tries OSMesa, then EGL. Error (graphics): one line naming everything that was tried and why it failed.
+Expected<std::unique_ptr<Context>> create_context(Backend backend);
+
+}  // namespace gnomon::raster

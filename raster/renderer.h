@@ -1,0 +1,31 @@
+// The rasterizer: shadow-mapped pictures through offscreen OpenGL 4.5. OpenGL itself is private to this room.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "raster/context.h"
+#include "raster/frame.h"
+#include "scene/effects.h"
+#include "scene/expected.h"
+#include "scene/world.h"
+
+namespace gnomon::raster {
+
+/// Holds one world's GPU resources; render() may be called again with other options, lights and cameras.
+class Renderer {
+ public:
+  /// Uploads the world and compiles the shader permutations that `plan` calls for.
+  /// The world and its scene must outlive the renderer.
+  static Expected<std::unique_ptr<Renderer>> create(std::unique_ptr<Context> context, const World& world,
+                                                    const EffectPlan& plan);
+  virtual ~Renderer() = default;
+
+  /// Renders all lights into the picture; `lights` (indices in Scene::lights) get a LightRecord each.
+  /// Errors (graphics, exit 5): a map larger than the context allows, out of memory, a GL error; never a silent shrink.
+  /// The lights and camera are read from the world's scene at each call, so a viewer may change them in between.
+  virtual Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) = 0;
+  virtual const ContextInfo& info() const = 0;
+};
+
+}  // namespace gnomon::raster

@@ -1,0 +1,47 @@
+// What the ray tracer hands on, and the call that makes it. Pixel arrays are row-major, row 0 at the top.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "raytrace/tracer.h"
+#include "scene/camera.h"
+#include "scene/effects.h"
+#include "scene/image.h"
+#include "scene/timing.h"
+
+namespace gnomon::raytrace {
+
+struct RaytraceOptions {
+  ImageSize size{1280, 720};
+  int runs = 1;              ///< timed repetitions of the primary and shadow passes (>= 1), after one warm-up when > 1
+  bool picture = true;       ///< shade and follow secondary rays; false: receivers and verdicts only
+  double min_contribution = 1.0 / 512.0;  ///< secondary rays below this share of a pixel are not followed
+};
+
+struct RayCounts {
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+};
+
+struct LightTruth {
+  std::uint32_t light = 0;             ///< index in Scene::lights
+  Image<Verdict> verdict;              ///< lit where no receiver; shadowed where the light cannot reach (facing away)
+  Times shadow_rays;                   ///< ms for the pixels that the light can reach
+  std::uint64_t rays = 0;
+};
+
+struct RayTracedFrame {
+  ColorImage color;                    ///< linear radiance
+  Image<SurfacePoint> receiver;        ///< primitive == no_id: background
+  std::vector<LightTruth> lights;
+  RayCounts rays;
+  Times primary_rays;
+  double picture_ms = 0.0;             ///< shading and secondary rays
+};
+
+/// Bit-identical for any number of threads (oneTBB's global limit decides how many).
+RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+                           std::span<const std::uint32_t> lights, const RaytraceOptions& options);
+
+}  // namespace gnomon::raytrace

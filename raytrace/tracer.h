@@ -1,0 +1,76 @@
+// Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight triangles,
+// closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "scene/light.h"
+#include "scene/ray.h"
+#include "scene/world.h"
+
+namespace gnomon::raytrace {
+
+struct Hit {
+  double t = 0.0;
+  std::uint32_t primitive = no_id;
+  Vec2 barycentric{0.0};  ///< weights of the triangle's second and third corner; 0 for shapes
+};
+
+/// A point on a surface with a bound on how far rounding may have moved it.
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 position_error;    ///< componentwise bound, world units (Pharr et al., PBR 4th ed., section 6.8)
+  Vec3 normal;            ///< geometric, unit, on the side the ray came from
+  std::uint32_t primitive = no_id;
+  Vec2 barycentric{0.0};
+};
+
+enum class Accel : std::uint8_t { bvh, brute };
+
+/// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either answer.
+enum class Verdict : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
+
+struct AccelStats {
+  double build_ms = 0.0;
+  std::uint64_t bytes = 0;
+  std::uint64_t nodes = 0;
+};
+
+class Tracer {
+ public:
+  /// The world must outlive the tracer. threads: 0 = all.
+  Tracer(const World& world, Accel accel);
+  ~Tracer();
+  Tracer(Tracer&&) noexcept;
+  Tracer& operator=(Tracer&&) noexcept;
+
+  std::optional<Hit> closest_hit(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+
+  /// The surface point of a hit of this ray, with its error bound.
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+
+  /// The one ray-offset policy: a ray that leaves a surface point on the side of `direction`, moved off the
+  /// surface by the point's error bound so that it cannot meet the surface it starts on.
+  Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
+
+  /// From the point to the light's centre: t in units of distance, ending strictly before the light (half-open,
+  /// t < distance - bound); unbounded for directional lights. Triangles of the point's own primitive are skipped.
+  Ray shadow_ray(const SurfacePoint& from, const Light& light) const;
+
+  /// Exact visibility of the light's centre, with the error bound's doubt made visible.
+  Verdict light_verdict(const SurfacePoint& from, const Light& light) const;
+  /// The occluder nearest to the point on the way to the light, if any.
+  std::optional<Hit> nearest_occluder(const SurfacePoint& from, const Light& light) const;
+
+  const World& world() const;
+  const AccelStats& stats() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gnomon::raytrace

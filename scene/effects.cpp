@@ -1,0 +1,75 @@
+#include "scene/effects.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <set>
+
+namespace gnomon {
+namespace {
+
+std::set<std::uint32_t> used_materials(const Scene& scene) {
+  std::set<std::uint32_t> used;
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (mesh.triangle_materials.empty()) used.insert(instance.material);
+    used.insert(mesh.triangle_materials.begin(), mesh.triangle_materials.end());
+  }
+  for (const Shape& shape : scene.shapes) used.insert(shape.material);
+  return used;
+}
+
+// The first used material for which `needs` holds is the reason.
+EffectEntry from_materials(const Scene& scene, Effect effect, bool supported, std::string_view property,
+                           const std::function<bool(const Material&)>& needs) {
+  for (const std::uint32_t id : used_materials(scene)) {
+    const Material& material = scene.materials[id];
+    if (!needs(material)) continue;
+    std::string reason = fmt::format("material '{}' has {}", material.name, property);
+    if (!supported) reason += "; this version does not simulate it";
+    return {effect, true, supported, reason};
+  }
+  return {effect, false, false, fmt::format("no material has {}", property)};
+}
+
+EffectEntry hard_shadow(const Scene& scene) {
+  if (scene.lights.empty()) return {Effect::hard_shadow, false, false, "the scene has no light"};
+  return {Effect::hard_shadow, true, true,
+          fmt::format("light '{}'{} has no size", scene.lights.front().name,
+                      scene.lights.size() > 1 ? fmt::format(" (and {} more)", scene.lights.size() - 1) : "")};
+}
+
+}  // namespace
+
+std::string_view effect_name(Effect effect) {
+  static constexpr std::array<std::string_view, effect_count> names{
+      "hard_shadow", "soft_shadow",    "reflection", "refraction", "absorption", "glossy",
+      "indirect_light", "textures", "alpha_mask", "emission",   "specular"};
+  return names[static_cast<std::size_t>(effect)];
+}
+
+EffectPlan plan_effects(const Scene& scene) {
+  const auto any = [](const Vec3f& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; };
+  const auto material = [&](Effect e, bool supported, std::string_view property, auto needs) {
+    return from_materials(scene, e, supported, property, needs);
+  };
+  using M = const Material&;
+  return {{
+      hard_shadow(scene),
+      EffectEntry{Effect::soft_shadow, false, false, "no light has a size"},
+      material(Effect::reflection, true, "mirror or transmission > 0",
+               [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
+      material(Effect::refraction, true, "transmission > 0", [](M m) { return m.transmission > 0.0f; }),
+      material(Effect::absorption, true, "transmission > 0 and absorption > 0",
+               [&](M m) { return m.transmission > 0.0f && any(m.absorption); }),
+      material(Effect::glossy, false, "roughness > 0 on a mirror or transmissive surface",
+               [](M m) { return m.roughness > 0.0f && (m.mirror > 0.0f || m.transmission > 0.0f); }),
+      EffectEntry{Effect::indirect_light, false, false, "the scene does not ask for it"},
+      material(Effect::textures, true, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
+      material(Effect::alpha_mask, true, "an alpha mask", [](M m) { return m.alpha_mode == AlphaMode::mask; }),
+      material(Effect::emission, true, "emission > 0", [&](M m) { return any(m.emission); }),
+      material(Effect::specular, true, "specular > 0", [&](M m) { return any(m.specular); }),
+  }};
+}
+
+}  // namespace gnomon

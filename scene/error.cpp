@@ -1,0 +1,19 @@
+#include <fmt/format.h>
+
+#include "scene/expected.h"
+
+namespace gnomon {
+
+std::string Error::message() const {
+  std::string out;
+  if (!file.empty()) {
+    out += file;
+    if (line > 0) out += fmt::format(":{}", line);
+    if (line > 0 && column > 0) out += fmt::format(":{}", column);
+    out += ": ";
+  }
+  if (!field.empty()) out += field + ": ";
+  return out + reason;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,38 @@
+// Every image file goes through OpenImageIO, in and out; writes are whole or not at all (write_file.h).
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+
+namespace gnomon {
+
+/// Reads an image file, or an encoded image in memory (`bytes`, with `name` for messages), as 8-bit RGBA.
+Expected<Texture> read_texture(const std::string& path, bool srgb);
+Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb);
+
+/// Linear [0, 1] to sRGB (IEC 61966-2-1).
+float srgb_from_linear(float linear);
+float linear_from_srgb(float srgb);
+/// Multiplies by exposure, clips to [0, 1], encodes as sRGB.
+Rgb8Image display_image(const ColorImage& linear, double exposure);
+
+/// A PNG in memory (for embedding) and on disk.
+Expected<std::string> encode_png(const Rgb8Image& image);
+Expected<void> write_png(const std::string& path, const Rgb8Image& image);
+
+/// A named 32-bit float channel, row 0 at the top.
+struct Channel {
+  std::string name;
+  std::vector<float> values;
+};
+/// Channels are written in the order given (EXR viewers see them as named). attributes: string metadata.
+Expected<void> write_exr(const std::string& path, ImageSize size, std::span<const Channel> channels,
+                         std::span<const std::pair<std::string, std::string>> attributes = {});
+
+}  // namespace gnomon

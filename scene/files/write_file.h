@@ -1,0 +1,18 @@
+// Outputs appear whole under their final name or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene/expected.h"
+
+namespace gnomon {
+
+/// Writes to a temporary file beside `path`, flushes it to the disk, closes it and renames it. Errors are
+/// ErrorKind::cannot_write; an existing file is then left as it was.
+Expected<void> write_file(const std::string& path, std::string_view bytes);
+
+/// Creates the folder (and its parents) and checks that files can be written in it.
+Expected<void> make_output_folder(const std::string& path);
+
+}  // namespace gnomon

@@ -1,0 +1,29 @@
+// What a light is to a point: its direction, distance and strength, and the decision that a surface cannot be
+// lit at all. Both renderers take these from here (shaders/light.glsl is the GLSL twin).
+#pragma once
+
+#include "scene/scene.h"
+
+namespace gnomon {
+
+struct LightAtPoint {
+  Vec3 to_light;     ///< unit
+  double distance;   ///< infinity for a directional light
+  Vec3f irradiance;  ///< on a surface facing the light: intensity / distance^2 * spot falloff
+};
+
+LightAtPoint light_at(const Light& light, const Vec3& position);
+
+/// Smooth spot falloff in [0, 1]: 1 inside inner_angle, 0 from outer_angle on, the KHR_lights_punctual formula.
+double spot_falloff(const Light& light, const Vec3& to_light);
+
+/// The geometric normal turned to the side that `direction` (from the eye to the surface) arrives from.
+inline Vec3 face_forward(const Vec3& normal, const Vec3& direction) {
+  return glm::dot(normal, direction) > 0.0 ? -normal : normal;
+}
+
+/// The facing-away decision: a surface whose geometric normal n (on the viewer's side) has n·l <= 0, or that lies
+/// outside the spot's cone, is unlit whatever shadows say. NaN counts as facing away.
+bool light_cannot_reach(const Light& light, const Vec3& position, const Vec3& normal);
+
+}  // namespace gnomon

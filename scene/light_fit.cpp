@@ -1,0 +1,273 @@
+// Fitting a light's depth map to what matters. Directional: the casters' rectangle in light space, cut with the camera
+// frustum projected along the light (a shadow has the light-space position of its caster, so nothing outside
+// the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot and point: the light's
+// own cone or cube, with the tightest depth range that clips nothing.
+#include <array>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/light_view.h"
+
+namespace gnomon {
+namespace {
+
+struct Rect {
+  Vec2 min{infinity}, max{-infinity};
+  void grow(const Vec2& p) { min = glm::min(min, p), max = glm::max(max, p); }
+  bool empty() const { return !(min.x <= max.x && min.y <= max.y); }
+  bool overlaps(const Rect& o) const {
+    return min.x <= o.max.x && o.min.x <= max.x && min.y <= o.max.y && o.min.y <= max.y;
+  }
+};
+
+LightFace face_along(const Vec3& forward) {
+  const Vec3 hint = std::abs(forward.y) < 0.999 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, -1.0);
+  const Vec3 right = glm::normalize(glm::cross(forward, hint));
+  return {right, glm::cross(right, forward), forward};
+}
+
+std::array<LightFace, 6> cube_faces() {
+  const auto face = [](Vec3 forward, Vec3 up) { return LightFace{glm::cross(forward, up), up, forward}; };
+  return {face({1, 0, 0}, {0, 1, 0}),  face({-1, 0, 0}, {0, 1, 0}), face({0, 1, 0}, {0, 0, 1}),
+          face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
+}
+
+Vec3 to_light_space(const LightFace& f, const Vec3& d) {
+  return {glm::dot(f.right, d), glm::dot(f.up, d), glm::dot(f.forward, d)};
+}
+
+// Sutherland-Hodgman against one side: keeps sign * p[axis] <= sign * bound.
+std::vector<Vec2> clip_side(const std::vector<Vec2>& polygon, int axis, double bound, double sign) {
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2& a = polygon[i];
+    const Vec2& b = polygon[(i + 1) % polygon.size()];
+    const double da = sign * (bound - a[axis]);
+    const double db = sign * (bound - b[axis]);
+    if (da >= 0.0) out.push_back(a);
+    if ((da >= 0.0) != (db >= 0.0)) out.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return out;
+}
+
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Vec2> hull;
+  const auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) {
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = hull.size();
+    for (const Vec2& p : points) {
+      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+// The camera frustum down to `reach`, projected along the light and cut with the rectangle.
+Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view, double reach) {
+  std::vector<Vec2> corners{Vec2(to_light_space(face, view.eye - reference))};
+  for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+    const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
+    corners.push_back(Vec2(to_light_space(face, view.eye + reach * d - reference)));
+  }
+  std::vector<Vec2> polygon = convex_hull(corners);
+  for (int axis = 0; axis < 2; ++axis) {
+    polygon = clip_side(polygon, axis, rect.max[axis], 1.0);
+    polygon = clip_side(polygon, axis, rect.min[axis], -1.0);
+  }
+  Rect out;
+  for (const Vec2& p : polygon) out.grow(p);
+  return out.empty() ? rect : out;
+}
+
+double view_reach(const World& world, const View& view) {
+  double reach = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) ? world.finite_bounds.max.x : world.finite_bounds.min.x,
+                 (corner & 2) ? world.finite_bounds.max.y : world.finite_bounds.min.y,
+                 (corner & 4) ? world.finite_bounds.max.z : world.finite_bounds.min.z);
+    reach = std::max(reach, glm::dot(p - view.eye, view.forward));
+  }
+  const bool has_plane = std::any_of(world.shapes.begin(), world.shapes.end(), [](const Shape& s) {
+    return std::holds_alternative<Plane>(s.geometry);
+  });
+  const double far_away = 1e4 * (world.finite_bounds.diagonal() + glm::length(world.finite_bounds.center() - view.eye));
+  return has_plane ? far_away : reach;
+}
+
+// Calls use(rect, z_min, z_max) for the light-space extent of every finite primitive.
+template <class Use>
+void for_each_extent(const World& world, const LightFace& face, const Vec3& reference, const Use& use) {
+  for (const auto& triangle : world.triangles) {
+    Aabb box;
+    for (const std::uint32_t v : triangle) box.grow(to_light_space(face, world.positions[v] - reference));
+    use(Rect{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z);
+  }
+  for (const Shape& shape : world.shapes) {
+    const auto* sphere = std::get_if<Sphere>(&shape.geometry);
+    if (sphere == nullptr) continue;
+    const Vec3 c = to_light_space(face, sphere->center - reference);
+    use(Rect{Vec2(c) - sphere->radius, Vec2(c) + sphere->radius}, c.z - sphere->radius, c.z + sphere->radius);
+  }
+}
+
+// Where the pixel rays of a coarse grid meet the infinite planes, within 50 camera distances.
+Rect visible_plane_part(const World& world, const LightFace& face, const Vec3& reference, const View& view) {
+  constexpr int steps = 64;
+  Rect rect;
+  for (const Shape& shape : world.shapes) {
+    const auto* plane = std::get_if<Plane>(&shape.geometry);
+    if (plane == nullptr) continue;
+    const double height = std::abs(glm::dot(plane->normal, view.eye - plane->point));
+    for (int i = 0; i <= steps * steps + 2 * steps; ++i) {
+      const Ray ray = pixel_ray(view, view.size.width * double(i % (steps + 1)) / steps,
+                                view.size.height * double(i / (steps + 1)) / steps);
+      const double t = glm::dot(plane->normal, plane->point - ray.origin) / glm::dot(plane->normal, ray.direction);
+      if (t > 0.0 && t <= 50.0 * height) rect.grow(Vec2(to_light_space(face, ray.at(t) - reference)));
+    }
+  }
+  return rect;
+}
+
+Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size) {
+  LightView out;
+  out.size = size;
+  const LightFace face = face_along(light.direction);
+  const bool finite = !world.finite_bounds.empty();
+  const Vec3 reference = finite ? world.finite_bounds.center() : view.eye;
+  Rect rect;
+  if (finite) {
+    for_each_extent(world, face, reference, [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
+    rect = visible_part(rect, face, reference, view, view_reach(world, view));
+  } else {
+    rect = visible_plane_part(world, face, reference, view);
+  }
+  if (rect.empty()) return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the camera sees no surface");
+
+  Interval z{infinity, -infinity};
+  for_each_extent(world, face, reference, [&](const Rect& r, double z_min, double z_max) {
+    if (!r.overlaps(rect)) return;
+    z.min = std::min(z.min, z_min), z.max = std::max(z.max, z_max);
+  });
+  for (const Shape& shape : world.shapes) {
+    const auto* plane = std::get_if<Plane>(&shape.geometry);
+    if (plane == nullptr) continue;
+    const Vec3 n = to_light_space(face, plane->normal);
+    if (std::abs(n.z) < 1e-6) continue;  // edge-on: the light travels along the plane
+    const double offset = glm::dot(plane->normal, plane->point - reference);
+    for (const Vec2 c : {rect.min, rect.max, Vec2(rect.min.x, rect.max.y), Vec2(rect.max.x, rect.min.y)}) {
+      const double depth = (offset - n.x * c.x - n.y * c.y) / n.z;
+      z.min = std::min(z.min, depth), z.max = std::max(z.max, depth);
+    }
+  }
+
+  // One texel of margin on each side, so that no caster's silhouette falls on the border.
+  const double widest = std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
+  const Vec2 half = glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest)) * (size / std::max(1.0, size - 2.0));
+  if (!(widest > 0.0)) return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
+  const Vec2 middle = 0.5 * (rect.min + rect.max);
+  const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest);
+  out.projection = LightProjection::orthographic;
+  out.faces[0] = face;
+  out.origin = reference + middle.x * face.right + middle.y * face.up;
+  out.half_extent = half;
+  out.near_depth = z.min - margin;
+  out.far_depth = z.max + margin;
+  return out;
+}
+
+// Ericson 2005, Real-Time Collision Detection, section 5.1.5.
+double distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
+  const auto& [a, b, c] = t;
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return glm::length(ap);
+  const Vec3 bp = p - b;
+  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+  if (d3 >= 0.0 && d4 <= d3) return glm::length(bp);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return glm::length(ap - ab * (d1 / (d1 - d3)));
+  const Vec3 cp = p - c;
+  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d6 >= 0.0 && d5 <= d6) return glm::length(cp);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return glm::length(ap - ac * (d2 / (d2 - d6)));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+    return glm::length(bp - (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
+  const Vec3 n = glm::cross(ab, ac);
+  return std::abs(glm::dot(n, ap)) / glm::length(n);
+}
+
+double closest_distance(const World& world, const Vec3& p) {
+  double closest = infinity;
+  for (std::uint32_t i = 0; i < world.triangle_count(); ++i)
+    closest = std::min(closest, distance_to_triangle(p, world.corners(i)));
+  for (const Shape& shape : world.shapes) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+      closest = std::min(closest, std::abs(glm::length(sphere->center - p) - sphere->radius));
+    else {
+      const auto& plane = std::get<Plane>(shape.geometry);
+      closest = std::min(closest, std::abs(glm::dot(plane.normal, plane.point - p)));
+    }
+  }
+  return closest;
+}
+
+double farthest_distance(const World& world, const Vec3& p) {
+  double farthest = 0.0;
+  for (const Vec3& v : world.positions) farthest = std::max(farthest, glm::length(v - p));
+  for (const Shape& shape : world.shapes) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+      farthest = std::max(farthest, glm::length(sphere->center - p) + sphere->radius);
+  }
+  return farthest;
+}
+
+// Depth range of a perspective map: nothing closer than `near` exists; finite things end before `far`, and an infinite
+// plane is kept until the shadow of anything finite has left it (ten times the scene, or 50 heights).
+void fit_depth(const World& world, LightView& view) {
+  const double closest = closest_distance(world, view.origin);
+  double far_depth = farthest_distance(world, view.origin);
+  for (const Shape& shape : world.shapes) {
+    if (const auto* plane = std::get_if<Plane>(&shape.geometry))
+      far_depth = std::max({10.0 * far_depth, far_depth, 50.0 * std::abs(glm::dot(plane->normal, plane->point - view.origin))});
+  }
+  const double diagonal = std::sqrt(1.0 + view.half_extent.x * view.half_extent.x + view.half_extent.y * view.half_extent.y);
+  view.far_depth = far_depth * 1.001;
+  view.near_depth = std::max(0.999 * closest / diagonal, 1e-4 * view.far_depth);
+}
+
+}  // namespace
+
+Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera, double aspect,
+                                   int size) {
+  if (light.type == LightType::directional) {
+    const View view = make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
+    return fit_directional(world, light, view, size);
+  }
+  LightView out;
+  out.size = size;
+  out.projection = LightProjection::perspective;
+  out.origin = light.position;
+  if (light.type == LightType::spot) {
+    out.faces[0] = face_along(light.direction);
+    out.half_extent = Vec2(std::tan(light.outer_angle) * size / std::max(1.0, size - 2.0));
+  } else {
+    out.face_count = 6;
+    out.faces = cube_faces();
+    out.half_extent = Vec2(1.0);
+  }
+  if (world.primitive_count() == 0)
+    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the scene has no surface");
+  fit_depth(world, out);
+  return out;
+}
+
+}  // namespace gnomon

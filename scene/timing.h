@@ -1,0 +1,41 @@
+// Wall-clock times of repeated passes: every raw run is kept, the median is what is reported.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace gnomon {
+
+/// Milliseconds of each run, in the order they were made (warm-up runs are not kept).
+struct Times {
+  std::vector<double> runs;
+  double median() const {
+    if (runs.empty()) return 0.0;
+    std::vector<double> sorted = runs;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t n = sorted.size();
+    return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+  }
+};
+
+/// Milliseconds since construction.
+class Stopwatch {
+ public:
+  double elapsed_ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Runs `pass` once and appends its time.
+template <class Pass>
+void time_run(Times& times, const Pass& pass) {
+  const Stopwatch watch;
+  pass();
+  times.runs.push_back(watch.elapsed_ms());
+}
+
+}  // namespace gnomon
