@@ -1,0 +1,25 @@
+# Every library that the program is built from, all of them Debian packages (the list is in ./gnomon).
+find_package(glm REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(OpenImageIO REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(tinyobjloader REQUIRED)
+find_package(TBB REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(glfw3 REQUIRED)
+find_package(Threads REQUIRED)
+
+# Debian's OpenImageIO exports OpenCV's header folder, which its headers that we use do not need; CMake refuses to
+# generate when an exported folder does not exist.
+foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+  get_target_property(folders OpenImageIO::OpenImageIO ${property})
+  set(present "")
+  foreach(folder IN LISTS folders)
+    if(EXISTS "${folder}")
+      list(APPEND present "${folder}")
+    endif()
+  endforeach()
+  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES ${property} "${present}")
+endforeach()
