@@ -24,8 +24,8 @@ struct CompareOptions {
 using Progress = std::function<void(std::string_view stage, double done)>;
 
 /// Renders and compares. The renderer must have been created for `world`.
-Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer, const CompareOptions& options,
-                                   const Progress& progress = {});
+Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
+                                   const CompareOptions& options, const Progress& progress = {});
 
 /// Compares two finished frames of the same world, camera and size (the viewer's entry).
 Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,

@@ -1,5 +1,5 @@
-// The comparison as plain data: the visibility ladder of every pixel, its label, and what the program says about it.
-// Everything that writes files (result.json, pictures, report) reads this and nothing else.
+// The comparison as plain data: the visibility ladder of every pixel, its label, and what the program says
+// about it. Everything that writes files (result.json, pictures, report) reads this and nothing else.
 #pragma once
 
 #include <array>
@@ -29,13 +29,30 @@ std::string_view cause_name(Cause cause);
 
 /// Values are those of the class.V channel.
 enum class Label : std::int8_t {
-  uncertain = -4, silhouette = -3, facing_away = -2, background = -1, right = 0,
-  acne, precision, peter_panning, light_leak, aliasing, missed_feature, false_feature, blur, light_size, outside_map
+  uncertain = -4,
+  silhouette = -3,
+  facing_away = -2,
+  background = -1,
+  right = 0,
+  acne,
+  precision,
+  peter_panning,
+  light_leak,
+  aliasing,
+  missed_feature,
+  false_feature,
+  blur,
+  light_size,
+  outside_map
 };
 inline constexpr std::size_t class_count = 10;  ///< the wrong ones, acne … outside_map
-std::string_view label_name(Label label);       ///< as in result.json; "right", "background", … for the others
-inline bool is_wrong(Label label) { return static_cast<int>(label) > 0; }
-inline bool is_compared(Label label) { return static_cast<int>(label) >= 0; }
+std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
+inline bool is_wrong(Label label) {
+  return static_cast<int>(label) > 0;
+}
+inline bool is_compared(Label label) {
+  return static_cast<int>(label) >= 0;
+}
 
 struct PixelCounts {
   std::uint64_t total = 0, background = 0, facing_away = 0, silhouette = 0, uncertain = 0, compared = 0;
@@ -53,8 +70,8 @@ struct BudgetStep {
 };
 
 struct EdgeStats {
-  std::uint64_t edges = 0;     ///< true shadow edges measured (pixel pairs)
-  double mean_texels = 0.0;    ///< signed, > 0 where the drawn shadow is larger than the true one
+  std::uint64_t edges = 0;   ///< true shadow edges measured (pixel pairs)
+  double mean_texels = 0.0;  ///< signed, > 0 where the drawn shadow is larger than the true one
   double rms_texels = 0.0, rms_pixels = 0.0;
 };
 
@@ -69,20 +86,22 @@ struct BiasCurvePoint {
   std::uint64_t false_shadow = 0, missed_shadow = 0;
 };
 
-/// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right everywhere.
+/// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right
+/// everywhere.
 struct BestBias {
   double constant_world = 0.0;
   double wrong_fraction = 0.0;
   bool feasible = false;         ///< some constant bias makes every compared pixel right
   double needs_more_than = 0.0;  ///< the largest gap among truly lit pixels: a smaller bias shadows one
-  double needs_less_than = 0.0;  ///< the smallest gap among truly shadowed pixels: a bias from here on lights one
+  double needs_less_than =
+      0.0;  ///< the smallest gap among truly shadowed pixels: a bias from here on lights one
   std::uint64_t lit_pixels_above = 0;       ///< lit pixels whose gap >= needs_less_than (they contradict)
   std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels whose gap <= needs_more_than
 };
 
 struct LightComparison {
-  std::uint32_t light = 0;           ///< index in Scene::lights
-  std::size_t record = 0;            ///< index in RasterFrame::lights and RayTracedFrame::lights
+  std::uint32_t light = 0;  ///< index in Scene::lights
+  std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
   PixelCounts pixels;
   ErrorStats error;
   std::array<BudgetStep, cause_count> budget{};
@@ -105,7 +124,7 @@ struct MachineInfo {
 
 struct Comparison {
   const World* world = nullptr;
-  std::string command;   ///< as the user could type it again
+  std::string command;  ///< as the user could type it again
   std::uint64_t seed = 0;
   int threads = 0;
   MachineInfo machine;

@@ -1,4 +1,5 @@
-// An OpenGL 4.5 core context: offscreen through OSMesa (loaded at run time) or EGL surfaceless, or one that a window owns.
+// An OpenGL 4.5 core context: offscreen through OSMesa (loaded at run time) or EGL surfaceless, or one that a
+// window owns.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,8 @@ class Context {
   virtual const char* backend() const = 0;
 };
 
-/// Backend::automatic tries OSMesa, then EGL. Error (graphics): one line naming everything that was tried and why it failed.
+/// Backend::automatic tries OSMesa, then EGL. Error (graphics): one line naming everything that was tried and
+/// why it failed.
 Expected<std::unique_ptr<Context>> create_context(Backend backend);
 
 }  // namespace gnomon::raster

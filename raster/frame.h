@@ -23,28 +23,31 @@ struct ContextInfo {
 struct ShadowMap {
   LightView view;
   DepthFormat format = DepthFormat::d32f;
-  std::vector<float> depth;              ///< stored value in [0, 1]; exactly 1 where nothing was drawn; faces*size*size
+  std::vector<float> depth;  ///< stored value in [0, 1]; exactly 1 where nothing was drawn; faces*size*size
   std::vector<std::uint32_t> primitive;  ///< the primitive drawn there, no_id where nothing was
   std::size_t texel_index(int face, int column, int row) const {
     const auto n = static_cast<std::size_t>(view.size);
-    return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
+    return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
+           static_cast<std::size_t>(column);
   }
 };
 
-/// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1 and the rest 0.
+/// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1 and the rest
+/// 0.
 struct LightRecord {
-  std::uint32_t light = 0;          ///< index in Scene::lights
+  std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
-  double bias_constant_world = 0.0; ///< the constant bias in world units, after unit conversion
-  Image<float> visibility;          ///< what was drawn: 1 lit, 0 shadowed (rung V6). Not multiplied by n.l
-  Image<Vec2f> texel_uv;            ///< the receiver's own map position in texels, before any offset
-  Image<std::uint8_t> face;         ///< of texel_uv
-  Image<float> distance;            ///< along the light ray, world units
-  /// The gap less every part of the bias but the constant: visibility is 0 iff gap > float(bias_constant_world).
-  /// -infinity where nothing is stored or the lookup falls outside the map.
+  double bias_constant_world = 0.0;  ///< the constant bias in world units, after unit conversion
+  Image<float> visibility;           ///< what was drawn: 1 lit, 0 shadowed (rung V6). Not multiplied by n.l
+  Image<Vec2f> texel_uv;             ///< the receiver's own map position in texels, before any offset
+  Image<std::uint8_t> face;          ///< of texel_uv
+  Image<float> distance;             ///< along the light ray, world units
+  /// The gap less every part of the bias but the constant: visibility is 0 iff gap >
+  /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map.
   Image<float> gap;
-  Image<std::uint8_t> outside_map;  ///< 1 where the lookup falls outside the map or at nothing stored beyond it
-  Times map_pass, shade_pass;       ///< ms, glFinish at the end
+  Image<std::uint8_t>
+      outside_map;             ///< 1 where the lookup falls outside the map or at nothing stored beyond it
+  Times map_pass, shade_pass;  ///< ms, glFinish at the end
 };
 
 struct RasterFrame {

@@ -1,5 +1,5 @@
-// What the user chooses about the shadow map. Each field has a unit, a range and a default; the command line binds to
-// these structs.
+// What the user chooses about the shadow map. Each field has a unit, a range and a default; the command line
+// binds to these structs.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,32 @@ namespace gnomon::raster {
 enum class Backend : std::uint8_t { automatic, osmesa, egl };
 enum class Technique : std::uint8_t { hard };
 enum class DepthFormat : std::uint8_t { d16, d24, d32f };
-enum class Cull : std::uint8_t { none, front, back };  ///< which triangles the map leaves out (shapes: which side)
+enum class Cull : std::uint8_t {
+  none,
+  front,
+  back
+};  ///< which triangles the map leaves out (shapes: which side)
 
 enum class BiasUnit : std::uint8_t {
   world,  ///< world units along the light ray
   texel   ///< multiples of the texel's world width, taken at the scene's centre for a perspective map
 };
 
-/// A hard test shadows a receiver iff its gap (distance to the light minus the stored distance, along the receiver's own
-/// light ray, in world units) exceeds constant + slope * (depth slope over the texel).
+/// A hard test shadows a receiver iff its gap (distance to the light minus the stored distance, along the
+/// receiver's own light ray, in world units) exceeds constant + slope * (depth slope over the texel).
 struct Bias {
-  double constant = 1.0;                 ///< in `unit`; finite; default 1 texel
+  double constant = 1.0;  ///< in `unit`; finite; default 1 texel
   BiasUnit unit = BiasUnit::texel;
-  double slope = 0.0;                    ///< finite; 1 is h_u |dz/du| + h_v |dz/dv| with h half a texel: no acne on a plane
-  double normal_offset_texels = 0.0;     ///< >= 0; the receiver is moved along its normal by this times the texel's
-                                         ///< world width times sin(angle between normal and light) (Holbein 2010)
-  bool receiver_plane = false;           ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
+  double slope = 0.0;  ///< finite; 1 is h_u |dz/du| + h_v |dz/dv| with h half a texel: no acne on a plane
+  double normal_offset_texels =
+      0.0;                      ///< >= 0; the receiver is moved along its normal by this times the texel's
+                                ///< world width times sin(angle between normal and light) (Holbein 2010)
+  bool receiver_plane = false;  ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
 };
 
 struct MapOptions {
   Technique technique = Technique::hard;
-  int size = 1024;                       ///< texels on a side, >= 1, at most the context's limit
+  int size = 1024;  ///< texels on a side, >= 1, at most the context's limit
   DepthFormat depth_format = DepthFormat::d32f;
   Cull cull = Cull::none;
   Bias bias;
@@ -40,8 +45,9 @@ struct MapOptions {
 struct RasterOptions {
   ImageSize size{1280, 720};
   MapOptions map;
-  int runs = 3;          ///< timed repetitions of each pass after one warm-up; 0: render once, untimed
-  bool analysis = true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
+  int runs = 3;  ///< timed repetitions of each pass after one warm-up; 0: render once, untimed
+  bool analysis =
+      true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
 };
 
 }  // namespace gnomon::raster

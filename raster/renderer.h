@@ -22,9 +22,11 @@ class Renderer {
   virtual ~Renderer() = default;
 
   /// Renders all lights into the picture; `lights` (indices in Scene::lights) get a LightRecord each.
-  /// Errors (graphics, exit 5): a map larger than the context allows, out of memory, a GL error; never a silent shrink.
-  /// The lights and camera are read from the world's scene at each call, so a viewer may change them in between.
-  virtual Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) = 0;
+  /// Errors (graphics, exit 5): a map larger than the context allows, out of memory, a GL error; never a
+  /// silent shrink. The lights and camera are read from the world's scene at each call, so a viewer may
+  /// change them in between.
+  virtual Expected<RasterFrame> render(const RasterOptions& options,
+                                       std::span<const std::uint32_t> lights) = 0;
   virtual const ContextInfo& info() const = 0;
 };
 

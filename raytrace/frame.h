@@ -15,8 +15,8 @@ namespace gnomon::raytrace {
 
 struct RaytraceOptions {
   ImageSize size{1280, 720};
-  int runs = 1;              ///< timed repetitions of the primary and shadow passes (>= 1), after one warm-up when > 1
-  bool picture = true;       ///< shade and follow secondary rays; false: receivers and verdicts only
+  int runs = 1;  ///< timed repetitions of the primary and shadow passes (>= 1), after one warm-up when > 1
+  bool picture = true;  ///< shade and follow secondary rays; false: receivers and verdicts only
   double min_contribution = 1.0 / 512.0;  ///< secondary rays below this share of a pixel are not followed
 };
 
@@ -25,19 +25,19 @@ struct RayCounts {
 };
 
 struct LightTruth {
-  std::uint32_t light = 0;             ///< index in Scene::lights
-  Image<Verdict> verdict;              ///< lit where no receiver; shadowed where the light cannot reach (facing away)
-  Times shadow_rays;                   ///< ms for the pixels that the light can reach
+  std::uint32_t light = 0;  ///< index in Scene::lights
+  Image<Verdict> verdict;   ///< lit where no receiver; shadowed where the light cannot reach (facing away)
+  Times shadow_rays;        ///< ms for the pixels that the light can reach
   std::uint64_t rays = 0;
 };
 
 struct RayTracedFrame {
-  ColorImage color;                    ///< linear radiance
-  Image<SurfacePoint> receiver;        ///< primitive == no_id: background
+  ColorImage color;              ///< linear radiance
+  Image<SurfacePoint> receiver;  ///< primitive == no_id: background
   std::vector<LightTruth> lights;
   RayCounts rays;
   Times primary_rays;
-  double picture_ms = 0.0;             ///< shading and secondary rays
+  double picture_ms = 0.0;  ///< shading and secondary rays
 };
 
 /// Bit-identical for any number of threads (oneTBB's global limit decides how many).

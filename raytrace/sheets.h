@@ -1,11 +1,12 @@
-// Texel columns: which triangles each map texel's column of light rays meets, and which of them hang together.
-// A *sheet* is a connected piece of equally facing triangles inside one column: two triangles join where their shared
-// edge (vertices welded by position) crosses the column. A sheet without boundary inside the column covers it
-// exactly once, so it cannot shadow itself: its projection along the rays is a proper local homeomorphism of a connected
-// surface onto a disc, hence a covering of degree one. Boundary means: an edge crossing the column that is not shared
-// by exactly two equally facing triangles, an edge-on or degenerate triangle, an alpha-masked one, or a vertex whose
-// projected fan winds more than once. Every decision is conservative: rounding can only add triangles and boundaries.
-// A shape is a sheet of its own per side: a sphere bounded by its silhouette, a plane without boundary.
+// Texel columns: which triangles each map texel's column of light rays meets, and which of them hang
+// together. A *sheet* is a connected piece of equally facing triangles inside one column: two triangles join
+// where their shared edge (vertices welded by position) crosses the column. A sheet without boundary inside
+// the column covers it exactly once, so it cannot shadow itself: its projection along the rays is a proper
+// local homeomorphism of a connected surface onto a disc, hence a covering of degree one. Boundary means: an
+// edge crossing the column that is not shared by exactly two equally facing triangles, an edge-on or
+// degenerate triangle, an alpha-masked one, or a vertex whose projected fan winds more than once. Every
+// decision is conservative: rounding can only add triangles and boundaries. A shape is a sheet of its own per
+// side: a sphere bounded by its silhouette, a plane without boundary.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct TexelKey {
 /// Primitives (conservatively) overlapping each asked column, ascending ids. keys are sorted and unique.
 struct TexelLists {
   std::vector<TexelKey> keys;
-  std::vector<std::uint64_t> offsets;      ///< keys.size() + 1
+  std::vector<std::uint64_t> offsets;  ///< keys.size() + 1
   std::vector<std::uint32_t> primitives;
   std::span<const std::uint32_t> operator[](std::size_t i) const {
     return {primitives.data() + offsets[i], primitives.data() + offsets[i + 1]};
@@ -49,12 +50,17 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
 class Topology {
  public:
   explicit Topology(const World& world);
-  static constexpr std::uint32_t boundary = 0xffffffffu;     ///< an edge with one triangle
-  static constexpr std::uint32_t non_manifold = 0xfffffffeu;  ///< an edge with three or more, or inconsistent winding
+  static constexpr std::uint32_t boundary = 0xffffffffu;  ///< an edge with one triangle
+  static constexpr std::uint32_t non_manifold =
+      0xfffffffeu;  ///< an edge with three or more, or inconsistent winding
   /// The triangle across edge k (corners k and k+1) of a triangle, or boundary, or non_manifold.
-  std::uint32_t across(std::uint32_t triangle, int edge) const { return across_[3 * std::size_t{triangle} + static_cast<std::size_t>(edge)]; }
+  std::uint32_t across(std::uint32_t triangle, int edge) const {
+    return across_[3 * std::size_t{triangle} + static_cast<std::size_t>(edge)];
+  }
   /// The welded id of a triangle's corner.
-  std::uint32_t welded(std::uint32_t triangle, int corner) const { return welded_[3 * std::size_t{triangle} + static_cast<std::size_t>(corner)]; }
+  std::uint32_t welded(std::uint32_t triangle, int corner) const {
+    return welded_[3 * std::size_t{triangle} + static_cast<std::size_t>(corner)];
+  }
 
  private:
   std::vector<std::uint32_t> across_, welded_;
@@ -64,15 +70,16 @@ struct Sheet {
   std::vector<std::uint32_t> primitives;  ///< ascending
   bool faces_light = false;
   bool has_boundary = false;
-  double nearest = 0.0, farthest = 0.0;   ///< bounds on the distance along the light rays inside the column (conservative)
+  double nearest = 0.0,
+         farthest = 0.0;  ///< bounds on the distance along the light rays inside the column (conservative)
 };
 
 /// Splits one column's list into its sheets.
-std::vector<Sheet> find_sheets(const World& world, const Topology& topology, const LightView& view, TexelKey texel,
-                               std::span<const std::uint32_t> primitives);
+std::vector<Sheet> find_sheets(const World& world, const Topology& topology, const LightView& view,
+                               TexelKey texel, std::span<const std::uint32_t> primitives);
 
-/// Index of the sheet that holds a primitive, or sheets.size(). A sphere's near and far side are told apart by
-/// `faces_light`.
+/// Index of the sheet that holds a primitive, or sheets.size(). A sphere's near and far side are told apart
+/// by `faces_light`.
 std::size_t sheet_of(std::span<const Sheet> sheets, std::uint32_t primitive, bool faces_light);
 
 }  // namespace gnomon::raytrace

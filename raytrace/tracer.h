@@ -1,5 +1,5 @@
-// Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight triangles,
-// closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id.
+// Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight
+// triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,16 @@ struct Hit {
 /// A point on a surface with a bound on how far rounding may have moved it.
 struct SurfacePoint {
   Vec3 position;
-  Vec3 position_error;    ///< componentwise bound, world units (Pharr et al., PBR 4th ed., section 6.8)
-  Vec3 normal;            ///< geometric, unit, on the side the ray came from
+  Vec3 position_error;  ///< componentwise bound, world units (Pharr et al., PBR 4th ed., section 6.8)
+  Vec3 normal;          ///< geometric, unit, on the side the ray came from
   std::uint32_t primitive = no_id;
   Vec2 barycentric{0.0};
 };
 
 enum class Accel : std::uint8_t { bvh, brute };
 
-/// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either answer.
+/// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either
+/// answer.
 enum class Verdict : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
 
 struct AccelStats {
@@ -56,8 +57,9 @@ class Tracer {
   /// surface by the point's error bound so that it cannot meet the surface it starts on.
   Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
 
-  /// From the point to the light's centre: t in units of distance, ending strictly before the light (half-open,
-  /// t < distance - bound); unbounded for directional lights. Triangles of the point's own primitive are skipped.
+  /// From the point to the light's centre: t in units of distance, ending strictly before the light
+  /// (half-open, t < distance - bound); unbounded for directional lights. Triangles of the point's own
+  /// primitive are skipped.
   Ray shadow_ray(const SurfacePoint& from, const Light& light) const;
 
   /// Exact visibility of the light's centre, with the error bound's doubt made visible.

@@ -29,7 +29,8 @@ Vec3 project_to_pixels(const View& view, const Vec3& world);
 /// origin keep their precision).
 Mat4 view_from_eye_relative(const View& view);
 
-/// Reversed depth with an infinite far plane, for glClipControl(..., GL_ZERO_TO_ONE): z_ndc = near / distance.
+/// Reversed depth with an infinite far plane, for glClipControl(..., GL_ZERO_TO_ONE): z_ndc = near /
+/// distance.
 Mat4 clip_from_view(const View& view, double near_distance);
 
 }  // namespace gnomon

@@ -43,8 +43,8 @@ EffectEntry hard_shadow(const Scene& scene) {
 
 std::string_view effect_name(Effect effect) {
   static constexpr std::array<std::string_view, effect_count> names{
-      "hard_shadow", "soft_shadow",    "reflection", "refraction", "absorption", "glossy",
-      "indirect_light", "textures", "alpha_mask", "emission",   "specular"};
+      "hard_shadow",    "soft_shadow", "reflection", "refraction", "absorption", "glossy",
+      "indirect_light", "textures",    "alpha_mask", "emission",   "specular"};
   return names[static_cast<std::size_t>(effect)];
 }
 
@@ -66,7 +66,8 @@ EffectPlan plan_effects(const Scene& scene) {
                [](M m) { return m.roughness > 0.0f && (m.mirror > 0.0f || m.transmission > 0.0f); }),
       EffectEntry{Effect::indirect_light, false, false, "the scene does not ask for it"},
       material(Effect::textures, true, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
-      material(Effect::alpha_mask, true, "an alpha mask", [](M m) { return m.alpha_mode == AlphaMode::mask; }),
+      material(Effect::alpha_mask, true, "an alpha mask",
+               [](M m) { return m.alpha_mode == AlphaMode::mask; }),
       material(Effect::emission, true, "emission > 0", [&](M m) { return any(m.emission); }),
       material(Effect::specular, true, "specular > 0", [&](M m) { return any(m.specular); }),
   }};

@@ -12,8 +12,17 @@
 namespace gnomon {
 
 enum class Effect : std::uint8_t {
-  hard_shadow, soft_shadow, reflection, refraction, absorption, glossy, indirect_light, textures, alpha_mask,
-  emission, specular
+  hard_shadow,
+  soft_shadow,
+  reflection,
+  refraction,
+  absorption,
+  glossy,
+  indirect_light,
+  textures,
+  alpha_mask,
+  emission,
+  specular
 };
 inline constexpr std::size_t effect_count = 11;
 

@@ -30,8 +30,8 @@ struct Image {
   const Pixel& at(int x, int y) const { return data[index(x, y)]; }
 };
 
-using ColorImage = Image<Vec3f>;                ///< linear RGB
-using Rgb8Image = Image<glm::u8vec3>;           ///< sRGB-encoded, for files and screens
+using ColorImage = Image<Vec3f>;                     ///< linear RGB
+using Rgb8Image = Image<glm::u8vec3>;                ///< sRGB-encoded, for files and screens
 inline constexpr std::uint32_t no_id = 0xffffffffu;  ///< no primitive, no object, no texture
 
 }  // namespace gnomon

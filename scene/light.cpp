@@ -22,8 +22,7 @@ LightAtPoint light_at(const Light& light, const Vec3& position) {
 }
 
 bool light_cannot_reach(const Light& light, const Vec3& position, const Vec3& normal) {
-  const Vec3 to_light =
-      light.type == LightType::directional ? -light.direction : light.position - position;
+  const Vec3 to_light = light.type == LightType::directional ? -light.direction : light.position - position;
   if (!(glm::dot(normal, to_light) > 0.0)) return true;
   return light.type == LightType::spot && !(spot_falloff(light, glm::normalize(to_light)) > 0.0);
 }

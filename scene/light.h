@@ -14,7 +14,8 @@ struct LightAtPoint {
 
 LightAtPoint light_at(const Light& light, const Vec3& position);
 
-/// Smooth spot falloff in [0, 1]: 1 inside inner_angle, 0 from outer_angle on, the KHR_lights_punctual formula.
+/// Smooth spot falloff in [0, 1]: 1 inside inner_angle, 0 from outer_angle on, the KHR_lights_punctual
+/// formula.
 double spot_falloff(const Light& light, const Vec3& to_light);
 
 /// The geometric normal turned to the side that `direction` (from the eye to the surface) arrives from.
@@ -22,8 +23,8 @@ inline Vec3 face_forward(const Vec3& normal, const Vec3& direction) {
   return glm::dot(normal, direction) > 0.0 ? -normal : normal;
 }
 
-/// The facing-away decision: a surface whose geometric normal n (on the viewer's side) has n·l <= 0, or that lies
-/// outside the spot's cone, is unlit whatever shadows say. NaN counts as facing away.
+/// The facing-away decision: a surface whose geometric normal n (on the viewer's side) has n·l <= 0, or that
+/// lies outside the spot's cone, is unlit whatever shadows say. NaN counts as facing away.
 bool light_cannot_reach(const Light& light, const Vec3& position, const Vec3& normal);
 
 }  // namespace gnomon

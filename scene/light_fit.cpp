@@ -1,7 +1,7 @@
-// Fitting a light's depth map to what matters. Directional: the casters' rectangle in light space, cut with the camera
-// frustum projected along the light (a shadow has the light-space position of its caster, so nothing outside
-// the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot and point: the light's
-// own cone or cube, with the tightest depth range that clips nothing.
+// Fitting a light's depth map to what matters. Directional: the casters' rectangle in light space, cut with
+// the camera frustum projected along the light (a shadow has the light-space position of its caster, so
+// nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot
+// and point: the light's own cone or cube, with the tightest depth range that clips nothing.
 #include <array>
 #include <vector>
 
@@ -70,7 +70,8 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 }
 
 // The camera frustum down to `reach`, projected along the light and cut with the rectangle.
-Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view, double reach) {
+Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view,
+                  double reach) {
   std::vector<Vec2> corners{Vec2(to_light_space(face, view.eye - reference))};
   for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
     const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
@@ -97,7 +98,8 @@ double view_reach(const World& world, const View& view) {
   const bool has_plane = std::any_of(world.shapes.begin(), world.shapes.end(), [](const Shape& s) {
     return std::holds_alternative<Plane>(s.geometry);
   });
-  const double far_away = 1e4 * (world.finite_bounds.diagonal() + glm::length(world.finite_bounds.center() - view.eye));
+  const double far_away =
+      1e4 * (world.finite_bounds.diagonal() + glm::length(world.finite_bounds.center() - view.eye));
   return has_plane ? far_away : reach;
 }
 
@@ -128,7 +130,8 @@ Rect visible_plane_part(const World& world, const LightFace& face, const Vec3& r
     for (int i = 0; i <= steps * steps + 2 * steps; ++i) {
       const Ray ray = pixel_ray(view, view.size.width * double(i % (steps + 1)) / steps,
                                 view.size.height * double(i / (steps + 1)) / steps);
-      const double t = glm::dot(plane->normal, plane->point - ray.origin) / glm::dot(plane->normal, ray.direction);
+      const double t =
+          glm::dot(plane->normal, plane->point - ray.origin) / glm::dot(plane->normal, ray.direction);
       if (t > 0.0 && t <= 50.0 * height) rect.grow(Vec2(to_light_space(face, ray.at(t) - reference)));
     }
   }
@@ -143,12 +146,14 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   const Vec3 reference = finite ? world.finite_bounds.center() : view.eye;
   Rect rect;
   if (finite) {
-    for_each_extent(world, face, reference, [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
+    for_each_extent(world, face, reference,
+                    [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
     rect = visible_part(rect, face, reference, view, view_reach(world, view));
   } else {
     rect = visible_plane_part(world, face, reference, view);
   }
-  if (rect.empty()) return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the camera sees no surface");
+  if (rect.empty())
+    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the camera sees no surface");
 
   Interval z{infinity, -infinity};
   for_each_extent(world, face, reference, [&](const Rect& r, double z_min, double z_max) {
@@ -169,8 +174,10 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
 
   // One texel of margin on each side, so that no caster's silhouette falls on the border.
   const double widest = std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
-  const Vec2 half = glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest)) * (size / std::max(1.0, size - 2.0));
-  if (!(widest > 0.0)) return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
+  const Vec2 half =
+      glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest)) * (size / std::max(1.0, size - 2.0));
+  if (!(widest > 0.0))
+    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
   const Vec2 middle = 0.5 * (rect.min + rect.max);
   const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest);
   out.projection = LightProjection::orthographic;
@@ -230,24 +237,27 @@ double farthest_distance(const World& world, const Vec3& p) {
   return farthest;
 }
 
-// Depth range of a perspective map: nothing closer than `near` exists; finite things end before `far`, and an infinite
-// plane is kept until the shadow of anything finite has left it (ten times the scene, or 50 heights).
+// Depth range of a perspective map: nothing closer than `near` exists; finite things end before `far`, and an
+// infinite plane is kept until the shadow of anything finite has left it (ten times the scene, or 50
+// heights).
 void fit_depth(const World& world, LightView& view) {
   const double closest = closest_distance(world, view.origin);
   double far_depth = farthest_distance(world, view.origin);
   for (const Shape& shape : world.shapes) {
     if (const auto* plane = std::get_if<Plane>(&shape.geometry))
-      far_depth = std::max({10.0 * far_depth, far_depth, 50.0 * std::abs(glm::dot(plane->normal, plane->point - view.origin))});
+      far_depth = std::max({10.0 * far_depth, far_depth,
+                            50.0 * std::abs(glm::dot(plane->normal, plane->point - view.origin))});
   }
-  const double diagonal = std::sqrt(1.0 + view.half_extent.x * view.half_extent.x + view.half_extent.y * view.half_extent.y);
+  const double diagonal =
+      std::sqrt(1.0 + view.half_extent.x * view.half_extent.x + view.half_extent.y * view.half_extent.y);
   view.far_depth = far_depth * 1.001;
   view.near_depth = std::max(0.999 * closest / diagonal, 1e-4 * view.far_depth);
 }
 
 }  // namespace
 
-Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera, double aspect,
-                                   int size) {
+Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
+                                   double aspect, int size) {
   if (light.type == LightType::directional) {
     const View view = make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
     return fit_directional(world, light, view, size);

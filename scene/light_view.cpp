@@ -10,9 +10,13 @@ int cube_face(const Vec3& d) {
 }
 
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world) {
+  return project_to_face(view, view.face_count == 6 ? cube_face(world - view.origin) : 0, world);
+}
+
+TexelCoordinate project_to_face(const LightView& view, int face_index, const Vec3& world) {
   TexelCoordinate t;
+  t.face = face_index;
   const Vec3 d = world - view.origin;
-  if (view.face_count == 6) t.face = cube_face(d);
   const LightFace& face = view.faces[static_cast<std::size_t>(t.face)];
   t.depth = glm::dot(d, face.forward);
   const bool perspective = view.projection == LightProjection::perspective;
@@ -42,9 +46,10 @@ double texel_world_size(const LightView& view, double depth) {
 
 namespace {
 
-// The plane x = tangent * depth through the light (perspective) or x = offset (orthographic), keeping the side of
-// growing x for sign = 1.
-HalfSpace column_plane(const LightView& view, const Vec3& axis, const Vec3& forward, double bound, double sign) {
+// The plane x = tangent * depth through the light (perspective) or x = offset (orthographic), keeping the
+// side of growing x for sign = 1.
+HalfSpace column_plane(const LightView& view, const Vec3& axis, const Vec3& forward, double bound,
+                       double sign) {
   if (view.projection == LightProjection::orthographic) return {sign * axis, sign * bound};
   return {glm::normalize(sign * (axis - bound * forward)), 0.0};
 }
@@ -80,7 +85,8 @@ Mat4 light_clip_from_relative(const LightView& view, int face_index, const Vec3&
   Mat4 light_from_relative(1.0);
   const std::array<Vec3, 3> axes{face.right, face.up, face.forward};
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) light_from_relative[column][row] = axes[static_cast<std::size_t>(row)][column];
+    for (int column = 0; column < 3; ++column)
+      light_from_relative[column][row] = axes[static_cast<std::size_t>(row)][column];
     light_from_relative[3][row] = glm::dot(axes[static_cast<std::size_t>(row)], shift);
   }
   const double n = view.near_depth;

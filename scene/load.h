@@ -1,5 +1,6 @@
-// Scene files: the project's own JSON (scene/files/scene.schema.json), glTF 2.0 / GLB, OBJ+MTL and PLY, and the built-in scenes
-// by name. The format is told by the extension (.json .gltf .glb .obj .ply); a name without one is a built-in scene.
+// Scene files: the project's own JSON (scene/files/scene.schema.json), glTF 2.0 / GLB, OBJ+MTL and PLY, and
+// the built-in scenes by name. The format is told by the extension (.json .gltf .glb .obj .ply); a name
+// without one is a built-in scene.
 #pragma once
 
 #include <string>
@@ -15,9 +16,9 @@ struct LoadOptions {
   bool confine_paths = false;  ///< refuse files outside the scene's own folder
 };
 
-/// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one light
-/// and a camera. What the loader had to make up (camera, light, ground) or could not use is in Scene::notes.
-/// Errors are ErrorKind::bad_input with file, line and column, or the path inside the file.
+/// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one
+/// light and a camera. What the loader had to make up (camera, light, ground) or could not use is in
+/// Scene::notes. Errors are ErrorKind::bad_input with file, line and column, or the path inside the file.
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options = {});
 
 struct BuiltinScene {

@@ -50,8 +50,8 @@ struct Aabb {
   }
 };
 
-/// Two unit vectors that complete the unit vector n to a right-handed orthonormal basis (tangent, bitangent, n).
-/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1), listing 3.
+/// Two unit vectors that complete the unit vector n to a right-handed orthonormal basis (tangent, bitangent,
+/// n). Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1), listing 3.
 inline void orthonormal_basis(const Vec3& n, Vec3& tangent, Vec3& bitangent) {
   const double sign = std::copysign(1.0, n.z);
   const double a = -1.0 / (sign + n.z);

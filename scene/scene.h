@@ -16,13 +16,14 @@
 namespace gnomon {
 
 /// An 8-bit RGBA texture as stored in its file. Row 0 is the top row; texture coordinate v = 0 is that row
-/// (glTF convention; loaders of v-up formats flip v). RGB is sRGB-encoded when `srgb`; alpha is always linear.
+/// (glTF convention; loaders of v-up formats flip v). RGB is sRGB-encoded when `srgb`; alpha is always
+/// linear.
 struct Texture {
   std::string name;
   ImageSize size;
   std::vector<glm::u8vec4> texels;
   bool srgb = true;
-  bool nearest = false;               ///< nearest texel instead of bilinear
+  bool nearest = false;                   ///< nearest texel instead of bilinear
   bool repeat_s = true, repeat_t = true;  ///< false: clamp to edge
 };
 
@@ -36,8 +37,9 @@ struct TextureTransform {
 enum class AlphaMode : std::uint8_t { opaque, mask };
 
 /// Blinn-Phong with Whitted's mirror and transmission terms (Whitted 1980, eq. 2; Blinn 1977).
-/// A surface shows (1 - mirror - transmission) of its local shading. Mirror and transmission are fractions in [0, 1];
-/// on a surface with transmission > 0, Fresnel splits that share between the reflected and the refracted ray.
+/// A surface shows (1 - mirror - transmission) of its local shading. Mirror and transmission are fractions in
+/// [0, 1]; on a surface with transmission > 0, Fresnel splits that share between the reflected and the
+/// refracted ray.
 struct Material {
   std::string name;
   Vec3f diffuse{0.8f};      ///< albedo in [0, 1]; times the diffuse texture
@@ -46,14 +48,14 @@ struct Material {
   Vec3f emission{0.0f};     ///< radiance
   float mirror = 0.0f;
   float transmission = 0.0f;
-  float ior = 1.5f;            ///< > 0
-  Vec3f absorption{0.0f};      ///< Beer-Lambert coefficient per world unit, >= 0
-  float roughness = 0.0f;      ///< of mirror and transmission (glossy); 0 is sharp
+  float ior = 1.5f;        ///< > 0
+  Vec3f absorption{0.0f};  ///< Beer-Lambert coefficient per world unit, >= 0
+  float roughness = 0.0f;  ///< of mirror and transmission (glossy); 0 is sharp
   std::uint32_t diffuse_texture = no_id;
   TextureTransform texture_transform{};
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha = 1.0f;          ///< times the texture's alpha
-  float alpha_cutoff = 0.5f;   ///< mask: a hit with alpha < cutoff is no hit, in both renderers' shadows too
+  float alpha = 1.0f;         ///< times the texture's alpha
+  float alpha_cutoff = 0.5f;  ///< mask: a hit with alpha < cutoff is no hit, in both renderers' shadows too
 };
 
 /// A triangle mesh in object space. normals and uvs are empty or have one entry per position.
@@ -96,11 +98,11 @@ enum class LightType : std::uint8_t { directional, point, spot };
 struct Light {
   std::string name;
   LightType type = LightType::directional;
-  Vec3 position{0.0};               ///< point and spot
-  Vec3 direction{0.0, -1.0, 0.0};   ///< unit, the way the light travels; directional and spot
-  Vec3f intensity{1.0f};            ///< directional: irradiance at normal incidence; point, spot: radiant intensity
-  double inner_angle = 0.0;         ///< spot: half-angle of full intensity
-  double outer_angle = pi / 4.0;    ///< spot: half-angle where the light ends; inner < outer < pi/2
+  Vec3 position{0.0};              ///< point and spot
+  Vec3 direction{0.0, -1.0, 0.0};  ///< unit, the way the light travels; directional and spot
+  Vec3f intensity{1.0f};     ///< directional: irradiance at normal incidence; point, spot: radiant intensity
+  double inner_angle = 0.0;  ///< spot: half-angle of full intensity
+  double outer_angle = pi / 4.0;  ///< spot: half-angle where the light ends; inner < outer < pi/2
 };
 
 /// Pinhole camera.
@@ -113,8 +115,8 @@ struct Camera {
 
 struct Scene {
   std::string name;
-  std::string path;         ///< as given by the user, or the built-in name
-  std::string sha256;       ///< of the main file's bytes, hex
+  std::string path;    ///< as given by the user, or the built-in name
+  std::string sha256;  ///< of the main file's bytes, hex
   Camera camera;
   std::vector<Light> lights;
   std::vector<Material> materials;  ///< never empty after loading
@@ -122,10 +124,11 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<MeshInstance> instances;
   std::vector<Shape> shapes;
-  Vec3f ambient{0.0f};      ///< constant ambient radiance, times diffuse
-  Vec3f background{0.0f};   ///< radiance of rays that leave the scene
-  std::optional<double> exposure;  ///< linear factor for 8-bit pictures; none: chosen from the ray-traced picture
-  int max_depth = 8;        ///< recursion limit of the ray tracer
+  Vec3f ambient{0.0f};     ///< constant ambient radiance, times diffuse
+  Vec3f background{0.0f};  ///< radiance of rays that leave the scene
+  std::optional<double>
+      exposure;       ///< linear factor for 8-bit pictures; none: chosen from the ray-traced picture
+  int max_depth = 8;  ///< recursion limit of the ray tracer
   std::vector<std::string> notes;  ///< what the loader made up or could not use, one sentence each
 };
 

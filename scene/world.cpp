@@ -3,8 +3,9 @@
 namespace gnomon {
 namespace {
 
-// Normals transform by the inverse transpose; a mirrored instance keeps its authored winding, so the normal that
-// the right-hand rule gives may point inwards. Everything here is two-sided, so only consistency matters.
+// Normals transform by the inverse transpose; a mirrored instance keeps its authored winding, so the normal
+// that the right-hand rule gives may point inwards. Everything here is two-sided, so only consistency
+// matters.
 void append_instance(World& world, const Mesh& mesh, const MeshInstance& instance, std::uint32_t object) {
   const auto base = static_cast<std::uint32_t>(world.positions.size());
   const Mat3 normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));

@@ -1,6 +1,6 @@
-// The scene flattened into world space: what both renderers draw. Instances become triangles, in double precision,
-// with one numbering of primitives: triangles 0 … T-1 (instance by instance), then shapes T … T+S-1.
-// Objects are numbered the same way: instances first, then shapes.
+// The scene flattened into world space: what both renderers draw. Instances become triangles, in double
+// precision, with one numbering of primitives: triangles 0 … T-1 (instance by instance), then shapes T …
+// T+S-1. Objects are numbered the same way: instances first, then shapes.
 #pragma once
 
 #include <array>
@@ -29,7 +29,9 @@ struct World {
   Aabb finite_bounds;  ///< of all triangles and spheres
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles.size()); }
-  std::uint32_t primitive_count() const { return triangle_count() + static_cast<std::uint32_t>(shapes.size()); }
+  std::uint32_t primitive_count() const {
+    return triangle_count() + static_cast<std::uint32_t>(shapes.size());
+  }
   bool is_triangle(std::uint32_t primitive) const { return primitive < triangles.size(); }
   const Shape& shape(std::uint32_t primitive) const { return shapes[primitive - triangle_count()]; }
   std::uint32_t material_of(std::uint32_t primitive) const {
@@ -44,8 +46,8 @@ struct World {
 
 World make_world(const Scene& scene);
 
-/// Outward geometric normal of a primitive at a point on it, unit length; of a triangle by the right-hand rule
-/// (zero for a degenerate triangle).
+/// Outward geometric normal of a primitive at a point on it, unit length; of a triangle by the right-hand
+/// rule (zero for a degenerate triangle).
 Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 
 }  // namespace gnomon
