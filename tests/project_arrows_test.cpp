@@ -1,0 +1,214 @@
+// Who may include and link whom (CONTRIBUTING.md, "The house"): the rooms' arrows, held by reading every
+// source file and CMake file. OpenGL is private to raster (and to the viewer, which owns a window); no raster
+// header that shows OpenGL is seen from outside, not even through another header.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Path from the project's root -> text.
+using Files = std::map<std::string, std::string>;
+
+const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
+    {"scene", {}},
+    {"shaders", {}},
+    {"raster", {"scene", "shaders"}},
+    {"raytrace", {"scene"}},
+    {"hybrid", {"scene", "raster", "raytrace"}},
+    {"compare", {"scene", "raster", "raytrace", "hybrid"}},
+    {"app", {"scene", "raster", "raytrace", "hybrid", "compare"}},
+    {"tests", {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "app"}},
+};
+
+bool is_room(std::string_view name) {
+  return arrows.find(name) != arrows.end();
+}
+
+std::string room_of(std::string_view path) {
+  return std::string(path.substr(0, path.find('/')));
+}
+
+bool allowed(const std::string& from, const std::string& to) {
+  return from == to || arrows.find(from)->second.contains(to);
+}
+
+bool may_use_opengl(std::string_view path) {
+  return path.starts_with("raster/") || path.starts_with("app/view/") || path.starts_with("tests/");
+}
+
+bool is_opengl_header(std::string_view include) {
+  constexpr std::string_view prefixes[] = {"glad/", "GL/", "GLES2/", "GLES3/", "EGL/", "KHR/", "GLFW/"};
+  return std::any_of(std::begin(prefixes), std::end(prefixes),
+                     [&](std::string_view prefix) { return include.starts_with(prefix); });
+}
+
+struct Include {
+  std::string path;
+  bool quoted = false;
+};
+
+/// The file named by an #include line, or an empty path.
+Include parse_include(std::string_view line) {
+  const auto skip_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
+  skip_blanks();
+  if (!line.starts_with('#')) return {};
+  line.remove_prefix(1);
+  skip_blanks();
+  if (!line.starts_with("include")) return {};
+  line.remove_prefix(7);
+  skip_blanks();
+  if (line.empty() || (line[0] != '"' && line[0] != '<')) return {};
+  const bool quoted = line[0] == '"';
+  const std::size_t end = line.find(quoted ? '"' : '>', 1);
+  if (end == std::string_view::npos) return {};
+  return {std::string(line.substr(1, end - 1)), quoted};
+}
+
+std::vector<Include> includes_of(const std::string& text) {
+  std::vector<Include> includes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (Include include = parse_include(line); !include.path.empty()) includes.push_back(std::move(include));
+  }
+  return includes;
+}
+
+bool is_cpp(std::string_view path) {
+  return path.ends_with(".h") || path.ends_with(".cpp");
+}
+
+/// The raster headers that show OpenGL to whoever includes them, directly or through another header.
+std::set<std::string> opengl_headers(const Files& files) {
+  std::set<std::string> found;
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const auto& [path, text] : files) {
+      if (!path.starts_with("raster/") || !path.ends_with(".h") || found.contains(path)) continue;
+      const std::vector<Include> includes = includes_of(text);
+      const bool shows = std::any_of(includes.begin(), includes.end(), [&](const Include& include) {
+        return is_opengl_header(include.path) || found.contains(include.path);
+      });
+      if (shows) grew = found.insert(path).second;
+    }
+  }
+  return found;
+}
+
+std::string check_include(const std::string& file, const Include& include,
+                          const std::set<std::string>& opengl) {
+  const std::string from = room_of(file);
+  if (is_opengl_header(include.path) && !may_use_opengl(file)) return "OpenGL is private to raster";
+  if (opengl.contains(include.path) && !may_use_opengl(file)) return "that raster header shows OpenGL";
+  if (include.path.starts_with("embedded/shaders") && !allowed(from, "shaders")) {
+    return from + " may not see the shaders";
+  }
+  if (!include.quoted) return {};
+  const std::string to = room_of(include.path);
+  if (!is_room(to)) return "own headers are included by their path from the root";
+  if (!allowed(from, to)) return from + " may not include " + to;
+  return {};
+}
+
+/// Every `gnomon::ROOM` in a room's CMake files is a link arrow.
+std::vector<std::string> linked_rooms(const std::string& text) {
+  std::vector<std::string> rooms;
+  constexpr std::string_view marker = "gnomon::";
+  for (std::size_t at = text.find(marker); at != std::string::npos; at = text.find(marker, at + 1)) {
+    const std::size_t begin = at + marker.size();
+    rooms.push_back(text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", begin) - begin));
+  }
+  return rooms;
+}
+
+/// One line per forbidden arrow: "file: what it names: why not".
+std::vector<std::string> broken_arrows(const Files& files) {
+  std::vector<std::string> broken;
+  const std::set<std::string> opengl = opengl_headers(files);
+  for (const auto& [file, text] : files) {
+    if (is_cpp(file)) {
+      for (const Include& include : includes_of(text)) {
+        const std::string why = check_include(file, include, opengl);
+        if (!why.empty()) broken.push_back(file + ": " + include.path + ": " + why);
+      }
+    } else {
+      for (const std::string& to : linked_rooms(text)) {
+        if (is_room(to) && !allowed(room_of(file), to)) {
+          broken.push_back(file + ": gnomon::" + to + ": " + room_of(file) + " may not link it");
+        }
+      }
+    }
+  }
+  return broken;
+}
+
+bool is_read(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return is_cpp(name) || name == "CMakeLists.txt" || path.extension() == ".cmake";
+}
+
+Files project_files() {
+  Files files;
+  const fs::path root = GNOMON_SOURCE_DIR;
+  for (const auto& [room, unused] : arrows) {
+    for (auto entry = fs::recursive_directory_iterator(root / room);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+      if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+      if (!entry->is_regular_file() || !is_read(entry->path())) continue;
+      std::ifstream stream(entry->path(), std::ios::binary);
+      files[fs::relative(entry->path(), root).generic_string()] =
+          std::string(std::istreambuf_iterator<char>(stream), {});
+    }
+  }
+  return files;
+}
+
+TEST(Arrows, HoldInTheWholeProject) {
+  const Files files = project_files();
+  EXPECT_GE(files.size(), 40u) << "the sources were not found";
+  for (const std::string& line : broken_arrows(files)) ADD_FAILURE() << line;
+}
+
+// The checks below show that each rule can fail.
+std::vector<std::string> broken_by(const std::string& path, const std::string& text) {
+  return broken_arrows({{path, text},
+                        {"raster/gl.h", "#include <glad/gl.h>\n"},
+                        {"raster/object.h", "#pragma once\n#include \"raster/gl.h\"\n"}});
+}
+
+TEST(Arrows, RenderersDoNotKnowEachOther) {
+  EXPECT_EQ(broken_by("raster/a.cpp", "#include \"raytrace/tracer.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("raytrace/a.h", "#  include \"raster/frame.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("raytrace/CMakeLists.txt", "gnomon_library(raytrace DEPENDS gnomon::raster)").size(),
+            1u);
+}
+
+TEST(Arrows, NobodyIncludesAppAndSceneIncludesNobody) {
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include \"app/options.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("scene/a.cpp", "#include \"compare/compare.h\"\n").size(), 1u);
+  EXPECT_TRUE(broken_by("tests/a.cpp", "#include \"app/options.h\"\n").empty());
+}
+
+TEST(Arrows, OpenGlStaysInRaster) {
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include <GL/gl.h>\n").size(), 1u);
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include \"raster/object.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include <embedded/shaders.h>\n").size(), 1u);
+  EXPECT_TRUE(broken_by("raster/a.cpp", "#include <GL/gl.h>\n#include <embedded/shaders.h>\n").empty());
+}
+
+TEST(Arrows, OwnHeadersAreNamedFromTheRoot) {
+  EXPECT_EQ(broken_by("scene/a.cpp", "#include \"light.h\"\n").size(), 1u);
+  EXPECT_TRUE(broken_by("scene/a.cpp", "#include \"scene/light.h\"\n#include <vector>\n").empty());
+}
+
+}  // namespace
