@@ -1,0 +1,80 @@
+#include "compare/bias_curve.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <set>
+
+namespace gnomon::compare {
+namespace {
+
+// Values greater than b in an ascending list.
+std::uint64_t count_above(const std::vector<float>& sorted, float b) {
+  return static_cast<std::uint64_t>(sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), b));
+}
+
+}  // namespace
+
+BiasCurvePoint GapLists::at(double bias) const {
+  const auto b = static_cast<float>(bias);
+  return {bias, count_above(lit, b), shadowed.size() - count_above(shadowed, b)};
+}
+
+GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels) {
+  GapLists gaps;
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    if (is_compared(labels.data[i]))
+      (truth.data[i] > 0.5f ? gaps.lit : gaps.shadowed).push_back(record.gap.data[i]);
+  tbb::parallel_sort(gaps.lit);
+  tbb::parallel_sort(gaps.shadowed);
+  return gaps;
+}
+
+BestBias find_best_bias(const GapLists& gaps) {
+  BestBias best;
+  // Raising the bias past a lit pixel's gap mends it, past a shadowed pixel's breaks it: only the gaps
+  // themselves and 0 are candidates for the start of the best interval.
+  auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
+  auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), 0.0f);
+  float start = 0.0f;
+  std::uint64_t least = ~std::uint64_t{0};
+  float best_start = 0.0f;
+  float best_end = 0.0f;
+  while (true) {
+    const auto wrong =
+        static_cast<std::uint64_t>((gaps.lit.end() - lit) + (shadowed - gaps.shadowed.begin()));
+    const float next_lit = lit == gaps.lit.end() ? std::numeric_limits<float>::infinity() : *lit;
+    const float next_shadowed =
+        shadowed == gaps.shadowed.end() ? std::numeric_limits<float>::infinity() : *shadowed;
+    const float next = std::min(next_lit, next_shadowed);
+    if (wrong < least) least = wrong, best_start = start, best_end = next;
+    if (std::isinf(next)) break;
+    while (lit != gaps.lit.end() && *lit == next) ++lit;
+    while (shadowed != gaps.shadowed.end() && *shadowed == next) ++shadowed;
+    start = next;
+  }
+  const float middle = best_start + 0.5f * (best_end - best_start);
+  best.constant_world = std::isfinite(middle) && middle < best_end ? middle : best_start;
+  const std::uint64_t count = gaps.lit.size() + gaps.shadowed.size();
+  best.wrong_fraction = count == 0 ? 0.0 : double(least) / double(count);
+  best.feasible = least == 0;
+  best.needs_more_than = gaps.lit.empty() ? -infinity : gaps.lit.back();
+  best.needs_less_than = gaps.shadowed.empty() ? infinity : gaps.shadowed.front();
+  const auto first_conflict = std::lower_bound(gaps.lit.begin(), gaps.lit.end(), best.needs_less_than);
+  const auto last_conflict =
+      std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), best.needs_more_than);
+  best.lit_pixels_above = static_cast<std::uint64_t>(gaps.lit.end() - first_conflict);
+  best.shadowed_pixels_below = static_cast<std::uint64_t>(last_conflict - gaps.shadowed.begin());
+  return best;
+}
+
+std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_world, double current,
+                                            double best, int points) {
+  const double top = std::max({4.0 * texel_world, 1.25 * current, 1.25 * best});
+  std::set<double> biases{current, best};
+  for (int i = 0; i < points; ++i) biases.insert(top * i / std::max(1, points - 1));
+  std::vector<BiasCurvePoint> curve;
+  for (const double bias : biases) curve.push_back(gaps.at(bias));
+  return curve;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,30 @@
+// One render, every bias: a hard test shadows a receiver iff its gap exceeds the bias, so the sorted gaps of
+// the truly lit and the truly shadowed pixels give the exact error of every constant bias.
+#pragma once
+
+#include <vector>
+
+#include "compare/comparison.h"
+
+namespace gnomon::compare {
+
+/// Gaps of the compared pixels, sorted ascending, by what the truth says of them.
+struct GapLists {
+  std::vector<float> lit, shadowed;
+
+  /// Exact counts at a constant bias (rounded to float, as the shader has it).
+  BiasCurvePoint at(double bias) const;
+};
+
+GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels);
+
+/// The bias >= 0 with the fewest wrong pixels: the middle of the first interval between neighbouring gaps
+/// where the least is reached (the interval's start where it has no end).
+BestBias find_best_bias(const GapLists& gaps);
+
+/// `points` biases from 0 to four texels, or further where the current or the best bias lies beyond; both are
+/// among them.
+std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_world, double current,
+                                            double best, int points);
+
+}  // namespace gnomon::compare

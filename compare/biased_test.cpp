@@ -1,0 +1,60 @@
+#include "compare/biased_test.h"
+
+#include "compare/texel_groups.h"
+
+namespace gnomon::compare {
+
+double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
+                   const Vec3& normal) {
+  const Ray ray = texel_ray(view, face, u, v);
+  const double facing = glm::dot(normal, ray.direction);
+  if (!(facing < 0.0)) return infinity;
+  const double t = glm::dot(normal, position - ray.origin) / facing;
+  if (view.projection == LightProjection::orthographic) return t;
+  if (!(t > 0.0)) return infinity;
+  return t * glm::dot(ray.direction, view.faces[static_cast<std::size_t>(face)].forward);
+}
+
+double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const Vec3& position,
+                         const Vec3& normal) {
+  const auto slope = [&](double du, double dv) {
+    const double below = plane_depth(view, at.face, at.u - du, at.v - dv, position, normal);
+    const double above = plane_depth(view, at.face, at.u + du, at.v + dv, position, normal);
+    return 0.5 * std::abs(above - below);
+  };
+  const double along_ray = at.distance / at.depth;
+  const double scale = view.projection == LightProjection::orthographic ? 1.0 : along_ray;
+  return (slope(0.5, 0.0) + slope(0.0, 0.5)) * scale;
+}
+
+double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+  const LightView& view = record.map.view;
+  const Vec3& normal = receiver.normal;
+  const int own_face = record.face.data[pixel];
+  TexelCoordinate at = project_to_face(view, own_face, receiver.position);
+  Vec3 position = receiver.position;
+  raytrace::TexelKey key;
+  if (bias.normal_offset_texels > 0.0) {
+    const double sine = glm::length(glm::cross(normal, to_light));
+    position += normal * (bias.normal_offset_texels * texel_world_size(view, at.depth) * sine);
+    at = project_to_texel(view, position);
+    if (!at.inside) return -infinity;
+    key = raytrace::TexelKey::pack(at.face, at.column(), at.row());
+  } else if (!texel_of_pixel(record, pixel, key)) {
+    return -infinity;
+  }
+  texel = record.map.texel_index(key.face(), key.column(), key.row());
+  const double stored = record.map.depth[texel];
+  if (!(stored < 1.0)) return -infinity;
+
+  const double receiver_depth = bias.receiver_plane ? plane_depth(view, key.face(), key.column() + 0.5,
+                                                                  key.row() + 0.5, position, normal)
+                                                    : at.depth;
+  const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
+  double gap = (receiver_depth - depth_from_stored(view, stored)) * along_ray;
+  if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, position, normal);
+  return gap;
+}
+
+}  // namespace gnomon::compare

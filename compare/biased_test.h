@@ -1,0 +1,26 @@
+// The hard shadow test in double precision, with the technique's bias: rung V5. The GLSL twin is
+// shaders/gap.glsl; a test holds the two together. Gaps are world units along the receiver's own light ray.
+#pragma once
+
+#include "raster/frame.h"
+#include "raytrace/tracer.h"
+
+namespace gnomon::compare {
+
+/// Least constant bias that leaves no acne on a plane: h_u |dz/du| + h_v |dz/dv| with h half a texel,
+/// measured along the light ray (DESIGN.md section 3). `normal` faces the light; infinity when the plane is
+/// edge-on over the texel.
+double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const Vec3& position,
+                         const Vec3& normal);
+
+/// Where the light ray through (u, v) meets the plane through `position`, as depth along forward; +infinity
+/// where it does not meet it from the front.
+double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
+                   const Vec3& normal);
+
+/// The gap of rung V5 less slope and plane terms: the receiver is shadowed iff it exceeds the constant bias.
+/// -infinity where the lookup is outside the map or nothing is stored. `texel` receives the texel looked up.
+double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,19 @@
+// Counting pixels and adding up steps. Every sum is taken row by row and then over the rows in order, so that
+// it is the same for any number of threads; for a hard test all terms are integers and the sums are exact.
+#pragma once
+
+#include "compare/comparison.h"
+
+namespace gnomon::compare {
+
+PixelCounts count_pixels(const Image<Label>& labels);
+std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels);
+
+/// wrong, false and missed shadow, mean |V6 - V0| and RMS over compared pixels (flip is left 0).
+ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
+
+/// Means of the six steps over compared pixels.
+std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
+                                                  const Image<Label>& labels);
+
+}  // namespace gnomon::compare

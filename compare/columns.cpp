@@ -1,0 +1,86 @@
+#include "compare/columns.h"
+
+#include <tbb/parallel_for.h>
+
+namespace gnomon::compare {
+
+using raytrace::TexelKey;
+
+TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
+  const LightView& view = in.record.map.view;
+  TexelCentre out;
+  out.face = key.face();
+  out.ray = texel_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  // Casters of an orthographic map may lie before depth 0, never before its near depth.
+  if (view.projection == LightProjection::orthographic) out.ray.t.min = view.near_depth;
+  out.hit = in.tracer.closest_hit(out.ray);
+  if (out.hit)
+    out.depth = out.hit->t * glm::dot(out.ray.direction, view.faces[std::size_t(out.face)].forward);
+  return out;
+}
+
+std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {
+  std::vector<TexelCentre> centres(keys.size());
+  tbb::parallel_for(std::size_t{0}, keys.size(),
+                    [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
+  return centres;
+}
+
+namespace {
+
+// A triangle faces the light when its right-hand normal points against the light rays; shapes are met on the
+// side that does.
+bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
+  const auto [a, b, c] = in.world.corners(primitive);
+  const LightView& view = in.record.map.view;
+  const bool orthographic = view.projection == LightProjection::orthographic;
+  const Vec3 along = orthographic ? view.faces[0].forward : a - view.origin;
+  return glm::dot(glm::cross(b - a, c - a), along) < 0.0;
+}
+
+// Sheets matter where the centre ray's first hit is another primitive than the receiver, or the pixel is
+// drawn wrong.
+bool needs_sheets(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
+  const std::uint32_t receiver = in.traced.receiver.data[pixel].primitive;
+  if (centre.hit && centre.hit->primitive != receiver) return true;
+  const bool truly_lit = in.truth.verdict.data[pixel] == raytrace::Verdict::lit;
+  return truly_lit != (in.record.visibility.data[pixel] > 0.5f);
+}
+
+}  // namespace
+
+bool Column::faces_light(std::uint32_t primitive) const {
+  return !input_->world.is_triangle(primitive) || triangle_faces_light(*input_, primitive);
+}
+
+bool Column::same_sheet(std::uint32_t a, std::uint32_t b) const {
+  if (a == b) return true;
+  if (input_ == nullptr || !input_->world.is_triangle(a) || !input_->world.is_triangle(b)) return false;
+  const std::size_t sheet = raytrace::sheet_of(sheets_, a, faces_light(a));
+  return sheet < sheets_.size() && sheet == raytrace::sheet_of(sheets_, b, faces_light(b));
+}
+
+ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
+                     const std::vector<TexelCentre>& centres)
+    : input_(in), groups_(groups) {
+  std::vector<char> needed(groups.keys.size(), 0);
+  tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
+    for (const std::uint32_t pixel : groups[g])
+      needed[g] |= static_cast<char>(needs_sheets(in, centres[g], pixel));
+  });
+  std::vector<TexelKey> keys;
+  for (std::size_t g = 0; g < needed.size(); ++g)
+    if (needed[g]) keys.push_back(groups.keys[g]);
+  lists_ = raytrace::build_texel_lists(in.tracer, in.record.map.view, std::move(keys));
+}
+
+Column ColumnSet::column(std::size_t group) const {
+  const TexelKey key = groups_.keys[group];
+  const std::size_t index = lists_.find(key);
+  if (index == lists_.keys.size()) return Column();
+  return Column(
+      input_, key,
+      raytrace::find_sheets(input_.world, input_.topology, input_.record.map.view, key, lists_[index]));
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,53 @@
+// What belongs to a texel rather than to a pixel: the exact ray through its centre, and the sheets in its
+// column. Sheets are found only for columns where a decision hangs on them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "compare/ladder.h"
+
+namespace gnomon::compare {
+
+/// The first thing that the exact light ray through a texel's centre meets.
+struct TexelCentre {
+  int face = 0;
+  Ray ray;
+  std::optional<raytrace::Hit> hit;
+  double depth = infinity;  ///< of the hit, along the map's forward axis
+};
+
+TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);
+std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vector<raytrace::TexelKey>& keys);
+
+/// One texel's sheets; empty when none of its pixels needs them.
+class Column {
+ public:
+  Column() = default;
+  Column(const LadderInput& input, raytrace::TexelKey key, std::vector<raytrace::Sheet> sheets)
+      : input_(&input), key_(key), sheets_(std::move(sheets)) {}
+  raytrace::TexelKey key() const { return key_; }
+  /// Whether two primitives, both met by light rays on the side that faces the light, hang together in this
+  /// column.
+  bool same_sheet(std::uint32_t a, std::uint32_t b) const;
+
+ private:
+  bool faces_light(std::uint32_t primitive) const;
+  const LadderInput* input_ = nullptr;
+  raytrace::TexelKey key_;
+  std::vector<raytrace::Sheet> sheets_;
+};
+
+/// Triangle lists for the groups that need sheets; the sheets themselves are found on demand, per column.
+class ColumnSet {
+ public:
+  ColumnSet(const LadderInput& input, const TexelGroups& groups, const std::vector<TexelCentre>& centres);
+  Column column(std::size_t group) const;
+
+ private:
+  const LadderInput& input_;
+  const TexelGroups& groups_;
+  raytrace::TexelLists lists_;
+};
+
+}  // namespace gnomon::compare

@@ -1,0 +1,165 @@
+// Rungs of DESIGN.md section 3 for lights without size. V0 comes from the ray tracer, V6 from the rasterizer;
+// V2 and V3 from the exact ray through the texel's centre, V4 from the stored depth, V5 from the technique's
+// bias in double precision.
+#include "compare/ladder.h"
+
+#include <tbb/parallel_for.h>
+
+#include "compare/biased_test.h"
+#include "compare/columns.h"
+#include "compare/labelling.h"
+
+namespace gnomon::compare {
+
+using raytrace::SurfacePoint;
+using raytrace::Verdict;
+
+Image<Label> sort_pixels(const LadderInput& in) {
+  Image<Label> labels(in.drawn.primitive.size, Label::background);
+  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+    const SurfacePoint& receiver = in.traced.receiver.data[i];
+    if (receiver.primitive != in.drawn.primitive.data[i]) {
+      labels.data[i] = Label::silhouette;
+    } else if (receiver.primitive != no_id) {
+      if (light_cannot_reach(in.light, receiver.position, receiver.normal))
+        labels.data[i] = Label::facing_away;
+      else
+        labels.data[i] = in.truth.verdict.data[i] == Verdict::uncertain ? Label::uncertain : Label::right;
+    }
+  });
+  return labels;
+}
+
+Cause deciding_step(const std::array<float, rung_count>& v) {
+  std::size_t step = 0;
+  for (std::size_t k = 1; k < rung_count; ++k) {
+    const bool wrong_now = std::abs(v[k] - v[0]) > 0.5f;
+    const bool wrong_before = std::abs(v[k - 1] - v[0]) > 0.5f;
+    if (wrong_now && !wrong_before) step = k - 1;
+  }
+  return static_cast<Cause>(step);
+}
+
+namespace {
+
+float lit(bool is_lit) {
+  return is_lit ? 1.0f : 0.0f;
+}
+
+// Rounding of a plane-ray intersection: the terms of t = n.(x - o) / n.d, each with a few units in the last
+// place.
+double plane_rounding(const Ray& ray, const SurfacePoint& receiver) {
+  const double facing = std::abs(glm::dot(receiver.normal, ray.direction));
+  const double size =
+      glm::length(receiver.position) + glm::length(ray.origin) + glm::length(receiver.position_error);
+  return 32.0 * std::numeric_limits<double>::epsilon() * size / facing;
+}
+
+// A sphere's inside is another sheet than the outside that the light meets first.
+bool on_inner_side(const LadderInput& in, const SurfacePoint& receiver) {
+  if (in.world.is_triangle(receiver.primitive)) return false;
+  const auto* sphere = std::get_if<Sphere>(&in.world.shape(receiver.primitive).geometry);
+  return sphere != nullptr && glm::dot(receiver.normal, receiver.position - sphere->center) < 0.0;
+}
+
+// V2: the ray through the texel's centre is lit on x's own sheet, or where it reaches the receiver's tangent
+// plane unhindered.
+float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint& receiver,
+                 const TexelCentre& centre) {
+  if (!centre.hit) return 1.0f;
+  const double facing = glm::dot(receiver.normal, centre.ray.direction);
+  if (facing < 0.0) {
+    const double t = glm::dot(receiver.normal, receiver.position - centre.ray.origin) / facing;
+    const bool ahead = in.record.map.view.projection == LightProjection::orthographic || t > 0.0;
+    if (ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver)) return 1.0f;
+  }
+  return lit(!on_inner_side(in, receiver) && column.same_sheet(receiver.primitive, centre.hit->primitive));
+}
+
+// V3: the same first hit against x's own depth.
+float flat_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre) {
+  if (!centre.hit) return 1.0f;
+  const double own = project_to_face(in.record.map.view, centre.face, receiver.position).depth;
+  return lit(!(centre.depth < own - plane_rounding(centre.ray, receiver)));
+}
+
+// V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
+// doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference.
+float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre,
+                  std::size_t texel, float flat) {
+  const raster::ShadowMap& map = in.record.map;
+  if (in.drawn.options.map.cull != raster::Cull::none &&
+      (!centre.hit || map.primitive[texel] != centre.hit->primitive))
+    return flat;
+  const double stored = map.depth[texel];
+  if (!(stored < 1.0)) return 1.0f;
+  const double own = project_to_face(map.view, centre.face, receiver.position).depth;
+  return lit(!(own > depth_from_stored(map.view, stored)));
+}
+
+// V5: the technique's bias, in double precision.
+float biased_rung(const LadderInput& in, const SurfacePoint& receiver, std::size_t pixel,
+                  std::size_t& lookup) {
+  const Vec3 to_light = light_at(in.light, receiver.position).to_light;
+  const double gap = biased_gap(in.record, in.drawn.options.map.bias, to_light, receiver, pixel, lookup);
+  return lit(!(gap > in.record.bias_constant_world));
+}
+
+void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
+  const float truth = out.rungs[0].data[pixel];
+  const float drawn = in.record.visibility.data[pixel];
+  out.rungs[1].data[pixel] = truth;
+  for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
+  if (std::abs(drawn - truth) > 0.5f) out.labels.data[pixel] = Label::outside_map;
+}
+
+void climb_pixel(const LadderInput& in, const Column& column, const TexelCentre& centre, std::size_t texel,
+                 std::size_t pixel, Climb& out) {
+  const SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  std::size_t lookup = texel;
+  std::array<float, rung_count> v{};
+  v[0] = lit(in.truth.verdict.data[pixel] == Verdict::lit);
+  v[1] = v[0];
+  v[2] = texel_rung(in, column, receiver, centre);
+  v[3] = flat_rung(in, receiver, centre);
+  v[4] = stored_rung(in, receiver, centre, texel, v[3]);
+  v[5] = biased_rung(in, receiver, pixel, lookup);
+  v[6] = in.record.visibility.data[pixel];
+  for (std::size_t k = 0; k < rung_count; ++k) out.rungs[k].data[pixel] = v[k];
+  if (std::abs(v[6] - v[0]) > 0.5f)
+    out.labels.data[pixel] = label_wrong_pixel(in, column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
+}
+
+std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    if (labels.data[i] == Label::right) pixels.push_back(static_cast<std::uint32_t>(i));
+  return pixels;
+}
+
+}  // namespace
+
+Climb climb(const LadderInput& in, Image<Label> sorted) {
+  Climb out;
+  for (auto& rung : out.rungs) rung = Image<float>(sorted.size, 1.0f);
+  out.labels = std::move(sorted);
+  const std::vector<std::uint32_t> pixels = compared_pixels(out.labels);
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    out.rungs[0].data[pixels[i]] = lit(in.truth.verdict.data[pixels[i]] == Verdict::lit);
+    raytrace::TexelKey key;
+    if (!texel_of_pixel(in.record, pixels[i], key)) climb_outside(in, pixels[i], out);
+  });
+
+  const TexelGroups groups = group_by_texel(in.record, pixels);
+  const std::vector<TexelCentre> centres = trace_centres(in, groups.keys);
+  const ColumnSet columns(in, groups, centres);
+  tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
+    const raytrace::TexelKey key = groups.keys[g];
+    const std::size_t texel = in.record.map.texel_index(key.face(), key.column(), key.row());
+    const Column column = columns.column(g);
+    for (const std::uint32_t pixel : groups[g]) climb_pixel(in, column, centres[g], texel, pixel, out);
+  });
+  return out;
+}
+
+}  // namespace gnomon::compare

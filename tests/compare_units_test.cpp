@@ -1,0 +1,83 @@
+// Parts of the comparison on small, hand-made data: the deciding step, the bias curve, the budget.
+#include <gtest/gtest.h>
+
+#include "compare/bias_curve.h"
+#include "compare/budget.h"
+#include "compare/ladder.h"
+#include "support/compare_support.h"
+
+namespace gnomon::compare {
+namespace {
+
+TEST(DecidingStep, IsTheLastRise) {
+  EXPECT_EQ(deciding_step({1, 1, 1, 0, 0, 0, 0}), Cause::slope);
+  EXPECT_EQ(deciding_step({1, 1, 1, 0, 0, 1, 0}), Cause::filter);
+  EXPECT_EQ(deciding_step({0, 0, 1, 1, 1, 1, 1}), Cause::sampling);
+  EXPECT_EQ(deciding_step({0, 0, 1, 0, 0, 1, 1}), Cause::bias);
+  EXPECT_EQ(deciding_step({0.5f, 1, 1, 1, 1, 0, 0}), Cause::light_size) << "half is not wrong";
+}
+
+TEST(BestBias, LiesBetweenTheLastLitAndTheFirstShadowedGap) {
+  const BestBias best = find_best_bias({{-1.0f, 0.25f, 0.5f}, {1.0f, 2.0f}});
+  EXPECT_TRUE(best.feasible);
+  EXPECT_EQ(best.wrong_fraction, 0.0);
+  EXPECT_EQ(best.constant_world, 0.75);
+  EXPECT_EQ(best.needs_more_than, 0.5);
+  EXPECT_EQ(best.needs_less_than, 1.0);
+}
+
+TEST(BestBias, SaysWhichPixelsContradict) {
+  const BestBias best = find_best_bias({{0.1f, 0.2f, 3.0f}, {1.0f, 2.0f, 4.0f}});
+  EXPECT_FALSE(best.feasible);
+  EXPECT_DOUBLE_EQ(best.wrong_fraction, 1.0 / 6.0);
+  EXPECT_DOUBLE_EQ(best.constant_world, 0.5f * (1.0f + 0.2f));
+  EXPECT_EQ(best.lit_pixels_above, 1u);
+  EXPECT_EQ(best.shadowed_pixels_below, 2u);
+}
+
+TEST(BestBias, WithoutShadowsIsTheLargestLitGap) {
+  const BestBias best = find_best_bias({{0.1f, 0.3f}, {}});
+  EXPECT_TRUE(best.feasible);
+  EXPECT_FLOAT_EQ(static_cast<float>(best.constant_world), 0.3f);
+}
+
+// Against counting one by one, on many random lists with ties.
+TEST(BestBias, EqualsBruteForce) {
+  std::uint32_t state = 1;
+  const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 24; };
+  for (int round = 0; round < 300; ++round) {
+    GapLists gaps;
+    for (int i = 0; i < 12; ++i) {
+      gaps.lit.push_back(static_cast<float>(next() % 16) - 4.0f);
+      gaps.shadowed.push_back(static_cast<float>(next() % 16) - 2.0f);
+    }
+    std::sort(gaps.lit.begin(), gaps.lit.end());
+    std::sort(gaps.shadowed.begin(), gaps.shadowed.end());
+    std::uint64_t least = 1000;
+    for (double b = 0.0; b < 20.0; b += 0.5) {
+      std::uint64_t wrong = 0;
+      for (const float g : gaps.lit) wrong += g > static_cast<float>(b);
+      for (const float g : gaps.shadowed) wrong += !(g > static_cast<float>(b));
+      const BiasCurvePoint point = gaps.at(b);
+      EXPECT_EQ(point.false_shadow + point.missed_shadow, wrong);
+      least = std::min(least, wrong);
+    }
+    EXPECT_DOUBLE_EQ(find_best_bias(gaps).wrong_fraction, double(least) / 24.0);
+  }
+}
+
+TEST(AcneFraction, EqualsSampling) {
+  for (const double b : {0.0, 0.3, 1.0}) {
+    for (const double bias : {-0.4, 0.0, 0.2, 0.9, 1.5}) {
+      int above = 0;
+      constexpr int n = 1000;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          above += (2.0 * (i + 0.5) / n - 1.0) + b * (2.0 * (j + 0.5) / n - 1.0) > bias;
+      EXPECT_NEAR(gnomon::test::acne_fraction(1.0, b, bias), above / double(n * n), 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::compare

@@ -1,0 +1,38 @@
+// Renders and compares a scene in one call, for tests; small scenes built in code.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "compare/compare.h"
+#include "scene/world.h"
+
+namespace gnomon::test {
+
+/// A comparison together with what it points into.
+struct Compared {
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<World> world;
+  compare::Comparison result;
+  const compare::LightComparison& light(std::size_t i = 0) const { return result.lights[i]; }
+};
+
+/// Renders both ways and compares; fails the test (and returns an empty result) on an error.
+Compared run_comparison(Scene scene, const compare::CompareOptions& options);
+
+/// Options for a test: untimed, one map, the given image size.
+compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);
+
+/// A rectangular floor in the plane y = 0, as two triangles, centred at the origin.
+Mesh floor_mesh(double half_width, double half_depth);
+/// A closed box, outward-wound.
+Mesh box_mesh(const Vec3& min, const Vec3& max);
+/// A scene with one grey material, the meshes as instances, and a sun that travels along `direction`.
+Scene sunlit_scene(std::vector<Mesh> meshes, const Vec3& direction);
+
+/// P(a U1 + b U2 > bias) for independent U1, U2 uniform on (-1, 1): the acne fraction of a plane whose depth
+/// changes by a and b over half a texel (DESIGN.md section 3).
+double acne_fraction(double a, double b, double bias);
+
+}  // namespace gnomon::test
