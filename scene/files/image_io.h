@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/expected.h"
@@ -12,14 +13,20 @@
 
 namespace gnomon {
 
-/// Reads an image file, or an encoded image in memory (`bytes`, with `name` for messages), as 8-bit RGBA.
+inline constexpr int max_image_side =
+    16384;  ///< pixels; larger files are refused before anything is allocated
+
+/// Reads an image file, or an encoded image in memory (`bytes`, with `name` for messages), as 8-bit RGBA. A
+/// file of floating-point values is linear by nature: it is clipped to [0, 1], encoded as sRGB where `srgb`,
+/// and refused if a value is not finite.
 Expected<Texture> read_texture(const std::string& path, bool srgb);
 Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb);
 
 /// Linear [0, 1] to sRGB (IEC 61966-2-1).
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
-/// Multiplies by exposure, clips to [0, 1], encodes as sRGB.
+/// Multiplies by exposure, clips to [0, 1], encodes as sRGB and rounds to nearest. A pixel with a NaN is
+/// magenta.
 Rgb8Image display_image(const ColorImage& linear, double exposure);
 
 /// A PNG in memory (for embedding) and on disk.
@@ -31,8 +38,18 @@ struct Channel {
   std::string name;
   std::vector<float> values;
 };
-/// Channels are written in the order given (EXR viewers see them as named). attributes: string metadata.
+/// EXR files keep their channels sorted by name; the names are what a reader goes by. attributes: string
+/// metadata.
 Expected<void> write_exr(const std::string& path, ImageSize size, std::span<const Channel> channels,
                          std::span<const std::pair<std::string, std::string>> attributes = {});
+
+/// Every channel of the first part of an image file, as 32-bit float (integers as fractions of their
+/// maximum).
+struct ChannelImage {
+  ImageSize size;
+  std::vector<Channel> channels;
+  const Channel* find(std::string_view name) const;  ///< nullptr when there is none
+};
+Expected<ChannelImage> read_channels(const std::string& path);
 
 }  // namespace gnomon

@@ -9,7 +9,9 @@
 namespace gnomon {
 
 /// Writes to a temporary file beside `path`, flushes it to the disk, closes it and renames it. Errors are
-/// ErrorKind::cannot_write; an existing file is then left as it was.
+/// ErrorKind::cannot_write; an existing file is then left as it was, and the temporary file is gone. What is
+/// not a plain file (a device, a pipe) is written to directly. Past a file-size limit this is an error, not a
+/// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
 /// Creates the folder (and its parents) and checks that files can be written in it.

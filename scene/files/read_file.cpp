@@ -1,0 +1,97 @@
+#include "scene/files/read_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> cannot_read(const std::string& path, std::string reason) {
+  Error error{ErrorKind::bad_input, std::move(reason)};
+  error.file = path;
+  return fail(std::move(error));
+}
+
+}  // namespace
+
+Expected<std::string> read_file(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) return cannot_read(path, "no such file");
+  if (fs::is_directory(status)) return cannot_read(path, "is a folder, not a file");
+  if (!fs::is_regular_file(status)) return cannot_read(path, "is not a plain file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return cannot_read(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  const auto size = fs::file_size(path, error);
+  if (error) return cannot_read(path, fmt::format("cannot be read: {}", error.message()));
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(file.gcount()) != size)
+    return cannot_read(path, fmt::format("could be read only up to byte {} of {}", file.gcount(), size));
+  return bytes;
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+Expected<std::string> resolve_path(const std::string& folder, const std::string& named, bool confine) {
+  const fs::path joined = (fs::path(folder) / named).lexically_normal();
+  if (!confine) return joined.string();
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+  const fs::path real = fs::weakly_canonical(joined, error);
+  const fs::path relative = real.lexically_relative(root);
+  if (error || relative.empty() || *relative.begin() == "..")
+    return fail(ErrorKind::bad_input,
+                fmt::format("the file is outside the scene's folder (got \"{}\", allowed "
+                            "paths inside the folder)",
+                            printable(named)));
+  return joined.string();
+}
+
+LineColumn line_column(std::string_view text, std::size_t offset) {
+  LineColumn at;
+  offset = std::min(offset, text.size());
+  std::size_t line_start = 0;
+  for (std::size_t i = 0; i < offset; ++i) {
+    if (text[i] != '\n') continue;
+    ++at.line;
+    line_start = i + 1;
+  }
+  for (std::size_t i = line_start; i < offset; ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xc0u) != 0x80u) ++at.column;  // not a continuation byte
+  return at;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string out;
+  for (const char c : text.substr(0, longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f)
+      out += fmt::format("\\x{:02x}", byte);
+    else
+      out += c;
+  }
+  if (text.size() > longest) out += "...";
+  return out;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,33 @@
+// Whole input files, and the paths that they name.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene/expected.h"
+
+namespace gnomon {
+
+/// The bytes of a plain file. Errors are ErrorKind::bad_input.
+Expected<std::string> read_file(const std::string& path);
+
+/// Lower case, with the dot: ".gltf"; "" when there is none.
+std::string lower_extension(const std::string& path);
+
+/// The path of a file that the scene file in `folder` names. With `confine`, a path that leaves the folder
+/// (by "..", by being absolute, or through a symbolic link) is an error.
+Expected<std::string> resolve_path(const std::string& folder, const std::string& named, bool confine);
+
+/// The folder that a file's own references are relative to.
+std::string folder_of(const std::string& path);
+
+/// Line and column, both from 1, of a byte offset; a column is a code point of UTF-8.
+struct LineColumn {
+  int line = 1, column = 1;
+};
+LineColumn line_column(std::string_view text, std::size_t offset);
+
+/// Up to 40 characters of hostile text, with every byte that is not printable ASCII escaped: for messages.
+std::string printable(std::string_view text);
+
+}  // namespace gnomon

@@ -1,0 +1,144 @@
+#include "scene/files/write_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> cannot_write(const std::string& path, std::string_view step, int error_number) {
+  Error error{ErrorKind::cannot_write, fmt::format("{}: {}", step, std::strerror(error_number))};
+  error.file = path;
+  return fail(std::move(error));
+}
+
+// A write past RLIMIT_FSIZE raises SIGXFSZ, whose default is to end the process. It is raised for the writing
+// thread, so blocking it there and discarding what is pending turns it into EFBIG and touches nobody else.
+class FileSizeSignalBlock {
+ public:
+  FileSizeSignalBlock() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &set_, &old_);
+  }
+  ~FileSizeSignalBlock() {
+    const timespec no_wait{};
+    while (sigtimedwait(&set_, nullptr, &no_wait) == SIGXFSZ) {
+    }
+    pthread_sigmask(SIG_SETMASK, &old_, nullptr);
+  }
+  FileSizeSignalBlock(const FileSizeSignalBlock&) = delete;
+  FileSizeSignalBlock& operator=(const FileSizeSignalBlock&) = delete;
+
+ private:
+  sigset_t set_{}, old_{};
+};
+
+// A file descriptor that closes itself; close() is for those who want to know whether that worked.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  bool close() {
+    if (number_ < 0) return true;
+    const int number = std::exchange(number_, -1);
+    return ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+// 0, or the errno of the failing write.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+Expected<void> write_directly(const std::string& path, std::string_view bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0) return cannot_write(path, "cannot open it", errno);
+  if (const int error = write_all(file.number(), bytes)) return cannot_write(path, "cannot write", error);
+  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+  return {};
+}
+
+std::string temporary_name(const std::string& path) {
+  static std::atomic<unsigned> counter{0};
+  return fmt::format("{}.{}-{}.part", path, ::getpid(), counter++);
+}
+
+// Writes, flushes and closes the temporary file; the caller removes it on failure.
+Expected<void> fill_temporary(const std::string& path, const std::string& temporary, std::string_view bytes,
+                              std::optional<mode_t> old_mode) {
+  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (file.number() < 0) return cannot_write(path, "cannot create a file beside it", errno);
+  if (old_mode && ::fchmod(file.number(), *old_mode & 07777) != 0)
+    return cannot_write(path, "cannot keep its permissions", errno);
+  if (const int error = write_all(file.number(), bytes)) return cannot_write(path, "cannot write", error);
+  if (::fsync(file.number()) != 0) return cannot_write(path, "cannot flush it to the disk", errno);
+  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+  return {};
+}
+
+// A symbolic link stays a link: what it points to is replaced.
+std::string follow_link(const std::string& path) {
+  std::error_code ignored;
+  if (!fs::is_symlink(path, ignored)) return path;
+  const fs::path target = fs::canonical(path, ignored);
+  return target.empty() ? path : target.string();
+}
+
+}  // namespace
+
+Expected<void> write_file(const std::string& path, std::string_view bytes) {
+  const FileSizeSignalBlock block;
+  const std::string target = follow_link(path);
+  struct stat status {};
+  std::optional<mode_t> old_mode;
+  if (::stat(target.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) return cannot_write(path, "it is a folder", EISDIR);
+    if (!S_ISREG(status.st_mode)) return write_directly(path, bytes);
+    old_mode = status.st_mode;
+  }
+  const std::string temporary = temporary_name(target);
+  Expected<void> filled = fill_temporary(path, temporary, bytes, old_mode);
+  if (filled && ::rename(temporary.c_str(), target.c_str()) != 0)
+    filled = cannot_write(path, "cannot rename the finished file", errno);
+  if (!filled) ::unlink(temporary.c_str());
+  return filled;
+}
+
+Expected<void> make_output_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) return cannot_write(path, "cannot create the folder", error.value());
+  if (!fs::is_directory(path, error)) return cannot_write(path, "cannot create the folder", ENOTDIR);
+  const std::string probe = temporary_name((fs::path(path) / "probe").string());
+  const Descriptor file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (file.number() < 0) return cannot_write(path, "cannot create files in the folder", errno);
+  ::unlink(probe.c_str());
+  return {};
+}
+
+}  // namespace gnomon
