@@ -1,4 +1,4 @@
-// Renders and compares a scene in one call, for tests; small scenes built in code.
+// Renders and compares a scene in one call, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 
 #include "compare/compare.h"
 #include "scene/world.h"
+#include "support/small_scenes.h"
 
 namespace gnomon::test {
 
@@ -23,13 +24,6 @@ Compared run_comparison(Scene scene, const compare::CompareOptions& options);
 
 /// Options for a test: untimed, one map, the given image size.
 compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);
-
-/// A rectangular floor in the plane y = 0, as two triangles, centred at the origin.
-Mesh floor_mesh(double half_width, double half_depth);
-/// A closed box, outward-wound.
-Mesh box_mesh(const Vec3& min, const Vec3& max);
-/// A scene with one grey material, the meshes as instances, and a sun that travels along `direction`.
-Scene sunlit_scene(std::vector<Mesh> meshes, const Vec3& direction);
 
 /// P(a U1 + b U2 > bias) for independent U1, U2 uniform on (-1, 1): the acne fraction of a plane whose depth
 /// changes by a and b over half a texel (DESIGN.md section 3).
