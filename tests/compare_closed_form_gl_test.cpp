@@ -113,7 +113,9 @@ TEST(WallOnFloor, DetachmentIsTheClosedForm) {
       const double expected = std::max(0.0, bias * std::sin(theta) - w);
       const double texel = run.light().texel_world[1] / std::cos(theta);
       EXPECT_NEAR(run.light().detachment.max_world, expected, texel) << "theta " << theta << " bias " << bias;
-      if (expected > texel) EXPECT_GT(count(run.light(), Label::peter_panning), 100u);
+      if (expected > texel) {
+        EXPECT_GT(count(run.light(), Label::peter_panning), 100u);
+      }
       std::printf("  theta %.1f  bias %.2f  detachment %.4f  closed form %.4f  texel %.4f\n", theta, bias,
                   run.light().detachment.max_world, expected, texel);
     }
