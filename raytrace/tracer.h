@@ -1,5 +1,7 @@
 // Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight
-// triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id.
+// triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id. A ray's
+// hits count for t in [t.min, t.max): a surface exactly at t.max is not hit. NaN, infinite and zero-direction
+// rays hit nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +13,8 @@
 #include "scene/world.h"
 
 namespace gnomon::raytrace {
+
+struct Structures;
 
 struct Hit {
   double t = 0.0;
@@ -37,11 +41,17 @@ struct AccelStats {
   double build_ms = 0.0;
   std::uint64_t bytes = 0;
   std::uint64_t nodes = 0;
+  std::uint64_t dropped = 0;  ///< primitives that cannot be hit: not finite, or without area
+};
+
+/// What a query cost, machine-independent. Queries that count are slower; the plain ones do not count.
+struct WorkCounts {
+  std::uint64_t boxes = 0, primitives = 0;  ///< tested
 };
 
 class Tracer {
  public:
-  /// The world must outlive the tracer. threads: 0 = all.
+  /// The world must outlive the tracer.
   Tracer(const World& world, Accel accel);
   ~Tracer();
   Tracer(Tracer&&) noexcept;
@@ -49,26 +59,34 @@ class Tracer {
 
   std::optional<Hit> closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+  /// The same, adding what they cost to `work`.
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounts& work) const;
+  bool occluded(const Ray& ray, WorkCounts& work) const;
 
   /// The surface point of a hit of this ray, with its error bound.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
-  /// The one ray-offset policy: a ray that leaves a surface point on the side of `direction`, moved off the
-  /// surface by the point's error bound so that it cannot meet the surface it starts on.
+  /// The one ray-offset policy (raytrace/ray_offset.h): a ray that leaves a surface point on the side of
+  /// `direction`, moved off the surface by the point's error bound so that it cannot meet the surface it
+  /// starts on.
   Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
 
-  /// From the point to the light's centre: t in units of distance, ending strictly before the light
-  /// (half-open, t < distance - bound); unbounded for directional lights. Triangles of the point's own
-  /// primitive are skipped.
+  /// From the point to the light's centre: unit direction, t is distance and ends strictly before the light
+  /// by the error bound of the distance; unbounded for directional lights. The origin is moved off the
+  /// surface as by spawn_ray.
   Ray shadow_ray(const SurfacePoint& from, const Light& light) const;
 
-  /// Exact visibility of the light's centre, with the error bound's doubt made visible.
+  /// Exact visibility of the light's centre, with the error bound's doubt made visible. Any unmasked surface
+  /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
+  /// within.
   Verdict light_verdict(const SurfacePoint& from, const Light& light) const;
-  /// The occluder nearest to the point on the way to the light, if any.
+  /// The occluder nearest to the point on the way to the light, if any; own triangle and plane left out.
   std::optional<Hit> nearest_occluder(const SurfacePoint& from, const Light& light) const;
 
   const World& world() const;
   const AccelStats& stats() const;
+  /// For this room's own algorithms (texel lists, verdicts): raytrace/kernels.h.
+  const Structures& structures() const;
 
  private:
   struct Impl;

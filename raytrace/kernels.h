@@ -1,0 +1,114 @@
+// The two verbs, specialised by whether the world has alpha masks and whether work is counted.
+#pragma once
+
+#include "raytrace/surface_uv.h"
+#include "raytrace/tracer.h"
+#include "raytrace/traverse.h"
+
+namespace gnomon::raytrace {
+
+/// What the kernels read. Infinite planes stand apart: they have no box.
+struct Structures {
+  const World* world = nullptr;
+  Bvh bvh;
+  std::vector<std::uint32_t> planes;  ///< primitive ids, ascending
+  bool has_masks = false;
+  bool has_shapes = false;  ///< spheres among the leaves
+};
+
+struct CountWork {
+  WorkCounts& counts;
+  void boxes(int n) { counts.boxes += static_cast<std::uint64_t>(n); }
+  void primitive() { ++counts.primitives; }
+};
+
+/// One candidate against the ray: fills `hit` (t in kernel units) if the ray meets it inside ray.t.
+inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
+  const LeafPrimitive& primitive = s.bvh.primitives[index];
+  hit.primitive = s.bvh.ids[index];
+  if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
+    hit.barycentric = Vec2(0.0);
+    return intersect_sphere(ray, primitive, hit.t);
+  }
+  TriangleHit t;
+  if (!intersect_triangle(ray, primitive, t)) return false;
+  hit.t = t.t;
+  hit.barycentric = Vec2(t.b1, t.b2);
+  return true;
+}
+
+inline bool intersect_plane(const Structures& s, const RayFrame& ray, std::uint32_t plane, Hit& hit) {
+  hit.primitive = plane;
+  hit.barycentric = Vec2(0.0);
+  return intersect_plane(ray, std::get<Plane>(s.world->shape(plane).geometry), hit.t);
+}
+
+/// A masked sphere's near side may be a hole while its far side is not.
+inline bool solid(const Structures& s, RayFrame ray, Hit& hit) {
+  const World& world = *s.world;
+  const Material& material = world.scene->materials[world.material_of(hit.primitive)];
+  if (material.alpha_mode != AlphaMode::mask) return true;
+  const auto position = [&] {
+    return Vec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
+           hit.t * Vec3(ray.direction[0], ray.direction[1], ray.direction[2]);
+  };
+  if (!is_masked_out(world, material, hit.primitive, hit.barycentric, position())) return true;
+  if (world.is_triangle(hit.primitive)) return false;
+  const auto* sphere = std::get_if<Sphere>(&world.shape(hit.primitive).geometry);
+  SphereRoots roots;
+  if (sphere == nullptr || !sphere_roots(ray, sphere->center, sphere->radius, roots)) return false;
+  if (!(roots.far > hit.t && roots.far < ray.t.max)) return false;
+  hit.t = roots.far;
+  return !is_masked_out(world, material, hit.primitive, hit.barycentric, position());
+}
+
+inline bool precedes(const Hit& a, const Hit& b) {
+  return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
+}
+
+/// The primitive `skip` (no_id: none) is left out. The result's t is the ray's own.
+template <bool masks, class Stats>
+std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
+  Hit best{.t = infinity};
+  RayFrame ray = frame;
+  // A later hit at the same t may have the lower id, so the interval is closed while the walk shortens it.
+  const auto offer = [&](const Hit& hit) {
+    if (!precedes(hit, best)) return false;
+    best = hit;
+    ray.t.max = std::min(frame.t.max, std::nextafter(best.t, infinity));
+    return true;
+  };
+  const auto keep = [&](Hit& hit) {
+    if constexpr (masks)
+      if (!solid(s, ray, hit)) return false;
+    return offer(hit);
+  };
+  Hit hit;
+  for (const std::uint32_t plane : s.planes)
+    if (plane != skip && intersect_plane(s, ray, plane, hit)) keep(hit);
+  BoxRay boxes(ray);
+  walk(s.bvh, boxes, stats, [&](std::uint32_t i) {
+    if (intersect_leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
+      boxes.t_max = float_above(best.t);
+    return false;
+  });
+  if (best.primitive == no_id) return std::nullopt;
+  best.t /= frame.kernel_t_from_t;
+  return best;
+}
+
+template <bool masks, class Stats>
+bool any(const Structures& s, const RayFrame& ray, Stats stats) {
+  Hit hit;
+  const auto blocks = [&]() {
+    if constexpr (masks) return solid(s, ray, hit);
+    return true;
+  };
+  for (const std::uint32_t plane : s.planes)
+    if (intersect_plane(s, ray, plane, hit) && blocks()) return true;
+  BoxRay boxes(ray);
+  return walk(s.bvh, boxes, stats,
+              [&](std::uint32_t i) { return intersect_leaf(s, ray, i, hit) && blocks(); });
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,17 @@
+// Texture coordinates of a hit, and whether an alpha mask lets it pass.
+// Sphere: u = atan2(z, x) / 2 pi wrapped to [0, 1), v = acos(y) / pi from the top, of the outward normal.
+#pragma once
+
+#include "scene/texture_sample.h"
+#include "scene/world.h"
+
+namespace gnomon::raytrace {
+
+/// Before the material's transform. `barycentric` as in Hit; `position` is used by shapes only.
+Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycentric, const Vec3& position);
+
+/// Whether a hit on a masked material is a hole: alpha < cutoff.
+bool is_masked_out(const World& world, const Material& material, std::uint32_t primitive,
+                   const Vec2& barycentric, const Vec3& position);
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,39 @@
+// Images in 16 x 16 tiles over all threads. What a tile computes may depend on the tile alone, so results are
+// the same for any number of threads.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "scene/image.h"
+
+namespace gnomon::raytrace {
+
+inline constexpr int tile_pixels = 16;
+
+struct TileGrid {
+  ImageSize size;
+  std::size_t columns() const {
+    return static_cast<std::size_t>((size.width + tile_pixels - 1) / tile_pixels);
+  }
+  std::size_t rows() const { return static_cast<std::size_t>((size.height + tile_pixels - 1) / tile_pixels); }
+  std::size_t count() const { return columns() * rows(); }
+};
+
+/// pixel(x, y, tile index) for every pixel.
+template <class Pixel>
+void for_each_pixel(const TileGrid& grid, const Pixel& pixel) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.count(), 1),
+                    [&](const tbb::blocked_range<std::size_t>& r) {
+                      for (std::size_t tile = r.begin(); tile != r.end(); ++tile) {
+                        const int x0 = static_cast<int>(tile % grid.columns()) * tile_pixels;
+                        const int y0 = static_cast<int>(tile / grid.columns()) * tile_pixels;
+                        const int x1 = std::min(x0 + tile_pixels, grid.size.width),
+                                  y1 = std::min(y0 + tile_pixels, grid.size.height);
+                        for (int y = y0; y < y1; ++y)
+                          for (int x = x0; x < x1; ++x) pixel(x, y, tile);
+                      }
+                    });
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,132 @@
+#include "raytrace/tracer.h"
+
+#include "raytrace/kernels.h"
+#include "raytrace/ray_offset.h"
+#include "raytrace/verdict.h"
+#include "scene/timing.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+Structures make_structures(const World& world, Accel accel) {
+  Structures s;
+  s.world = &world;
+  s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
+  for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
+    const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
+    if (plane == nullptr)
+      s.has_shapes = true;
+    else if (all_finite(plane->point) && all_finite(plane->normal))
+      s.planes.push_back(id);
+    else
+      ++s.bvh.dropped;
+  }
+  const auto& materials = world.scene->materials;
+  for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
+    s.has_masks = materials[world.material_of(id)].alpha_mode == AlphaMode::mask;
+  return s;
+}
+
+template <class Stats>
+std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame) return std::nullopt;
+  return s.has_masks ? closest<true>(s, *frame, skip, stats) : closest<false>(s, *frame, skip, stats);
+}
+
+template <class Stats>
+bool any_of(const Structures& s, const Ray& ray, Stats stats) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame) return false;
+  return s.has_masks ? any<true>(s, *frame, stats) : any<false>(s, *frame, stats);
+}
+
+}  // namespace
+
+struct Tracer::Impl {
+  Structures structures;
+  AccelStats stats;
+};
+
+Tracer::Tracer(const World& world, Accel accel) : impl_(std::make_unique<Impl>()) {
+  const Stopwatch watch;
+  impl_->structures = make_structures(world, accel);
+  const Bvh& bvh = impl_->structures.bvh;
+  impl_->stats = {.build_ms = watch.elapsed_ms(),
+                  .bytes = bvh.nodes.size() * sizeof(BvhNode) +
+                           bvh.primitives.size() * sizeof(LeafPrimitive) +
+                           bvh.ids.size() * sizeof(std::uint32_t),
+                  .nodes = bvh.nodes.size(),
+                  .dropped = bvh.dropped};
+}
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+const World& Tracer::world() const {
+  return *impl_->structures.world;
+}
+const AccelStats& Tracer::stats() const {
+  return impl_->stats;
+}
+const Structures& Tracer::structures() const {
+  return impl_->structures;
+}
+
+std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {
+  return closest_of(impl_->structures, ray, no_id, NoStats{});
+}
+bool Tracer::occluded(const Ray& ray) const {
+  return any_of(impl_->structures, ray, NoStats{});
+}
+std::optional<Hit> Tracer::closest_hit(const Ray& ray, WorkCounts& work) const {
+  return closest_of(impl_->structures, ray, no_id, CountWork{work});
+}
+bool Tracer::occluded(const Ray& ray, WorkCounts& work) const {
+  return any_of(impl_->structures, ray, CountWork{work});
+}
+
+SurfacePoint Tracer::surface_point(const Ray& ray, const Hit& hit) const {
+  const World& w = world();
+  SurfacePoint point;
+  point.primitive = hit.primitive;
+  point.barycentric = hit.barycentric;
+  if (w.is_triangle(hit.primitive)) {
+    point.position = triangle_point(w.corners(hit.primitive), hit.barycentric, point.position_error);
+  } else {
+    const auto& geometry = w.shape(hit.primitive).geometry;
+    if (const auto* sphere = std::get_if<Sphere>(&geometry))
+      point.position = sphere_point(*sphere, ray.at(hit.t), point.position_error);
+    else
+      point.position = plane_point(std::get<Plane>(geometry), ray.at(hit.t), point.position_error);
+  }
+  point.normal = face_forward(geometric_normal(w, hit.primitive, point.position), ray.direction);
+  return point;
+}
+
+Ray Tracer::spawn_ray(const SurfacePoint& from, const Vec3& direction) const {
+  return {offset_origin(from, direction), direction};
+}
+
+Ray Tracer::shadow_ray(const SurfacePoint& from, const Light& light) const {
+  if (light.type == LightType::directional) return spawn_ray(from, -light.direction);
+  const Vec3 origin = offset_origin(from, light.position - from.position);
+  const Vec3 offset = light.position - origin;
+  const double distance = glm::length(offset);
+  const double doubt =
+      error_gamma(8) * distance + glm::dot(from.position_error + glm::abs(origin - from.position), Vec3(1.0));
+  return {origin, offset / distance, {0.0, distance - doubt}};
+}
+
+Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) const {
+  return verdict(impl_->structures, from, shadow_ray(from, light));
+}
+
+std::optional<Hit> Tracer::nearest_occluder(const SurfacePoint& from, const Light& light) const {
+  const World& w = world();
+  const bool planar =
+      w.is_triangle(from.primitive) || std::holds_alternative<Plane>(w.shape(from.primitive).geometry);
+  return closest_of(impl_->structures, shadow_ray(from, light), planar ? from.primitive : no_id, NoStats{});
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,14 @@
+// Visibility of a light's centre with the error bound's doubt made visible. Every test is made for the whole
+// box of origins that the surface point's error bound allows: a primitive hit from all of them is a sure hit,
+// one hit from some only is a doubt. A sure hit outweighs any number of doubts, so closed meshes cast no
+// uncertain shadow inside their outline.
+#pragma once
+
+#include "raytrace/kernels.h"
+
+namespace gnomon::raytrace {
+
+/// `ray` is Tracer::shadow_ray of the point.
+Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray);
+
+}  // namespace gnomon::raytrace
