@@ -1,0 +1,166 @@
+// CLI11 parses; what it throws becomes one line and exit code 2. A wrong command or option name gets a
+// suggestion.
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "app/console.h"
+#include "app/help.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/suggest.h"
+
+namespace gnomon::app {
+
+namespace {
+
+/// As a shell would need it typed.
+std::string shell_quoted(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_line_text(int argc, const char* const* argv) {
+  std::string text = "gnomon";
+  for (int i = 1; i < argc; ++i) text += " " + shell_quoted(argv[i]);
+  return text;
+}
+
+std::vector<std::string_view> command_names(const CLI::App& program) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+int usage_error(const std::string& text) {
+  print_error("gnomon " + text);
+  return static_cast<int>(ErrorKind::usage);
+}
+
+/// The first word must be a command or one of the program's own options.
+int unknown_command(const CLI::App& program, const std::string& word) {
+  const std::string hint = did_you_mean(word, command_names(program));
+  if (hint.empty() && std::filesystem::path(word).has_extension()) {
+    return usage_error(fmt::format("{0}: not a command; did you mean gnomon compare {0}?", word));
+  }
+  return usage_error(
+      fmt::format("{}: not a command{}{}", word, hint, hint.empty() ? " (see gnomon --help)" : ""));
+}
+
+/// The first argument that the command did not take.
+int unexpected_argument(const CLI::App& command, const std::vector<std::string>& left_over) {
+  const std::string& word = left_over.front();
+  if (!word.starts_with("-") || word == "-") {
+    return usage_error(fmt::format("{}: one argument too many (got {})", command.get_name(), word));
+  }
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  const std::string typed = word.substr(0, word.find('='));
+  const std::string hint = did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
+  return usage_error(fmt::format("{0}: unknown option {1}{2}", command.get_name(), typed,
+                                 hint.empty() ? " (see gnomon " + command.get_name() + " --help)" : hint));
+}
+
+int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const std::string prefix = chosen.empty() ? "" : command.get_name() + ": ";
+  const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error);
+  const std::vector<std::string> left_over = program.remaining(true);
+  if (extras != nullptr && !left_over.empty()) return unexpected_argument(command, left_over);
+  return usage_error(prefix + error.what());
+}
+
+std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
+  auto program = std::make_unique<CLI::App>(
+      "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
+      "differ, "
+      "why, and what the accuracy costs in time.",
+      "gnomon");
+  program->footer(
+      "gnomon compare fence               a built-in scene; report in out/fence/report.html\n"
+      "gnomon compare model.glb --bias 0.02 --map-size 2048 -o report\n"
+      "gnomon plan model.glb              which effects are simulated, and why\n"
+      "gnomon scenes                      the built-in scenes");
+  program->set_help_flag("--help,-h", "print this help and exit");
+  program->set_version_flag("--version", "gnomon " GNOMON_VERSION, "print the version and exit");
+  program->require_subcommand(1);
+  add_compare(*program, invocation);
+  add_raster(*program, invocation);
+  add_raytrace(*program, invocation);
+  add_plan(*program, invocation);
+  add_scenes(*program, invocation);
+  return program;
+}
+
+/// Runs the chosen command and makes sure that its data reached stdout.
+int run_action(const Invocation& invocation) {
+  const Expected<ExitCode> code = invocation.action();
+  if (!code) {
+    print_error(code.error());
+    return static_cast<int>(code.error().kind);
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    print_error(Error{ErrorKind::cannot_write, "could not write to stdout"});
+    return static_cast<int>(ErrorKind::cannot_write);
+  }
+  return was_interrupted() ? static_cast<int>(ErrorKind::interrupted) : static_cast<int>(*code);
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  Invocation invocation{command_line_text(argc, argv), {}};
+  const std::unique_ptr<CLI::App> program = make_program(invocation);
+  if (argc < 2) {
+    print_error(help_text(*program));
+    return static_cast<int>(ErrorKind::usage);
+  }
+  const std::string first = argv[1];
+  const std::vector<std::string_view> known = command_names(*program);
+  const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
+  if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
+  try {
+    program->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const std::vector<CLI::App*> chosen = program->get_subcommands();
+    print_data(help_text(chosen.empty() ? *program : *chosen.front()));
+    return 0;
+  } catch (const CLI::CallForVersion& version) {
+    print_data(std::string(version.what()) + "\n");
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return parse_failure(*program, error);
+  }
+  return run_action(invocation);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_error(Error{ErrorKind::graphics, "out of memory"});
+    return static_cast<int>(ErrorKind::graphics);
+  } catch (const std::exception& error) {
+    print_error(Error{ErrorKind::internal, fmt::format("internal error: {}", error.what())});
+    return static_cast<int>(ErrorKind::internal);
+  }
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,174 @@
+// gnomon compare: the main job. Load, render twice, climb the ladder, write the folder, print the table.
+#include "compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/session.h"
+#include "compare/outputs.h"
+#include "scene/files/write_file.h"
+#include "scene/timing.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct CompareCommand {
+  std::string scene, folder, json, aov;
+  compare::CompareOptions options;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<int> runs;
+  std::optional<std::optional<double>> exposure;
+  std::optional<double> fail_above;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  bool quiet = false;
+  std::string command_line;
+};
+
+Expected<void> check_outputs(const CompareCommand& command) {
+  if (!command.aov.empty()) {
+    if (const auto known = check_extension("--aov", command.aov, ".exr"); !known) return known;
+    if (const auto writable = check_output_file(command.aov); !writable) return writable;
+  }
+  if (const auto writable = check_output_file(command.json); !writable) return writable;
+  return check_output_folder(command.folder);
+}
+
+Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
+                                                 Console& console) {
+  if (const auto lights = choose_lights(*loaded.scene, command.options.light); !lights)
+    return fail(lights.error());
+  const auto renderer = make_renderer(command.backend, loaded);
+  if (!renderer) return fail(renderer.error());
+  auto comparison =
+      compare::compare_world(*loaded.world, **renderer, command.options,
+                             [&](std::string_view stage, double done) { console.progress(stage, done); });
+  if (!comparison) return comparison;
+  comparison->command = command.command_line;
+  comparison->seed = command.seed;
+  comparison->machine = machine_info();
+  comparison->load_ms = loaded.load_ms;
+  comparison->peak_memory_bytes = peak_memory_bytes();
+  return comparison;
+}
+
+Expected<std::string> read_back(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file || bytes.empty())
+    return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
+  return bytes;
+}
+
+/// --json hands out the same bytes as the folder's result.json.
+Expected<void> write_json(const CompareCommand& command) {
+  if (command.json.empty()) return {};
+  const Expected<std::string> json = read_back(command.folder + "/result.json");
+  if (!json) return fail(json.error());
+  if (command.json != "-") return write_file(command.json, *json);
+  print_data(*json);
+  return {};
+}
+
+Expected<void> write_all(const CompareCommand& command, const compare::Comparison& comparison) {
+  const OutputGuard whole_outputs;
+  if (const auto written = compare::write_outputs(comparison, command.folder); !written)
+    return fail(written.error());
+  if (!command.aov.empty()) {
+    if (const auto written = compare::write_aov(comparison, command.aov); !written) return written;
+  }
+  return write_json(command);
+}
+
+ExitCode judge(const CompareCommand& command, const compare::Comparison& comparison, Console& console) {
+  ExitCode code = ExitCode::done;
+  if (!command.fail_above) return code;
+  for (const compare::LightComparison& light : comparison.lights) {
+    if (light.error.wrong_fraction <= *command.fail_above) continue;
+    console.message(
+        fmt::format("light {}: {:.4g} % of the compared pixels are wrong, more than --fail-above {:g} %",
+                    comparison.world->scene->lights[light.light].name, 100.0 * light.error.wrong_fraction,
+                    100.0 * *command.fail_above));
+    code = ExitCode::threshold_exceeded;
+  }
+  return code;
+}
+
+Expected<ExitCode> run_compare(CompareCommand& command) {
+  const Stopwatch total;
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  if (command.folder.empty()) command.folder = default_output(command.scene);
+  if (command.runs) command.options.raster.runs = command.options.raytrace.runs = *command.runs;
+  command.options.raytrace.size = command.options.raster.size;
+
+  if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
+  const auto loaded = load(command.scene, console);
+  if (!loaded) return fail(loaded.error());
+  if (command.exposure) loaded->scene->exposure = *command.exposure;
+  auto comparison = render_and_compare(command, *loaded, console);
+  if (!comparison) return fail(comparison.error());
+  comparison->total_ms = total.elapsed_ms();
+  console.progress("writing", 1.0);
+  if (const auto written = write_all(command, *comparison); !written) return fail(written.error());
+
+  if (!command.quiet && command.json != "-")
+    print_data(compare::summary_table(*comparison, stdout_takes_colour()));
+  console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)",
+                              command.folder, total.elapsed_ms() / 1000.0,
+                              static_cast<double>(peak_memory_bytes()) / 1e6));
+  return judge(command, *comparison, console);
+}
+
+void add_options(CLI::App& app, CompareCommand& command) {
+  add_scene(app, command.scene);
+  add_output(
+      app, "-o,--output", command.folder, "DIR",
+      "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");
+  add_size(app, command.options.raster.size);
+  add_map_options(app, command.options.raster.map);
+  add_light(app, command.options.light, "compare this light only");
+  add_tracer_options(app, command.options.accel);
+  add_min_contribution(app, command.options.raytrace.min_contribution);
+  add_backend(app, command.backend);
+  add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
+  add_runs(app, command.runs,
+           fmt::format("{} for shadow maps, {} for rays", command.options.raster.runs,
+                       command.options.raytrace.runs)
+               .c_str());
+  add_exposure(app, command.exposure);
+  add_seed(app, command.seed);
+  add_fail_above(app, command.fail_above);
+  add_output(app, "--aov", command.aov, "FILE.exr",
+             "also write every per-pixel number as 32-bit channels, one file per light [default off]");
+  add_json(app, command.json, "the result");
+  add_quiet(app, command.quiet);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "compare", "Render with shadow maps and with rays, and report where the two shadows differ and why.");
+  app->footer(
+      "gnomon compare fence\n"
+      "gnomon compare model.glb --map-size 2048 --bias 0.5texel -o report\n"
+      "gnomon compare whitted --light lamp --json - | jq .lights[0].error\n"
+      "gnomon compare scene.json --fail-above 1% --quiet      for scripts: exit code 1");
+  const auto command = std::make_shared<CompareCommand>();
+  command->command_line = invocation.command_line;
+  add_options(*app, *command);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_compare(*command); }; });
+}
+
+}  // namespace gnomon::app

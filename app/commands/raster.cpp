@@ -1,0 +1,80 @@
+// gnomon raster: the shadow-mapped picture alone.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <memory>
+
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/picture_file.h"
+#include "app/session.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct RasterCommand {
+  std::string scene, image, light;
+  raster::RasterOptions options;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<std::optional<double>> exposure;
+  int threads = 0;
+  bool quiet = false;
+};
+
+Expected<ExitCode> run_raster(RasterCommand& command) {
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  if (command.image.empty()) command.image = default_output(command.scene) + "-raster.png";
+  if (const auto known = check_extension("-o", command.image, ".png .exr"); !known)
+    return fail(known.error());
+  if (const auto writable = check_output_file(command.image); !writable) return fail(writable.error());
+
+  const auto loaded = load(command.scene, console);
+  if (!loaded) return fail(loaded.error());
+  const auto lights = choose_lights(*loaded->scene, command.light);
+  if (!lights) return fail(lights.error());
+  const auto renderer = make_renderer(command.backend, *loaded);
+  if (!renderer) return fail(renderer.error());
+  console.progress("shadow maps", 0.5);
+  command.options.runs = 0;
+  command.options.analysis = command.image.ends_with(".exr");
+  const auto frame = (*renderer)->render(command.options, *lights);
+  if (!frame) return fail(frame.error());
+
+  const OutputGuard whole_outputs;
+  const double exposure = choose_exposure(command.exposure, *loaded->scene, frame->color);
+  if (const auto written = write_picture(command.image, *loaded->world, *frame, exposure); !written) {
+    return fail(written.error());
+  }
+  console.message(fmt::format("picture: {}", command.image));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_raster(CLI::App& program, Invocation& invocation) {
+  CLI::App* app =
+      program.add_subcommand("raster", "Render with shadow maps only: a PNG, or an EXR with its records.");
+  app->footer(
+      "gnomon raster fence -o fence.png\n"
+      "gnomon raster model.glb --map-size 512 --bias 0.01 -o model.exr");
+  const auto command = std::make_shared<RasterCommand>();
+  add_scene(*app, command->scene);
+  add_output(*app, "-o,--output", command->image, "IMAGE",
+             ".png, or .exr with ids and, per light, visibility, gap and map position [default "
+             "out/NAME-raster.png]");
+  add_size(*app, command->options.size);
+  add_map_options(*app, command->options.map);
+  add_light(*app, command->light,
+            "put this light's records only into the .exr; the picture always has all lights");
+  add_backend(*app, command->backend);
+  add_threads(*app, command->threads, "threads of Mesa's software rasterizer");
+  add_exposure(*app, command->exposure);
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_raster(*command); }; });
+}
+
+}  // namespace gnomon::app

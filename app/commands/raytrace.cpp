@@ -1,0 +1,77 @@
+// gnomon raytrace: the ray-traced picture alone.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <memory>
+
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/picture_file.h"
+#include "app/session.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct RaytraceCommand {
+  std::string scene, image, light;
+  raytrace::RaytraceOptions options;
+  raytrace::Accel accel = raytrace::Accel::bvh;
+  std::optional<std::optional<double>> exposure;
+  int threads = 0;
+  bool quiet = false;
+};
+
+Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  if (command.image.empty()) command.image = default_output(command.scene) + "-raytrace.png";
+  if (const auto known = check_extension("-o", command.image, ".png .exr"); !known)
+    return fail(known.error());
+  if (const auto writable = check_output_file(command.image); !writable) return fail(writable.error());
+
+  const auto loaded = load(command.scene, console);
+  if (!loaded) return fail(loaded.error());
+  const auto lights = choose_lights(*loaded->scene, command.light);
+  if (!lights) return fail(lights.error());
+  console.progress("ray tracing", 0.2);
+  const raytrace::Tracer tracer(*loaded->world, command.accel);
+  const raytrace::RayTracedFrame frame =
+      raytrace::trace_frame(tracer, loaded->plan, loaded->scene->camera, *lights, command.options);
+
+  const OutputGuard whole_outputs;
+  const double exposure = choose_exposure(command.exposure, *loaded->scene, frame.color);
+  if (const auto written = write_picture(command.image, *loaded->world, frame, exposure); !written) {
+    return fail(written.error());
+  }
+  console.message(fmt::format("picture: {}", command.image));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_raytrace(CLI::App& program, Invocation& invocation) {
+  CLI::App* app =
+      program.add_subcommand("raytrace", "Render with rays only: a PNG, or an EXR with its records.");
+  app->footer(
+      "gnomon raytrace whitted -o whitted.png\n"
+      "gnomon raytrace model.glb --size 1920x1080 -o model.exr");
+  const auto command = std::make_shared<RaytraceCommand>();
+  add_scene(*app, command->scene);
+  add_output(*app, "-o,--output", command->image, "IMAGE",
+             ".png, or .exr with depth, position, normal, ids and, per light, visibility [default "
+             "out/NAME-raytrace.png]");
+  add_size(*app, command->options.size);
+  add_light(*app, command->light,
+            "put this light's visibility only into the .exr; the picture always has all lights");
+  add_tracer_options(*app, command->accel);
+  add_min_contribution(*app, command->options.min_contribution);
+  add_threads(*app, command->threads, "threads of the ray tracer");
+  add_exposure(*app, command->exposure);
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_raytrace(*command); }; });
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,61 @@
+// gnomon scenes: the built-in scenes, whose names work wherever a scene file does.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/help.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "scene/files/write_file.h"
+#include "scene/load.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr std::size_t name_column = 16;  // columns
+constexpr std::size_t table_width = 80;  // columns
+
+std::string scenes_json() {
+  nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    scenes.push_back({{"name", scene.name}, {"description", scene.description}});
+  }
+  return nlohmann::ordered_json{{"scenes", scenes}}.dump(2) + "\n";
+}
+
+std::string scenes_table() {
+  std::string text;
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    const std::string description = wrap(std::string(scene.description), name_column, table_width);
+    text += fmt::format("{:<{}}{}", scene.name, name_column, description.substr(name_column));
+  }
+  return text;
+}
+
+Expected<ExitCode> run_scenes(const std::string& json) {
+  if (const auto writable = check_output_file(json); !writable) return fail(writable.error());
+  if (!json.empty() && json != "-") {
+    if (const auto written = write_file(json, scenes_json()); !written) return fail(written.error());
+    return ExitCode::done;
+  }
+  print_data(json == "-" ? scenes_json() : scenes_table());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_scenes(CLI::App& program, Invocation& invocation) {
+  CLI::App* app =
+      program.add_subcommand("scenes", "List the built-in scenes; any of the names serves as SCENE.");
+  app->footer("gnomon scenes\ngnomon compare courtyard");
+  const auto json = std::make_shared<std::string>();
+  add_json(*app, *json, "the list");
+  app->callback([json, &invocation] { invocation.action = [json] { return run_scenes(*json); }; });
+}
+
+}  // namespace gnomon::app

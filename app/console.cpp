@@ -1,0 +1,66 @@
+#include "app/console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace gnomon::app {
+
+void print_data(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void print_error(const std::string& text) {
+  const std::string line = text.ends_with('\n') ? text : text + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void print_error(const Error& error) {
+  print_error(error.file.empty() ? "gnomon: " + error.message() : error.message());
+}
+
+Console::Console(bool quiet) : quiet_(quiet), shows_progress_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+Console::~Console() {
+  clear_progress();
+}
+
+void Console::message(const std::string& text) {
+  if (quiet_) return;
+  clear_progress();
+  print_error(text);
+}
+
+void Console::progress(std::string_view stage, double done) {
+  if (!shows_progress_) return;
+  constexpr int width = 24;  // columns of the bar
+  const double share = std::clamp(done, 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(std::lround(share * width));
+  const std::string line =
+      fmt::format("[{:<{}}] {:3.0f} % {}", std::string(filled, '#'), width, 100.0 * share, stage);
+  if (line == line_) return;
+  clear_progress();
+  line_ = line;
+  std::fputs(line_.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+void Console::clear_progress() {
+  if (line_.empty()) return;
+  std::fputs("\r\033[K", stderr);
+  line_.clear();
+}
+
+bool stdout_takes_colour() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool forbidden = no_color != nullptr && *no_color != '\0';
+  const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
+  return !forbidden && !dumb && isatty(STDOUT_FILENO) == 1;
+}
+
+}  // namespace gnomon::app

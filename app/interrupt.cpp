@@ -1,0 +1,61 @@
+// Signals are process-wide, and so is this file's state; it is the only such state of the program.
+#include "app/interrupt.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <initializer_list>
+#include <string_view>
+#include <thread>
+
+namespace gnomon::app {
+
+namespace {
+
+std::atomic<int> received_signal{0};
+
+std::mutex& output_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+bool is_ignored(int signal_number) {
+  struct sigaction current {};
+  return sigaction(signal_number, nullptr, &current) == 0 && current.sa_handler == SIG_IGN;
+}
+
+void wait_and_exit(sigset_t awaited) {
+  int signal_number = 0;
+  if (sigwait(&awaited, &signal_number) != 0) return;
+  received_signal = signal_number;
+  const std::lock_guard<std::mutex> outputs_are_whole(output_mutex());
+  const std::string_view text =
+      isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: interrupted\n" : "gnomon: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+  _exit(128 + signal_number);
+}
+
+}  // namespace
+
+void watch_for_interrupts() {
+  sigset_t awaited;
+  sigemptyset(&awaited);
+  bool any = false;
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    if (is_ignored(signal_number)) continue;
+    sigaddset(&awaited, signal_number);
+    any = true;
+  }
+  if (!any) return;
+  pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
+  std::thread(wait_and_exit, awaited).detach();
+}
+
+bool was_interrupted() {
+  return received_signal != 0;
+}
+
+OutputGuard::OutputGuard() : lock_(output_mutex()) {}
+
+}  // namespace gnomon::app

@@ -1,0 +1,25 @@
+// SIGINT and SIGTERM end the process at once with 130 or 143, except while outputs are being written: those
+// are finished first, so that what stands in the output folder is always one whole result.
+#pragma once
+
+#include <mutex>
+
+namespace gnomon::app {
+
+/// To be called before any other thread exists: the signals are then taken by one thread that waits for them.
+/// A signal that the caller had set to be ignored stays ignored.
+void watch_for_interrupts();
+
+/// A signal has come; the process is only finishing its outputs.
+bool was_interrupted();
+
+/// While one lives, a signal waits.
+class OutputGuard {
+ public:
+  OutputGuard();
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+};
+
+}  // namespace gnomon::app

@@ -1,0 +1,29 @@
+// What a parsed command line asks for. Each subcommand has a file of its own in app/commands, whose add_…
+// function binds its options and, when it is the one that was named, sets `action`.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scene/expected.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+enum class ExitCode : int { done = 0, threshold_exceeded = 1 };
+
+struct Invocation {
+  std::string command_line;  ///< as the user could type it again
+  std::function<Expected<ExitCode>()> action;
+};
+
+void add_compare(CLI::App& program, Invocation& invocation);
+void add_raster(CLI::App& program, Invocation& invocation);
+void add_raytrace(CLI::App& program, Invocation& invocation);
+void add_plan(CLI::App& program, Invocation& invocation);
+void add_scenes(CLI::App& program, Invocation& invocation);
+
+}  // namespace gnomon::app

@@ -1,0 +1,247 @@
+// CLI11 throws; what is thrown here is caught in command_line.cpp and never leaves this room.
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <span>
+#include <utility>
+
+#include "app/suggest.h"
+#include "app/values.h"
+
+namespace gnomon::app {
+
+namespace {
+
+/// "what [unit; range; default]": the shape of every option's help.
+std::string describe(std::string_view what, std::string_view unit_and_range, std::string_view fallback) {
+  return fmt::format("{} [{}; default {}]", what, unit_and_range, fallback);
+}
+
+/// One option that takes one value; `store` parses it and may fail.
+template <class Store>
+void add_value(CLI::App& command, const std::string& names, const char* type, const std::string& text,
+               Store store) {
+  const std::string name = names.substr(names.find("--"));
+  command
+      .add_option_function<std::string>(
+          names,
+          [name, store = std::move(store)](const std::string& value) {
+            if (const Expected<void> stored = store(value); !stored) {
+              throw CLI::ValidationError(name, stored.error().reason);
+            }
+          },
+          text)
+      ->type_name(type);
+}
+
+/// Stores the value of a parse, or hands its error on.
+template <class Field, class Value>
+Expected<void> assign(Field& field, const Expected<Value>& value) {
+  if (!value) return fail(value.error());
+  field = static_cast<Field>(*value);
+  return {};
+}
+
+void add_integer(CLI::App& command, const std::string& name, int& field, int min, int max, const char* unit,
+                 const char* what) {
+  const std::string range = fmt::format("{}{}{} to {}", unit, *unit ? ", " : "", min, max);
+  add_value(
+      command, name, "N", describe(what, range, std::to_string(field)),
+      [&field, min, max](const std::string& value) { return assign(field, parse_integer(value, min, max)); });
+}
+
+void add_number(CLI::App& command, const std::string& name, double& field, NumberRange range,
+                const char* unit, const char* what) {
+  add_value(command, name, "NUMBER",
+            describe(what, fmt::format("{}, {}", unit, range_text(range)), number_text(field)),
+            [&field, range](const std::string& value) { return assign(field, parse_number(value, range)); });
+}
+
+template <class Enum>
+using Choices = std::span<const std::pair<std::string_view, Enum>>;
+
+template <class Enum>
+std::string choice_names(Choices<Enum> choices, std::string_view separator) {
+  std::string text;
+  for (const auto& [name, value] : choices)
+    text += (text.empty() ? "" : std::string(separator)) + std::string(name);
+  return text;
+}
+
+template <class Enum>
+Expected<Enum> parse_choice(const std::string& text, Choices<Enum> choices) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  return fail(ErrorKind::usage, fmt::format("unknown value (got {}, allowed {}){}", text,
+                                            choice_names<Enum>(choices, ", "), did_you_mean(text, names)));
+}
+
+template <class Enum, std::size_t N>
+void add_choice(CLI::App& command, const std::string& name, Enum& field,
+                const std::pair<std::string_view, Enum> (&choices)[N], const char* type, const char* what) {
+  const Choices<Enum> all(choices);
+  std::string_view fallback;
+  for (const auto& [text, value] : all) {
+    if (value == field) fallback = text;
+  }
+  add_value(
+      command, name, type, describe(what, choice_names<Enum>(all, " or "), fallback),
+      [&field, all](const std::string& value) { return assign(field, parse_choice<Enum>(value, all)); });
+}
+
+constexpr std::pair<std::string_view, raster::Technique> techniques[] = {{"hard", raster::Technique::hard}};
+constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
+    {"d16", raster::DepthFormat::d16},
+    {"d24", raster::DepthFormat::d24},
+    {"d32f", raster::DepthFormat::d32f}};
+constexpr std::pair<std::string_view, raster::Cull> culls[] = {
+    {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
+constexpr std::pair<std::string_view, raster::Backend> backends[] = {
+    {"auto", raster::Backend::automatic}, {"osmesa", raster::Backend::osmesa}, {"egl", raster::Backend::egl}};
+constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {{"bvh", raytrace::Accel::bvh},
+                                                                   {"brute", raytrace::Accel::brute}};
+enum class Precision : std::uint8_t { robust };
+constexpr std::pair<std::string_view, Precision> precisions[] = {{"robust", Precision::robust}};
+
+// Ranges that no struct states. Each is far beyond what is useful and short of what overflows a float.
+constexpr int max_map_size = 65536;  // texels; the OpenGL context's own limit is checked when the map is made
+constexpr NumberRange slope_range{-1000.0, 1000.0};
+constexpr NumberRange normal_offset_range{0.0, 1000.0};
+constexpr int max_threads = 1024;
+constexpr int max_runs = 1000;
+
+void add_bias_options(CLI::App& command, raster::Bias& bias) {
+  add_value(command, "--bias", "B|Btexel",
+            describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
+                     "world units along the light ray, or texels with the suffix texel, any finite number",
+                     bias_text(bias)),
+            [&bias](const std::string& text) -> Expected<void> {
+              const Expected<BiasValue> value = parse_bias(text);
+              if (!value) return fail(value.error());
+              bias.constant = value->constant;
+              bias.unit = value->unit;
+              return {};
+            });
+  add_number(command, "--slope-bias", bias.slope, slope_range,
+             "multiples of the depth slope over half a texel", "slope bias; 1 leaves no acne on a plane");
+  add_number(command, "--normal-offset", bias.normal_offset_texels, normal_offset_range, "texels",
+             "moves the receiver along its normal, scaled by the sine of the light's angle");
+  command.add_flag("--receiver-plane", bias.receiver_plane,
+                   "compare with the depth of the receiver's plane at the texel's centre [default off]");
+}
+
+}  // namespace
+
+void add_scene(CLI::App& command, std::string& scene) {
+  command
+      .add_option("SCENE", scene,
+                  "a scene file (.json .gltf .glb .obj .ply) or a built-in scene's name (gnomon scenes)")
+      ->required();
+}
+
+void add_size(CLI::App& command, ImageSize& size) {
+  const std::string range = fmt::format("pixels, 1x1 to {0}x{0}", max_image_side);
+  add_value(command, "--size", "WxH",
+            describe("size of the picture", range, fmt::format("{}x{}", size.width, size.height)),
+            [&size](const std::string& value) { return assign(size, parse_size(value)); });
+}
+
+void add_map_options(CLI::App& command, raster::MapOptions& map) {
+  add_integer(command, "--map-size", map.size, 1, max_map_size, "texels",
+              "side of the shadow map, as far as the graphics context allows");
+  add_choice(command, "--technique", map.technique, techniques, "NAME", "shadow test");
+  add_bias_options(command, map.bias);
+  add_choice(command, "--depth-format", map.depth_format, depth_formats, "NAME",
+             "number format of the stored depth");
+  add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
+}
+
+void add_backend(CLI::App& command, raster::Backend& backend) {
+  add_choice(command, "--backend", backend, backends, "NAME",
+             "where OpenGL comes from; auto tries OSMesa (software), then EGL (a GPU when there is one)");
+}
+
+void add_tracer_options(CLI::App& command, raytrace::Accel& accel) {
+  add_choice(command, "--accel", accel, accels, "NAME",
+             "how rays find what they hit; brute tests everything");
+  const std::string names = choice_names<Precision>(precisions, " or ");
+  add_value(command, "--precision", "NAME",
+            describe("arithmetic of the rays: robust is watertight, with error bounds", names, names),
+            [](const std::string& value) -> Expected<void> {
+              const Expected<Precision> only = parse_choice<Precision>(value, precisions);
+              if (!only) return fail(only.error());
+              return {};
+            });
+}
+
+void add_min_contribution(CLI::App& command, double& share) {
+  add_number(command, "--min-contribution", share, {0.0, 1.0}, "share of a pixel",
+             "reflected and refracted rays that matter less are not followed");
+}
+
+void add_light(CLI::App& command, std::string& light, const char* what) {
+  command.add_option("--light", light, fmt::format("{} [a light's name; default all]", what))
+      ->type_name("NAME");
+}
+
+void add_threads(CLI::App& command, int& threads, const char* of_what) {
+  add_integer(command, "--threads", threads, 0, max_threads, "0 means all cores", of_what);
+}
+
+void add_runs(CLI::App& command, std::optional<int>& runs, const char* fallback) {
+  add_value(command, "--runs", "N",
+            describe("timed repetitions of each pass, after one that is not timed",
+                     fmt::format("1 to {}", max_runs), fallback),
+            [&runs](const std::string& value) { return assign(runs, parse_integer(value, 1, max_runs)); });
+}
+
+void add_exposure(CLI::App& command, std::optional<std::optional<double>>& exposure) {
+  add_value(
+      command, "--exposure", "auto|FACTOR",
+      describe(
+          "factor on linear colour before 8-bit pictures are encoded; auto brings the 95th percentile of the "
+          "luminance to 0.8",
+          "auto, or linear, " + range_text(exposure_range), "the scene's own, or else auto"),
+      [&exposure](const std::string& value) -> Expected<void> {
+        const Expected<std::optional<double>> parsed = parse_exposure(value);
+        if (!parsed) return fail(parsed.error());
+        exposure = *parsed;
+        return {};
+      });
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed) {
+  add_value(command, "--seed", "N",
+            describe("recorded in the result; nothing is random yet", "0 to 18446744073709551615",
+                     std::to_string(seed)),
+            [&seed](const std::string& value) { return assign(seed, parse_seed(value)); });
+}
+
+void add_fail_above(CLI::App& command, std::optional<double>& share) {
+  add_value(command, "--fail-above", "SHARE",
+            describe("exit with 1 when more than this share of any light's compared pixels is wrong",
+                     "0% to 100%, or 0 to 1", "never"),
+            [&share](const std::string& value) { return assign(share, parse_share(value)); });
+}
+
+void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
+                const std::string& what) {
+  command.add_option(names, path, what)->type_name(type);
+}
+
+void add_json(CLI::App& command, std::string& path, const char* what) {
+  command
+      .add_option("--json", path, fmt::format("write {} as JSON; - means stdout, alone [default off]", what))
+      ->type_name("FILE|-");
+}
+
+void add_quiet(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet,-q", quiet, "print nothing but errors and what --json - asks for [default off]");
+}
+
+}  // namespace gnomon::app

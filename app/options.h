@@ -1,0 +1,39 @@
+// The options that several subcommands share, bound to the rooms' own option structs. Each says its unit, its
+// range and its default in --help, and the text is made from the same numbers that the parser checks and the
+// same fields that it fills, so that neither can drift.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compare/compare.h"
+#include "raster/options.h"
+#include "raytrace/frame.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+void add_scene(CLI::App& command, std::string& scene);
+void add_size(CLI::App& command, ImageSize& size);
+/// --map-size, --technique, the biases, --depth-format, --cull.
+void add_map_options(CLI::App& command, raster::MapOptions& map);
+void add_backend(CLI::App& command, raster::Backend& backend);
+/// --accel, --precision.
+void add_tracer_options(CLI::App& command, raytrace::Accel& accel);
+void add_min_contribution(CLI::App& command, double& share);
+void add_light(CLI::App& command, std::string& light, const char* what);
+void add_threads(CLI::App& command, int& threads, const char* of_what);
+void add_runs(CLI::App& command, std::optional<int>& runs, const char* fallback);
+void add_exposure(CLI::App& command, std::optional<std::optional<double>>& exposure);
+void add_seed(CLI::App& command, std::uint64_t& seed);
+void add_fail_above(CLI::App& command, std::optional<double>& share);
+/// A file to be written; `what` says which, with its extensions.
+void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
+                const std::string& what);
+void add_json(CLI::App& command, std::string& path, const char* what);
+void add_quiet(CLI::App& command, bool& quiet);
+
+}  // namespace gnomon::app

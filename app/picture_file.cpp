@@ -1,0 +1,122 @@
+// Ids are exact up to 2^24, as far as 32-bit floats count.
+#include "app/picture_file.h"
+
+#include <array>
+#include <vector>
+
+#include "scene/exposure.h"
+#include "scene/files/image_io.h"
+
+namespace gnomon::app {
+
+namespace {
+
+class Channels {
+ public:
+  explicit Channels(ImageSize size) : size_(size) {}
+
+  /// `value` maps a pixel's index to its number.
+  template <class Value>
+  void add(const std::string& name, const Value& value) {
+    Channel channel{name, std::vector<float>(size_.pixels())};
+    for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] = static_cast<float>(value(i));
+    channels_.push_back(std::move(channel));
+  }
+
+  void add_color(const ColorImage& color) {
+    constexpr std::array<const char*, 3> names{"R", "G", "B"};
+    for (int k = 0; k < 3; ++k) {
+      add(names[static_cast<std::size_t>(k)], [&](std::size_t i) { return color.data[i][k]; });
+    }
+  }
+
+  /// `value` gives a world-space vector.
+  template <class Value>
+  void add_vector(const std::string& name, const Value& value) {
+    constexpr std::array<const char*, 3> axes{".X", ".Y", ".Z"};
+    for (int k = 0; k < 3; ++k) {
+      add(name + axes[static_cast<std::size_t>(k)], [&](std::size_t i) { return value(i)[k]; });
+    }
+  }
+
+  /// `primitive` gives a pixel's primitive or no_id.
+  template <class Primitive>
+  void add_ids(const World& world, const Primitive& primitive) {
+    add("object.V", [&](std::size_t i) {
+      return id_value(primitive(i) == no_id ? no_id : world.object_of(primitive(i)));
+    });
+    add("primitive.V", [&](std::size_t i) { return id_value(primitive(i)); });
+  }
+
+  Expected<void> write(const std::string& path) const { return write_exr(path, size_, channels_); }
+
+ private:
+  static double id_value(std::uint32_t id) { return id == no_id ? -1.0 : static_cast<double>(id); }
+  ImageSize size_;
+  std::vector<Channel> channels_;
+};
+
+/// "" for the only light, "NAME." for one of several.
+std::string light_prefix(const World& world, std::uint32_t light, std::size_t light_count) {
+  return light_count == 1 ? std::string() : world.scene->lights[light].name + ".";
+}
+
+void add_record(Channels& channels, const raster::LightRecord& record, const std::string& prefix) {
+  channels.add(prefix + "drawn.V", [&](std::size_t i) { return record.visibility.data[i]; });
+  channels.add(prefix + "gap.V", [&](std::size_t i) { return record.gap.data[i]; });
+  channels.add(prefix + "texel_uv.U", [&](std::size_t i) { return record.texel_uv.data[i].x; });
+  channels.add(prefix + "texel_uv.V", [&](std::size_t i) { return record.texel_uv.data[i].y; });
+  channels.add(prefix + "distance.V", [&](std::size_t i) { return record.distance.data[i]; });
+}
+
+double truth_value(raytrace::Verdict verdict) {
+  if (verdict == raytrace::Verdict::uncertain) return 0.5;
+  return verdict == raytrace::Verdict::lit ? 1.0 : 0.0;
+}
+
+bool is_png(const std::string& path) {
+  return path.ends_with(".png");
+}
+
+}  // namespace
+
+double choose_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene,
+                       const ColorImage& color) {
+  const std::optional<double> factor = asked ? *asked : scene.exposure;
+  return factor ? *factor : auto_exposure(color);
+}
+
+Expected<void> write_picture(const std::string& path, const World& world, const raster::RasterFrame& frame,
+                             double exposure) {
+  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+  Channels channels(frame.color.size);
+  channels.add_color(frame.color);
+  channels.add_ids(world, [&](std::size_t i) { return frame.primitive.data[i]; });
+  for (const raster::LightRecord& record : frame.lights) {
+    add_record(channels, record, light_prefix(world, record.light, frame.lights.size()));
+  }
+  return channels.write(path);
+}
+
+Expected<void> write_picture(const std::string& path, const World& world,
+                             const raytrace::RayTracedFrame& frame, double exposure) {
+  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+  const View view = make_view(world.scene->camera, frame.color.size);
+  const auto& points = frame.receiver.data;
+  const auto seen = [&](std::size_t i) { return points[i].primitive != no_id; };
+  Channels channels(frame.color.size);
+  channels.add_color(frame.color);
+  channels.add("Z", [&](std::size_t i) {
+    return seen(i) ? glm::dot(points[i].position - view.eye, view.forward) : infinity;
+  });
+  channels.add_vector("position", [&](std::size_t i) { return seen(i) ? points[i].position : Vec3(0.0); });
+  channels.add_vector("normal", [&](std::size_t i) { return seen(i) ? points[i].normal : Vec3(0.0); });
+  channels.add_ids(world, [&](std::size_t i) { return points[i].primitive; });
+  for (const raytrace::LightTruth& light : frame.lights) {
+    channels.add(light_prefix(world, light.light, frame.lights.size()) + "truth.V",
+                 [&](std::size_t i) { return truth_value(light.verdict.data[i]); });
+  }
+  return channels.write(path);
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,37 @@
+// Where the camera stands and where a light comes from, as angles: what the viewer turns and what scripts set.
+// Degrees. About y, azimuth 0 is +z and 90 is +x, as in scene files; elevation is the height above the horizon. A camera
+// turns about its own up vector. A pose fixes the result bit for bit: no drift, whatever the way to it was.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace gnomon::app {
+
+/// The eye as seen from the camera's target; distance in world units.
+struct CameraPose {
+  double azimuth_degrees = 0.0, elevation_degrees = 0.0, distance = 1.0;
+  bool operator==(const CameraPose&) const = default;
+};
+
+/// Where the light comes from: a sun's place in the sky, a lamp's as seen from the centre of the scene.
+struct LightPose {
+  double azimuth_degrees = 0.0, elevation_degrees = 0.0;
+  bool operator==(const LightPose&) const = default;
+};
+
+/// Short of the pole, where the camera's up vector would lie along its view.
+inline constexpr double max_camera_elevation_degrees = 89.0;
+inline constexpr double max_light_elevation_degrees = 90.0;
+
+CameraPose camera_pose(const Camera& camera);
+/// `given` with its eye moved; its target, up vector and angle stay.
+Camera posed_camera(const Camera& given, const CameraPose& pose);
+
+LightPose light_pose(const Light& light, const Vec3& centre);
+/// `given` turned about `centre` at its distance; a spot keeps its aim relative to the line to the centre.
+Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose);
+
+/// The same angle in (-180, 180].
+double wrapped_degrees(double degrees);
+
+}  // namespace gnomon::app

@@ -1,0 +1,48 @@
+// What every command that works on a scene begins with: the scene loaded, flattened and planned, lights
+// chosen by name, a renderer made, the number of threads set.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "raster/renderer.h"
+#include "scene/effects.h"
+#include "scene/expected.h"
+#include "scene/world.h"
+
+namespace gnomon::app {
+
+/// The world points into the scene, so both stay where they are.
+struct LoadedScene {
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<World> world;
+  EffectPlan plan;
+  double load_ms = 0.0;
+};
+
+/// Prints the loader's notes.
+Expected<LoadedScene> load(const std::string& path_or_name, Console& console);
+
+/// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
+Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);
+
+Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded);
+
+/// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,
+/// those of Mesa's software rasterizer from here on. 0: all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// out/NAME, NAME being that of the scene without folder and extension.
+std::string default_output(const std::string& path_or_name);
+
+}  // namespace gnomon::app

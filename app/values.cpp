@@ -1,0 +1,111 @@
+// Numbers are read with std::from_chars: no locale, nothing left over, nothing rounded twice.
+#include "app/values.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace gnomon::app {
+
+namespace {
+
+tl::unexpected<Error> wrong(std::string_view reason, std::string_view got, std::string_view allowed) {
+  return fail(ErrorKind::usage, fmt::format("{} (got {}, allowed {})", reason, got, allowed));
+}
+
+/// The whole text as a number, or nothing.
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool contains(const NumberRange& range, double value) {
+  return std::isfinite(value) && value <= range.max &&
+         (range.min_excluded ? value > range.min : value >= range.min);
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+  return fmt::format("{}", value);
+}
+
+std::string range_text(const NumberRange& range) {
+  return fmt::format("{}{} to {}", range.min_excluded ? "above " : "", range.min, range.max);
+}
+
+Expected<double> parse_number(std::string_view text, const NumberRange& range) {
+  const std::optional<double> value = whole_number<double>(text);
+  if (!value) return wrong("not a number", text, range_text(range));
+  if (!contains(range, *value)) return wrong("out of range", text, range_text(range));
+  return *value;
+}
+
+Expected<std::int64_t> parse_integer(std::string_view text, std::int64_t min, std::int64_t max) {
+  const std::string allowed = fmt::format("{} to {}", min, max);
+  const std::optional<std::int64_t> value = whole_number<std::int64_t>(text);
+  if (!value) return wrong("not a whole number in range", text, allowed);
+  if (*value < min || *value > max) return wrong("out of range", text, allowed);
+  return *value;
+}
+
+Expected<std::uint64_t> parse_seed(std::string_view text) {
+  const std::optional<std::uint64_t> value = whole_number<std::uint64_t>(text);
+  if (!value) return wrong("not a whole number in range", text, fmt::format("0 to {}", UINT64_MAX));
+  return *value;
+}
+
+Expected<ImageSize> parse_size(std::string_view text) {
+  const std::string allowed = fmt::format("1x1 to {0}x{0}", max_image_side);
+  const std::size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return wrong("not of the form WIDTHxHEIGHT", text, allowed);
+  const Expected<std::int64_t> width = parse_integer(text.substr(0, cross), 1, max_image_side);
+  const Expected<std::int64_t> height = parse_integer(text.substr(cross + 1), 1, max_image_side);
+  if (!width || !height) return wrong("not a picture size", text, allowed);
+  return ImageSize{static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+Expected<BiasValue> parse_bias(std::string_view text) {
+  std::string_view number = text;
+  BiasValue bias;
+  for (const std::string_view suffix : {std::string_view("texels"), std::string_view("texel")}) {
+    if (!number.ends_with(suffix)) continue;
+    number.remove_suffix(suffix.size());
+    bias.unit = raster::BiasUnit::texel;
+  }
+  const std::optional<double> value = whole_number<double>(number);
+  if (!value || !contains(bias_range, *value)) {
+    return wrong("not a bias", text,
+                 "a finite number of world units, such as 0.02, or of texels, such as 0.5texel");
+  }
+  bias.constant = *value;
+  return bias;
+}
+
+std::string bias_text(const raster::Bias& bias) {
+  return number_text(bias.constant) + (bias.unit == raster::BiasUnit::texel ? "texel" : "");
+}
+
+Expected<double> parse_share(std::string_view text) {
+  const bool percent = text.ends_with('%');
+  const std::optional<double> value = whole_number<double>(percent ? text.substr(0, text.size() - 1) : text);
+  const double share = value ? *value / (percent ? 100.0 : 1.0) : -1.0;
+  if (!contains({0.0, 1.0}, share)) return wrong("not a share", text, "0% to 100%, or 0 to 1");
+  return share;
+}
+
+Expected<std::optional<double>> parse_exposure(std::string_view text) {
+  if (text == "auto") return std::optional<double>{};
+  const std::optional<double> value = whole_number<double>(text);
+  if (!value || !contains(exposure_range, *value)) {
+    return wrong("not an exposure", text, "auto, or a linear factor above 0");
+  }
+  return value;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,50 @@
+// The text of option values: numbers with their range, sizes, biases, shares. Errors are ErrorKind::usage
+// with a reason that ends in "(got X, allowed Y)".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "raster/options.h"
+#include "scene/expected.h"
+#include "scene/image.h"
+
+namespace gnomon::app {
+
+/// The allowed values of a number, both ends included unless `min_excluded`.
+struct NumberRange {
+  double min, max;
+  bool min_excluded = false;
+};
+std::string range_text(const NumberRange& range);  ///< "0 to 1000", "above 0 to 1e6"
+std::string number_text(double value);             ///< shortest text that reads back as the same number
+
+/// A finite decimal number. NaN and infinities are errors.
+Expected<double> parse_number(std::string_view text, const NumberRange& range);
+Expected<std::int64_t> parse_integer(std::string_view text, std::int64_t min, std::int64_t max);
+/// An unsigned 64-bit integer.
+Expected<std::uint64_t> parse_seed(std::string_view text);
+
+inline constexpr int max_image_side = 16384;  ///< pixels; OpenGL 4.5 drivers agree on it
+/// "1280x720": pixels, each side from 1 to max_image_side.
+Expected<ImageSize> parse_size(std::string_view text);
+
+struct BiasValue {
+  double constant = 0.0;
+  raster::BiasUnit unit = raster::BiasUnit::world;
+};
+inline constexpr NumberRange bias_range{-1e30, 1e30};
+/// "0.02" (world units along the light ray) or "0.5texel".
+Expected<BiasValue> parse_bias(std::string_view text);
+std::string bias_text(const raster::Bias& bias);
+
+/// "1%" or "0.01": a share in [0, 1].
+Expected<double> parse_share(std::string_view text);
+
+inline constexpr NumberRange exposure_range{0.0, 1e9, true};
+/// "auto" (no value) or a linear factor.
+Expected<std::optional<double>> parse_exposure(std::string_view text);
+
+}  // namespace gnomon::app

@@ -1,0 +1,121 @@
+#include "app/view/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace gnomon::app {
+
+namespace {
+
+/// GLFW's own words on its last error.
+std::string library_reason() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text == nullptr ? "no reason given" : text;
+}
+
+bool has_display() {
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0') return true;
+  }
+  return false;
+}
+
+tl::unexpected<Error> cannot_open(const std::string& reason) {
+  return fail(ErrorKind::graphics, fmt::format("cannot open a window: {}{}", reason,
+                                               has_display() ? "" : " (no display: DISPLAY is not set)"));
+}
+
+class WindowContext final : public raster::Context {
+ public:
+  explicit WindowContext(GLFWwindow* window) : window_(window) {}
+  bool make_current() override {
+    glfwMakeContextCurrent(window_);
+    return glfwGetCurrentContext() == window_;
+  }
+  Procedure procedure(const char* name) const override { return glfwGetProcAddress(name); }
+  const char* backend() const override { return "window"; }
+
+ private:
+  GLFWwindow* window_;
+};
+
+void ask_for_core_context() {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SAMPLES, 0);  // the pictures come finished
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+}
+
+Window& window_of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+}  // namespace
+
+Window::Library::~Library() { glfwTerminate(); }
+
+Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSize size) {
+  if (glfwInit() != GLFW_TRUE) return cannot_open(library_reason());
+  std::unique_ptr<Window> window(new Window(std::make_unique<Library>()));
+  ask_for_core_context();
+  window->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  if (window->window_ == nullptr) return cannot_open("OpenGL 4.5 core: " + library_reason());
+  glfwMakeContextCurrent(window->window_);
+  glfwSwapInterval(1);
+  window->connect();
+  return window;
+}
+
+Window::~Window() {
+  if (window_ != nullptr) glfwDestroyWindow(window_);
+}
+
+void Window::connect() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    const auto& told = window_of(w).events_.key;
+    if (told && action != GLFW_RELEASE) told(key, (mods & GLFW_MOD_SHIFT) != 0);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    const auto& told = window_of(w).events_.button;
+    if (told) told(button, action == GLFW_PRESS);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    const auto& told = window_of(w).events_.pointer;
+    if (told) told(x, y);
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
+    const auto& told = window_of(w).events_.scroll;
+    if (told) told(y);
+  });
+}
+
+std::unique_ptr<raster::Context> Window::context() const { return std::make_unique<WindowContext>(window_); }
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::ask_for_size(ImageSize size) { glfwSetWindowSize(window_, size.width, size.height); }
+
+ImageSize Window::framebuffer_size() const {
+  ImageSize size;
+  glfwGetFramebufferSize(window_, &size.width, &size.height);
+  return size;
+}
+
+bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+
+void Window::show_frame() { glfwSwapBuffers(window_); }
+
+void Window::poll() { glfwPollEvents(); }
+
+void Window::wait(double at_most_seconds) { glfwWaitEventsTimeout(at_most_seconds); }
+
+void Window::wake() { glfwPostEmptyEvent(); }
+
+}  // namespace gnomon::app

@@ -1,0 +1,65 @@
+// The window: GLFW behind RAII. It owns the OpenGL 4.5 core context that everything in it is drawn with.
+// Use it from the main thread only, but for wake().
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "raster/context.h"
+#include "scene/expected.h"
+#include "scene/image.h"
+
+struct GLFWwindow;
+
+namespace gnomon::app {
+
+/// What the window tells; each is called from poll() or wait().
+struct WindowEvents {
+  std::function<void(int key, bool shift)> key;  ///< pressed or repeated
+  std::function<void(int button, bool down)> button;
+  std::function<void(double x, double y)> pointer;
+  std::function<void(double notches)> scroll;
+};
+
+class Window {
+ public:
+  /// Error (graphics): no display, or no OpenGL 4.5 on it; the reason says which.
+  static Expected<std::unique_ptr<Window>> open(const std::string& title, ImageSize size);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// The window's context as the rasterizer wants it. The window must outlive it.
+  std::unique_ptr<raster::Context> context() const;
+
+  void listen(WindowEvents events) { events_ = std::move(events); }
+  void set_title(const std::string& title);
+  /// Asks for a size; the display may grant it later, or another.
+  void ask_for_size(ImageSize size);
+  /// Pixels of the framebuffer now; 0x0 while iconified.
+  ImageSize framebuffer_size() const;
+  bool should_close() const;
+  void show_frame();  ///< swaps the buffers
+
+  void poll();                           ///< handles what has happened
+  void wait(double at_most_seconds);     ///< sleeps until something happens
+  static void wake();                    ///< ends a wait(); from any thread
+
+ private:
+  /// GLFW lives from before the window to after it.
+  struct Library {
+    Library() = default;
+    ~Library();
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+  };
+  explicit Window(std::unique_ptr<Library> library) : library_(std::move(library)) {}
+  void connect();
+
+  std::unique_ptr<Library> library_;
+  GLFWwindow* window_ = nullptr;
+  WindowEvents events_;
+};
+
+}  // namespace gnomon::app

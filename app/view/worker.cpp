@@ -1,0 +1,167 @@
+#include "app/view/worker.h"
+
+#include <fmt/format.h>
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <exception>
+
+#include "compare/outputs.h"
+#include "scene/exposure.h"
+
+namespace gnomon::app {
+
+/// What is under way. Only tracing is ever cut short: cancelling the group ends the loops inside it, and what they leave
+/// behind is thrown away unread.
+struct CompareWorker::Job {
+  bool preview = false;
+  std::atomic<bool> given_up{false};
+  tbb::task_group tracing;
+};
+
+namespace {
+
+/// A world of its own for the thread. The flattened world holds all geometry, so the meshes are not copied with it.
+std::unique_ptr<Scene> copy_without_meshes(const Scene& scene) {
+  auto copy = std::make_unique<Scene>();
+  copy->name = scene.name;
+  copy->camera = scene.camera;
+  copy->lights = scene.lights;
+  copy->materials = scene.materials;
+  copy->textures = scene.textures;
+  copy->instances = scene.instances;
+  copy->shapes = scene.shapes;
+  copy->ambient = scene.ambient;
+  copy->background = scene.background;
+  copy->exposure = scene.exposure;
+  copy->max_depth = scene.max_depth;
+  return copy;
+}
+
+std::unique_ptr<World> copy_of(const World& world, const Scene& scene) {
+  auto copy = std::make_unique<World>(world);
+  copy->scene = &scene;
+  copy->shapes = scene.shapes;
+  return copy;
+}
+
+void draw_pictures(ComparisonOutcome& outcome) {
+  const compare::Comparison& comparison = outcome.comparison;
+  const compare::LightComparison& light = comparison.lights.front();
+  outcome.raytrace = compare::raytraced_picture(comparison);
+  outcome.difference = compare::difference_picture(comparison, light);
+  outcome.labels = compare::label_picture(comparison, light);
+  outcome.depth = compare::depth_map_picture(comparison.raster.lights.front().map);
+}
+
+}  // namespace
+
+CompareWorker::CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan,
+                             const compare::CompareOptions& options, std::function<void()> on_finished)
+    : scene_(copy_without_meshes(scene)),
+      world_(copy_of(world, *scene_)),
+      plan_(plan),
+      options_(options),
+      on_finished_(std::move(on_finished)),
+      thread_([this] { run(); }) {}
+
+CompareWorker::~CompareWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    if (job_) {
+      job_->given_up = true;
+      job_->tracing.cancel();
+    }
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+bool CompareWorker::busy() const {
+  const std::lock_guard lock(mutex_);
+  return request_ || job_;
+}
+
+void CompareWorker::give_up() {
+  const std::lock_guard lock(mutex_);
+  if (request_ && !request_->preview) request_.reset();
+  if (!job_ || job_->preview) return;
+  job_->given_up = true;
+  job_->tracing.cancel();
+}
+
+void CompareWorker::start(ComparisonRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    request_ = std::move(request);
+  }
+  wake_.notify_one();
+}
+
+std::optional<Expected<ComparisonOutcome>> CompareWorker::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(outcome_, std::nullopt);
+}
+
+void CompareWorker::run() {
+  for (;;) {
+    std::shared_ptr<Job> job;
+    ComparisonRequest request;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return stop_ || request_; });
+      if (stop_) return;
+      request = std::move(*request_);
+      request_.reset();
+      job = job_ = std::make_shared<Job>();
+      job->preview = request.preview;
+    }
+    std::optional<Expected<ComparisonOutcome>> outcome;
+    try {
+      if (!tracer_) tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel);
+      outcome = compare(std::move(request), *job);
+    } catch (const std::bad_alloc&) {
+      outcome = fail(ErrorKind::graphics, "out of memory");
+    } catch (const std::exception& error) {
+      outcome = fail(ErrorKind::internal, fmt::format("internal error: {}", error.what()));
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      job_.reset();
+      if (outcome) outcome_ = std::move(outcome);
+    }
+    on_finished_();
+  }
+}
+
+std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequest request, Job& job) const {
+  scene_->camera = request.camera;
+  scene_->lights = std::move(request.lights);
+  ComparisonOutcome outcome{request.revision, request.preview, {}, {}, {}, {}, {}};
+  compare::Comparison& comparison = outcome.comparison;
+  comparison.world = world_.get();
+  comparison.plan = plan_;
+  comparison.raster = std::move(request.drawn);
+  comparison.accel_build_ms = tracer_->stats().build_ms;
+
+  compare::CompareOptions options = options_;
+  options.raster = comparison.raster.options;
+  options.raytrace.size = comparison.raster.options.size;
+  const std::vector<std::uint32_t> lights{comparison.raster.lights.front().light};
+  const tbb::task_group_status traced = job.tracing.run_and_wait([&] {
+    comparison.raytraced =
+        raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
+  });
+  if (traced == tbb::task_group_status::canceled || job.given_up) return std::nullopt;
+
+  auto compared = compare::compare_frames(*world_, *tracer_, comparison.raster, comparison.raytraced, options);
+  if (!compared) return Expected<ComparisonOutcome>(fail(compared.error()));
+  comparison.lights = std::move(*compared);
+  comparison.exposure = scene_->exposure ? *scene_->exposure : auto_exposure(comparison.raytraced.color);
+  draw_pictures(outcome);
+  comparison.raytraced.receiver = {};
+  return Expected<ComparisonOutcome>(std::move(outcome));
+}
+
+}  // namespace gnomon::app

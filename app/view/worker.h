@@ -1,0 +1,75 @@
+// Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the window may
+// move camera and light while it works. The newest request wins: a full-size one that is under way is given up when
+// another comes; a preview is finished, so that dragging shows something.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "compare/compare.h"
+#include "scene/effects.h"
+#include "scene/expected.h"
+#include "scene/world.h"
+
+namespace gnomon::app {
+
+/// One drawn frame, and the scene's camera and lights that it was drawn with.
+struct ComparisonRequest {
+  std::uint64_t revision = 0;  ///< of the window's state
+  bool preview = false;        ///< drawn smaller than the window
+  Camera camera;
+  std::vector<Light> lights;
+  raster::RasterFrame drawn;  ///< with the records of the one light to compare
+};
+
+struct ComparisonOutcome {
+  std::uint64_t revision = 0;
+  bool preview = false;
+  compare::Comparison comparison;  ///< without the receivers, by far its largest part
+  Rgb8Image raytrace, difference, labels, depth;
+};
+
+class CompareWorker {
+ public:
+  /// Builds the tracer on the worker's thread. `on_finished` is called there whenever an outcome is ready.
+  CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan, const compare::CompareOptions& options,
+                std::function<void()> on_finished);
+  /// Gives up what is under way and waits for the thread.
+  ~CompareWorker();
+
+  bool busy() const;
+  /// Gives up a full-size comparison that is under way.
+  void give_up();
+  /// Requires that the worker is not busy.
+  void start(ComparisonRequest request);
+  /// The newest outcome that has not been taken, or why there is none.
+  std::optional<Expected<ComparisonOutcome>> take();
+
+ private:
+  struct Job;
+  void run();
+  /// Nothing when the job was given up.
+  std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job) const;
+
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<World> world_;
+  EffectPlan plan_;
+  compare::CompareOptions options_;
+  std::function<void()> on_finished_;
+  std::unique_ptr<raytrace::Tracer> tracer_;  ///< the thread's own
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<ComparisonRequest> request_;  ///< waiting for the thread
+  std::shared_ptr<Job> job_;                  ///< under way
+  std::optional<Expected<ComparisonOutcome>> outcome_;
+  bool stop_ = false;
+  std::thread thread_;  ///< last: starts when all else is there
+};
+
+}  // namespace gnomon::app
