@@ -1,0 +1,53 @@
+// File names that carry a light's name: letters, digits, '_' and '-' stay, every other run becomes one '-'.
+// Two lights that would then share a name get their number in the scene behind it.
+#include <algorithm>
+#include <cctype>
+
+#include "compare/output_parts.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string sanitised(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool keep = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    if (keep)
+      out += c;
+    else if (!out.empty() && out.back() != '-')
+      out += '-';
+  }
+  while (!out.empty() && out.back() == '-') out.pop_back();
+  return out;
+}
+
+bool same_but_for_case(const std::string& a, const std::string& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+}  // namespace
+
+std::string light_file_part(const Comparison& c, const LightComparison& light) {
+  const std::string own = sanitised(light_of(c, light).name);
+  bool all_differ = !own.empty();
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (same_but_for_case(sanitised(light_of(c, c.lights[i]).name),
+                            sanitised(light_of(c, c.lights[j]).name)))
+        all_differ = false;
+  if (all_differ) return own;
+  return (own.empty() ? "light" : own) + "-" + std::to_string(light.light);
+}
+
+std::string aov_path(const Comparison& c, const LightComparison& light, const std::string& path) {
+  if (c.lights.size() < 2) return path;
+  const std::size_t slash = path.find_last_of('/');
+  const std::size_t dot = path.find_last_of('.');
+  const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
+  const std::size_t end = has_extension ? dot : path.size();
+  return path.substr(0, end) + "-" + light_file_part(c, light) + path.substr(end);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,65 @@
+#include "compare/number_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace gnomon::compare {
+
+std::string grouped(std::uint64_t count) {
+  const std::string digits = std::to_string(count);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string percent(double fraction) {
+  const double p = 100.0 * fraction;
+  if (!std::isfinite(p)) return "unknown";
+  if (p == 0.0) return "0 %";
+  if (p > 0.0 && p < 0.001) return "less than 0.001 %";
+  if (p > 99.99 && p < 100.0) return "more than 99.99 %";
+  if (p > 99.0 && p < 100.0) return fmt::format("{:.2f} %", p);
+  return p < 10.0 ? fmt::format("{:.2g} %", p) : fmt::format("{:.3g} %", p);
+}
+
+std::string plain_number(double value) {
+  if (std::isnan(value)) return "unknown";
+  if (std::isinf(value)) return "unlimited";
+  const double size = std::abs(value);
+  if (size >= 1000.0 && size < 1e6) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string signed_number(double value) {
+  if (value == 0.0) return "0";
+  const char* sign = value < 0.0 ? "\u2212" : "+";
+  const double size = std::abs(value);
+  return size < 5e-5 ? fmt::format("{}{:.1e}", sign, size) : fmt::format("{}{:.4f}", sign, size);
+}
+
+std::string texels_text(double texels) {
+  const std::string text = fmt::format("{:.2g}", texels);
+  return text + (std::abs(texels) > 1.0 && text != "1" ? " texels" : " texel");
+}
+
+std::string milliseconds(double ms) {
+  if (!(ms >= 0.0)) return "not timed";
+  if (ms < 10.0) return fmt::format("{:.2g} ms", ms);
+  if (ms < 1000.0) return fmt::format("{:.0f} ms", ms);
+  return fmt::format("{:.3g} s", ms / 1000.0);
+}
+
+std::string byte_count(std::uint64_t bytes) {
+  constexpr std::array<const char*, 5> units{"bytes", "kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1000.0 && unit + 1 < units.size(); ++unit) value /= 1000.0;
+  return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.3g} {}", value, units[unit]);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,26 @@
+// How numbers are written for people: one policy for the summary, the verdict and the report page.
+// Programs read result.json, which holds every number in full.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace gnomon::compare {
+
+/// 1086177 -> "1,086,177".
+std::string grouped(std::uint64_t count);
+/// A share in [0, 1] with two or three significant digits: "4.1 %", "0.043 %", "43.6 %". Never rounds a share
+/// that is neither none nor all to "0 %" or "100 %": those are "less than 0.001 %" and "more than 99.99 %".
+std::string percent(double fraction);
+/// Three significant digits, no exponent between 1e-4 and 1e6; "unlimited" for infinities.
+std::string plain_number(double value);
+/// With its sign, four decimals and a true zero: "+0.0120", "−0.0417", "0", "−0.00002".
+std::string signed_number(double value);
+/// "0.8 texel", "1.6 texels".
+std::string texels_text(double texels);
+/// "12 ms", "0.42 ms", "1.9 s"; "not timed" for a negative value.
+std::string milliseconds(double ms);
+/// "16.8 MB" (powers of ten).
+std::string byte_count(std::uint64_t bytes);
+
+}  // namespace gnomon::compare

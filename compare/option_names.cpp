@@ -1,0 +1,53 @@
+#include "compare/option_names.h"
+
+namespace gnomon::compare {
+
+std::string_view light_type_name(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return "directional";
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+  }
+  return "unknown";
+}
+
+std::string_view technique_name(raster::Technique technique) {
+  switch (technique) {
+    case raster::Technique::hard:
+      return "hard";
+  }
+  return "unknown";
+}
+
+std::string_view depth_format_name(raster::DepthFormat format) {
+  switch (format) {
+    case raster::DepthFormat::d16:
+      return "d16";
+    case raster::DepthFormat::d24:
+      return "d24";
+    case raster::DepthFormat::d32f:
+      return "d32f";
+  }
+  return "unknown";
+}
+
+std::string_view cull_name(raster::Cull cull) {
+  switch (cull) {
+    case raster::Cull::none:
+      return "none";
+    case raster::Cull::front:
+      return "front";
+    case raster::Cull::back:
+      return "back";
+  }
+  return "unknown";
+}
+
+std::string_view program_version() {
+  return GNOMON_VERSION;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,17 @@
+# What a comparison is written as: result.json, CSV, summary, pictures, EXR, report page.
+# GNOMON_COMPARE_OUTPUT_SOURCES goes into the room's library gnomon_compare; the rest happens once that exists.
+set(GNOMON_COMPARE_OUTPUT_SOURCES
+  aov.cpp file_names.cpp flip.cpp labels.cpp number_text.cpp option_names.cpp palette.cpp picture_set.cpp pictures.cpp
+  result_csv.cpp result_json.cpp summary.cpp text_layout.cpp verdict.cpp write_outputs.cpp
+  report/html.cpp report/page.cpp)
+list(TRANSFORM GNOMON_COMPARE_OUTPUT_SOURCES PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
+
+set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/option_names.cpp"
+  PROPERTIES COMPILE_DEFINITIONS "GNOMON_VERSION=\"${PROJECT_VERSION}\"")
+
+function(gnomon_compare_outputs target)
+  set(report "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/report")
+  gnomon_embed(${target} report "${report}/report.css" "${report}/report.js")
+  target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json TBB::tbb)
+endfunction()
+cmake_language(DEFER CALL gnomon_compare_outputs gnomon_compare)

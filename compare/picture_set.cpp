@@ -1,0 +1,100 @@
+#include "compare/picture_set.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <functional>
+#include <optional>
+
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "scene/files/image_io.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr int folder_width = 4096, page_width = 1024;  // pixels
+
+// The smallest whole step that brings a map's picture down to a width.
+int step_for_width(const raster::ShadowMap& map, int width) {
+  const int across = map.view.face_count > 1 ? 3 : 1;
+  int step = 1;
+  while (across * ((map.view.size + step - 1) / step) > width) ++step;
+  return step;
+}
+
+struct Job {
+  EncodedPicture* target;
+  std::function<Rgb8Image()> draw;
+};
+
+void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComparison& light,
+                    LightPictures& out) {
+  const std::string suffix = c.lights.size() > 1 ? fmt::format("-{}", light_file_part(c, light)) : "";
+  const raster::ShadowMap& map = drawn_record(c, light).map;
+  out.difference.file_name = "difference" + suffix + ".png";
+  out.labels.file_name = "labels" + suffix + ".png";
+  out.depth_map.file_name = out.depth_map_small.file_name = "depth-map" + suffix + ".png";
+  out.depth_map_step = step_for_width(map, folder_width);
+  const int small_step = step_for_width(map, page_width), full_step = out.depth_map_step;
+  jobs.push_back({&out.depth_map, [&map, full_step] {
+                    return full_step == 1 ? depth_map_picture(map)
+                                          : depth_map_picture(reduced_map(map, full_step));
+                  }});
+  if (small_step != full_step)
+    jobs.push_back({&out.depth_map_small,
+                    [&map, small_step] { return depth_map_picture(reduced_map(map, small_step)); }});
+  jobs.push_back({&out.difference, [&c, &light] { return difference_picture(c, light); }});
+  jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
+}
+
+}  // namespace
+
+raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step) {
+  raster::ShadowMap small;
+  small.view = map.view;
+  small.view.size = (map.view.size + step - 1) / step;
+  small.format = map.format;
+  small.depth.assign(static_cast<std::size_t>(map.view.face_count) *
+                         static_cast<std::size_t>(small.view.size) *
+                         static_cast<std::size_t>(small.view.size),
+                     1.0f);
+  tbb::parallel_for(0, map.view.face_count * small.view.size, [&](int line) {
+    const int face = line / small.view.size, small_row = line % small.view.size;
+    for (int row = small_row * step; row < std::min((small_row + 1) * step, map.view.size); ++row)
+      for (int column = 0; column < map.view.size; ++column) {
+        float& nearest = small.depth[small.texel_index(face, column / step, small_row)];
+        nearest = std::min(nearest, map.depth[map.texel_index(face, column, row)]);
+      }
+  });
+  return small;
+}
+
+Expected<PictureSet> encode_pictures(const Comparison& c) {
+  PictureSet set;
+  set.raster.file_name = "raster.png";
+  set.raytraced.file_name = "raytrace.png";
+  set.lights.resize(c.lights.size());
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < c.lights.size(); ++i) add_light_jobs(jobs, c, c.lights[i], set.lights[i]);
+  jobs.push_back({&set.raster, [&c] { return raster_picture(c); }});
+  jobs.push_back({&set.raytraced, [&c] { return raytraced_picture(c); }});
+
+  std::vector<std::optional<Error>> errors(jobs.size());
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    const Rgb8Image image = jobs[i].draw();
+    Expected<std::string> png = encode_png(image);
+    if (!png)
+      errors[i] = png.error();
+    else
+      jobs[i].target->png = std::move(*png);
+    jobs[i].target->size = image.size;
+  });
+  for (const std::optional<Error>& error : errors)
+    if (error) return fail(*error);
+  for (LightPictures& light : set.lights)
+    if (light.depth_map_small.png.empty()) light.depth_map_small = light.depth_map;
+  return set;
+}
+
+}  // namespace gnomon::compare

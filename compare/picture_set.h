@@ -1,0 +1,37 @@
+// Every picture of a comparison, drawn and encoded once, for the folder and for the report page alike.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "scene/expected.h"
+
+namespace gnomon::compare {
+
+struct EncodedPicture {
+  std::string file_name;  ///< in the output folder
+  ImageSize size;
+  std::string png;
+};
+
+struct LightPictures {
+  EncodedPicture difference, labels;
+  EncodedPicture depth_map;        ///< as many pixels as texels, up to 4096 wide
+  EncodedPicture depth_map_small;  ///< for the page: up to 1024 wide
+  int depth_map_step = 1;  ///< depth_map has one pixel per step x step texels, the nearest depth of each
+};
+
+struct PictureSet {
+  EncodedPicture raster, raytraced;
+  std::vector<LightPictures> lights;  ///< as Comparison::lights
+};
+
+/// Draws and encodes all pictures in parallel.
+Expected<PictureSet> encode_pictures(const Comparison& comparison);
+
+/// A map with one texel for every step x step block, which keeps the block's nearest depth, so that thin
+/// casters stay visible. Only `view.size` and `depth` are meaningful in it.
+raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step);
+
+}  // namespace gnomon::compare

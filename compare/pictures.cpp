@@ -1,0 +1,86 @@
+// The pictures of a comparison as 8-bit sRGB images, row 0 at the top. Pixel-wise work runs on oneTBB, row by
+// row.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/palette.h"
+#include "scene/files/image_io.h"
+
+namespace gnomon::compare {
+namespace {
+
+template <class Function>
+Rgb8Image picture(ImageSize size, const Function& colour_of) {
+  Rgb8Image image(size);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    for (int x = 0; x < size.width; ++x) image.at(x, y) = colour_of(image.index(x, y));
+  });
+  return image;
+}
+
+// Grey of the drawn picture, kept between 64 and 232 so that both error colours stand out from it.
+glm::u8vec3 backdrop(const glm::u8vec3& c) {
+  const float luma = 0.2126f * static_cast<float>(c.r) + 0.7152f * static_cast<float>(c.g) +
+                     0.0722f * static_cast<float>(c.b);
+  return glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
+}
+
+// Linear depth of a stored value as a share of the map's range: 0 at its near end, 1 at its far end.
+double depth_share(const LightView& view, float stored) {
+  return (depth_from_stored(view, static_cast<double>(stored)) - view.near_depth) /
+         (view.far_depth - view.near_depth);
+}
+
+}  // namespace
+
+Rgb8Image raster_picture(const Comparison& c) {
+  return display_image(c.raster.color, c.exposure);
+}
+
+Rgb8Image raytraced_picture(const Comparison& c) {
+  return display_image(c.raytraced.color, c.exposure);
+}
+
+Rgb8Image difference_picture(const Comparison& c, const LightComparison& light) {
+  const Rgb8Image drawn = raster_picture(c);
+  const Image<float>& v0 = light.rungs[static_cast<std::size_t>(Rung::truth)];
+  const Image<float>& v6 = light.rungs[static_cast<std::size_t>(Rung::drawn)];
+  return picture(drawn.size, [&](std::size_t i) {
+    const glm::u8vec3 grey = backdrop(drawn.data[i]);
+    const float difference = v6.data[i] - v0.data[i];
+    if (!is_compared(light.labels.data[i]) || difference == 0.0f) return grey;
+    const glm::u8vec3 error = difference < 0.0f ? false_shadow_colour : missed_shadow_colour;
+    return glm::u8vec3(glm::mix(Vec3f(grey), Vec3f(error), std::min(std::abs(difference), 1.0f)) + 0.5f);
+  });
+}
+
+Rgb8Image label_picture(const Comparison&, const LightComparison& light) {
+  const Image<float>& truth = light.rungs[static_cast<std::size_t>(Rung::truth)];
+  return picture(light.labels.size, [&](std::size_t i) {
+    const Label label = light.labels.data[i];
+    return label == Label::right && truth.data[i] < 0.5f ? right_in_shadow_colour : label_colour(label);
+  });
+}
+
+Rgb8Image depth_map_picture(const raster::ShadowMap& map) {
+  const int n = map.view.size, faces = map.view.face_count;
+  const int across = std::min(faces, 3), down = (faces + across - 1) / across;  // +x -x +y over -y +z -z
+  const int gap = faces > 1 ? std::max(1, n / 64) : 0;
+  Rgb8Image image({across * n + (across - 1) * gap, down * n + (down - 1) * gap}, nothing_stored_colour);
+  tbb::parallel_for(0, faces * n, [&](int line) {
+    const int face = line / n, row = line % n;
+    const int left = (face % across) * (n + gap), top = (face / across) * (n + gap);
+    for (int column = 0; column < n; ++column) {
+      const float stored = map.depth[map.texel_index(face, column, row)];
+      if (stored < 1.0f)
+        image.at(left + column, top + n - 1 - row) = viridis(1.0 - depth_share(map.view, stored));
+    }
+  });
+  return image;
+}
+
+}  // namespace gnomon::compare

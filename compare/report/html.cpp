@@ -1,0 +1,76 @@
+#include "compare/report/html.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "compare/number_text.h"
+
+namespace gnomon::compare {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto byte = [&bytes](std::size_t i) {
+    return i < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i])} : 0u;
+  };
+  std::string out((bytes.size() + 2) / 3 * 4, '=');
+  for (std::size_t i = 0, o = 0; i < bytes.size(); i += 3, o += 4) {
+    const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    out[o] = digits[group >> 18];
+    out[o + 1] = digits[group >> 12 & 63u];
+    if (i + 1 < bytes.size()) out[o + 2] = digits[group >> 6 & 63u];
+    if (i + 2 < bytes.size()) out[o + 3] = digits[group & 63u];
+  }
+  return out;
+}
+
+std::string data_uri(std::string_view mime, std::string_view bytes) {
+  return fmt::format("data:{};base64,{}", mime, base64(bytes));
+}
+
+std::string script_safe(std::string_view json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) c == '<' ? out += "\\u003c" : out += c;
+  return out;
+}
+
+std::string keyed(std::string_view key, double value, std::string_view text) {
+  const std::string exact = std::isfinite(value) ? fmt::format("{}", value) : "null";
+  return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", exact, key, escaped(text));
+}
+
+std::string keyed_count(std::string_view key, std::uint64_t count) {
+  return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", count, key, grouped(count));
+}
+
+std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+  return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
+}
+
+}  // namespace gnomon::compare

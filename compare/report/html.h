@@ -1,0 +1,25 @@
+// The few things that writing HTML needs: escaping, data URIs, and numbers that know their key in
+// result.json.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace gnomon::compare {
+
+/// Text for element content and quoted attributes. Control characters become spaces.
+std::string escaped(std::string_view text);
+std::string base64(std::string_view bytes);
+std::string data_uri(std::string_view mime, std::string_view bytes);
+/// JSON text that may stand inside <script>: no '<' is left in it.
+std::string script_safe(std::string_view json);
+
+/// <data value="0.041" data-key="lights.0.error.wrong_fraction">4.1 %</data>; `text` is escaped.
+std::string keyed(std::string_view key, double value, std::string_view text);
+std::string keyed_count(std::string_view key, std::uint64_t count);
+
+/// "#d55e00"
+std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,225 @@
+// result.json: every number of a comparison under the keys of DESIGN.md section 6
+// (compare/report/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
+// not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
+// which the schema allows only where it has a meaning.
+#include <nlohmann/json.hpp>
+
+#include "compare/option_names.h"
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json vector3(const Vec3& v) {
+  return Json::array({number(v.x), number(v.y), number(v.z)});
+}
+
+Json times(const Times& t) {
+  Json runs = Json::array();
+  for (const double run : t.runs) runs.push_back(number(run));
+  return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
+}
+
+Json one_time(double ms) {
+  return times(Times{{ms}});
+}
+
+Json light_json(const Light& light) {
+  Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
+  if (light.type != LightType::directional) json["position"] = vector3(light.position);
+  if (light.type != LightType::point) json["direction"] = vector3(light.direction);
+  return json;
+}
+
+Json map_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::MapOptions& map = c.raster.options.map;
+  const double texel = light.texel_world[1];
+  return {{"technique", technique_name(map.technique)},
+          {"size", record.map.view.size},
+          {"faces", record.map.view.face_count},
+          {"depth_format", depth_format_name(record.map.format)},
+          {"cull", cull_name(map.cull)},
+          {"bias",
+           {{"constant_world", number(record.bias_constant_world)},
+            {"constant_texels", texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
+            {"slope", number(map.bias.slope)},
+            {"normal_offset_texels", number(map.bias.normal_offset_texels)},
+            {"receiver_plane", map.bias.receiver_plane}}},
+          {"filter", {{"kind", "none"}, {"radius_texels", 0.0}}},
+          {"texel_world",
+           {{"min", number(light.texel_world[0])},
+            {"median", number(light.texel_world[1])},
+            {"max", number(light.texel_world[2])}}}};
+}
+
+Json pixels_json(const PixelCounts& p) {
+  return {{"total", p.total},           {"background", p.background}, {"facing_away", p.facing_away},
+          {"silhouette", p.silhouette}, {"uncertain", p.uncertain},   {"compared", p.compared}};
+}
+
+Json error_json(const ErrorStats& e) {
+  return {{"wrong", e.wrong},
+          {"wrong_fraction", number(e.wrong_fraction)},
+          {"false_shadow", e.false_shadow},
+          {"missed_shadow", e.missed_shadow},
+          {"mean_absolute", number(e.mean_absolute)},
+          {"rms", number(e.rms)},
+          {"flip", number(e.flip)}};
+}
+
+Json budget_json(const LightComparison& light) {
+  Json json = Json::array();
+  for (std::size_t k = 0; k < cause_count; ++k)
+    json.push_back({{"cause", cause_name(static_cast<Cause>(k))},
+                    {"signed", number(light.budget[k].signed_mean)},
+                    {"absolute", number(light.budget[k].absolute_mean)}});
+  return json;
+}
+
+Json ladder_json(const LightComparison& light) {
+  constexpr std::array<const char*, rung_count> names{"truth",  "point",  "texel", "flat",
+                                                      "stored", "biased", "drawn"};
+  const auto means = rung_means(light);
+  Json json = Json::array();
+  for (std::size_t k = 0; k < rung_count; ++k)
+    json.push_back({{"rung", names[k]}, {"mean", number(means[k])}});
+  return json;
+}
+
+Json classes_json(const LightComparison& light) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < class_count; ++k)
+    json[std::string(label_name(static_cast<Label>(k + 1)))] = light.classes[k];
+  return json;
+}
+
+Json bias_curve_json(const LightComparison& light) {
+  Json json = Json::array();
+  for (const BiasCurvePoint& p : light.bias_curve)
+    json.push_back(
+        {{"bias", number(p.bias)}, {"false_shadow", p.false_shadow}, {"missed_shadow", p.missed_shadow}});
+  return json;
+}
+
+Json best_bias_json(const BestBias& b) {
+  return {{"constant_world", number(b.constant_world)},
+          {"wrong_fraction", number(b.wrong_fraction)},
+          {"feasible", b.feasible},
+          {"needs_more_than", number(b.needs_more_than)},
+          {"needs_less_than", number(b.needs_less_than)},
+          {"lit_pixels_above", b.lit_pixels_above},
+          {"shadowed_pixels_below", b.shadowed_pixels_below}};
+}
+
+Json light_block(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  return {{"light", light_json(light_of(c, light))},
+          {"map", map_json(c, light)},
+          {"pixels", pixels_json(light.pixels)},
+          {"error", error_json(light.error)},
+          {"budget", budget_json(light)},
+          {"ladder", ladder_json(light)},
+          {"classes", classes_json(light)},
+          {"edges",
+           {{"count", light.edges.edges},
+            {"mean_texels", number(light.edges.mean_texels)},
+            {"rms_texels", number(light.edges.rms_texels)},
+            {"rms_pixels", number(light.edges.rms_pixels)}}},
+          {"detachment",
+           {{"pixels", light.detachment.pixels},
+            {"mean_world", number(light.detachment.mean_world)},
+            {"max_world", number(light.detachment.max_world)}}},
+          {"bias_curve", bias_curve_json(light)},
+          {"best_bias", best_bias_json(light.best_bias)},
+          {"shadow_rays", truth.rays},
+          {"times_ms",
+           {{"map_pass", times(drawn.map_pass)},
+            {"shade_pass", times(drawn.shade_pass)},
+            {"shadow_rays", times(truth.shadow_rays)},
+            {"classify", times(light.classify)}}}};
+}
+
+Json effects_json(const EffectPlan& plan) {
+  Json json = Json::array();
+  for (const EffectEntry& e : plan.entries)
+    json.push_back({{"effect", effect_name(e.effect)},
+                    {"called_for", e.called_for},
+                    {"simulated", e.simulated},
+                    {"reason", e.reason}});
+  return json;
+}
+
+Json scene_json(const World& world) {
+  const Scene& scene = *world.scene;
+  return {{"path", scene.path},
+          {"sha256", scene.sha256},
+          {"triangles", world.triangle_count()},
+          {"shapes", world.shapes.size()},
+          {"name", scene.name},
+          {"notes", scene.notes}};
+}
+
+Json costs_json(const Comparison& c) {
+  const raytrace::RayCounts& rays = c.raytraced.rays;
+  return {{"map_texels", c.raster.map_texels},  {"map_bytes", c.raster.map_bytes},
+          {"primary_rays", rays.primary},       {"shadow_rays", rays.shadow},
+          {"reflection_rays", rays.reflection}, {"refraction_rays", rays.refraction}};
+}
+
+}  // namespace
+
+std::string result_json(const Comparison& c, double report_ms, double total_ms) {
+  Json lights = Json::array();
+  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
+  const Json json{
+      {"schema", "gnomon/result/1"},
+      {"command", c.command},
+      {"version", program_version()},
+      {"seed", c.seed},
+      {"threads", c.threads},
+      {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
+      {"exposure", number(c.exposure)},
+      {"scene", scene_json(*c.world)},
+      {"machine", {{"cpu", c.machine.cpu}, {"cores", c.machine.cores}, {"os", c.machine.os}}},
+      {"gl",
+       {{"backend", c.raster.context.backend},
+        {"version", c.raster.context.version},
+        {"renderer", c.raster.context.renderer}}},
+      {"effects", effects_json(c.plan)},
+      {"costs", costs_json(c)},
+      {"times_ms",
+       {{"load", one_time(c.load_ms)},
+        {"accel_build", one_time(c.accel_build_ms)},
+        {"primary_rays", times(c.raytraced.primary_rays)},
+        {"picture", one_time(c.raytraced.picture_ms)},
+        {"report", one_time(report_ms)},
+        {"total", one_time(total_ms)}}},
+      {"lights", std::move(lights)}};
+  // Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string result_json(const Comparison& c) {
+  return result_json(c, c.report_ms, c.total_ms);
+}
+
+std::array<double, rung_count> rung_means(const LightComparison& light) {
+  std::array<double, rung_count> sums{};
+  for (std::size_t k = 0; k < rung_count; ++k)
+    for (std::size_t i = 0; i < light.labels.data.size(); ++i)
+      if (is_compared(light.labels.data[i])) sums[k] += static_cast<double>(light.rungs[k].data[i]);
+  if (light.pixels.compared > 0)
+    for (double& sum : sums) sum /= static_cast<double>(light.pixels.compared);
+  return sums;
+}
+
+}  // namespace gnomon::compare

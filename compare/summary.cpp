@@ -1,0 +1,160 @@
+// The summary that `gnomon compare` prints: per light the verdict, the counts, the budget and what the time
+// bought. At most 80 columns; colour is the terminal's own bold and dim, so that it follows the user's theme.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/number_text.h"
+#include "compare/option_names.h"
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/text_layout.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::size_t columns = 80;
+constexpr std::size_t field_column = 12;  // where the values begin
+
+class Page {
+ public:
+  explicit Page(bool colour) : colour_(colour) {}
+
+  void heading(std::string_view text) {
+    for (const std::string& part : wrapped(text, columns)) text_ += styled("1", part) + '\n';
+  }
+  void paragraph(std::string_view text) {
+    for (const std::string& part : wrapped(text, columns - 2)) text_ += "  " + part + '\n';
+  }
+  // A name and its value; longer values go on below the first.
+  void field(std::string_view name, std::string_view value) {
+    std::string label = right_padded(name, field_column - 2);
+    for (const std::string& part : wrapped(value, columns - field_column)) {
+      text_ += "  " + styled("2", label) + part + '\n';
+      label = std::string(field_column - 2, ' ');
+    }
+  }
+  void blank() { text_ += '\n'; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string styled(std::string_view code, const std::string& text) const {
+    return colour_ ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
+  }
+  bool colour_;
+  std::string text_;
+};
+
+// A name from a file, on one line and without control characters.
+std::string safe_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
+      ' ');
+  return name;
+}
+
+std::string spoken(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string map_line(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::MapOptions& map = c.raster.options.map;
+  const double texel = light.texel_world[1];
+  std::string text =
+      fmt::format("{}, {} x {}{} texels, {}, bias {}", technique_name(map.technique), record.map.view.size,
+                  record.map.view.size,
+                  record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "",
+                  depth_format_name(record.map.format), plain_number(record.bias_constant_world));
+  if (texel > 0.0)
+    text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
+                        plain_number(texel));
+  if (map.bias.slope != 0.0) text += fmt::format(", slope bias {}", plain_number(map.bias.slope));
+  if (map.bias.normal_offset_texels != 0.0)
+    text += fmt::format(", normal offset {}", texels_text(map.bias.normal_offset_texels));
+  if (map.bias.receiver_plane) text += ", receiver plane";
+  if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
+  return text;
+}
+
+std::string pixels_line(const PixelCounts& p) {
+  return fmt::format("{} of {} compared; {} background, {} facing away, {} silhouette, {} uncertain",
+                     grouped(p.compared), grouped(p.total), grouped(p.background), grouped(p.facing_away),
+                     grouped(p.silhouette), grouped(p.uncertain));
+}
+
+std::string wrong_line(const ErrorStats& e) {
+  return fmt::format("{} ({}); false shadow {}, missed shadow {}; FLIP {}", grouped(e.wrong),
+                     percent(e.wrong_fraction), grouped(e.false_shadow), grouped(e.missed_shadow),
+                     plain_number(e.flip));
+}
+
+std::string labels_line(const LightComparison& light) {
+  std::string text;
+  for (std::size_t k = 0; k < class_count; ++k)
+    if (light.classes[k] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", spoken(label_name(static_cast<Label>(k + 1))),
+                          grouped(light.classes[k]));
+  return text.empty() ? "none" : text;
+}
+
+std::string budget_line(const LightComparison& light) {
+  std::string text;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < cause_count; ++k) {
+    const double step = light.budget[k].signed_mean;
+    sum += step;
+    if (light.budget[k].absolute_mean > 0.0)
+      text += fmt::format("{} {}, ", spoken(cause_name(static_cast<Cause>(k))), signed_number(step));
+  }
+  return text + "sum " + signed_number(sum);
+}
+
+std::string median_text(const Times& t) {
+  return milliseconds(t.runs.empty() ? -1.0 : t.median());
+}
+
+// What the time bought: an approximation by the map, or the exact answer by rays.
+void add_times(Page& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
+                                 median_text(drawn.map_pass), median_text(drawn.shade_pass)));
+  page.field("", fmt::format("exact rays: {} for {}", median_text(truth.shadow_rays), grouped(truth.rays)));
+}
+
+void add_light(Page& page, const Comparison& c, const LightComparison& light) {
+  page.blank();
+  page.heading(fmt::format("light '{}' ({})", safe_name(light_of(c, light).name),
+                           light_type_name(light_of(c, light).type)));
+  page.paragraph(verdict_sentence(c, light));
+  page.blank();
+  page.field("map", map_line(c, light));
+  page.field("pixels", pixels_line(light.pixels));
+  if (light.pixels.compared > 0) {
+    page.field("wrong", wrong_line(light.error));
+    page.field("labels", labels_line(light));
+    page.field("budget", budget_line(light));
+  }
+  add_times(page, c, light);
+}
+
+}  // namespace
+
+std::string summary_table(const Comparison& c, bool colour) {
+  Page page(colour);
+  const ImageSize size = c.raster.options.size;
+  page.heading(fmt::format("{}: {} x {} pixels, {} triangles, {} shapes", safe_name(c.world->scene->name),
+                           size.width, size.height, grouped(c.world->triangle_count()),
+                           c.world->shapes.size()));
+  for (const LightComparison& light : c.lights) add_light(page, c, light);
+  page.blank();
+  page.field("whole", fmt::format("{} on {} thread{}; primary rays {}; peak memory {}",
+                                  milliseconds(c.total_ms), c.threads, c.threads == 1 ? "" : "s",
+                                  median_text(c.raytraced.primary_rays), byte_count(c.peak_memory_bytes)));
+  return page.take();
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,19 @@
+// Plain-text layout for terminals: widths count code points, not bytes.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::compare {
+
+/// Code points of UTF-8 text (continuation bytes do not count).
+std::size_t text_width(std::string_view text);
+/// Lines of at most `width` code points, broken at spaces that do not follow a digit ("95 ms" stays
+/// together); a longer word is cut.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+/// Filled with spaces to `width` on the left or the right side.
+std::string left_padded(std::string_view text, std::size_t width);
+std::string right_padded(std::string_view text, std::size_t width);
+
+}  // namespace gnomon::compare

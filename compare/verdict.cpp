@@ -1,0 +1,102 @@
+// The verdict in plain words: how many pixels are wrong, mostly why, and what the best constant bias would
+// leave.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "compare/number_text.h"
+#include "compare/outputs.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double few_fraction = 1e-4;  // below 0.01 % a count says more than a share
+
+std::string spoken(Label label) {
+  std::string name(label_name(label));
+  std::replace(name.begin(), name.end(), '_', label == Label::peter_panning ? '-' : ' ');
+  return name;
+}
+
+// "all of them acne", "mostly acne", "mainly acne and aliasing".
+std::string main_reasons(const LightComparison& light) {
+  std::array<std::size_t, class_count> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return light.classes[a] > light.classes[b]; });
+  const auto name = [&](std::size_t rank) { return spoken(static_cast<Label>(order[rank] + 1)); };
+  const auto count = [&](std::size_t rank) { return light.classes[order[rank]]; };
+  const std::uint64_t wrong = light.error.wrong;
+  if (count(0) == wrong) return wrong == 1 ? name(0) : "all of them " + name(0);
+  if (2 * count(0) > wrong) return "mostly " + name(0);
+  if (2 * (count(0) + count(1)) > wrong) return fmt::format("mainly {} and {}", name(0), name(1));
+  return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
+}
+
+std::string wrong_part(const LightComparison& light) {
+  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
+  const bool few = light.error.wrong_fraction < few_fraction;
+  const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
+                                : fmt::format("{} of the", percent(light.error.wrong_fraction));
+  return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
+                     main_reasons(light));
+}
+
+std::string bias_text(const LightComparison& light, double bias) {
+  const std::string world = plain_number(bias) + " world units";
+  const double texel = light.texel_world[1];
+  return texel > 0.0 && std::isfinite(bias) ? fmt::format("{} ({})", world, texels_text(bias / texel))
+                                            : world;
+}
+
+std::string contradiction(const LightComparison& light) {
+  const BestBias& best = light.best_bias;
+  if (best.needs_less_than == -infinity)
+    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
+           "map.";
+  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
+  return fmt::format(
+      " No constant bias can be right everywhere: {} lit pixel{} at least {}, up to {}, and {} shadowed "
+      "pixel{} less "
+      "than {}, down to {}.",
+      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_less_than),
+      plain_number(best.needs_more_than), grouped(shadowed), shadowed == 1 ? " needs" : "s need",
+      plain_number(best.needs_more_than), plain_number(best.needs_less_than));
+}
+
+std::string bias_part(const LightComparison& light) {
+  const BestBias& best = light.best_bias;
+  std::string text;
+  if (best.wrong_fraction < light.error.wrong_fraction) {
+    const bool few = best.wrong_fraction < few_fraction && best.wrong_fraction > 0.0;
+    const double left = best.wrong_fraction * static_cast<double>(light.pixels.compared);
+    const std::string rest = best.wrong_fraction == 0.0 ? "none"
+                             : few                      ? fmt::format("{:.0f} of them", left)
+                                                        : percent(best.wrong_fraction);
+    text = fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world), rest);
+  } else if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction) {
+    text = " No other constant bias does better.";
+  }
+  return best.feasible ? text : text + contradiction(light);
+}
+
+std::string nothing_compared(const PixelCounts& p) {
+  return fmt::format(
+      "No pixel could be compared: of {}, {} show no surface, {} face away from the light, {} are "
+      "silhouettes and {} "
+      "uncertain.",
+      grouped(p.total), grouped(p.background), grouped(p.facing_away), grouped(p.silhouette),
+      grouped(p.uncertain));
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Comparison&, const LightComparison& light) {
+  if (light.pixels.compared == 0) return nothing_compared(light.pixels);
+  return wrong_part(light) + bias_part(light);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,145 @@
+// The words: verdict, summary, CSV, numbers and file names.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "compare/number_text.h"
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/text_layout.h"
+#include "tests/synthetic_comparison.h"
+
+namespace gnomon::compare {
+namespace {
+
+TEST(NumberText, WritesCountsSharesAndTimes) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1086177), "1,086,177");
+  EXPECT_EQ(percent(0.0), "0 %");
+  EXPECT_EQ(percent(0.0412), "4.1 %");
+  EXPECT_EQ(percent(0.006), "0.6 %");
+  EXPECT_EQ(percent(0.4361), "43.6 %");
+  EXPECT_EQ(percent(1.0), "100 %");
+  EXPECT_EQ(percent(1e-9), "less than 0.001 %");
+  EXPECT_EQ(percent(0.99996), "more than 99.99 %");
+  EXPECT_EQ(signed_number(-0.04171), "\u22120.0417");
+  EXPECT_EQ(signed_number(0.0), "0");
+  EXPECT_EQ(signed_number(2e-5), "+2.0e-05");
+  EXPECT_EQ(milliseconds(0.423), "0.42 ms");
+  EXPECT_EQ(milliseconds(95.25), "95 ms");
+  EXPECT_EQ(milliseconds(1904.0), "1.9 s");
+  EXPECT_EQ(milliseconds(-1.0), "not timed");
+  EXPECT_EQ(byte_count(16777216), "16.8 MB");
+  EXPECT_EQ(texels_text(0.8), "0.8 texel");
+  EXPECT_EQ(texels_text(1.0), "1 texel");
+  EXPECT_EQ(texels_text(1.56), "1.6 texels");
+}
+
+// A light whose counts are set by hand.
+struct Case {
+  std::unique_ptr<Synthetic> made = make_synthetic();
+  LightComparison& light = made->comparison.lights[0];
+  Case(std::uint64_t compared, std::array<std::uint64_t, class_count> classes) {
+    light.pixels = {compared, 0, 0, 0, 0, compared};
+    light.classes = classes;
+    light.error.wrong = 0;
+    for (const std::uint64_t n : classes) light.error.wrong += n;
+    light.error.wrong_fraction = static_cast<double>(light.error.wrong) / static_cast<double>(compared);
+    light.texel_world = {0.01, 0.0125, 0.02};
+  }
+  std::string verdict() const { return verdict_sentence(made->comparison, light); }
+};
+
+TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
+  Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
+  EXPECT_EQ(c.verdict(),
+            "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne. A constant bias of 0.01 world units "
+            "(0.8 texel) "
+            "would leave 0.6 %.");
+}
+
+TEST(Verdict, SaysWhenNoBiasCanBeRight) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.01, 0.041, false, 0.031, 0.012, 213, 97};
+  EXPECT_EQ(c.verdict(),
+            "4.1 % of the lit-or-shadowed pixels are wrong, all of them acne. No other constant bias does "
+            "better. No constant "
+            "bias can be right everywhere: 213 lit pixels need at least 0.012, up to 0.031, and 97 shadowed "
+            "pixels need less "
+            "than 0.031, down to 0.012.");
+  c.light.best_bias.needs_less_than = -infinity;
+  EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
+}
+
+TEST(Verdict, HandlesNoneFewAndNothing) {
+  Case none(5000, {});
+  none.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(none.verdict(), "None of the 5,000 lit-or-shadowed pixels is wrong.");
+  Case one(1000000, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
+  one.light.best_bias = {0.02, 0.0, true, 0.01, 0.03, 0, 0};
+  EXPECT_EQ(
+      one.verdict(),
+      "1 of 1,000,000 lit-or-shadowed pixels is wrong, aliasing. A constant bias of 0.02 world units (1.6 "
+      "texels) would leave none.");
+  Case split(1000, {10, 0, 12, 0, 5, 5, 0, 0, 0, 0});
+  split.light.best_bias = {0.01, 0.032, true, 0, 1, 0, 0};
+  EXPECT_NE(split.verdict().find("mainly peter-panning and acne."), std::string::npos) << split.verdict();
+  Case nothing(1, {});
+  nothing.light.pixels = {100, 60, 30, 8, 2, 0};
+  EXPECT_EQ(nothing.verdict(),
+            "No pixel could be compared: of 100, 60 show no surface, 30 face away from the light, 8 are "
+            "silhouettes and 2 uncertain.");
+}
+
+TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
+  const auto made = make_synthetic(3);
+  made->scene.lights[1].name =
+      "a light with a name that is far longer than anybody would want it to be, on two\nlines";
+  const std::string plain = summary_table(made->comparison, false),
+                    coloured = summary_table(made->comparison, true);
+  EXPECT_EQ(plain.find('\x1b'), std::string::npos);
+  EXPECT_NE(coloured.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9;]*m"), ""), plain);
+  std::size_t start = 0;
+  for (std::size_t end; (end = plain.find('\n', start)) != std::string::npos; start = end + 1)
+    EXPECT_LE(text_width(plain.substr(start, end - start)), 80u) << plain.substr(start, end - start);
+  for (const char* part : {"the map: 12 ms", "exact rays: 95 ms for 41,234", "acne", "budget", "187"})
+    EXPECT_NE(plain.find(part), std::string::npos) << part << "\n" << plain;
+}
+
+TEST(TextLayout, WrapsAtSpacesAndCutsLongWords) {
+  EXPECT_EQ(wrapped("one two three", 7), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(wrapped("abcdefghij kl", 4), (std::vector<std::string>{"abcd", "efgh", "ij", "kl"}));
+  EXPECT_EQ(wrapped("in 95 ms", 5), (std::vector<std::string>{"in", "95 ms"}));
+  EXPECT_EQ(wrapped("", 4), std::vector<std::string>{""});
+  EXPECT_EQ(text_width("\u2212\u00e41"), 3u);
+}
+
+TEST(Csv, HasOneRowPerLightAndQuotesNames) {
+  const auto made = make_synthetic(2);
+  made->scene.name = "a \"b\", c";
+  const std::string csv = result_csv(made->comparison);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  EXPECT_NE(csv.find("\r\n\"a \"\"b\"\", c\",sun,directional,320,180,hard,64,d32f,0.052,"), std::string::npos)
+      << csv;
+  const std::string header = csv.substr(0, csv.find('\r'));
+  EXPECT_EQ(header.rfind("scene,light,light_type,", 0), 0u);
+  const std::string row =
+      csv.substr(csv.find(",sun,"), csv.find('\r', csv.find(",sun,")) - csv.find(",sun,"));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
+}
+
+TEST(FileNames, KeepLightsApart) {
+  const auto one = make_synthetic(1), two = make_synthetic(2), three = make_synthetic(3);
+  EXPECT_EQ(aov_path(one->comparison, one->comparison.lights[0], "d.x/aov.exr"), "d.x/aov.exr");
+  EXPECT_EQ(aov_path(two->comparison, two->comparison.lights[1], "d.x/aov.exr"), "d.x/aov-lamp-2.exr");
+  EXPECT_EQ(aov_path(two->comparison, two->comparison.lights[0], "d.x/aov"), "d.x/aov-sun");
+  EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[1]), "lamp-2-1");
+  EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[2]), "lamp-2-2");
+}
+
+}  // namespace
+}  // namespace gnomon::compare
