@@ -29,7 +29,7 @@ struct ParameterInfo {
   std::string_view description;
   bool whole = false;                         ///< a number (or every element) must be whole
   std::size_t min_size = 0, max_size = 0;     ///< of a list; both 0: the default's size
-  std::span<const std::string_view> choices;  ///< of a string; empty: any
+  std::span<const std::string_view> choices{};  ///< of a string; empty: any
 };
 
 struct GeneratorInfo {

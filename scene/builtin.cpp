@@ -1,0 +1,42 @@
+// The list of built-in scenes. A test holds each description to the one in the scene's own file.
+#include "scene/builtin.h"
+
+#include <embedded/builtin_scenes.h>
+#include <array>
+#include <string>
+
+#include "scene/load.h"
+
+namespace gnomon {
+namespace {
+
+// In the order in which a newcomer should see them.
+constexpr std::array<BuiltinScene, 8> scenes{{
+    {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
+    {"acne-floor",
+     "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
+    {"floating-box",
+     "Boxes that stand on a floor and boxes that float just above it: bias detaches their shadows."},
+    {"thin-wall", "A wall thinner than the bias that cures acne: its shadow starts too far away."},
+    {"sphere-plane",
+     "One exact sphere over an exact plane under a point light: the truth has a closed form."},
+    {"whitted", "Glass and mirror spheres over a checkered floor, after Whitted's picture of 1980."},
+    {"teapot", "Newell's teapot on a table."},
+    {"courtyard",
+     "A court with arcades, stairs, balustrades and a fountain: tens of thousands of triangles in the sun."},
+}};
+
+}  // namespace
+
+std::vector<BuiltinScene> builtin_scenes() {
+  return {scenes.begin(), scenes.end()};
+}
+
+std::optional<BuiltinFile> find_builtin_scene(std::string_view name) {
+  for (const BuiltinScene& s : scenes) {
+    if (s.name == name) return BuiltinFile{s.name, embedded::builtin_scenes(std::string(name) + ".json")};
+  }
+  return std::nullopt;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,132 @@
+// A picket fence along the x axis, from x = 0 to x = length, its pickets on the +z side of two rails that run
+// between posts. Every picket, rail and post is its own closed body; rails run into the posts, pickets stand
+// off the rails by nothing but a hair's overlap, so that no two faces coincide.
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/generate/generator.h"
+#include "scene/generate/mesh_builder.h"
+#include "scene/generate/random.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double overlap = 0.002;  // metres that touching timbers run into each other
+
+std::vector<Vec2> picket_outline(double width, double height, const std::string& top, double top_height) {
+  const double w = 0.5 * width, shoulder = height - top_height;
+  std::vector<Vec2> outline{{-w, 0.0}, {w, 0.0}};
+  if (top == "pointed") {
+    outline.insert(outline.end(), {{w, shoulder}, {0.0, height}, {-w, shoulder}});
+  } else if (top == "round") {
+    const double s = top_height / w;  // an ellipse's arc, w wide and top_height high
+    for (const Vec2& p : arc({0.0, 0.0}, w, 0.0, pi, 12)) outline.push_back({p.x, shoulder + s * p.y});
+  } else {
+    outline.insert(outline.end(), {{w, height}, {-w, height}});
+  }
+  return outline;
+}
+
+Mesh pickets(const Values& v, double length) {
+  Random random(v.seed());
+  const double width = v.number("picket_width"), pitch = width + v.number("gap"), bevel = v.number("bevel");
+  const double jitter = v.number("jitter");
+  const int count = std::max(1, static_cast<int>(std::floor((length - width) / pitch)) + 1);
+  const double start = 0.5 * (length - (count - 1) * pitch);
+  MeshBuilder b;
+  for (int i = 0; i < count; ++i) {
+    const double height = v.number("height") + jitter * random.between(-0.01, 0.01);
+    const double lean = jitter * random.between(-0.012, 0.012);
+    const double turn = jitter * random.between(-0.03, 0.03);
+    const double shift = jitter * random.between(-0.004, 0.004);
+    Mat4 place = glm::translate(Mat4(1.0), Vec3(start + i * pitch + shift, v.number("ground_gap"), -overlap));
+    place = glm::rotate(place, turn, Vec3(0.0, 1.0, 0.0));
+    place = glm::rotate(place, lean, Vec3(0.0, 0.0, 1.0));
+    const auto outline = picket_outline(width, height, v.text("top"), v.number("top_height"));
+    b.prism(outline, 0.0, v.number("picket_thickness"), bevel, place);
+  }
+  return b.take();
+}
+
+Mesh rails(const Values& v, double length) {
+  const double height = v.number("rail_height"), thickness = v.number("rail_thickness");
+  const double ends = 0.4 * v.number("post_width");  // inside the end posts
+  MeshBuilder b;
+  for (const double y : v.list("rails")) {
+    b.box({ends, y - 0.5 * height, -thickness}, {length - ends, y + 0.5 * height, 0.0}, v.number("bevel"));
+  }
+  return b.take();
+}
+
+// Posts stand behind the pickets, one at each end and the rest evenly between, each with a cap shaped like a
+// low pyramid.
+Mesh posts(const Values& v, double length) {
+  const double width = v.number("post_width"), height = v.number("post_height");
+  const int spans = std::max(1, static_cast<int>(std::lround(length / v.number("post_spacing"))));
+  const double front = -4.0 * overlap, back = front - width, eave = 0.015;
+  MeshBuilder b;
+  for (int i = 0; i <= spans; ++i) {
+    const double x0 = (length - width) * i / spans, x1 = x0 + width;
+    const auto ring = [&](double y, double out) {
+      return std::vector<Vec3>{{x0 - out, y, front + out},
+                               {x1 + out, y, front + out},
+                               {x1 + out, y, back - out},
+                               {x0 - out, y, back - out}};
+    };
+    const std::array shaft{ring(0.0, 0.0), ring(height, 0.0)};
+    b.loft(shaft);
+    const std::array cap{ring(height - overlap, eave), ring(height + 0.025, eave),
+                         ring(height + 0.07, -0.35 * width)};
+    b.loft(cap);
+  }
+  return b.take();
+}
+
+Expected<GeneratedModel> make_fence(const Values& v) {
+  const double length = v.number("length");
+  if (2.0 * v.number("bevel") >= std::min(v.number("picket_thickness"), v.number("picket_width"))) {
+    return fail_parameter("bevel", "must be less than half of the picket's thickness and width");
+  }
+  if (v.number("top_height") >= v.number("height"))
+    return fail_parameter("top_height", "must be less than the height");
+  if (length < v.number("post_width") + v.number("picket_width")) {
+    return fail_parameter("length", "leaves no room for a post and a picket");
+  }
+  GeneratedModel model;
+  model.parts.push_back({"picket", pickets(v, length)});
+  if (!v.list("rails").empty()) model.parts.push_back({"rail", rails(v, length)});
+  model.parts.push_back({"post", posts(v, length)});
+  return model;
+}
+
+const std::array<std::string_view, 3> parts{"picket", "rail", "post"};
+const std::array<std::string_view, 3> tops{"pointed", "round", "flat"};
+const std::array<ParameterInfo, 17> parameters{{
+    length_parameter("length", 4.0, 0.1, 1000.0, "from the first post's outer side to the last one's"),
+    length_parameter("height", 1.0, 0.05, 10.0, "of a picket, without the gap under it"),
+    length_parameter("picket_width", 0.075, 0.005, 1.0, "of a picket"),
+    length_parameter("picket_thickness", 0.02, 0.002, 0.5, "of a picket"),
+    length_parameter("gap", 0.06, 0.001, 2.0, "between pickets"),
+    length_parameter("ground_gap", 0.05, 0.0, 1.0, "under the pickets"),
+    {"top", "", std::string("pointed"), -infinity, infinity, "shape of the pickets' tops", false, 0, 0, tops},
+    length_parameter("top_height", 0.07, 0.001, 2.0, "of the pointed or round top"),
+    length_parameter("bevel", 0.003, 0.0, 0.1, "chamfer of pickets and rails"),
+    {"rails", "m", std::vector<double>{0.3, 0.8}, 0.0, 10.0, "heights of the rails' middles", false, 0, 10},
+    length_parameter("rail_height", 0.07, 0.01, 1.0, "of a rail's section"),
+    length_parameter("rail_thickness", 0.035, 0.01, 1.0, "of a rail's section"),
+    length_parameter("post_width", 0.1, 0.01, 1.0, "of a post's square section"),
+    length_parameter("post_height", 1.1, 0.05, 10.0, "of a post without its cap"),
+    length_parameter("post_spacing", 2.0, 0.2, 100.0, "between posts, about: they are spread evenly"),
+    {"jitter", "", 1.0, 0.0, 4.0, "how irregular the pickets stand; 0 is perfect"},
+    seed_parameter(),
+}};
+
+}  // namespace
+
+std::span<const MeshGenerator> fence_generators() {
+  static const std::array<MeshGenerator, 1> list{{
+      {{"fence", "A picket fence along x with rails and capped posts.", parameters, parts}, make_fence},
+  }};
+  return list;
+}
+
+}  // namespace gnomon

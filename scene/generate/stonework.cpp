@@ -1,0 +1,157 @@
+// Balustrades and stairs. Closed bodies that run a few millimetres into what they rest on.
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/generate/generator.h"
+#include "scene/generate/mesh_builder.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double overlap = 0.004;  // metres that stones run into each other
+
+// ---- balustrade along x, from 0 to length: pedestals, turned balusters, a base and a hand rail
+
+// A vase-shaped baluster of unit height, its widest radius 0.16: pairs of radius and height from foot to
+// head.
+constexpr std::array<std::array<double, 2>, 15> baluster{{{0.0, 0.0},
+                                                          {0.15, 0.0},
+                                                          {0.15, 0.08},
+                                                          {0.10, 0.11},
+                                                          {0.085, 0.15},
+                                                          {0.11, 0.21},
+                                                          {0.15, 0.29},
+                                                          {0.16, 0.36},
+                                                          {0.14, 0.45},
+                                                          {0.10, 0.56},
+                                                          {0.072, 0.68},
+                                                          {0.065, 0.80},
+                                                          {0.10, 0.86},
+                                                          {0.14, 1.0},
+                                                          {0.0, 1.0}}};
+
+Mesh one_baluster(double height, int segments) {
+  std::vector<ProfilePoint> profile;
+  for (const auto& [radius, y] : baluster) profile.push_back({height * radius, height * y});
+  for (const std::size_t crease : {1, 2, 3, 12, 13}) profile[crease].crease = true;
+  MeshBuilder b;
+  b.lathe(profile, segments);
+  return b.take();
+}
+
+Expected<GeneratedModel> make_balustrade(const Values& v) {
+  const double length = v.number("length"), height = v.number("height"),
+               pedestal = v.number("pedestal_width");
+  const double depth = 0.75 * pedestal, rail = 0.14 * height, base = 0.12 * height;
+  const int spans = std::max(1, static_cast<int>(std::lround(length / v.number("pedestal_spacing"))));
+  const double pitch = (length - pedestal) / spans, clear = pitch - pedestal;
+  if (clear < v.number("spacing"))
+    return fail_parameter("length", "leaves no room for a baluster between the pedestals");
+  const double bevel = 0.01 * height;
+  MeshBuilder pedestals, rails, balusters;
+  for (int i = 0; i <= spans; ++i) {
+    const double x = 0.5 * pedestal + i * pitch, w = 0.5 * pedestal;
+    pedestals.box({x - w, -overlap, -w}, {x + w, height, w}, bevel);
+    pedestals.box({x - 1.14 * w, height - overlap, -1.14 * w},
+                  {x + 1.14 * w, height + 0.06 * height, 1.14 * w}, bevel);
+    pedestals.box({x - 1.1 * w, -2.0 * overlap, -1.1 * w}, {x + 1.1 * w, 0.1 * height, 1.1 * w}, bevel);
+  }
+  const Mesh one = one_baluster(height - rail - base + 2.0 * overlap, v.count("segments"));
+  for (int i = 0; i < spans; ++i) {
+    const double x0 = pedestal + i * pitch - overlap, x1 = x0 + clear + 2.0 * overlap;
+    rails.box({x0, -1.5 * overlap, -0.45 * depth}, {x1, base, 0.45 * depth}, bevel);
+    rails.box({x0, height - rail, -0.5 * depth}, {x1, height - 0.02 * height, 0.5 * depth}, bevel);
+    const int count = std::max(1, static_cast<int>(std::floor(clear / v.number("spacing"))));
+    for (int k = 0; k < count; ++k) {
+      const double x = pedestal + i * pitch + clear * (k + 0.5) / count;
+      balusters.append(one, glm::translate(Mat4(1.0), Vec3(x, base - overlap, 0.0)));
+    }
+  }
+  GeneratedModel model;
+  model.parts.push_back({"pedestal", pedestals.take()});
+  model.parts.push_back({"rail", rails.take()});
+  model.parts.push_back({"baluster", balusters.take()});
+  return model;
+}
+
+const std::array<std::string_view, 3> balustrade_parts{"pedestal", "rail", "baluster"};
+const std::array<ParameterInfo, 6> balustrade_parameters{{
+    length_parameter("length", 6.0, 0.3, 1000.0, "from the first pedestal's outer side to the last one's"),
+    length_parameter("height", 0.9, 0.1, 10.0, "of the pedestals, without their caps"),
+    length_parameter("spacing", 0.26, 0.02, 5.0, "between balusters, about: they are spread evenly"),
+    length_parameter("pedestal_width", 0.3, 0.05, 5.0, "of a pedestal's square section"),
+    length_parameter("pedestal_spacing", 3.0, 0.2, 100.0, "between pedestals, about: they are spread evenly"),
+    count_parameter("segments", 14, 4, 256, "sides of a baluster"),
+}};
+
+// ---- stairs: they climb towards -z, the first riser at z = 0, each tread a slab that overhangs its riser
+
+// The body below the treads: side faces fan from corners that leave no triangle flat, so that it closes
+// without T-junctions.
+Mesh stair_body(int steps, double rise, double tread, double width, double drop) {
+  MeshBuilder b;
+  const double x = 0.5 * width;
+  for (int i = 0; i < steps; ++i) {
+    const double z0 = -i * tread, z1 = -(i + 1) * tread;
+    const double below = i == 0 ? -overlap : i * rise - drop, y = (i + 1) * rise - drop;
+    const double foot = -overlap;
+    const auto quad = [&](const std::array<Vec3, 4>& c) { b.polygon(c); };
+    quad({Vec3(-x, below, z0), Vec3(x, below, z0), Vec3(x, y, z0), Vec3(-x, y, z0)});
+    quad({Vec3(-x, y, z0), Vec3(x, y, z0), Vec3(x, y, z1), Vec3(-x, y, z1)});
+    quad({Vec3(-x, foot, z1), Vec3(x, foot, z1), Vec3(x, foot, z0), Vec3(-x, foot, z0)});
+    const double above = y;
+    std::vector<Vec3> right{Vec3(x, foot, z1), Vec3(x, above, z1), Vec3(x, y, z0)};
+    if (i > 0) right.emplace_back(x, below, z0);
+    right.emplace_back(x, foot, z0);
+    b.polygon(right);
+    std::vector<Vec3> left{Vec3(-x, foot, z1), Vec3(-x, foot, z0)};
+    if (i > 0) left.emplace_back(-x, below, z0);
+    left.insert(left.end(), {Vec3(-x, y, z0), Vec3(-x, above, z1)});
+    b.polygon(left);
+  }
+  const double z = -steps * tread, y = steps * rise - drop;
+  const std::array<Vec3, 4> back{Vec3(x, -overlap, z), Vec3(-x, -overlap, z), Vec3(-x, y, z), Vec3(x, y, z)};
+  b.polygon(back);
+  return b.take();
+}
+
+Expected<GeneratedModel> make_stairs(const Values& v) {
+  const int steps = v.count("steps");
+  const double rise = v.number("rise"), tread = v.number("tread"), width = v.number("width");
+  const double slab = 0.3 * rise, nose = v.number("nosing");
+  MeshBuilder treads;
+  for (int i = 0; i < steps; ++i) {
+    const double y = (i + 1) * rise, z0 = -i * tread + nose;
+    // The next tread's riser stands on this slab; the last one ends with the body.
+    const double z1 = -(i + 1) * tread - (i + 1 < steps ? 0.25 * tread : 0.0);
+    treads.box({-0.5 * width - nose, y - slab, z1 - overlap}, {0.5 * width + nose, y, z0}, 0.06 * rise);
+  }
+  GeneratedModel model;
+  model.parts.push_back({"riser", stair_body(steps, rise, tread, width, 0.5 * slab)});
+  model.parts.push_back({"tread", treads.take()});
+  return model;
+}
+
+const std::array<std::string_view, 2> stairs_parts{"riser", "tread"};
+const std::array<ParameterInfo, 5> stairs_parameters{{
+    count_parameter("steps", 4, 1, 500, "treads"),
+    length_parameter("rise", 0.16, 0.02, 5.0, "of one step"),
+    length_parameter("tread", 0.32, 0.02, 5.0, "depth of one step"),
+    length_parameter("width", 3.0, 0.05, 500.0, "along x, without the treads' overhang"),
+    length_parameter("nosing", 0.02, 0.001, 0.5, "overhang of the treads in front and at the sides"),
+}};
+
+}  // namespace
+
+std::span<const MeshGenerator> stonework_generators() {
+  static const std::array<MeshGenerator, 2> list{{
+      {{"balustrade", "Turned balusters between pedestals along x, with a base and a hand rail.",
+        balustrade_parameters, balustrade_parts},
+       make_balustrade},
+      {{"stairs", "Steps that climb towards -z from a first riser at z = 0.", stairs_parameters,
+        stairs_parts},
+       make_stairs},
+  }};
+  return list;
+}
+
+}  // namespace gnomon

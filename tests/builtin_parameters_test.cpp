@@ -1,0 +1,96 @@
+// The check of generators' parameters: every wrong name, type, size, range and combination is an error that
+// names it.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scene/generate/generate.h"
+
+namespace gnomon {
+namespace {
+
+void expect_refused(std::string_view kind, const Parameters& parameters, std::string_view field,
+                    std::string_view words) {
+  const Expected<GeneratedModel> m = generate(kind, parameters);
+  ASSERT_FALSE(m) << kind << " took a bad " << field;
+  EXPECT_EQ(m.error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(m.error().field, field);
+  EXPECT_NE(m.error().reason.find(words), std::string::npos) << m.error().reason;
+}
+
+TEST(GeneratorParameters, WrongOnesAreNamed) {
+  expect_refused("fnece", {}, "kind", "fnece");
+  expect_refused("fence", {{"lenght", 3.0}}, "lenght", "no such parameter");
+  expect_refused("fence", {{"length", -1.0}}, "length", "got -1");
+  expect_refused("fence", {{"length", std::string("long")}}, "length", "a string");
+  expect_refused("fence", {{"length", std::nan("")}}, "length", "out of range");
+  expect_refused("fence", {{"top", std::string("spiky")}}, "top", "pointed, round, flat");
+  expect_refused("box", {{"size", std::vector{1.0, 2.0}}}, "size", "got 2, allowed 3");
+  expect_refused("box", {{"size", std::vector{1.0, 0.0, 1.0}}}, "size", "out of range");
+  expect_refused("teapot", {{"divisions", 2.5}}, "divisions", "whole");
+  expect_refused("arcade", {{"first_column", 1.0}}, "first_column", "true or false");
+}
+
+TEST(GeneratorParameters, WrongCombinationsAreNamed) {
+  expect_refused("box", {{"bevel", 0.5}}, "bevel", "half");
+  expect_refused("fence", {{"length", 0.12}}, "length", "room");
+  expect_refused("fence", {{"bevel", 0.01}}, "bevel", "half");
+  expect_refused("fence", {{"top_height", 1.2}}, "top_height", "less");
+  expect_refused("column", {{"height", 0.5}}, "height", "six times");
+  expect_refused("arcade", {{"arch_radius", 1.2}}, "arch_radius", "room");
+  expect_refused("arcade", {{"height", 3.7}}, "height", "crown");
+  expect_refused("arcade", {{"column_height", 0.5}}, "column_height", "six times");
+  expect_refused("balustrade", {{"length", 0.5}}, "length", "room");
+  expect_refused("paving", {{"joint", 0.5}}, "joint", "nothing");
+  expect_refused("lathe", {{"profile", std::vector{0.0, 0.0, 1.0, 0.0, 1.0}}}, "profile", "even");
+  expect_refused("lathe", {{"profile", std::vector{0.0, 0.0, -1.0, 0.0}}}, "profile", "negative");
+  expect_refused("lathe", {{"profile", std::vector{1.0, 0.0, 1.0, 0.0}}}, "profile", "twice");
+  expect_refused("lathe", {{"profile", std::vector{0.0, 0.0, 0.0, 1.0}}}, "profile", "axis");
+  expect_refused("lathe", {{"creases", std::vector{9.0}}}, "creases", "lacks");
+}
+
+// The smallest and the largest value of every numeric parameter either works or is refused with a field:
+// never a crash. Upper bounds of counts are left out where they would only cost time.
+TEST(GeneratorParameters, EndsOfEveryRangeAreSafe) {
+  for (const GeneratorInfo& info : generators()) {
+    for (const ParameterInfo& p : info.parameters) {
+      if (!std::holds_alternative<double>(p.default_value)) continue;
+      for (const double value : {p.min, p.max}) {
+        if (p.whole && p.name != "seed" && value > 64.0) continue;
+        const Expected<GeneratedModel> m = generate(info.kind, {{std::string(p.name), value}});
+        if (!m) {
+          EXPECT_FALSE(m.error().field.empty()) << info.kind << '.' << p.name;
+          continue;
+        }
+        for (const GeneratedPart& part : m->parts) {
+          for (const Vec3& v : part.mesh.positions) {
+            ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))
+                << info.kind << '.' << p.name;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(GeneratorParameters, TablesAreWellFormed) {
+  std::string_view last;
+  for (const GeneratorInfo& info : generators()) {
+    EXPECT_LT(last, info.kind) << "sorted, no kind twice";
+    last = info.kind;
+    EXPECT_EQ(find_generator(info.kind), &info);
+    EXPECT_FALSE(info.description.empty());
+    std::set<std::string_view> names;
+    for (const ParameterInfo& p : info.parameters) {
+      EXPECT_TRUE(names.insert(p.name).second) << info.kind << '.' << p.name << " twice";
+      EXPECT_FALSE(p.description.empty()) << info.kind << '.' << p.name;
+      EXPECT_LE(p.min, p.max);
+      EXPECT_NE(p.name, "kind");
+    }
+  }
+  EXPECT_EQ(find_generator("nothing"), nullptr);
+  EXPECT_EQ(find_texture_generator("fence"), nullptr);
+}
+
+}  // namespace
+}  // namespace gnomon
