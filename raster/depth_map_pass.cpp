@@ -1,0 +1,147 @@
+#include "raster/depth_map_pass.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+GLenum gl_format(DepthFormat format) {
+  switch (format) {
+    case DepthFormat::d16:
+      return GL_DEPTH_COMPONENT16;
+    case DepthFormat::d24:
+      return GL_DEPTH_COMPONENT24;
+    case DepthFormat::d32f:
+      break;
+  }
+  return GL_DEPTH_COMPONENT32F;
+}
+
+}  // namespace
+
+Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, bool with_ids) {
+  Gl& gl = *gl_;
+  const ImageSize size{view.size, view.size};
+  const bool same = depth_ && depth_.size() == size && depth_.layers() == view.face_count &&
+                    depth_.format() == gl_format(format);
+  if (same && (!with_ids || ids_)) return {};
+  faces_.clear();
+  depth_ = Texture2D();
+  ids_ = Texture2D();
+  depth_ = Texture2D(gl, gl_format(format), size, view.face_count);
+  if (with_ids) ids_ = Texture2D(gl, GL_R32UI, size, view.face_count);
+  const std::string what =
+      fmt::format("a depth map of {0} x {0} texels, {1} face(s)", view.size, view.face_count);
+  if (auto ok = gl.check(what); !ok) return ok;
+  for (int i = 0; i < view.face_count; ++i) {
+    Face face{Framebuffer(gl), Framebuffer(gl)};
+    face.depth.attach(GL_DEPTH_ATTACHMENT, depth_, i);
+    face.depth.draw_to(0);
+    if (auto ok = face.depth.check_complete(); !ok) return ok;
+    if (with_ids) {
+      face.depth_and_ids.attach(GL_DEPTH_ATTACHMENT, depth_, i);
+      face.depth_and_ids.attach(GL_COLOR_ATTACHMENT0, ids_, i);
+      face.depth_and_ids.draw_to(1);
+      if (auto ok = face.depth_and_ids.check_complete(); !ok) return ok;
+    }
+    faces_.push_back(std::move(face));
+  }
+  return gl.check(what);
+}
+
+void DepthMapPass::set_state(int size, Cull cull) const {
+  const Gl& gl = *gl_;
+  gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // row 0 of the map is the lowest v
+  gl->Viewport(0, 0, size, size);
+  gl->Disable(GL_BLEND);
+  gl->Disable(GL_SCISSOR_TEST);
+  gl->Enable(GL_DEPTH_TEST);
+  gl->DepthMask(GL_TRUE);
+  gl->DepthFunc(GL_LESS);
+  gl->Enable(GL_DEPTH_CLAMP);  // a caster before the near depth is stored at it rather than cut away
+  if (cull == Cull::none) {
+    gl->Disable(GL_CULL_FACE);
+  } else {
+    gl->Enable(GL_CULL_FACE);
+    gl->FrontFace(GL_CCW);
+    gl->CullFace(cull == Cull::front ? GL_FRONT : GL_BACK);
+  }
+}
+
+Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull,
+                                  bool with_ids) {
+  const Gl& gl = *gl_;
+  const auto opaque = programs_->triangles(with_ids, false);
+  if (!opaque) return fail(opaque.error());
+  const auto masked = programs_->features().alpha_mask ? programs_->triangles(with_ids, true) : opaque;
+  if (!masked) return fail(masked.error());
+  world.bind();
+  set_state(view.size, cull);
+  std::array<GLint, 4> viewport{};
+  gl->GetIntegerv(GL_VIEWPORT, viewport.data());
+  if (viewport[2] != view.size || viewport[3] != view.size)
+    return fail(ErrorKind::graphics, fmt::format("map size: the viewport was cut to {} x {} (got {} texels)",
+                                                 viewport[2], viewport[3], view.size));
+  for (int face = 0; face < view.face_count; ++face) {
+    const Face& target = faces_[static_cast<std::size_t>(face)];
+    const Framebuffer& framebuffer = with_ids ? target.depth_and_ids : target.depth;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    const float clear_depth = shaders::map_clear_depth;
+    gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
+    if (with_ids) gl->ClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &no_id);
+    world.draw_triangles(**opaque, **masked, light_clip_from_relative(view, face, world.reference()));
+    gl->Disable(GL_CULL_FACE);
+    if (auto ok = draw_shapes(world, view, face, cull, with_ids); !ok) return ok;
+    if (cull != Cull::none) gl->Enable(GL_CULL_FACE);
+  }
+  return {};
+}
+
+Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const LightView& view, int face,
+                                         Cull cull, bool with_ids) {
+  const World& world = buffers.world();
+  const bool perspective = view.projection == LightProjection::perspective;
+  const Projection projection{view.origin, view.faces[static_cast<std::size_t>(face)], view.half_extent,
+                              perspective, Vec2(2.0 / view.size)};
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const Shape& shape = world.shapes[i];
+    const auto bounds = shape_bounds(projection, shape);
+    if (!bounds) continue;
+    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    const auto program = programs_->impostor({.camera = false,
+                                              .sphere = std::holds_alternative<Sphere>(shape.geometry),
+                                              .perspective = perspective,
+                                              .primitive_ids = with_ids,
+                                              .alpha_mask = masked && programs_->features().alpha_mask});
+    if (!program) return fail(program.error());
+    (*program)->use();
+    (*program)->set_shape(static_cast<int>(i), *bounds);
+    (*program)->set_face(face, cull);
+    (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  return {};
+}
+
+void DepthMapPass::read(ShadowMap& map, bool with_ids) const {
+  const std::size_t texels = depth_.size().pixels() * static_cast<std::size_t>(depth_.layers());
+  map.depth.resize(texels);
+  depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(map.depth)));
+  if (!with_ids) return;
+  map.primitive.resize(texels);
+  ids_.read(GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(map.primitive)));
+}
+
+void DepthMapPass::bind_for_lookup() const {
+  depth_.bind(shaders::depth_map_unit);
+}
+
+std::uint64_t DepthMapPass::bytes() const {
+  const std::uint64_t texel = depth_.format() == GL_DEPTH_COMPONENT16 ? 2 : 4;
+  return texel * depth_.size().pixels() * static_cast<std::uint64_t>(depth_.layers());
+}
+
+}  // namespace gnomon::raster

@@ -1,0 +1,39 @@
+// Renders a light's depth map, face by face, and reads it back. The timed pass stores depth alone; the
+// analysis pass is the same pass that also stores which primitive each texel holds. Private to raster.
+#pragma once
+
+#include <vector>
+
+#include "raster/frame.h"
+#include "raster/world_buffers.h"
+
+namespace gnomon::raster {
+
+class DepthMapPass {
+ public:
+  DepthMapPass(Gl& gl, ProgramCache& programs) : gl_(&gl), programs_(&programs) {}
+
+  /// Makes (or keeps) the textures. Error (graphics): out of memory.
+  Expected<void> prepare(const LightView& view, DepthFormat format, bool with_ids);
+  /// Clears and draws every face; the light's block must be bound.
+  Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids);
+  /// Reads the last map drawn; primitive ids only if it was drawn with them.
+  void read(ShadowMap& map, bool with_ids) const;
+  void bind_for_lookup() const;
+  std::uint64_t bytes() const;
+
+ private:
+  struct Face {
+    Framebuffer depth, depth_and_ids;
+  };
+  Expected<void> draw_shapes(const WorldBuffers& world, const LightView& view, int face, Cull cull,
+                             bool with_ids);
+  void set_state(int size, Cull cull) const;
+
+  Gl* gl_;
+  ProgramCache* programs_;
+  Texture2D depth_, ids_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace gnomon::raster

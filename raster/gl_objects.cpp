@@ -1,0 +1,110 @@
+#include "raster/gl_objects.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace gnomon::raster {
+namespace {
+
+template <class Create>
+GLuint created(const Create& create) {
+  GLuint id = 0;
+  create(&id);
+  return id;
+}
+
+}  // namespace
+
+Buffer::Buffer(const Gl& gl) : GlObject(gl, created([&](GLuint* id) { gl->CreateBuffers(1, id); })) {}
+
+void Buffer::write_bytes(const void* data, std::size_t size) {
+  if (size != 0 && size == size_) {
+    gl()->NamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(size), data);
+    return;
+  }
+  // A shader storage block needs some memory behind it even when it holds nothing.
+  constexpr std::size_t least = 64;
+  size_ = size;
+  gl()->NamedBufferData(id(), static_cast<GLsizeiptr>(std::max(size, least)), size < least ? nullptr : data,
+                        GL_DYNAMIC_DRAW);
+  if (size != 0 && size < least) gl()->NamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(size), data);
+}
+
+void Buffer::bind(GLenum target, int binding) const {
+  gl()->BindBufferBase(target, static_cast<GLuint>(binding), id());
+}
+
+Texture2D::Texture2D(const Gl& gl, GLenum format, ImageSize size, int layers)
+    : GlObject(gl, created([&](GLuint* id) {
+                 gl->CreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, id);
+               })),
+      size_(size),
+      layers_(layers),
+      format_(format) {
+  if (layers > 0) {
+    gl->TextureStorage3D(id(), 1, format, size.width, size.height, layers);
+  } else {
+    gl->TextureStorage2D(id(), 1, format, size.width, size.height);
+  }
+  gl->TextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl->TextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl->TextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl->TextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void Texture2D::bind(int unit) const {
+  gl()->BindTextureUnit(static_cast<GLuint>(unit), id());
+}
+
+void Texture2D::read(GLenum components, GLenum type, std::span<std::byte> out) const {
+  gl()->PixelStorei(GL_PACK_ALIGNMENT, 1);
+  // GetTextureSubImage takes a 32-bit size for the whole; layer by layer even the largest map fits.
+  const int count = std::max(layers_, 1);
+  const std::size_t bytes = out.size() / static_cast<std::size_t>(count);
+  for (int layer = 0; layer < count; ++layer) {
+    std::byte* to = out.data() + static_cast<std::size_t>(layer) * bytes;
+    gl()->GetTextureSubImage(id(), 0, 0, 0, layer, size_.width, size_.height, 1, components, type,
+                             static_cast<GLsizei>(bytes), to);
+  }
+}
+
+Framebuffer::Framebuffer(const Gl& gl)
+    : GlObject(gl, created([&](GLuint* id) { gl->CreateFramebuffers(1, id); })) {}
+
+void Framebuffer::attach(GLenum attachment, const Texture2D& texture, int layer) {
+  if (layer < 0) {
+    gl()->NamedFramebufferTexture(id(), attachment, texture.id(), 0);
+  } else {
+    gl()->NamedFramebufferTextureLayer(id(), attachment, texture.id(), 0, layer);
+  }
+}
+
+void Framebuffer::draw_to(int count) {
+  constexpr std::array<GLenum, 3> all{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  gl()->NamedFramebufferDrawBuffers(id(), count, all.data());
+}
+
+Expected<void> Framebuffer::check_complete() const {
+  const GLenum status = gl()->CheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return {};
+  return fail(ErrorKind::graphics, fmt::format("the framebuffer cannot be drawn to (status 0x{:x})", status));
+}
+
+VertexArray::VertexArray(const Gl& gl)
+    : GlObject(gl, created([&](GLuint* id) { gl->CreateVertexArrays(1, id); })) {}
+
+void VertexArray::set_indices(const Buffer& buffer) {
+  gl()->VertexArrayElementBuffer(id(), buffer.id());
+}
+
+void VertexArray::set_floats(int attribute, const Buffer& buffer, int components) {
+  const auto index = static_cast<GLuint>(attribute);
+  gl()->EnableVertexArrayAttrib(id(), index);
+  gl()->VertexArrayAttribFormat(id(), index, components, GL_FLOAT, GL_FALSE, 0);
+  gl()->VertexArrayAttribBinding(id(), index, index);
+  gl()->VertexArrayVertexBuffer(id(), index, buffer.id(), 0,
+                                components * static_cast<GLsizei>(sizeof(float)));
+}
+
+}  // namespace gnomon::raster

@@ -1,0 +1,31 @@
+// GLSL programs linked from the embedded sources of shaders/, with #include lines resolved (each file once)
+// and a permutation's names defined. Private to raster.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "raster/gl_objects.h"
+
+namespace gnomon::raster {
+
+class Program : public GlObject<GlKind::program> {
+ public:
+  Program() = default;
+  /// `fragment` may be empty: depth only. Error (internal): the compiler's log; the shaders are part of the
+  /// program.
+  static Expected<Program> link(const Gl& gl, std::string_view vertex, std::string_view fragment,
+                                std::span<const std::string_view> defines);
+  /// A compute program from source text that may include files of shaders/ (tests use it).
+  static Expected<Program> link_compute(const Gl& gl, std::string_view source);
+  void use() const;
+
+ protected:
+  using GlObject::GlObject;
+};
+
+/// The text of a stage as the compiler gets it.
+std::string expand_shader(std::string_view file, std::span<const std::string_view> defines);
+
+}  // namespace gnomon::raster

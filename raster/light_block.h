@@ -1,0 +1,20 @@
+// What the shaders know of a light and its map: the twin of shaders/light_map.glsl's uniform block. Private
+// to raster.
+#pragma once
+
+#include <array>
+
+#include "raster/options.h"
+#include "scene/light_view.h"
+
+namespace gnomon::raster {
+
+struct LightBlock {
+  std::array<Vec4f, 6> right, up, forward;
+  Vec4f origin_and_size, extent_and_depths, bias, direction_and_cos_outer, intensity_and_cone;
+};
+
+LightBlock make_light_block(const Light& light, const LightView& view, const Bias& bias,
+                            double constant_world, const Vec3& reference);
+
+}  // namespace gnomon::raster

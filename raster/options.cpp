@@ -1,0 +1,62 @@
+#include "raster/options.h"
+
+#include <fmt/format.h>
+
+#include "raster/options_check.h"
+
+namespace gnomon::raster {
+namespace {
+
+Error usage(std::string field, std::string reason) {
+  Error error{ErrorKind::usage, std::move(reason)};
+  error.field = std::move(field);
+  return error;
+}
+
+Expected<void> check_bias(const Bias& bias) {
+  const auto finite = [](std::string field, double value) -> Expected<void> {
+    if (std::isfinite(value)) return {};
+    return fail(usage(std::move(field), fmt::format("must be finite (got {})", value)));
+  };
+  if (auto ok = finite("bias", bias.constant); !ok) return ok;
+  if (auto ok = finite("slope bias", bias.slope); !ok) return ok;
+  if (auto ok = finite("normal offset", bias.normal_offset_texels); !ok) return ok;
+  if (bias.normal_offset_texels < 0.0)
+    return fail(
+        usage("normal offset", fmt::format("must not be negative (got {})", bias.normal_offset_texels)));
+  return {};
+}
+
+Expected<void> check_size(std::string field, std::string_view unit, int size, int limit,
+                          std::string_view limit_name) {
+  if (size < 1)
+    return fail(usage(std::move(field), fmt::format("must be at least 1 {} (got {})", unit, size)));
+  if (size <= limit) return {};
+  Error error{ErrorKind::graphics, fmt::format("is too large for this OpenGL (got {} {}, allowed {}: {})",
+                                               size, unit, limit, limit_name)};
+  error.field = std::move(field);
+  return fail(std::move(error));
+}
+
+}  // namespace
+
+Expected<void> check_options(const RasterOptions& options, const ContextInfo& context) {
+  constexpr std::string_view limits = "the least of GL_MAX_TEXTURE_SIZE and GL_MAX_VIEWPORT_DIMS";
+  const int limit = context.max_map_size;
+  if (auto ok = check_size("map size", "texels", options.map.size, limit, limits); !ok) return ok;
+  if (auto ok = check_size("image width", "pixels", options.size.width, limit, limits); !ok) return ok;
+  if (auto ok = check_size("image height", "pixels", options.size.height, limit, limits); !ok) return ok;
+  if (options.runs < 0)
+    return fail(usage("runs", fmt::format("must not be negative (got {})", options.runs)));
+  return check_bias(options.map.bias);
+}
+
+double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {
+  if (bias.unit == BiasUnit::world) return bias.constant;
+  double depth = 0.0;
+  if (!world.finite_bounds.empty()) depth = project_to_texel(view, world.finite_bounds.center()).depth;
+  if (!(depth > 0.0)) depth = std::sqrt(std::max(0.0, view.near_depth * view.far_depth));
+  return bias.constant * texel_world_size(view, depth);
+}
+
+}  // namespace gnomon::raster

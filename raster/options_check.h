@@ -1,0 +1,18 @@
+// Checks of the user's choices, and the conversion of a bias to world units. Private to raster.
+#pragma once
+
+#include "raster/frame.h"
+#include "scene/world.h"
+
+namespace gnomon::raster {
+
+/// Error: ErrorKind::usage for a value outside its range, ErrorKind::graphics for a size beyond the context's
+/// limit.
+Expected<void> check_options(const RasterOptions& options, const ContextInfo& context);
+
+/// The constant bias in world units. A texel's width on a perspective map is the one at the depth of the
+/// finite scene's centre, or halfway through the map (geometric mean) when the scene has no such centre
+/// before the light.
+double constant_bias_world(const Bias& bias, const LightView& view, const World& world);
+
+}  // namespace gnomon::raster

@@ -1,0 +1,64 @@
+#include "raster/present.h"
+
+#include "raster/gl_program.h"
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+class GlPresenter final : public Presenter {
+ public:
+  GlPresenter(std::unique_ptr<Gl> gl, Program program)
+      : gl_(std::move(gl)), program_(std::move(program)), vertex_array_(*gl_) {}
+
+  Expected<void> draw(const Rgb8Image& picture, const Viewport& viewport, Scaling scaling) override {
+    if (picture.size.pixels() == 0 || viewport.width < 1 || viewport.height < 1) return {};
+    Gl& gl = *gl_;
+    upload(picture, scaling);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl->Viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
+      gl->Disable(off);
+    gl->BindVertexArray(vertex_array_.id());
+    texture_.bind(shaders::present_unit);
+    program_.use();
+    gl->ProgramUniform4f(program_.id(), shaders::viewport_uniform, static_cast<float>(viewport.x),
+                         static_cast<float>(viewport.y), static_cast<float>(viewport.width),
+                         static_cast<float>(viewport.height));
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->BindVertexArray(0);
+    gl->UseProgram(0);
+    return gl.check("showing the picture");
+  }
+
+ private:
+  void upload(const Rgb8Image& picture, Scaling scaling) {
+    Gl& gl = *gl_;
+    if (!texture_ || !(texture_.size() == picture.size)) texture_ = Texture2D(gl, GL_RGB8, picture.size);
+    const GLint filter = scaling == Scaling::nearest ? GL_NEAREST : GL_LINEAR;
+    gl->TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, filter);
+    gl->TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, filter);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl->TextureSubImage2D(texture_.id(), 0, 0, 0, picture.size.width, picture.size.height, GL_RGB,
+                          GL_UNSIGNED_BYTE, picture.data.data());
+  }
+
+  std::unique_ptr<Gl> gl_;
+  Program program_;
+  VertexArray vertex_array_;
+  Texture2D texture_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Presenter>> Presenter::create(Context& context) {
+  if (!context.make_current()) return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  auto gl = Gl::load(context);
+  if (!gl) return fail(gl.error());
+  auto program = Program::link(**gl, "fullscreen.vert", "present.frag", {});
+  if (!program) return fail(program.error());
+  return std::make_unique<GlPresenter>(std::move(*gl), std::move(*program));
+}
+
+}  // namespace gnomon::raster

@@ -1,0 +1,138 @@
+#include "raster/programs.h"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+/// The names that a permutation defines.
+class Defines {
+ public:
+  Defines& add(bool wanted, std::string_view name) {
+    if (wanted) names_.push_back(name);
+    return *this;
+  }
+  operator std::span<const std::string_view>() const { return names_; }
+
+ private:
+  std::vector<std::string_view> names_;
+};
+
+template <class Typed>
+Expected<Typed> typed(Expected<Program> program) {
+  if (!program) return fail(program.error());
+  Typed result;
+  static_cast<Program&>(result) = std::move(*program);
+  return result;
+}
+
+}  // namespace
+
+SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
+  SceneFeatures features;
+  features.textures = plan.simulates(Effect::textures);
+  features.alpha_mask = plan.simulates(Effect::alpha_mask);
+  features.specular = plan.simulates(Effect::specular);
+  features.emission = plan.simulates(Effect::emission);
+  features.smooth_normals = std::any_of(world.normals.begin(), world.normals.end(),
+                                        [](const Vec3f& n) { return n != Vec3f(0.0f); });
+  return features;
+}
+
+Expected<TriangleProgram> TriangleProgram::link(const Gl& gl, const Permutation& p) {
+  const auto defines = Defines()
+                           .add(p.primitive_ids, "PRIMITIVE_IDS")
+                           .add(p.alpha_mask, "ALPHA_MASK")
+                           .add(p.textures && p.alpha_mask, "TEXTURES");
+  const bool has_fragments = p.primitive_ids || p.alpha_mask;
+  auto program = typed<TriangleProgram>(
+      Program::link(gl, "triangle.vert", has_fragments ? "triangle.frag" : "", defines));
+  if (program) program->reads_primitive_ = has_fragments;
+  return program;
+}
+
+void TriangleProgram::set_clip_from_relative(const Mat4& matrix) const {
+  const Mat4f rounded(matrix);
+  gl()->ProgramUniformMatrix4fv(id(), shaders::clip_from_relative_uniform, 1, GL_FALSE,
+                                glm::value_ptr(rounded));
+}
+
+void TriangleProgram::set_first_primitive(std::uint32_t primitive) const {
+  if (reads_primitive_) gl()->ProgramUniform1ui(id(), shaders::first_primitive_uniform, primitive);
+}
+
+Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation& p) {
+  const auto defines = Defines()
+                           .add(p.sphere, "SPHERE")
+                           .add(p.perspective, "PERSPECTIVE")
+                           .add(p.primitive_ids, "PRIMITIVE_IDS")
+                           .add(p.alpha_mask, "ALPHA_MASK")
+                           .add(p.textures && p.alpha_mask, "TEXTURES");
+  return typed<ImpostorProgram>(
+      Program::link(gl, "impostor.vert", p.camera ? "impostor_camera.frag" : "impostor_map.frag", defines));
+}
+
+void ImpostorProgram::set_shape(int index, const ClipRectangle& r) const {
+  gl()->ProgramUniform1i(id(), shaders::shape_uniform, index);
+  gl()->ProgramUniform4f(id(), shaders::rectangle_uniform, static_cast<float>(r.min.x),
+                         static_cast<float>(r.min.y), static_cast<float>(r.max.x),
+                         static_cast<float>(r.max.y));
+}
+
+void ImpostorProgram::set_face(int face, Cull cull) const {
+  gl()->ProgramUniform1i(id(), shaders::face_uniform, face);
+  const int code = cull == Cull::none ? shaders::cull_none
+                                      : (cull == Cull::front ? shaders::cull_front : shaders::cull_back);
+  gl()->ProgramUniform1i(id(), shaders::cull_uniform, code);
+}
+
+Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, const SceneFeatures& features) {
+  const bool lit = !p.no_light;
+  const auto defines = Defines()
+                           .add(p.no_light, "NO_LIGHT")
+                           .add(p.first_light, "FIRST_LIGHT")
+                           .add(p.records, "RECORDS")
+                           .add(lit && p.light == LightType::directional, "DIRECTIONAL")
+                           .add(lit && p.light == LightType::spot, "SPOT")
+                           .add(lit && p.light != LightType::directional, "PERSPECTIVE")
+                           .add(lit && p.light == LightType::point, "CUBE")
+                           .add(p.slope_bias, "SLOPE_BIAS")
+                           .add(p.normal_offset, "NORMAL_OFFSET")
+                           .add(p.receiver_plane, "RECEIVER_PLANE")
+                           .add(features.textures, "TEXTURES")
+                           .add(features.specular, "SPECULAR")
+                           .add(features.emission, "EMISSION")
+                           .add(features.smooth_normals, "SMOOTH_NORMALS");
+  return Program::link(gl, "fullscreen.vert", "shade.frag", defines);
+}
+
+namespace {
+
+template <class Key, class Value, class Link>
+Expected<const Value*> find_or_link(std::map<Key, Value>& cache, const Key& key, const Link& link) {
+  if (const auto found = cache.find(key); found != cache.end()) return &found->second;
+  Expected<Value> made = link();
+  if (!made) return fail(made.error());
+  return &cache.emplace(key, std::move(*made)).first->second;
+}
+
+}  // namespace
+
+Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, bool alpha_mask) {
+  const TriangleProgram::Permutation key{primitive_ids, alpha_mask, features_.textures};
+  return find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
+}
+
+Expected<const ImpostorProgram*> ProgramCache::impostor(ImpostorProgram::Permutation key) {
+  key.textures = features_.textures;
+  return find_or_link(impostors_, key, [&] { return ImpostorProgram::link(*gl_, key); });
+}
+
+Expected<const Program*> ProgramCache::shade(const ShadePermutation& key) {
+  return find_or_link(shades_, key, [&] { return link_shade_program(*gl_, key, features_); });
+}
+
+}  // namespace gnomon::raster

@@ -1,0 +1,90 @@
+// The typed programs: what each draw call needs to know, so that no caller sees a uniform's name or location.
+// Permutations are chosen by the effect plan and the technique. Private to raster.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "raster/gl_program.h"
+#include "raster/options.h"
+#include "raster/shape_bounds.h"
+#include "scene/effects.h"
+#include "scene/light_view.h"
+#include "scene/world.h"
+
+namespace gnomon::raster {
+
+/// The effects that change shader text.
+struct SceneFeatures {
+  bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
+};
+SceneFeatures scene_features(const EffectPlan& plan, const World& world);
+
+/// Triangles into the depth and, with `primitive_ids`, into an image of primitive ids.
+class TriangleProgram : public Program {
+ public:
+  struct Permutation {
+    bool primitive_ids = false;
+    bool alpha_mask = false;
+    bool textures = false;  ///< of the alpha mask
+    auto operator<=>(const Permutation&) const = default;
+  };
+  static Expected<TriangleProgram> link(const Gl& gl, const Permutation& permutation);
+  void set_clip_from_relative(const Mat4& matrix) const;
+  /// The primitive id of the next draw call's first triangle.
+  void set_first_primitive(std::uint32_t primitive) const;
+
+ private:
+  bool reads_primitive_ = false;
+};
+
+/// One sphere or plane, ray-cast inside its bounding rectangle.
+class ImpostorProgram : public Program {
+ public:
+  struct Permutation {
+    bool camera = false;  ///< else a light's map
+    bool sphere = false;  ///< else a plane
+    bool perspective = false;
+    bool primitive_ids = false;  ///< always in the camera's pass
+    bool alpha_mask = false;
+    bool textures = false;
+    auto operator<=>(const Permutation&) const = default;
+  };
+  static Expected<ImpostorProgram> link(const Gl& gl, const Permutation& permutation);
+  void set_shape(int index, const ClipRectangle& rectangle) const;
+  /// Of a map.
+  void set_face(int face, Cull cull) const;
+};
+
+/// One light's share of the picture.
+struct ShadePermutation {
+  bool no_light = false;
+  bool first_light = false;
+  bool records = false;
+  LightType light = LightType::directional;
+  bool slope_bias = false, normal_offset = false, receiver_plane = false;
+  auto operator<=>(const ShadePermutation&) const = default;
+};
+Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& permutation,
+                                     const SceneFeatures& features);
+
+/// Every permutation that was asked for so far, linked once.
+class ProgramCache {
+ public:
+  ProgramCache(const Gl& gl, const SceneFeatures& features) : gl_(&gl), features_(features) {}
+  const SceneFeatures& features() const { return features_; }
+  Expected<const TriangleProgram*> triangles(bool primitive_ids, bool alpha_mask);
+  /// `permutation.textures` is filled in here.
+  Expected<const ImpostorProgram*> impostor(ImpostorProgram::Permutation permutation);
+  Expected<const Program*> shade(const ShadePermutation& permutation);
+
+ private:
+  const Gl* gl_;
+  SceneFeatures features_;
+  std::map<TriangleProgram::Permutation, TriangleProgram> triangles_;
+  std::map<ImpostorProgram::Permutation, ImpostorProgram> impostors_;
+  std::map<ShadePermutation, Program> shades_;
+};
+
+}  // namespace gnomon::raster

@@ -1,0 +1,260 @@
+// The order of things: fit a light's map, draw it (timed), keep it (with primitive ids), shade with it
+// (timed), keep the picture and the records; light after light. All OpenGL state is set where it is used and
+// given back at the end.
+#include "raster/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <new>
+
+#include "raster/depth_map_pass.h"
+#include "raster/light_block.h"
+#include "raster/options_check.h"
+#include "raster/shading_pass.h"
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<Context> context, std::unique_ptr<Gl> gl, const World& world,
+             const SceneFeatures& features, WorldBuffers buffers)
+      : context_(std::move(context)),
+        gl_(std::move(gl)),
+        world_(&world),
+        programs_(*gl_, features),
+        buffers_(std::move(buffers)),
+        map_pass_(*gl_, programs_),
+        shading_(*gl_, programs_),
+        light_block_(*gl_) {
+    info_ = {context_->backend(), gl_->text(GL_VERSION), gl_->text(GL_RENDERER), max_map_size(*gl_)};
+  }
+  GlRenderer(const GlRenderer&) = delete;
+  GlRenderer& operator=(const GlRenderer&) = delete;
+  ~GlRenderer() override { context_->make_current(); }  // the members below are destroyed next, context last
+
+  Expected<void> compile();
+  Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) override;
+  const ContextInfo& info() const override { return info_; }
+
+ private:
+  struct Job;  // one call of render()
+  Expected<RasterFrame> render_checked(const RasterOptions& options, std::span<const std::uint32_t> lights);
+  Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
+  Expected<void> draw_map(const Job& job, const LightView& view, LightRecord* record);
+  Expected<void> shade(Job& job, std::uint32_t light, LightRecord* record);
+  Expected<void> shade_without_light(Job& job);
+  Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass);
+  void restore_state() const;
+
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<Gl> gl_;
+  const World* world_;
+  ContextInfo info_;
+  ProgramCache programs_;
+  WorldBuffers buffers_;
+  DepthMapPass map_pass_;
+  ShadingPass shading_;
+  Buffer light_block_;
+};
+
+struct GlRenderer::Job {
+  const RasterOptions& options;
+  View view;
+  RasterFrame frame{};
+  bool visibility_drawn = false;
+  bool first_light = true;
+};
+
+ShadePermutation shade_permutation(const Light& light, const Bias& bias, bool first, bool records) {
+  ShadePermutation p;
+  p.first_light = first;
+  p.records = records;
+  p.light = light.type;
+  p.slope_bias = bias.slope != 0.0;
+  p.normal_offset = bias.normal_offset_texels > 0.0;
+  p.receiver_plane = bias.receiver_plane;
+  return p;
+}
+
+// The permutations of the default options; others are linked when they are first asked for.
+Expected<void> GlRenderer::compile() {
+  for (const bool ids : {false, true}) {
+    if (auto program = programs_.triangles(ids, false); !program) return fail(program.error());
+    if (!programs_.features().alpha_mask) continue;
+    if (auto program = programs_.triangles(ids, true); !program) return fail(program.error());
+  }
+  bool first = true;
+  for (const Light& light : world_->scene->lights) {
+    if (auto program = programs_.shade(shade_permutation(light, Bias{}, first, true)); !program)
+      return fail(program.error());
+    first = false;
+  }
+  return gl_->check("compiling the shaders");
+}
+
+Expected<RasterFrame> GlRenderer::render(const RasterOptions& options,
+                                         std::span<const std::uint32_t> lights) {
+  if (!context_->make_current())
+    return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  try {
+    auto frame = render_checked(options, lights);
+    restore_state();
+    return frame;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::graphics, "out of memory for the images and depth maps to read back");
+  }
+}
+
+Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
+                                                 std::span<const std::uint32_t> lights) {
+  const Scene& scene = *world_->scene;
+  if (auto ok = check_options(options, info_); !ok) return fail(ok.error());
+  for (const std::uint32_t light : lights) {
+    if (light >= scene.lights.size())
+      return fail(ErrorKind::usage,
+                  fmt::format("no such light (got {}, the scene has {})", light, scene.lights.size()));
+  }
+  Job job{options, make_view(scene.camera, options.size)};
+  job.frame.context = info_;
+  job.frame.options = options;
+  job.frame.lights.resize(lights.size());
+  if (auto ok = shading_.prepare(options.size, options.analysis && !lights.empty()); !ok)
+    return fail(ok.error());
+  buffers_.set_reference(reference_point(*world_, job.view.eye));
+  shading_.set_camera(buffers_, job.view);
+  for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
+    const auto found = std::find(lights.begin(), lights.end(), light);
+    LightRecord* record =
+        found == lights.end() ? nullptr : &job.frame.lights[static_cast<std::size_t>(found - lights.begin())];
+    if (auto ok = draw_light(job, light, record); !ok) return fail(ok.error());
+  }
+  if (scene.lights.empty()) {
+    if (auto ok = shade_without_light(job); !ok) return fail(ok.error());
+  }
+  shading_.read_color(job.frame.color);
+  shading_.read_primitives(job.frame.primitive);
+  if (auto ok = gl_->check("reading the picture back"); !ok) return fail(ok.error());
+  return std::move(job.frame);
+}
+
+// One warm-up, then the timed runs, each from an idle device to an idle device.
+Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass) {
+  if (runs == 0) return {};
+  if (auto ok = pass(); !ok) return ok;
+  (*gl_)->Finish();
+  Expected<void> result;
+  for (int i = 0; i < runs && result; ++i) {
+    time_run(times, [&] {
+      result = pass();
+      (*gl_)->Finish();
+    });
+  }
+  return result;
+}
+
+Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {
+  const Light& light = world_->scene->lights[index];
+  const MapOptions& map = job.options.map;
+  const auto view = fit_light_view(*world_, light, world_->scene->camera,
+                                   double(job.options.size.width) / job.options.size.height, map.size);
+  if (!view) return fail(view.error());
+  const double constant = constant_bias_world(map.bias, *view, *world_);
+  light_block_.write_one(make_light_block(light, *view, map.bias, constant, buffers_.reference()));
+  light_block_.bind(GL_UNIFORM_BUFFER, shaders::light_block);
+  if (record != nullptr) {
+    record->light = index;
+    record->bias_constant_world = constant;
+    record->map.view = *view;
+    record->map.format = map.depth_format;
+  }
+  const bool with_ids = record != nullptr && job.options.analysis;
+  if (auto ok = map_pass_.prepare(*view, map.depth_format, with_ids); !ok) return ok;
+  job.frame.map_texels += static_cast<std::uint64_t>(view->face_count) *
+                          static_cast<std::uint64_t>(view->size) * static_cast<std::uint64_t>(view->size);
+  job.frame.map_bytes = std::max(job.frame.map_bytes, map_pass_.bytes());
+  if (auto ok = draw_map(job, *view, record); !ok) return ok;
+  return shade(job, index, record);
+}
+
+Expected<void> GlRenderer::draw_map(const Job& job, const LightView& view, LightRecord* record) {
+  const Cull cull = job.options.map.cull;
+  if (record != nullptr) {
+    auto ok = time_pass(job.options.runs, record->map_pass,
+                        [&] { return map_pass_.draw(buffers_, view, cull, false); });
+    if (!ok) return ok;
+  }
+  const bool with_ids = record != nullptr && job.options.analysis;
+  if (auto ok = map_pass_.draw(buffers_, view, cull, with_ids); !ok) return ok;
+  if (with_ids) map_pass_.read(record->map, true);
+  return gl_->check("drawing the depth map");
+}
+
+Expected<void> GlRenderer::shade(Job& job, std::uint32_t index, LightRecord* record) {
+  const Light& light = world_->scene->lights[index];
+  const Bias& bias = job.options.map.bias;
+  map_pass_.bind_for_lookup();
+  if (record != nullptr) {
+    const ShadePermutation timed = shade_permutation(light, bias, job.first_light, false);
+    auto ok = time_pass(job.options.runs, record->shade_pass, [&]() -> Expected<void> {
+      if (auto drawn = shading_.draw_visibility(buffers_, job.view); !drawn) return drawn;
+      job.visibility_drawn = true;
+      return shading_.draw_light(buffers_, timed, !job.first_light);
+    });
+    if (!ok) return ok;
+  }
+  if (!job.visibility_drawn) {
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    job.visibility_drawn = true;
+  }
+  const bool records = record != nullptr && job.options.analysis;
+  const ShadePermutation kept = shade_permutation(light, bias, job.first_light, records);
+  if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
+  if (records) shading_.read_records(*record);
+  job.first_light = false;
+  return gl_->check("shading");
+}
+
+Expected<void> GlRenderer::shade_without_light(Job& job) {
+  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  ShadePermutation permutation;
+  permutation.no_light = true;
+  permutation.first_light = true;
+  if (auto ok = shading_.draw_light(buffers_, permutation, false); !ok) return ok;
+  return gl_->check("shading");
+}
+
+// A window's context has other users.
+void GlRenderer::restore_state() const {
+  const Gl& gl = *gl_;
+  gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl->BindVertexArray(0);
+  gl->UseProgram(0);
+  gl->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  gl->Disable(GL_DEPTH_TEST);
+  gl->Disable(GL_DEPTH_CLAMP);
+  gl->Disable(GL_CULL_FACE);
+  gl->Disable(GL_BLEND);
+  gl->DepthFunc(GL_LESS);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> context, const World& world,
+                                                     const EffectPlan& plan) {
+  if (!context->make_current()) return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  auto gl = Gl::load(*context);
+  if (!gl) return fail(gl.error());
+  const SceneFeatures features = scene_features(plan, world);
+  auto buffers = WorldBuffers::upload(**gl, world, features);
+  if (!buffers) return fail(buffers.error());
+  auto renderer =
+      std::make_unique<GlRenderer>(std::move(context), std::move(*gl), world, features, std::move(*buffers));
+  if (auto ok = renderer->compile(); !ok) return fail(ok.error());
+  return renderer;
+}
+
+}  // namespace gnomon::raster

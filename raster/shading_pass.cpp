@@ -1,0 +1,193 @@
+#include "raster/shading_pass.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+Mat4 clip_from_relative(const View& view, const World& world, const Vec3& reference) {
+  const Mat4 relative_to_eye = glm::translate(Mat4(1.0), reference - view.eye);
+  return clip_from_view(view, near_distance(world, view.eye)) * view_from_eye_relative(view) *
+         relative_to_eye;
+}
+
+CameraBlock camera_block(const View& view, const World& world, const Vec3& reference) {
+  const double near = near_distance(world, view.eye);
+  CameraBlock block{};
+  block.clip_from_relative = Mat4f(clip_from_relative(view, world, reference));
+  block.eye_and_near = Vec4f(Vec4(view.eye - reference, near));
+  block.right_and_tan_x = Vec4f(Vec4(view.right, view.tan_half_x));
+  block.up_and_tan_y = Vec4f(Vec4(view.up, view.tan_half_y));
+  block.forward = Vec4f(Vec4(view.forward, 0.0));
+  block.size = Vec4f(view.size.width, view.size.height, 0.0f, 0.0f);
+  block.counts = glm::uvec4(world.triangle_count(), 0, 0, 0);
+  block.ambient = Vec4f(world.scene->ambient, 0.0f);
+  block.background = Vec4f(world.scene->background, 0.0f);
+  return block;
+}
+
+}  // namespace
+
+ShadingPass::ShadingPass(Gl& gl, ProgramCache& programs)
+    : gl_(&gl), programs_(&programs), camera_block_(gl) {}
+
+Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
+  Gl& gl = *gl_;
+  if (size_ == size && (!with_records || record_)) return {};
+  *this = ShadingPass(gl, *programs_);
+  visibility_ = Texture2D(gl, GL_R32UI, size);
+  depth_ = Texture2D(gl, GL_DEPTH_COMPONENT32F, size);
+  color_ = Texture2D(gl, GL_RGBA32F, size);
+  visibility_target_ = Framebuffer(gl);
+  visibility_target_.attach(GL_DEPTH_ATTACHMENT, depth_);
+  visibility_target_.attach(GL_COLOR_ATTACHMENT0, visibility_);
+  visibility_target_.draw_to(1);
+  color_target_ = Framebuffer(gl);
+  color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
+  color_target_.draw_to(1);
+  if (with_records) {
+    record_ = Texture2D(gl, GL_RGBA32F, size);
+    flags_ = Texture2D(gl, GL_R8UI, size);
+    record_target_ = Framebuffer(gl);
+    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::radiance_output, color_);
+    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::record_output, record_);
+    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::flags_output, flags_);
+    record_target_.draw_to(3);
+  }
+  if (auto ok = gl.check("making the image buffers"); !ok) return ok;
+  if (auto ok = visibility_target_.check_complete(); !ok) return ok;
+  if (auto ok = color_target_.check_complete(); !ok) return ok;
+  if (with_records) {
+    if (auto ok = record_target_.check_complete(); !ok) return ok;
+  }
+  size_ = size;
+  return {};
+}
+
+Expected<void> ShadingPass::prepare_trial() {
+  if (trial_color_) return {};
+  trial_color_ = Texture2D(*gl_, GL_RGBA32F, size_);
+  trial_target_ = Framebuffer(*gl_);
+  trial_target_.attach(GL_COLOR_ATTACHMENT0, trial_color_);
+  trial_target_.draw_to(1);
+  return gl_->check("making the timing image");
+}
+
+void ShadingPass::set_camera(const WorldBuffers& world, const View& view) {
+  camera_block_.write_one(camera_block(view, world.world(), world.reference()));
+  camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
+}
+
+Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const View& view) {
+  const Gl& gl = *gl_;
+  const auto opaque = programs_->triangles(true, false);
+  if (!opaque) return fail(opaque.error());
+  const auto masked = programs_->features().alpha_mask ? programs_->triangles(true, true) : opaque;
+  if (!masked) return fail(masked.error());
+  world.bind();
+  camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
+  gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
+  gl->Viewport(0, 0, size_.width, size_.height);
+  gl->Disable(GL_BLEND);
+  gl->Disable(GL_SCISSOR_TEST);
+  gl->Disable(GL_CULL_FACE);
+  gl->Enable(GL_DEPTH_TEST);
+  gl->Enable(GL_DEPTH_CLAMP);
+  gl->DepthMask(GL_TRUE);
+  gl->DepthFunc(GL_GREATER);
+  gl->BindFramebuffer(GL_FRAMEBUFFER, visibility_target_.id());
+  const float clear_depth = shaders::camera_clear_depth;
+  gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
+  gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
+  world.draw_triangles(**opaque, **masked, clip_from_relative(view, world.world(), world.reference()));
+  return draw_shapes(world, view);
+}
+
+Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {
+  const World& world = buffers.world();
+  const Projection projection{view.eye,
+                              {view.right, view.up, view.forward},
+                              Vec2(view.tan_half_x, view.tan_half_y),
+                              true,
+                              Vec2(2.0 / size_.width, 2.0 / size_.height)};
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const Shape& shape = world.shapes[i];
+    const auto bounds = shape_bounds(projection, shape);
+    if (!bounds) continue;
+    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    const auto program = programs_->impostor({.camera = true,
+                                              .sphere = std::holds_alternative<Sphere>(shape.geometry),
+                                              .perspective = true,
+                                              .primitive_ids = true,
+                                              .alpha_mask = masked && programs_->features().alpha_mask});
+    if (!program) return fail(program.error());
+    (*program)->use();
+    (*program)->set_shape(static_cast<int>(i), *bounds);
+    (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  return {};
+}
+
+Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePermutation& permutation,
+                                       bool trial) {
+  const Gl& gl = *gl_;
+  const auto program = programs_->shade(permutation);
+  if (!program) return fail(program.error());
+  if (trial) {
+    if (auto ok = prepare_trial(); !ok) return ok;
+  }
+  world.bind();
+  camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
+  visibility_.bind(shaders::visibility_unit);
+  const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
+  gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
+  gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  gl->Viewport(0, 0, size_.width, size_.height);
+  gl->Disable(GL_DEPTH_TEST);
+  gl->Disable(GL_CULL_FACE);
+  gl->Disable(GL_SCISSOR_TEST);
+  gl->Disable(GL_BLEND);
+  if (!permutation.first_light) {
+    gl->Enablei(GL_BLEND, shaders::radiance_output);  // lights add up
+    gl->BlendEquation(GL_FUNC_ADD);
+    gl->BlendFunc(GL_ONE, GL_ONE);
+  }
+  (*program)->use();
+  gl->DrawArrays(GL_TRIANGLES, 0, 3);
+  return {};
+}
+
+void ShadingPass::read_color(ColorImage& out) const {
+  out = ColorImage(size_);
+  color_.read(GL_RGB, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
+}
+
+void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {
+  out = Image<std::uint32_t>(size_);
+  visibility_.read(GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
+}
+
+void ShadingPass::read_records(LightRecord& record) const {
+  std::vector<Vec4f> values(size_.pixels());
+  std::vector<std::uint8_t> flags(size_.pixels());
+  record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
+  flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
+  record.visibility = Image<float>(size_);
+  record.texel_uv = Image<Vec2f>(size_);
+  record.face = Image<std::uint8_t>(size_);
+  record.distance = Image<float>(size_);
+  record.gap = Image<float>(size_);
+  record.outside_map = Image<std::uint8_t>(size_);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    record.visibility.data[i] = (flags[i] & shaders::flag_lit) != 0 ? 1.0f : 0.0f;
+    record.texel_uv.data[i] = Vec2f(values[i]);
+    record.distance.data[i] = values[i].z;
+    record.gap.data[i] = values[i].w;
+    record.face.data[i] = static_cast<std::uint8_t>(flags[i] >> shaders::flag_face_shift);
+    record.outside_map.data[i] = (flags[i] & shaders::flag_outside_map) != 0 ? 1 : 0;
+  }
+}
+
+}  // namespace gnomon::raster

@@ -1,0 +1,40 @@
+// The camera's passes: the visibility buffer (which primitive each pixel shows), then one full-screen pass
+// per light that works out the receiver, tests its shadow and adds its light (Burns and Hunt 2013). Private
+// to raster.
+#pragma once
+
+#include "raster/frame.h"
+#include "raster/world_buffers.h"
+
+namespace gnomon::raster {
+
+class ShadingPass {
+ public:
+  ShadingPass(Gl& gl, ProgramCache& programs);
+
+  /// Makes (or keeps) the images. Error (graphics): out of memory.
+  Expected<void> prepare(ImageSize size, bool with_records);
+  void set_camera(const WorldBuffers& world, const View& view);
+  /// Fills the visibility buffer.
+  Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
+  /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
+  Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
+
+  void read_color(ColorImage& out) const;
+  void read_primitives(Image<std::uint32_t>& out) const;
+  /// What the last light drawn with ShadePermutation::records wrote.
+  void read_records(LightRecord& record) const;
+
+ private:
+  Expected<void> prepare_trial();
+  Expected<void> draw_shapes(const WorldBuffers& world, const View& view);
+
+  Gl* gl_;
+  ProgramCache* programs_;
+  Buffer camera_block_;
+  ImageSize size_;
+  Texture2D visibility_, depth_, color_, record_, flags_, trial_color_;
+  Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
+};
+
+}  // namespace gnomon::raster

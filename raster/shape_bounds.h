@@ -1,0 +1,29 @@
+// Where an analytic shape can fall on a map's face or on the camera's image: the rectangle that its impostor
+// covers.
+#pragma once
+
+#include <optional>
+
+#include "scene/light_view.h"
+
+namespace gnomon::raster {
+
+/// In normalised device coordinates, [-1, 1] on both axes.
+struct ClipRectangle {
+  Vec2 min{-1.0}, max{1.0};
+};
+
+/// An image to project onto: an orthonormal frame and the half extent at unit depth (perspective) or at any
+/// depth.
+struct Projection {
+  Vec3 origin;
+  LightFace frame;
+  Vec2 half_extent;
+  bool perspective = true;
+  Vec2 pixel;  ///< one pixel in normalised device coordinates: the margin kept around the shape
+};
+
+/// None when no part of the shape can be seen. A plane covers the whole image.
+std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape);
+
+}  // namespace gnomon::raster

@@ -1,0 +1,187 @@
+#include "raster/world_buffers.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "shaders/shared_constants.h"
+
+namespace gnomon::raster {
+namespace {
+
+MaterialData material_data(const Material& m) {
+  const TextureTransform& t = m.texture_transform;
+  const double c = std::cos(t.rotation);
+  const double s = std::sin(t.rotation);
+  MaterialData out{};
+  out.diffuse_and_alpha = Vec4f(m.diffuse, m.alpha);
+  out.specular_and_shininess = Vec4f(m.specular, m.shininess);
+  out.emission_and_local = Vec4f(m.emission, 1.0f - m.mirror - m.transmission);
+  out.uv_matrix = Vec4f(glm::dvec4(c * t.scale.x, -s * t.scale.x, s * t.scale.y, c * t.scale.y));
+  out.uv_offset_and_cutoff =
+      Vec4f(Vec2f(t.offset), m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0f, 0.0f);
+  out.diffuse_texture = m.diffuse_texture;
+  return out;
+}
+
+ShapeData shape_data(const Shape& shape, std::uint32_t primitive, const Vec3& reference) {
+  ShapeData out{};
+  out.material = shape.material;
+  out.primitive = primitive;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    out.kind = shaders::shape_sphere;
+    out.center_and_radius = Vec4f(Vec4(sphere->center - reference, sphere->radius));
+    return out;
+  }
+  const auto& plane = std::get<Plane>(shape.geometry);
+  Vec3 tangent, bitangent;
+  orthonormal_basis(plane.normal, tangent, bitangent);
+  const Vec3 point = plane.point - reference;
+  out.kind = shaders::shape_plane;
+  out.center_and_radius = Vec4f(Vec4(point, 0.0));
+  out.normal = Vec4f(Vec4(plane.normal, glm::dot(plane.normal, point)));
+  out.tangent = Vec4f(Vec4(tangent, 0.0));
+  out.bitangent = Vec4f(Vec4(bitangent, 0.0));
+  return out;
+}
+
+Vec4f triangle_plane(const World& world, std::uint32_t triangle, const Vec3& reference) {
+  const auto [a, b, c] = world.corners(triangle);
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double length = glm::length(n);
+  if (!(length > 0.0)) return Vec4f(0.0f);
+  return Vec4f(Vec4(n, glm::dot(n, a - reference)) / length);
+}
+
+}  // namespace
+
+Vec3 reference_point(const World& world, const Vec3& eye) {
+  if (world.finite_bounds.empty()) return eye;
+  return glm::clamp(eye, world.finite_bounds.min, world.finite_bounds.max);
+}
+
+double near_distance(const World& world, const Vec3& eye) {
+  double reach = world.finite_bounds.empty()
+                     ? 0.0
+                     : world.finite_bounds.diagonal() + glm::length(world.finite_bounds.center() - eye);
+  for (const Shape& shape : world.shapes) {
+    if (const auto* plane = std::get_if<Plane>(&shape.geometry))
+      reach = std::max(reach, std::abs(glm::dot(plane->normal, plane->point - eye)));
+  }
+  return reach > 0.0 ? 1e-4 * reach : 1.0;
+}
+
+WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
+    : gl_(&gl),
+      world_(&world),
+      vertex_array_(gl),
+      positions_(gl),
+      normals_(gl),
+      uvs_(gl),
+      indices_(gl),
+      triangles_(gl),
+      planes_(gl),
+      shapes_(gl),
+      materials_(gl) {}
+
+Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
+  const std::uint64_t largest =
+      std::max<std::uint64_t>(16 * std::uint64_t{world.triangle_count()}, 12 * world.positions.size());
+  GLint64 limit = 0;
+  gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (largest > static_cast<std::uint64_t>(limit)) {
+    return fail(ErrorKind::graphics,
+                fmt::format("the scene is too large for this OpenGL's GL_MAX_SHADER_STORAGE_BLOCK_SIZE "
+                            "(got {} bytes, allowed {})",
+                            largest, limit));
+  }
+  WorldBuffers out(gl, world);
+  out.upload_fixed(features);
+  out.make_runs(features.alpha_mask);
+  if (features.textures) {
+    auto texels = TexelPages::upload(gl, world.scene->textures);
+    if (!texels) return fail(texels.error());
+    out.texels_ = std::move(*texels);
+  }
+  if (auto ok = gl.check("uploading the scene"); !ok) return fail(ok.error());
+  return out;
+}
+
+void WorldBuffers::upload_fixed(const SceneFeatures& features) {
+  const World& world = *world_;
+  using Corners = std::array<std::uint32_t, 3>;
+  indices_.write(std::span<const Corners>(world.triangles));
+  std::vector<glm::uvec4> triangles;
+  triangles.reserve(world.triangle_count());
+  for (std::uint32_t i = 0; i < world.triangle_count(); ++i) {
+    const Corners& t = world.triangles[i];
+    triangles.emplace_back(t[0], t[1], t[2], world.triangle_material[i]);
+  }
+  triangles_.write(std::span<const glm::uvec4>(triangles));
+  std::vector<MaterialData> materials;
+  for (const Material& m : world.scene->materials) materials.push_back(material_data(m));
+  materials_.write(std::span<const MaterialData>(materials));
+  if (features.smooth_normals) normals_.write(std::span<const Vec3f>(world.normals));
+  if (features.textures || features.alpha_mask) uvs_.write(std::span<const Vec2f>(world.uvs));
+  vertex_array_.set_indices(indices_);
+  vertex_array_.set_floats(shaders::position_attribute, positions_, 3);
+  if (features.alpha_mask) vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
+}
+
+void WorldBuffers::make_runs(bool alpha_mask) {
+  const auto& materials = world_->scene->materials;
+  for (std::uint32_t i = 0; i < world_->triangle_count(); ++i) {
+    const bool masked = alpha_mask && materials[world_->triangle_material[i]].alpha_mode == AlphaMode::mask;
+    if (runs_.empty() || runs_.back().masked != masked) runs_.push_back({i, 0, masked});
+    ++runs_.back().count;
+  }
+}
+
+void WorldBuffers::set_reference(const Vec3& reference) {
+  if (reference_ == reference) return;
+  reference_ = reference;
+  std::vector<Vec3f> positions;
+  positions.reserve(world_->positions.size());
+  for (const Vec3& p : world_->positions) positions.emplace_back(p - reference);
+  positions_.write(std::span<const Vec3f>(positions));
+  std::vector<Vec4f> planes;
+  planes.reserve(world_->triangle_count());
+  for (std::uint32_t i = 0; i < world_->triangle_count(); ++i)
+    planes.push_back(triangle_plane(*world_, i, reference));
+  planes_.write(std::span<const Vec4f>(planes));
+  std::vector<ShapeData> shapes;
+  for (std::size_t i = 0; i < world_->shapes.size(); ++i)
+    shapes.push_back(
+        shape_data(world_->shapes[i], world_->triangle_count() + static_cast<std::uint32_t>(i), reference));
+  shapes_.write(std::span<const ShapeData>(shapes));
+}
+
+void WorldBuffers::bind() const {
+  (*gl_)->BindVertexArray(vertex_array_.id());
+  positions_.bind(GL_SHADER_STORAGE_BUFFER, shaders::positions_buffer);
+  normals_.bind(GL_SHADER_STORAGE_BUFFER, shaders::normals_buffer);
+  uvs_.bind(GL_SHADER_STORAGE_BUFFER, shaders::uvs_buffer);
+  triangles_.bind(GL_SHADER_STORAGE_BUFFER, shaders::triangles_buffer);
+  planes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::planes_buffer);
+  shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::shapes_buffer);
+  materials_.bind(GL_SHADER_STORAGE_BUFFER, shaders::materials_buffer);
+  if (texels_) texels_->bind();
+}
+
+void WorldBuffers::draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
+                                  const Mat4& clip_from_relative) const {
+  for (const bool with_mask : {false, true}) {
+    const TriangleProgram& program = with_mask ? masked : opaque;
+    bool ready = false;
+    for (const TriangleRun& run : runs_) {
+      if (run.masked != with_mask) continue;
+      if (!ready) program.use(), program.set_clip_from_relative(clip_from_relative), ready = true;
+      program.set_first_primitive(run.first);
+      const auto offset = static_cast<std::uintptr_t>(run.first) * 3 * sizeof(std::uint32_t);
+      (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(offset));
+    }
+  }
+}
+
+}  // namespace gnomon::raster

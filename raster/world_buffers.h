@@ -1,0 +1,76 @@
+// The world on the device: vertices, triangles, shapes, materials. Positions are floats relative to a
+// *reference point* near the camera's eye, rounded from doubles, and every matrix is composed in double
+// precision, so that a scene far from the origin keeps its precision. The structs are the twins of
+// shaders/world.glsl, material.glsl and camera.glsl.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "raster/programs.h"
+#include "raster/texel_pages.h"
+#include "scene/camera.h"
+#include "scene/world.h"
+
+namespace gnomon::raster {
+
+struct CameraBlock {
+  Mat4f clip_from_relative;
+  Vec4f eye_and_near, right_and_tan_x, up_and_tan_y, forward, size;
+  glm::uvec4 counts;
+  Vec4f ambient, background;
+};
+
+struct ShapeData {
+  Vec4f center_and_radius, normal, tangent, bitangent;
+  std::uint32_t kind, material, primitive, unused;
+};
+
+struct MaterialData {
+  Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_local, uv_matrix, uv_offset_and_cutoff;
+  std::uint32_t diffuse_texture, unused0, unused1, unused2;
+};
+
+/// A run of triangles that share one program.
+struct TriangleRun {
+  std::uint32_t first = 0, count = 0;
+  bool masked = false;
+};
+
+/// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
+Vec3 reference_point(const World& world, const Vec3& eye);
+
+/// The near distance of the camera's reversed depth. Nothing is cut away there (depth clamp); nearer surfaces
+/// only share one depth.
+double near_distance(const World& world, const Vec3& eye);
+
+class WorldBuffers {
+ public:
+  /// Error (graphics): more data than the context's buffers hold.
+  static Expected<WorldBuffers> upload(Gl& gl, const World& world, const SceneFeatures& features);
+
+  /// Rounds everything relative to this point; does nothing when it is the present one.
+  void set_reference(const Vec3& reference);
+  const Vec3& reference() const { return *reference_; }
+  const World& world() const { return *world_; }
+  /// Binds what the shaders read, and the vertex array.
+  void bind() const;
+  /// Draws every run with the program of its kind; both get the matrix.
+  void draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
+                      const Mat4& clip_from_relative) const;
+
+ private:
+  WorldBuffers(const Gl& gl, const World& world);
+  void upload_fixed(const SceneFeatures& features);
+  void make_runs(bool alpha_mask);
+
+  const Gl* gl_;
+  const World* world_;
+  std::optional<Vec3> reference_;
+  std::vector<TriangleRun> runs_;
+  VertexArray vertex_array_;
+  Buffer positions_, normals_, uvs_, indices_, triangles_, planes_, shapes_, materials_;
+  std::optional<TexelPages> texels_;
+};
+
+}  // namespace gnomon::raster

@@ -1,0 +1,72 @@
+// The hard shadow test: how far the receiver lies behind what the map stored, along the receiver's own light ray, in world
+// units, less every part of the bias but the constant. Twin of compare/biased_test.cpp. Permutations SLOPE_BIAS,
+// NORMAL_OFFSET (Holbein 2010) and RECEIVER_PLANE (Isidoro 2006).
+
+const float infinite = uintBitsToFloat(0x7f800000u);
+
+layout(binding = depth_map_unit) uniform sampler2DArray depth_map;
+
+// Depth, along forward, at which the light ray offset by (du, dv) texels from `at` meets the plane through it with
+// light-space normal n facing the light; +infinity where it does not meet it from the front.
+float plane_depth(Texel at, vec3 n, vec2 offset_texels) {
+  vec2 step = offset_texels * texel_extent();
+#ifdef PERSPECTIVE
+  float here = dot(n, at.local) / at.local.z;  // n . (x, y, 1)
+  float there = here + dot(n.xy, step);
+  return there < 0.0 ? at.local.z * (here / there) : infinite;
+#else
+  return n.z < 0.0 ? at.local.z - dot(n.xy, step) / n.z : infinite;
+#endif
+}
+
+// h_u |dz/du| + h_v |dz/dv| with h half a texel: half the difference of the plane's depths across the texel.
+// Infinite for a plane that is edge-on over the texel: then no depth stored there can shadow it.
+float texel_depth_slope(Texel at, vec3 n) {
+  vec2 low = vec2(plane_depth(at, n, vec2(-0.5, 0.0)), plane_depth(at, n, vec2(0.0, -0.5)));
+  vec2 high = vec2(plane_depth(at, n, vec2(0.5, 0.0)), plane_depth(at, n, vec2(0.0, 0.5)));
+  if (any(isinf(low)) || any(isinf(high))) return infinite;
+  return 0.5 * (abs(high.x - low.x) + abs(high.y - low.y));
+}
+
+struct ShadowTest {
+  Texel own;     // the receiver's own texel, before any offset
+  float gap;     // -infinity where nothing is stored, or outside the map
+  bool outside;  // the lookup fell outside the map, or beyond its depths where nothing is stored
+};
+
+// `normal` is the geometric normal on the viewer's side.
+ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
+  ShadowTest test;
+  test.own = project_to_texel(position);
+  Texel at = test.own;
+#ifdef NORMAL_OFFSET
+  float sine = length(cross(normal, to_light));
+  at = project_to_texel(position + normal * (light.bias.z * texel_world_size(at.local.z) * sine));
+#endif
+  test.gap = -infinite;
+  test.outside = !at.inside;
+  if (!at.inside) return test;
+  ivec2 texel = ivec2(floor(at.uv));
+  float stored = texelFetch(depth_map, ivec3(texel, at.face), 0).r;
+  if (!(stored < map_clear_depth)) {
+    test.outside = at.local.z < light.extent_and_depths.z || at.local.z > light.extent_and_depths.w;
+    return test;
+  }
+  float receiver = at.local.z;
+#ifdef PERSPECTIVE
+  float along_ray = at.distance / at.local.z;
+#else
+  float along_ray = 1.0;
+#endif
+#if defined(RECEIVER_PLANE) || defined(SLOPE_BIAS)
+  vec3 n = to_face(at.face, normal);
+#endif
+#ifdef RECEIVER_PLANE
+  receiver = plane_depth(at, n, vec2(texel) + 0.5 - at.uv);
+#endif
+  test.gap = (receiver - depth_from_stored(stored)) * along_ray;
+#ifdef SLOPE_BIAS
+  test.gap -= light.bias.y * texel_depth_slope(at, n) * along_ray;
+#endif
+  return test;
+}

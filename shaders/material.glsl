@@ -1,0 +1,38 @@
+// Materials, with permutations TEXTURES (some material has one) and ALPHA_MASK (some surface has holes).
+// Twin of raster/world_buffers.h.
+
+const uint no_texture = 0xffffffffu;
+
+struct MaterialData {
+  vec4 diffuse_and_alpha;
+  vec4 specular_and_shininess;
+  vec4 emission_and_local;   // w: the share of local shading, 1 - mirror - transmission
+  vec4 uv_matrix;            // columns of R * scale
+  vec4 uv_offset_and_cutoff; // z: alpha below this is no hit; negative for opaque materials
+  uint diffuse_texture;
+  uint unused0, unused1, unused2;
+};
+
+layout(std430, binding = materials_buffer) readonly buffer Materials { MaterialData materials[]; };
+
+#ifdef TEXTURES
+#include "texture.glsl"
+#endif
+
+// Diffuse colour and alpha of a surface point.
+vec4 surface_albedo(MaterialData material, vec2 uv) {
+  vec4 albedo = material.diffuse_and_alpha;
+#ifdef TEXTURES
+  if (material.diffuse_texture != no_texture) {
+    mat2 linear = mat2(material.uv_matrix.xy, material.uv_matrix.zw);
+    albedo *= sample_texture(material.diffuse_texture, material.uv_offset_and_cutoff.xy + linear * uv);
+  }
+#endif
+  return albedo;
+}
+
+#ifdef ALPHA_MASK
+bool is_hole(MaterialData material, vec2 uv) {
+  return material.uv_offset_and_cutoff.z >= 0.0 && surface_albedo(material, uv).a < material.uv_offset_and_cutoff.z;
+}
+#endif

@@ -1,0 +1,118 @@
+// The surface point of a pixel, from the primitive that the rasterizer found visible there: the exact meeting of
+// the pixel's ray with the primitive's plane or sphere, rather than an interpolated position (Burns and Hunt 2013, "The Visibility
+// Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals) and TEXTURES.
+
+#include "camera.glsl"
+#include "world.glsl"
+#include "sphere.glsl"
+
+struct TriangleData {
+  uint a, b, c;
+  uint material;
+};
+
+layout(std430, binding = positions_buffer) readonly buffer Positions { float positions[]; };
+#ifdef SMOOTH_NORMALS
+layout(std430, binding = normals_buffer) readonly buffer Normals { float normals[]; };
+#endif
+#ifdef TEXTURES
+layout(std430, binding = uvs_buffer) readonly buffer Uvs { vec2 uvs[]; };
+#endif
+layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+layout(std430, binding = planes_buffer) readonly buffer Planes { vec4 planes[]; };  // unit normal, dot(normal, corner)
+
+struct Receiver {
+  vec3 position;   // relative to the frame's reference
+  vec3 normal;     // geometric, unit, on the viewer's side
+  vec3 shading;    // shading normal, on the viewer's side
+  vec3 to_eye;     // unit
+  vec2 uv;
+  uint material;
+};
+
+vec3 position_of(uint vertex) {
+  return vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]);
+}
+
+vec3 face_forward(vec3 n, vec3 direction) { return dot(n, direction) > 0.0 ? -n : n; }
+
+// Where the ray meets the plane n . p = d, put back onto the plane: a rounding error then moves the point along the
+// surface, by far less than a pixel, and not off it, which a shadow test would see.
+vec3 meet_plane(vec3 direction, vec3 n, float d, float t_min, float t_max) {
+  vec3 eye = camera.eye_and_near.xyz;
+  float t = (d - dot(n, eye)) / dot(n, direction);
+  // A sliver seen edge-on can be drawn where the ray meets its plane far away: keep to the primitive's own depths.
+  t = t > t_min ? min(t, t_max) : t_min;
+  vec3 p = eye + t * direction;
+  return p - n * (dot(n, p) - d);
+}
+
+#ifdef SMOOTH_NORMALS
+vec3 normal_of(uint vertex) {
+  return vec3(normals[3u * vertex], normals[3u * vertex + 1u], normals[3u * vertex + 2u]);
+}
+#endif
+
+void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, vec3 direction, inout Receiver r) {
+#if defined(SMOOTH_NORMALS) || defined(TEXTURES)
+  vec3 n = cross(b - a, c - a);
+  float area = dot(n, n);
+  float wb = clamp(dot(cross(r.position - a, c - a), n) / area, 0.0, 1.0);
+  float wc = clamp(dot(cross(b - a, r.position - a), n) / area, 0.0, 1.0 - wb);
+  float wa = 1.0 - wb - wc;
+#ifdef SMOOTH_NORMALS
+  vec3 shading = wa * normal_of(t.a) + wb * normal_of(t.b) + wc * normal_of(t.c);
+  if (dot(shading, shading) > 0.0) r.shading = face_forward(normalize(shading), direction);
+#endif
+#ifdef TEXTURES
+  r.uv = wa * uvs[t.a] + wb * uvs[t.b] + wc * uvs[t.c];
+#endif
+#endif
+}
+
+Receiver triangle_receiver(uint id, vec3 direction) {
+  Receiver r;
+  TriangleData t = triangles[id];
+  vec3 a = position_of(t.a), b = position_of(t.b), c = position_of(t.c);
+  vec3 eye = camera.eye_and_near.xyz;
+  vec3 depths = vec3(dot(camera.forward.xyz, a - eye), dot(camera.forward.xyz, b - eye),
+                     dot(camera.forward.xyz, c - eye));
+  float t_min = min(depths.x, min(depths.y, depths.z)), t_max = max(depths.x, max(depths.y, depths.z));
+  vec4 plane = planes[id];
+  r.position = meet_plane(direction, plane.xyz, plane.w, max(t_min, 0.0), t_max);
+  r.normal = face_forward(plane.xyz, direction);
+  r.shading = r.normal;
+  r.uv = vec2(0.0);
+  r.material = t.material;
+  interpolate(t, a, b, c, direction, r);
+  return r;
+}
+
+Receiver shape_receiver(ShapeData shape, vec3 direction) {
+  Receiver r;
+  if (shape.kind == uint(shape_plane)) {
+    r.position = meet_plane(direction, shape.normal.xyz, shape.normal.w, 0.0, infinite);
+    r.normal = face_forward(shape.normal.xyz, direction);
+  } else {
+    vec3 center = shape.center_and_radius.xyz;
+    float t_near, t_far;
+    sphere_crossings(camera.eye_and_near.xyz, direction, center, shape.center_and_radius.w, t_near, t_far);
+    vec3 p = camera.eye_and_near.xyz + (t_near > 0.0 ? t_near : t_far) * direction;
+    vec3 outward = normalize(p - center);
+    r.position = center + shape.center_and_radius.w * outward;  // put back onto the sphere, as in meet_plane
+    r.normal = face_forward(outward, direction);
+  }
+  r.shading = r.normal;
+  r.uv = shape_uv(shape, r.position);
+  r.material = shape.material;
+  return r;
+}
+
+Receiver receiver_at(uint primitive, vec2 window) {
+  vec3 direction = pixel_direction(window);
+  uint triangle_count = camera.counts.x;
+  Receiver r = primitive < triangle_count ? triangle_receiver(primitive, direction)
+                                          : shape_receiver(shapes[primitive - triangle_count], direction);
+  r.to_eye = normalize(-direction);
+  return r;
+}

@@ -1,0 +1,59 @@
+// One light's share of the picture, from the visibility buffer and the light's depth map. Permutations: FIRST_LIGHT
+// adds what needs no light (ambient, emission, background); NO_LIGHT does only that; RECORDS writes, besides, what was tested.
+#include "shared_constants.h"
+#ifndef NO_LIGHT
+#include "light.glsl"
+#include "gap.glsl"
+#else
+const float infinite = uintBitsToFloat(0x7f800000u);
+#endif
+#include "receiver.glsl"
+#include "material.glsl"
+#include "blinn_phong.glsl"
+
+layout(binding = visibility_unit) uniform usampler2D visible_primitive;
+
+layout(location = radiance_output) out vec4 radiance;
+#ifdef RECORDS
+layout(location = record_output) out vec4 record;  // texel u, v, distance, gap
+layout(location = flags_output) out uint flags;
+#endif
+
+const uint no_id = 0xffffffffu;
+
+void main() {
+  uint primitive = texelFetch(visible_primitive, ivec2(gl_FragCoord.xy), 0).r;
+  radiance = vec4(0.0, 0.0, 0.0, 1.0);
+#ifdef RECORDS
+  record = vec4(0.0);
+  flags = uint(flag_lit);
+#endif
+  if (primitive == no_id) {
+#ifdef FIRST_LIGHT
+    radiance.rgb = camera.background.rgb;
+#endif
+    return;
+  }
+  Receiver r = receiver_at(primitive, gl_FragCoord.xy);
+  MaterialData material = materials[r.material];
+  vec3 diffuse = surface_albedo(material, r.uv).rgb;
+#ifdef FIRST_LIGHT
+  radiance.rgb += camera.ambient.rgb * diffuse * material.emission_and_local.w;
+#ifdef EMISSION
+  radiance.rgb += material.emission_and_local.rgb;
+#endif
+#endif
+#ifndef NO_LIGHT
+  LightAtPoint at = light_at(r.position);
+  ShadowTest test = shadow_test(r.position, r.normal, at.to_light);
+  bool lit = !(test.gap > light.bias.x);
+  if (lit && dot(r.normal, at.to_light) > 0.0)
+    radiance.rgb += material.emission_and_local.w * blinn_phong(diffuse, material.specular_and_shininess, at.irradiance,
+                                                                r.shading, at.to_light, r.to_eye);
+#ifdef RECORDS
+  record = vec4(test.own.uv, test.own.distance, test.gap);
+  flags = uint((lit ? flag_lit : 0) | (test.outside ? flag_outside_map : 0) | flag_surface) |
+          uint(test.own.face << flag_face_shift);
+#endif
+#endif
+}

@@ -1,0 +1,84 @@
+// Constants that GLSL and C++ share: binding points, attribute and output locations, codes and flags. Included by both
+// languages (GLSL's `const int` is C++'s); raster_constants_gl_test.cpp holds the two readings together.
+#ifndef GNOMON_SHARED_CONSTANTS_H
+#define GNOMON_SHARED_CONSTANTS_H
+#ifdef __cplusplus
+namespace gnomon::shaders {
+#endif
+
+// Uniform blocks
+const int camera_block = 0;
+const int light_block = 1;
+
+// Uniforms of one draw call
+const int clip_from_relative_uniform = 0;
+const int first_primitive_uniform = 1;
+const int rectangle_uniform = 0;
+const int shape_uniform = 1;
+const int face_uniform = 2;
+const int cull_uniform = 3;
+const int viewport_uniform = 0;
+
+// Shader storage buffers
+const int positions_buffer = 0;
+const int normals_buffer = 1;
+const int uvs_buffer = 2;
+const int triangles_buffer = 3;
+const int planes_buffer = 4;
+const int shapes_buffer = 5;
+const int materials_buffer = 6;
+const int textures_buffer = 7;
+
+// Texture units
+const int visibility_unit = 0;
+const int depth_map_unit = 1;
+const int texel_pages_unit = 2;
+const int present_unit = 3;
+
+// Vertex attributes
+const int position_attribute = 0;
+const int uv_attribute = 1;
+
+// Fragment outputs of the shading pass
+const int radiance_output = 0;
+const int record_output = 1;
+const int flags_output = 2;
+
+// Bits of the flags output: visibility, lookup outside the map, a surface is there, and the cube face above them
+const int flag_lit = 1;
+const int flag_outside_map = 2;
+const int flag_surface = 4;
+const int flag_face_shift = 3;
+
+// Shapes
+const int shape_sphere = 0;
+const int shape_plane = 1;
+
+// Which sides of a shape a depth map keeps (raster::Cull)
+const int cull_none = 0;
+const int cull_front = 1;
+const int cull_back = 2;
+
+// Lights
+const int light_directional = 0;
+const int light_point = 1;
+const int light_spot = 2;
+
+// Texture flags
+const int texture_srgb = 1;
+const int texture_nearest = 2;
+const int texture_repeat_s = 4;
+const int texture_repeat_t = 8;
+
+// Texels of all textures lie one after the other in pages (layers) of this width and height.
+const int page_width = 4096;
+const int page_height = 4096;
+
+// Depth of a reversed-depth camera image where nothing is drawn, and of a light's map.
+const float camera_clear_depth = 0.0f;
+const float map_clear_depth = 1.0f;
+
+#ifdef __cplusplus
+}  // namespace gnomon::shaders
+#endif
+#endif

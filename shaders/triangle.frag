@@ -1,0 +1,28 @@
+// Primitive ids of the camera's pass and of the depth map's analysis pass (PRIMITIVE_IDS), holes of alpha-masked
+// materials (ALPHA_MASK). Without either, the depth pass needs no fragment shader.
+#include "shared_constants.h"
+
+layout(location = first_primitive_uniform) uniform uint first_primitive;
+
+#ifdef PRIMITIVE_IDS
+layout(location = 0) out uint primitive_id;
+#endif
+#ifdef ALPHA_MASK
+#include "material.glsl"
+struct TriangleData {
+  uint a, b, c;
+  uint material;
+};
+layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+in vec2 vertex_uv;
+#endif
+
+void main() {
+  uint primitive = first_primitive + uint(gl_PrimitiveID);
+#ifdef ALPHA_MASK
+  if (is_hole(materials[triangles[primitive].material], vertex_uv)) discard;
+#endif
+#ifdef PRIMITIVE_IDS
+  primitive_id = primitive;
+#endif
+}
