@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -18,6 +18,7 @@
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/suggest.h"
+#include "scene/load.h"
 
 namespace gnomon::app {
 
@@ -50,31 +51,37 @@ int usage_error(const std::string& text) {
   return static_cast<int>(ErrorKind::usage);
 }
 
+bool looks_like_a_scene(const std::string& word) {
+  const std::vector<BuiltinScene> scenes = builtin_scenes();
+  return std::filesystem::path(word).has_extension() ||
+         std::any_of(scenes.begin(), scenes.end(),
+                     [&](const BuiltinScene& scene) { return scene.name == word; });
+}
+
 /// The first word must be a command or one of the program's own options.
 int unknown_command(const CLI::App& program, const std::string& word) {
-  const std::string hint = did_you_mean(word, command_names(program));
-  if (hint.empty() && std::filesystem::path(word).has_extension()) {
+  if (looks_like_a_scene(word)) {
     return usage_error(fmt::format("{0}: not a command; did you mean gnomon compare {0}?", word));
   }
-  return usage_error(
-      fmt::format("{}: not a command{}{}", word, hint, hint.empty() ? " (see gnomon --help)" : ""));
+  const std::string hint = did_you_mean(word, command_names(program));
+  return usage_error(fmt::format("{}: not a command{}", word, hint.empty() ? " (see gnomon --help)" : hint));
 }
 
 /// The first argument that the command did not take.
 int unexpected_argument(const CLI::App& command, const std::vector<std::string>& left_over) {
+  const std::string prefix = command.get_parent() == nullptr ? "" : command.get_name() + ": ";
   const std::string& word = left_over.front();
   if (!word.starts_with("-") || word == "-") {
-    return usage_error(fmt::format("{}: one argument too many (got {})", command.get_name(), word));
+    return usage_error(fmt::format("{}one argument too many (got {})", prefix, word));
   }
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
   const std::string typed = word.substr(0, word.find('='));
   const std::string hint = did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
-  return usage_error(fmt::format("{0}: unknown option {1}{2}", command.get_name(), typed,
-                                 hint.empty() ? " (see gnomon " + command.get_name() + " --help)" : hint));
+  return usage_error(
+      fmt::format("{}unknown option {}{}", prefix, typed, hint.empty() ? " (--help lists them)" : hint));
 }
 
 int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
@@ -83,7 +90,8 @@ int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
   const std::string prefix = chosen.empty() ? "" : command.get_name() + ": ";
   const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error);
   const std::vector<std::string> left_over = program.remaining(true);
-  if (extras != nullptr && !left_over.empty()) return unexpected_argument(command, left_over);
+  const bool no_command = chosen.empty() && !left_over.empty();
+  if ((extras != nullptr && !left_over.empty()) || no_command) return unexpected_argument(command, left_over);
   return usage_error(prefix + error.what());
 }
 
@@ -94,10 +102,10 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
       "why, and what the accuracy costs in time.",
       "gnomon");
   program->footer(
-      "gnomon compare fence               a built-in scene; report in out/fence/report.html\n"
+      "gnomon compare fence       a built-in scene; report: out/fence/report.html\n"
       "gnomon compare model.glb --bias 0.02 --map-size 2048 -o report\n"
-      "gnomon plan model.glb              which effects are simulated, and why\n"
-      "gnomon scenes                      the built-in scenes");
+      "gnomon plan model.glb      which effects are simulated, and why\n"
+      "gnomon scenes              the built-in scenes");
   program->set_help_flag("--help,-h", "print this help and exit");
   program->set_version_flag("--version", "gnomon " GNOMON_VERSION, "print the version and exit");
   program->require_subcommand(1);

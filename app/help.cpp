@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <sstream>
 
 namespace gnomon::app {
@@ -14,7 +14,7 @@ constexpr std::size_t text_indent = 6;   // columns before an option's descripti
 constexpr std::size_t name_column = 12;  // columns of a subcommand's name
 
 std::string examples(const CLI::App& command) {
-  std::string text = "\nExamples:\n";
+  std::string text = "Examples:\n";
   std::istringstream lines(command.get_footer());
   for (std::string line; std::getline(lines, line);) text += "  " + line + "\n";
   return text;
@@ -25,9 +25,9 @@ std::string option_help(const CLI::Option& option) {
   for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2)) {
     names.replace(comma, 1, ", ");
   }
-  const bool takes_value = option.get_type_size() != 0 && !option.get_positional();
-  return fmt::format("  {}{}\n{}", names, takes_value ? " " + option.get_type_name() : "",
-                     wrap(option.get_description(), text_indent, help_width));
+  const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
+  if (takes_value) names += " " + option.get_type_name();
+  return fmt::format("  {}\n{}", names, wrap(option.get_description(), text_indent, help_width));
 }
 
 std::string command_help(const CLI::App& command) {
@@ -49,8 +49,10 @@ std::string program_help(const CLI::App& program) {
     commands += fmt::format("  {:<{}}{}", command->get_name(), name_column, text.substr(2 + name_column));
   }
   for (const CLI::Option* option : program.get_options()) options += option_help(*option);
-  return fmt::format("{}{}\nCommands (gnomon COMMAND --help says more):\n{}\nOptions:\n{}",
-                     wrap(program.get_description(), 0, help_width), examples(program), commands, options);
+  return fmt::format(
+      "{}\n{}\nUsage: gnomon COMMAND [OPTIONS]\n\nCommands (gnomon COMMAND --help says "
+      "more):\n{}\nOptions:\n{}",
+      wrap(program.get_description(), 0, help_width), examples(program), commands, options);
 }
 
 }  // namespace

@@ -6,8 +6,12 @@ namespace gnomon::app {
 
 namespace {
 
-double radians(double degrees) { return degrees * pi / 180.0; }
-double degrees(double radians) { return radians * 180.0 / pi; }
+double radians(double degrees) {
+  return degrees * pi / 180.0;
+}
+double degrees(double radians) {
+  return radians * 180.0 / pi;
+}
 
 /// What angles are measured from: azimuth 0 is `zero`, azimuth 90 is `quarter`, elevation 90 is `pole`.
 struct PoleFrame {
@@ -65,6 +69,10 @@ Camera posed_camera(const Camera& given, const CameraPose& pose) {
   const LocalFrame local = local_frame(frame_about(given.up), pose.azimuth_degrees, pose.elevation_degrees);
   camera.eye = given.target + pose.distance * local.outwards;
   return camera;
+}
+
+Vec3 scene_centre(const World& world) {
+  return world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
 }
 
 LightPose light_pose(const Light& light, const Vec3& centre) {

@@ -3,7 +3,7 @@
 // turns about its own up vector. A pose fixes the result bit for bit: no drift, whatever the way to it was.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/world.h"
 
 namespace gnomon::app {
 
@@ -26,6 +26,9 @@ inline constexpr double max_light_elevation_degrees = 90.0;
 CameraPose camera_pose(const Camera& camera);
 /// `given` with its eye moved; its target, up vector and angle stay.
 Camera posed_camera(const Camera& given, const CameraPose& pose);
+
+/// What lamps turn about: the middle of all that is finite.
+Vec3 scene_centre(const World& world);
 
 LightPose light_pose(const Light& light, const Vec3& centre);
 /// `given` turned about `centre` at its distance; a spot keeps its aim relative to the line to the centre.

@@ -43,7 +43,7 @@ std::string bias_text(const raster::Bias& bias);
 /// "1%" or "0.01": a share in [0, 1].
 Expected<double> parse_share(std::string_view text);
 
-inline constexpr NumberRange exposure_range{0.0, 1e9, true};
+inline constexpr NumberRange exposure_range{0.0, 1e6, true};
 /// "auto" (no value) or a linear factor.
 Expected<std::optional<double>> parse_exposure(std::string_view text);
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -164,7 +164,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       "gnomon compare fence\n"
       "gnomon compare model.glb --map-size 2048 --bias 0.5texel -o report\n"
       "gnomon compare whitted --light lamp --json - | jq .lights[0].error\n"
-      "gnomon compare scene.json --fail-above 1% --quiet      for scripts: exit code 1");
+      "gnomon compare scene.json --fail-above 1% --quiet    for scripts: exit code 1");
   const auto command = std::make_shared<CompareCommand>();
   command->command_line = invocation.command_line;
   add_options(*app, *command);

@@ -1,7 +1,7 @@
 // gnomon plan: which effects the scene calls for, which are simulated, and why.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 

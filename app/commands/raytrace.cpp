@@ -1,7 +1,7 @@
 // gnomon raytrace: the ray-traced picture alone.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/interrupt.h"

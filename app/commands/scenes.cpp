@@ -1,7 +1,7 @@
 // gnomon scenes: the built-in scenes, whose names work wherever a scene file does.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 

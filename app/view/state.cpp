@@ -127,7 +127,7 @@ Expected<Picture> parse_picture(std::string_view name) {
 }
 
 GivenScene given_scene(const Scene& scene, const World& world) {
-  return {scene.camera, scene.lights, world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center()};
+  return {scene.camera, scene.lights, scene_centre(world)};
 }
 
 void place(const GivenScene& given, const Setup& setup, Scene& scene) {

@@ -1,20 +1,26 @@
-// The interactive window: where its options and its entry point live. Command and window come with view.cpp.
+// gnomon view: what it is asked for, and its entry point.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "app/invocation.h"
+#include "app/pose_options.h"
 #include "compare/compare.h"
 
 namespace gnomon::app {
 
 struct ViewOptions {
-  std::string scene;  ///< a path or the name of a built-in scene
-  compare::CompareOptions compare;
-  std::string
-      script;  ///< a file of `set`, `wait`, `screenshot` and `quit` lines that drives the window; empty: none
+  std::string scene;                 ///< a path or the name of a built-in scene
+  compare::CompareOptions compare;   ///< raster.size is the window's first size
+  PoseOptions poses;
+  std::optional<std::optional<double>> exposure;  ///< none: the scene's own
+  std::string script;                ///< a file of steps that drives the window (script.h); empty: none
+  int threads = 0;                   ///< 0: all cores
+  bool quiet = false;
 };
 
-/// Opens the window and returns the process's exit code when it is closed.
-int run_view(const ViewOptions& options);
+/// Opens the window and returns when it is closed or its script has ended.
+Expected<ExitCode> run_view(const ViewOptions& options);
 
 }  // namespace gnomon::app

@@ -1,0 +1,107 @@
+// CLI11 throws; what is thrown here is caught in command_line.cpp and never leaves this room.
+#include "app/pose_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/session.h"
+#include "app/values.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr NumberRange azimuth_range{-360.0, 360.0};
+constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
+constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
+constexpr NumberRange distance_range{0.0, 1e12, true};
+
+Expected<Vec2> parse_orbit(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos)
+    return fail(ErrorKind::usage, fmt::format("not of the form AZIMUTH,ELEVATION (got {})", text));
+  const Expected<double> azimuth = parse_number(text.substr(0, comma), azimuth_range);
+  if (!azimuth) return fail(azimuth.error());
+  const Expected<double> elevation = parse_number(text.substr(comma + 1), camera_elevation_range);
+  if (!elevation) return fail(elevation.error());
+  return Vec2{*azimuth, *elevation};
+}
+
+template <class Value, class Parse>
+void add_value(CLI::App& command, const std::string& name, const char* type, std::optional<Value>& field,
+               const std::string& text, const Parse& parse) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [&field, name, parse](const std::string& value) {
+            const Expected<Value> parsed = parse(value);
+            if (!parsed) throw CLI::ValidationError(name, parsed.error().reason);
+            field = *parsed;
+          },
+          text + "; default the scene's own]")
+      ->type_name(type);
+}
+
+void add_number(CLI::App& command, const std::string& name, const char* type, std::optional<double>& field,
+                const NumberRange& range, const std::string& what, const char* unit) {
+  add_value(command, name, type, field, fmt::format("{} [{}, {}", what, unit, range_text(range)),
+            [range](const std::string& value) { return parse_number(value, range); });
+}
+
+/// The light that is to be turned.
+Expected<std::uint32_t> chosen_light(const std::string& name, const Scene& scene) {
+  if (name.empty() && scene.lights.size() > 1) {
+    return fail(ErrorKind::usage, fmt::format("--light-azimuth, --light-elevation: the scene has {} lights; "
+                                              "--light NAME says which one to turn",
+                                              scene.lights.size()));
+  }
+  const auto lights = choose_lights(scene, name);
+  if (!lights) return fail(lights.error());
+  return lights->front();
+}
+
+}  // namespace
+
+void add_pose_options(CLI::App& command, PoseOptions& poses) {
+  add_value(
+      command, "--camera-orbit", "AZIMUTH,ELEVATION", poses.camera_orbit,
+      fmt::format(
+          "where the eye stands, seen from the camera's target: azimuth 0 is +z and 90 is +x, elevation is "
+          "above the horizon [degrees, {} and {}",
+          range_text(azimuth_range), range_text(camera_elevation_range)),
+      parse_orbit);
+  add_number(command, "--camera-distance", "D", poses.camera_distance, distance_range,
+             "distance of the eye from the camera's target", "world units");
+  add_number(
+      command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
+      "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",
+      "degrees");
+  add_number(
+      command, "--light-elevation", "DEG", poses.light_elevation, light_elevation_range,
+      "how high the light stands above the horizon; a lamp's angles are those seen from the scene's centre",
+      "degrees");
+}
+
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
+                           const World& world) {
+  if (poses.camera_orbit || poses.camera_distance) {
+    CameraPose pose = camera_pose(scene.camera);
+    if (poses.camera_orbit)
+      pose.azimuth_degrees = poses.camera_orbit->x, pose.elevation_degrees = poses.camera_orbit->y;
+    if (poses.camera_distance) pose.distance = *poses.camera_distance;
+    scene.camera = posed_camera(scene.camera, pose);
+  }
+  if (!poses.light_azimuth && !poses.light_elevation) return {};
+  const Expected<std::uint32_t> chosen = chosen_light(light, scene);
+  if (!chosen) return fail(chosen.error());
+  Light& turned = scene.lights[*chosen];
+  const Vec3 centre = scene_centre(world);
+  LightPose pose = light_pose(turned, centre);
+  if (poses.light_azimuth) pose.azimuth_degrees = *poses.light_azimuth;
+  if (poses.light_elevation) pose.elevation_degrees = *poses.light_elevation;
+  turned = posed_light(turned, centre, pose);
+  return {};
+}
+
+}  // namespace gnomon::app

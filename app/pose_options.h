@@ -1,0 +1,30 @@
+// --camera-orbit, --camera-distance, --light-azimuth, --light-elevation: another camera and another light than the
+// scene's own, for every command that draws.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/pose.h"
+#include "scene/expected.h"
+#include "scene/world.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+struct PoseOptions {
+  std::optional<Vec2> camera_orbit;       ///< azimuth, elevation: degrees
+  std::optional<double> camera_distance;  ///< world units
+  std::optional<double> light_azimuth, light_elevation;  ///< degrees
+};
+
+void add_pose_options(CLI::App& command, PoseOptions& poses);
+
+/// Moves the scene's camera, and turns the light of that name; without a name, the only light there is. Errors are
+/// ErrorKind::usage.
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene, const World& world);
+
+}  // namespace gnomon::app

@@ -1,0 +1,98 @@
+#include "app/view/status.h"
+
+#include <fmt/format.h>
+
+#include "app/shell.h"
+#include "app/values.h"
+#include "compare/number_text.h"
+#include "compare/option_names.h"
+
+namespace gnomon::app {
+
+namespace {
+
+std::string bias_words(const raster::Bias& bias, const Readings& readings) {
+  const double texels = bias.unit == raster::BiasUnit::texel ? bias.constant
+                        : readings.texel_world > 0.0         ? readings.bias_world / readings.texel_world
+                                                             : 0.0;
+  std::string text = fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels);
+  if (bias.slope != 0.0) text += fmt::format(" + {:.4g} slope", bias.slope);
+  if (bias.normal_offset_texels != 0.0) text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
+  if (bias.receiver_plane) text += ", receiver plane";
+  return text;
+}
+
+std::string compared_words(const std::optional<Readings::Compared>& compared) {
+  if (!compared) return "comparing…";
+  std::string text = "wrong " + compare::percent(compared->wrong_fraction);
+  if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
+  return text + fmt::format(" | map {}, shading {}, shadow rays {}", compare::milliseconds(compared->map_ms),
+                            compare::milliseconds(compared->shade_ms), compare::milliseconds(compared->shadow_rays_ms));
+}
+
+/// A value that begins with a dash is joined to its option, so as not to look like one.
+void add_if(std::string& text, bool wanted, std::string_view key, const std::string& value) {
+  if (wanted) text += fmt::format(" {}{}{}", key, value.starts_with('-') ? "=" : " ", shell_quoted(value));
+}
+
+void add_map(std::string& text, const raster::MapOptions& map) {
+  const raster::MapOptions plain;
+  add_if(text, true, "--map-size", std::to_string(map.size));
+  add_if(text, map.technique != plain.technique, "--technique", std::string(compare::technique_name(map.technique)));
+  add_if(text, true, "--bias", bias_text(map.bias));
+  add_if(text, map.bias.slope != plain.bias.slope, "--slope-bias", number_text(map.bias.slope));
+  add_if(text, map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
+         number_text(map.bias.normal_offset_texels));
+  if (map.bias.receiver_plane) text += " --receiver-plane";
+  add_if(text, map.depth_format != plain.depth_format, "--depth-format",
+         std::string(compare::depth_format_name(map.depth_format)));
+  add_if(text, map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
+}
+
+void add_poses(std::string& text, const Setup& setup) {
+  if (setup.camera) {
+    const CameraPose& pose = *setup.camera;
+    add_if(text, true, "--camera-orbit",
+           fmt::format("{},{}", number_text(pose.azimuth_degrees), number_text(pose.elevation_degrees)));
+    add_if(text, true, "--camera-distance", number_text(pose.distance));
+  }
+  if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
+    add_if(text, true, "--light-azimuth", number_text(pose->azimuth_degrees));
+    add_if(text, true, "--light-elevation", number_text(pose->elevation_degrees));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> other_turned_lights(const ViewState& state) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < state.given.lights.size(); ++i) {
+    if (i != state.setup.light && state.setup.lights[i]) names.push_back(state.given.lights[i].name);
+  }
+  return names;
+}
+
+std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene) {
+  std::string text = fmt::format("{} | {}", scene, picture_name(state.picture));
+  if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
+  text += fmt::format(" | {} {}² | {}", compare::technique_name(state.setup.map.technique), state.setup.map.size,
+                      bias_words(state.setup.map.bias, readings));
+  return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
+                            compared_words(readings.compared));
+}
+
+std::string compare_command(const ViewState& state, const ViewOptions& options) {
+  const compare::CompareOptions plain;
+  std::string text = "gnomon compare " + shell_quoted(options.scene);
+  add_if(text, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
+  add_map(text, state.setup.map);
+  add_if(text, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
+  add_poses(text, state.setup);
+  add_if(text, options.compare.accel != plain.accel, "--accel", "brute");
+  add_if(text, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution, "--min-contribution",
+         number_text(options.compare.raytrace.min_contribution));
+  if (options.exposure) add_if(text, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+  return text;
+}
+
+}  // namespace gnomon::app

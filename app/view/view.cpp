@@ -1,0 +1,53 @@
+#include "app/view/view.h"
+
+#include "app/session.h"
+#include "app/view/viewer.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon::app {
+
+namespace {
+
+Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene) {
+  if (path.empty()) return std::vector<ScriptStep>{};
+  const Expected<std::string> text = read_file(path);
+  if (!text) return fail(text.error());
+  return parse_script(*text, path, scene.lights);
+}
+
+/// The state that the command line asks for.
+Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& loaded) {
+  const auto lights = choose_lights(*loaded.scene, options.compare.light);
+  if (!lights) return fail(lights.error());
+  ViewState state;
+  state.given = given_scene(*loaded.scene, *loaded.world);
+  state.setup.lights.resize(state.given.lights.size());
+  state.setup.light = lights->front();
+  state.setup.map = options.compare.raster.map;
+  state.setup.size = options.compare.raster.size;
+  const auto posed = pose_setup(options.poses, options.compare.light, state.given, state.setup);
+  if (!posed) return fail(posed.error());
+  state.initial = state.setup;
+  return state;
+}
+
+}  // namespace
+
+Expected<ExitCode> run_view(const ViewOptions& options) {
+  Console console(options.quiet);
+  const ThreadLimit thread_limit(options.threads);
+  const auto loaded = load(options.scene, console);
+  if (!loaded) return fail(loaded.error());
+  if (options.exposure) loaded->scene->exposure = *options.exposure;
+  auto state = first_state(options, *loaded);
+  if (!state) return fail(state.error());
+  auto script = read_script(options.script, *loaded->scene);
+  if (!script) return fail(script.error());
+  const auto viewer = Viewer::open(options, *loaded, std::move(*state), std::move(*script), console);
+  if (!viewer) return fail(viewer.error());
+  if (options.script.empty()) console.message(key_help());
+  if (const auto ran = (*viewer)->run(); !ran) return fail(ran.error());
+  return ExitCode::done;
+}
+
+}  // namespace gnomon::app
