@@ -1,0 +1,172 @@
+#include "scene/files/defaults.h"
+
+#include <fmt/format.h>
+
+namespace gnomon {
+namespace {
+
+constexpr double default_fov = 40.0 * pi / 180.0;
+
+// Upward and downward areas of the scene's triangles, projected to the ground; and how much of the upward
+// area lies flat near the bottom.
+struct Footprint {
+  double up = 0.0, down = 0.0, floor = 0.0;
+  bool lowest_faces_up = false;  // a triangle that faces up lies in the lowest plane itself
+};
+
+template <class Visit>
+void for_each_triangle(const Scene& scene, const Visit& visit) {
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    std::vector<Vec3> world;
+    world.reserve(mesh.positions.size());
+    for (const Vec3& p : mesh.positions) world.push_back(Vec3(instance.world_from_object * Vec4(p, 1.0)));
+    const double side = glm::determinant(Mat3(instance.world_from_object)) < 0.0 ? -1.0 : 1.0;
+    for (const auto& t : mesh.triangles) visit(world[t[0]], world[t[1]], world[t[2]], side);
+  }
+}
+
+Footprint footprint(const Scene& scene, const Aabb& bounds) {
+  constexpr double floor_share = 0.1;      // of the height: a floor slab has some thickness
+  constexpr double flat = 0.95;            // |n.y| of a horizontal triangle
+  constexpr double coplanar_share = 1e-6;  // of the diagonal
+  const double floor_top = bounds.min.y + floor_share * bounds.extent().y;
+  const double lowest = bounds.min.y + coplanar_share * bounds.diagonal();
+  Footprint out;
+  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double side) {
+    const Vec3 n = 0.5 * side * glm::cross(b - a, c - a);
+    (n.y > 0.0 ? out.up : out.down) += std::abs(n.y);
+    const double top = std::max({a.y, b.y, c.y});
+    if (n.y <= 0.0 || top > floor_top || n.y < flat * glm::length(n)) return;
+    out.floor += n.y;
+    if (top <= lowest) out.lowest_faces_up = true;
+  });
+  return out;
+}
+
+// A floor covers half of the ground plan near the bottom; an open sheet (a terrain) covers most of it from
+// anywhere.
+bool has_own_ground(const Footprint& areas, const Aabb& bounds) {
+  const double plan = bounds.extent().x * bounds.extent().z;
+  const bool floor = areas.floor >= 0.5 * plan;
+  const bool sheet = areas.up >= 0.8 * plan && areas.down <= 0.1 * areas.up;
+  return floor || sheet;
+}
+
+void add_ground(Scene& scene, const Aabb& bounds) {
+  const Footprint areas = footprint(scene, bounds);
+  if (has_own_ground(areas, bounds)) {
+    scene.notes.push_back("No ground was added: the model brings a floor of its own.");
+    return;
+  }
+  // A visible face in the ground's own plane would fight with it for the same depth.
+  const double drop = areas.lowest_faces_up ? 1e-3 * bounds.diagonal() : 0.0;
+  Material material = model_material("ground");
+  material.diffuse = Vec3f(0.5f);
+  const Vec3 center = bounds.center();
+  Shape ground{"ground", Plane{{center.x, bounds.min.y - drop, center.z}, {0.0, 1.0, 0.0}},
+               static_cast<std::uint32_t>(scene.materials.size())};
+  scene.materials.push_back(std::move(material));
+  scene.shapes.push_back(std::move(ground));
+  scene.notes.push_back(
+      fmt::format("Made a grey ground plane at y = {:g}, {} the model's lowest point, to receive shadows.",
+                  bounds.min.y - drop, drop > 0.0 ? "just below" : "touching"));
+}
+
+// From above, on the camera's left, and a little from its side.
+Light default_sun(const Camera& camera) {
+  const Vec3 up(0.0, 1.0, 0.0);
+  const Vec3 forward = glm::normalize(camera.target - camera.eye);
+  Vec3 right = glm::cross(forward, up);
+  right = glm::length(right) > 1e-6 ? glm::normalize(right) : Vec3(1.0, 0.0, 0.0);
+  const Vec3 back = glm::cross(right, up);  // horizontal, towards the camera
+  Light sun;
+  sun.name = "sun";
+  sun.type = LightType::directional;
+  sun.direction = -glm::normalize(-0.6 * right + 1.0 * up + 0.45 * back);
+  sun.intensity = Vec3f(1.0f);
+  return sun;
+}
+
+void add_sun(Scene& scene, bool is_model) {
+  const Light sun = default_sun(scene.camera);
+  scene.lights.push_back(sun);
+  scene.notes.push_back(
+      fmt::format("Made a directional light 'sun' from the upper left, direction [{:.3f}, {:.3f}, {:.3f}]: "
+                  "the file has no light.",
+                  sun.direction.x, sun.direction.y, sun.direction.z));
+  if (!is_model) return;
+  scene.ambient = Vec3f(0.15f);
+  scene.background = Vec3f(0.35f, 0.45f, 0.6f);
+  scene.notes.push_back("Made an ambient light of 0.15 and a pale blue background for the bare model.");
+}
+
+}  // namespace
+
+Aabb scene_bounds(const Scene& scene) {
+  Aabb bounds;
+  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double) {
+    bounds.grow(a);
+    bounds.grow(b);
+    bounds.grow(c);
+  });
+  for (const Shape& shape : scene.shapes) {
+    const auto* sphere = std::get_if<Sphere>(&shape.geometry);
+    if (!sphere) continue;
+    bounds.grow(sphere->center - Vec3(sphere->radius));
+    bounds.grow(sphere->center + Vec3(sphere->radius));
+  }
+  return bounds;
+}
+
+Camera default_camera(const Aabb& bounds) {
+  constexpr double margin = 1.1;
+  const Vec3 center = bounds.center();
+  const Vec3 back = glm::normalize(Vec3(0.55, 0.5, 1.0));  // from the target to the eye
+  const Vec3 right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
+  const Vec3 up = glm::cross(back, right);
+  const double tangent = std::tan(0.5 * default_fov);
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) ? bounds.max.x : bounds.min.x, (corner & 2) ? bounds.max.y : bounds.min.y,
+                 (corner & 4) ? bounds.max.z : bounds.min.z);
+    const Vec3 offset = p - center;
+    const double across = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
+    distance = std::max(distance, margin * across / tangent + glm::dot(offset, back));
+  }
+  Camera camera;
+  camera.target = center;
+  camera.eye = center + back * (distance > 0.0 ? distance : 1.0);
+  camera.vertical_fov = default_fov;
+  return camera;
+}
+
+Scene add_defaults(LoadedFile loaded) {
+  Scene& scene = loaded.scene;
+  Aabb bounds = scene_bounds(scene);
+  if (bounds.empty()) {  // planes alone: something like a room at the first one
+    const Vec3 point =
+        scene.shapes.empty() ? Vec3(0.0) : std::get<Plane>(scene.shapes.front().geometry).point;
+    bounds.grow(point - Vec3(2.0));
+    bounds.grow(point + Vec3(2.0));
+  }
+  if (!loaded.has_camera) {
+    scene.camera = default_camera(bounds);
+    scene.notes.push_back(
+        fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] that frames the scene: the file has none.",
+                    scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z));
+  }
+  if (loaded.is_model && scene.lights.empty()) add_ground(scene, bounds);
+  if (scene.lights.empty()) add_sun(scene, loaded.is_model);
+  if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
+  return std::move(scene);
+}
+
+Material model_material(std::string name) {
+  Material material;
+  material.name = std::move(name);
+  material.diffuse = Vec3f(0.7f);
+  return material;
+}
+
+}  // namespace gnomon

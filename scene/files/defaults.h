@@ -1,0 +1,19 @@
+// What a file does not say and the program therefore makes up: camera, light, ground. Each is noted in
+// Scene::notes.
+#pragma once
+
+#include "scene/files/formats.h"
+
+namespace gnomon {
+
+/// World-space bounds of all triangles and spheres; empty when the scene has only planes.
+Aabb scene_bounds(const Scene& scene);
+
+/// A camera that looks at the box from the front right and above, with all of it in a square picture.
+Camera default_camera(const Aabb& bounds);
+
+/// Completes a loaded file: at least one material; a camera that frames it and a sun from above on the
+/// camera's left if it has none; and for a bare model without lights a ground under it, unless it brings one.
+Scene add_defaults(LoadedFile loaded);
+
+}  // namespace gnomon

@@ -1,0 +1,49 @@
+// One function per file format, and what they share. A LoadedFile is what a file says and nothing more;
+// load.cpp then makes up what is missing (defaults.h) and checks the whole (validate.h).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/load.h"
+
+namespace gnomon {
+
+struct LoadedFile {
+  Scene scene;
+  bool has_camera = false;  ///< the scene's camera is the file's
+  bool is_model = false;    ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
+};
+
+/// Guards against files that include each other, or too many of them.
+struct IncludeState {
+  std::vector<std::string> open;  ///< canonical paths of the files being read, outermost first
+  int total = 0;
+};
+inline constexpr int max_includes = 256;
+
+/// `file` is the name for messages; `folder` is where paths in the file start.
+Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& file,
+                                     const std::string& folder, const LoadOptions& options,
+                                     IncludeState& includes);
+Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, const std::string& folder,
+                               const LoadOptions& options);
+Expected<LoadedFile> read_obj(std::string_view text, const std::string& file, const std::string& folder,
+                              const LoadOptions& options);
+Expected<LoadedFile> read_ply(std::string_view bytes, const std::string& file);
+
+/// Chooses by the extension; `bytes` are the file's.
+Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
+                                       const LoadOptions& options, IncludeState& includes);
+/// A list for messages: ".json .gltf .glb .obj .ply".
+std::string_view known_extensions();
+
+/// A JSON scene that is not in a file of its own: built-in scenes.
+Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
+                                const LoadOptions& options);
+
+/// The material of model files that give none: neutral grey.
+Material model_material(std::string name);
+
+}  // namespace gnomon

@@ -1,0 +1,107 @@
+// Materials and textures of a JSON scene.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/files/image_io.h"
+#include "scene/files/json_generate.h"
+#include "scene/files/json_parts.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon {
+namespace {
+
+Texture texture_pixels(SceneReader& reader, const JsonObject& object) {
+  const std::string_view source = object.exactly_one({"file", "generate"});
+  if (source == "generate") {
+    object.forbid("srgb", "does not apply to a generated texture");
+    const JsonNode node = *object.find("generate");
+    auto texture = generate_from_json<Texture>(node, &generate_texture);
+    return texture ? std::move(*texture) : Texture{};
+  }
+  if (source.empty()) return {};
+  const JsonNode node = *object.find("file");
+  const std::string path = reader.resolve(node);
+  const bool srgb = object.boolean("srgb", true);
+  if (reader.failed()) return {};
+  auto texture = read_texture(path, srgb);
+  if (texture) return std::move(*texture);
+  reader.adopt(node, texture.error());
+  return {};
+}
+
+void read_texture_of(SceneReader& reader, const JsonNode& node, Material& material) {
+  const JsonObject object(
+      node, {"file", "generate", "srgb", "filter", "wrap", "offset", "scale", "rotation_degrees"});
+  if (reader.failed()) return;
+  Texture texture = texture_pixels(reader, object);
+  if (const auto filter = object.find("filter"))
+    texture.nearest = filter->as_choice({"bilinear", "nearest"}) == 1;
+  if (const auto wrap = object.find("wrap"))
+    texture.repeat_s = texture.repeat_t = wrap->as_choice({"repeat", "clamp"}) == 0;
+  TextureTransform& transform = material.texture_transform;
+  if (const auto offset = object.find("offset")) transform.offset = offset->as_vec2();
+  if (const auto scale = object.find("scale")) transform.scale = scale->as_scale2();
+  transform.rotation = object.number("rotation_degrees", 0.0, coordinate_range) * pi / 180.0;
+  material.diffuse_texture = static_cast<std::uint32_t>(reader.scene.textures.size());
+  reader.scene.textures.push_back(std::move(texture));
+}
+
+Material read_material(SceneReader& reader, const JsonNode& node) {
+  const JsonObject object(
+      node, {"name", "diffuse", "specular", "shininess", "emission", "mirror", "transmission", "ior",
+             "absorption", "roughness", "texture", "alpha", "alpha_mode", "alpha_cutoff"});
+  const auto number = [&](std::string_view key, float otherwise, const NumberRange& range) {
+    return static_cast<float>(object.number(key, static_cast<double>(otherwise), range));
+  };
+  Material m;
+  if (const auto name = object.require("name")) m.name = name->as_string();
+  m.diffuse = object.color("diffuse", m.diffuse, unit_interval);
+  m.specular = object.color("specular", m.specular, unit_interval);
+  m.shininess = number("shininess", m.shininess, {0.001, 1e6});
+  m.emission = object.color("emission", m.emission);
+  m.mirror = number("mirror", m.mirror, unit_interval);
+  m.transmission = number("transmission", m.transmission, unit_interval);
+  m.ior = number("ior", m.ior, {0.01, 100.0});
+  m.absorption = object.color("absorption", m.absorption);
+  m.roughness = number("roughness", m.roughness, unit_interval);
+  m.alpha = number("alpha", m.alpha, unit_interval);
+  if (const auto mode = object.find("alpha_mode"))
+    m.alpha_mode = mode->as_choice({"opaque", "mask"}) == 1 ? AlphaMode::mask : AlphaMode::opaque;
+  m.alpha_cutoff = number("alpha_cutoff", m.alpha_cutoff, unit_interval);
+  if (m.mirror + m.transmission > 1.0f)
+    object.find("transmission")
+        ->error(fmt::format("mirror + transmission (got {:g} + {:g}, allowed up to 1)", m.mirror,
+                            m.transmission));
+  if (const auto texture = object.find("texture")) read_texture_of(reader, *texture, m);
+  return m;
+}
+
+}  // namespace
+
+void read_materials(SceneReader& reader, const JsonNode& list) {
+  for (const JsonNode& node : list.as_array()) {
+    Material material = read_material(reader, node);
+    if (reader.failed()) return;
+    const auto index = static_cast<std::uint32_t>(reader.scene.materials.size());
+    if (!reader.materials.emplace(material.name, index).second) {
+      return node.child("name")->error(
+          fmt::format("another material has this name (got \"{}\")", printable(material.name)));
+    }
+    reader.scene.materials.push_back(std::move(material));
+  }
+}
+
+std::uint32_t find_material(SceneReader& reader, const JsonNode& name) {
+  const std::string text = name.as_string();
+  if (reader.failed()) return 0;
+  const auto found = reader.materials.find(text);
+  if (found != reader.materials.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& entry : reader.materials) names.push_back(entry.first);
+  name.error(fmt::format("no such material (got \"{}\", allowed {}){}", printable(text),
+                         names.empty() ? "none: there are no materials" : list_names(names),
+                         suggestion(text, names)));
+  return 0;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,55 @@
+// The parts of a JSON scene (scene.schema.json says what they hold). Each function reads one list of the file
+// into the scene; mistakes go to SceneReader::errors.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scene/files/formats.h"
+#include "scene/files/json_reader.h"
+
+namespace gnomon {
+
+/// A mesh of the file may consist of several, each with a material of its own or none.
+struct MeshPart {
+  std::string name;
+  std::uint32_t mesh = 0;
+  Mat4 mesh_from_part{1.0};
+  std::uint32_t material = no_id;
+  bool has_own_material = false;
+};
+
+struct NamedMesh {
+  std::vector<MeshPart> parts;
+  bool used = false;
+};
+
+/// What the reading of one JSON file carries along.
+struct SceneReader {
+  JsonErrors& errors;
+  Scene& scene;
+  const std::string& folder;
+  const LoadOptions& options;
+  IncludeState& includes;
+  std::map<std::string, std::uint32_t, std::less<>> materials{};
+  std::map<std::string, NamedMesh, std::less<>> meshes{};
+  std::map<std::uint32_t, std::uint32_t> plain_meshes{};  ///< copies without triangle_materials
+
+  bool failed() const { return errors.first.has_value(); }
+  /// Passes on an error that another file or a generator made; one without a file gets this node's position.
+  void adopt(const JsonNode& node, Error error);
+  /// The path of a file named in the scene; "" and an error when it is not allowed.
+  std::string resolve(const JsonNode& named);
+};
+
+void read_materials(SceneReader& reader, const JsonNode& list);
+void read_lights(SceneReader& reader, const JsonNode& list);
+void read_meshes(SceneReader& reader, const JsonNode& list);
+void read_instances(SceneReader& reader, const JsonNode& list);
+void read_shapes(SceneReader& reader, const JsonNode& list);
+Camera read_camera(SceneReader& reader, const JsonNode& node);
+
+/// The material that a string names; 0 and an error when there is none.
+std::uint32_t find_material(SceneReader& reader, const JsonNode& name);
+
+}  // namespace gnomon

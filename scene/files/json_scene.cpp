@@ -1,0 +1,185 @@
+// The top level of a JSON scene: version, camera, picture settings and includes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scene/files/json_parts.h"
+#include "scene/files/merge.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::string_view schema_name = "gnomon/scene/1";
+
+// The offset of a member of an object, for errors that are found after reading.
+std::size_t offset_of(const JsonValue& object, std::string_view key) {
+  const JsonMember* member = object.find(key);
+  return member ? member->value.begin : object.begin;
+}
+
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const auto real = std::filesystem::weakly_canonical(path, error);
+  return error ? path : real.string();
+}
+
+void check_cycle(SceneReader& reader, const JsonNode& node, const std::string& path) {
+  const auto& open = reader.includes.open;
+  const auto found = std::find(open.begin(), open.end(), canonical(path));
+  if (found != open.end()) {
+    std::string chain;
+    for (auto it = found; it != open.end(); ++it)
+      chain += std::filesystem::path(*it).filename().string() + " -> ";
+    node.error(fmt::format("the files include each other ({}{})", chain,
+                           std::filesystem::path(path).filename().string()));
+  }
+  if (++reader.includes.total > max_includes)
+    node.error(fmt::format("too many included files (allowed {})", max_includes));
+}
+
+// Names of the included file's materials become names of ours.
+void adopt_names(SceneReader& reader, const JsonNode& node, std::uint32_t first) {
+  for (std::size_t i = first; i < reader.scene.materials.size(); ++i) {
+    const std::string& name = reader.scene.materials[i].name;
+    const bool is_new = reader.materials.emplace(name, static_cast<std::uint32_t>(i)).second;
+    if (!is_new)
+      node.error(fmt::format("the file has a material \"{}\", and so has another", printable(name)));
+  }
+}
+
+void adopt_mesh_names(SceneReader& reader, const JsonNode& node, std::uint32_t first) {
+  for (std::size_t i = first; i < reader.scene.meshes.size(); ++i) {
+    const Mesh& mesh = reader.scene.meshes[i];
+    NamedMesh named{
+        {{mesh.name, static_cast<std::uint32_t>(i), Mat4(1.0), no_id, !mesh.triangle_materials.empty()}},
+        true};
+    const bool is_new = reader.meshes.emplace(mesh.name, std::move(named)).second;
+    if (!is_new)
+      node.error(fmt::format("the file has a mesh \"{}\", and so has another", printable(mesh.name)));
+  }
+}
+
+void read_include(SceneReader& reader, const JsonNode& node) {
+  const std::string path = reader.resolve(node);
+  if (reader.failed()) return;
+  check_cycle(reader, node, path);
+  if (reader.failed()) return;
+  const auto bytes = read_file(path);
+  if (!bytes) return reader.adopt(node, bytes.error());
+  auto loaded = read_by_extension(*bytes, path, reader.options, reader.includes);
+  if (!loaded) return reader.adopt(node, loaded.error());
+  if (loaded->has_camera)
+    reader.scene.notes.push_back(fmt::format("The camera of the included file {} is not used.", path));
+  const bool named = !loaded->is_model;  // the names inside a model are its own affair
+  const MergeOffsets offsets = merge_scene(reader.scene, std::move(loaded->scene), true);
+  if (!named) return;
+  adopt_names(reader, node, offsets.material);
+  adopt_mesh_names(reader, node, offsets.mesh);
+}
+
+void check_schema(const JsonObject& top) {
+  const auto node = top.require("schema");
+  if (node && node->as_string() != schema_name)
+    node->wrong("not a scene of this version", fmt::format("\"{}\"", schema_name));
+}
+
+void read_settings(SceneReader& reader, const JsonObject& top) {
+  Scene& scene = reader.scene;
+  scene.name = top.string("name", scene.name);
+  top.string("description");  // for people
+  scene.ambient = top.color("ambient", scene.ambient);
+  scene.background = top.color("background", scene.background);
+  if (const auto node = top.find("exposure")) scene.exposure = node->as_number({0.0, max_radiance, true});
+  scene.max_depth =
+      static_cast<int>(top.number("max_depth", scene.max_depth, {0.0, 64.0, false, false, true}));
+}
+
+void note_unused_meshes(SceneReader& reader) {
+  for (const auto& [name, mesh] : reader.meshes)
+    if (!mesh.used)
+      reader.scene.notes.push_back(fmt::format("The mesh '{}' is not used by any instance.", name));
+}
+
+// The order matters: what is named must be known before it is used.
+bool read_top(SceneReader& reader, const JsonNode& root) {
+  const JsonObject top(root,
+                       {"$schema", "schema", "name", "description", "camera", "lights", "materials", "meshes",
+                        "instances", "shapes", "include", "ambient", "background", "exposure", "max_depth"});
+  check_schema(top);
+  read_settings(reader, top);
+  if (const auto list = top.find("include"))
+    for (const JsonNode& node : list->as_array())
+      if (!reader.failed()) read_include(reader, node);
+  if (const auto list = top.find("materials")) read_materials(reader, *list);
+  if (const auto list = top.find("meshes")) read_meshes(reader, *list);
+  if (const auto list = top.find("instances")) read_instances(reader, *list);
+  if (const auto list = top.find("shapes")) read_shapes(reader, *list);
+  if (const auto list = top.find("lights")) read_lights(reader, *list);
+  note_unused_meshes(reader);
+  if (reader.scene.instances.empty() && reader.scene.shapes.empty())
+    root.error("the scene shows nothing (needs instances, shapes or include)");
+  const auto camera = top.find("camera");
+  if (camera) reader.scene.camera = read_camera(reader, *camera);
+  return camera.has_value();
+}
+
+}  // namespace
+
+void SceneReader::adopt(const JsonNode& node, Error error) {
+  if (error.file.empty()) return node.error(error.reason);
+  if (errors.first) return;
+  // An error inside the other file speaks for itself; one about the file as such belongs to the line that
+  // names it.
+  if (error.line > 0 || !error.field.empty())
+    errors.first = std::move(error);
+  else
+    node.error(fmt::format("{}: {}", error.file, error.reason));
+}
+
+std::string SceneReader::resolve(const JsonNode& named) {
+  const std::string name = named.as_string();
+  if (failed()) return {};
+  if (name.empty() || name.find('\0') != std::string::npos) {
+    named.wrong("not a path", "the path of a file");
+    return {};
+  }
+  const auto path = resolve_path(folder, name, options.confine_paths);
+  if (path) return *path;
+  named.error(path.error().reason);
+  return {};
+}
+
+Camera read_camera(SceneReader& reader, const JsonNode& node) {
+  const JsonObject object(node, {"eye", "target", "up", "vertical_fov_degrees"});
+  Camera camera;
+  if (const auto eye = object.require("eye")) camera.eye = eye->as_vec3();
+  if (const auto target = object.require("target")) camera.target = target->as_vec3();
+  if (const auto up = object.find("up")) camera.up = up->as_vec3();
+  camera.vertical_fov = object.number("vertical_fov_degrees", 40.0, {0.0, 180.0, true, true}) * pi / 180.0;
+  if (reader.failed()) return camera;
+  if (const auto defect = find_camera_defect(camera)) {
+    const std::string key = defect->field.substr(defect->field.find('.') + 1);
+    reader.errors.add(offset_of(node.value(), key), defect->field, defect->reason);
+  }
+  return camera;
+}
+
+Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& file,
+                                     const std::string& folder, const LoadOptions& options,
+                                     IncludeState& includes) {
+  const auto document = parse_json(text, file);
+  if (!document) return fail(document.error());
+  JsonErrors errors{*document};
+  LoadedFile loaded;
+  loaded.scene.name = std::filesystem::path(file).stem().string();
+  includes.open.push_back(canonical(file));
+  SceneReader reader{errors, loaded.scene, folder, options, includes};
+  loaded.has_camera = read_top(reader, JsonNode(errors, document->root, ""));
+  includes.open.pop_back();
+  if (errors.first) return fail(std::move(*errors.first));
+  return loaded;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,100 @@
+// From a path or a name to a whole, checked scene.
+#include "scene/load.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+
+#include "scene/builtin.h"
+#include "scene/files/defaults.h"
+#include "scene/files/formats.h"
+#include "scene/files/json_reader.h"
+#include "scene/files/read_file.h"
+#include "scene/files/sha256.h"
+#include "scene/files/validate.h"
+
+namespace gnomon {
+namespace {
+
+Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path, std::string_view bytes) {
+  if (!loaded) {
+    Error error = loaded.error();
+    if (error.file.empty()) error.file = path;
+    return fail(std::move(error));
+  }
+  // Indices and coordinates are checked before anything follows them; defaults cannot add a defect.
+  if (auto defect = find_geometry_defect(loaded->scene)) {
+    defect->file = path;
+    return fail(std::move(*defect));
+  }
+  Scene scene = add_defaults(std::move(*loaded));
+  scene.path = path;
+  scene.sha256 = sha256_hex(bytes);
+  if (scene.name.empty()) scene.name = std::filesystem::path(path).stem().string();
+  if (auto defect = find_defect(scene)) {
+    defect->file = path;
+    return fail(std::move(*defect));
+  }
+  return scene;
+}
+
+Error unknown_name(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored)) {
+    Error error{ErrorKind::bad_input,
+                fmt::format("the file's format is told by its extension, and it has none (allowed {})",
+                            known_extensions())};
+    error.file = name;
+    return error;
+  }
+  return {ErrorKind::bad_input,
+          fmt::format("no built-in scene of this name (got \"{}\"){}; \"gnomon scenes\" lists them",
+                      printable(name), suggestion(name, names))};
+}
+
+Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
+  const auto bytes = read_file(path);
+  if (!bytes) return fail(bytes.error());
+  IncludeState includes;
+  return complete(read_by_extension(*bytes, path, options, includes), path, *bytes);
+}
+
+}  // namespace
+
+std::string_view known_extensions() {
+  return ".json .obj";
+}
+
+Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
+                                       const LoadOptions& options, IncludeState& includes) {
+  const std::string extension = lower_extension(path);
+  const std::string folder = folder_of(path);
+  if (extension == ".json") return read_json_scene(bytes, path, folder, options, includes);
+  if (extension == ".obj") return read_obj(bytes, path, folder, options);
+  Error error{ErrorKind::bad_input, fmt::format("unknown extension (got \"{}\", allowed {})",
+                                                printable(extension), known_extensions())};
+  error.file = path;
+  return fail(std::move(error));
+}
+
+Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
+                                const LoadOptions& options) {
+  IncludeState includes;
+  return complete(read_json_scene(text, file, folder, options, includes), file, text);
+}
+
+Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options) try {
+  if (!lower_extension(path_or_name).empty()) return load_file(path_or_name, options);
+  if (const auto builtin = find_builtin_scene(path_or_name))
+    return load_json_scene(builtin->text, path_or_name, "", options);
+  return fail(unknown_name(path_or_name));
+} catch (const std::bad_alloc&) {
+  Error error{ErrorKind::graphics, "not enough memory to load the scene"};
+  error.file = path_or_name;
+  return fail(std::move(error));
+}
+
+}  // namespace gnomon

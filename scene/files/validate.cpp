@@ -1,0 +1,204 @@
+#include "scene/files/validate.h"
+
+#include <fmt/format.h>
+
+namespace gnomon {
+namespace {
+
+using Defect = std::optional<Error>;
+
+Defect defect(std::string field, std::string reason) {
+  Error error{ErrorKind::bad_input, std::move(reason)};
+  error.field = std::move(field);
+  return error;
+}
+
+bool coordinate(double v) {
+  return std::abs(v) <= max_coordinate;
+}  // false for NaN
+bool coordinates(const Vec3& v) {
+  return coordinate(v.x) && coordinate(v.y) && coordinate(v.z);
+}
+bool finite(const Vec3f& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool radiance(const Vec3f& v) {
+  return finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
+}
+bool fraction(float v) {
+  return v >= 0.0f && v <= 1.0f;
+}
+bool unit(const Vec3& v) {
+  return std::abs(glm::length(v) - 1.0) < 1e-9;
+}
+
+Defect position_defect(std::string field, const Vec3& v) {
+  return defect(std::move(field),
+                fmt::format("position (got [{:g}, {:g}, {:g}], allowed up to {:g} in magnitude)", v.x, v.y,
+                            v.z, max_coordinate));
+}
+
+Defect mesh_defect(const Mesh& mesh, const std::string& path, std::size_t materials) {
+  const std::size_t count = mesh.positions.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (!coordinates(mesh.positions[i]))
+      return position_defect(fmt::format("{}.positions[{}]", path, i), mesh.positions[i]);
+  if (!mesh.normals.empty() && mesh.normals.size() != count)
+    return defect(path + ".normals",
+                  fmt::format("one per vertex is needed (got {}, allowed {})", mesh.normals.size(), count));
+  if (!mesh.uvs.empty() && mesh.uvs.size() != count)
+    return defect(path + ".uvs",
+                  fmt::format("one per vertex is needed (got {}, allowed {})", mesh.uvs.size(), count));
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+    if (!finite(mesh.normals[i])) return defect(fmt::format("{}.normals[{}]", path, i), "is not finite");
+  for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
+    if (!std::isfinite(mesh.uvs[i].x) || !std::isfinite(mesh.uvs[i].y))
+      return defect(fmt::format("{}.uvs[{}]", path, i), "is not finite");
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t index : mesh.triangles[i])
+      if (index >= count)
+        return defect(fmt::format("{}.triangles[{}]", path, i),
+                      fmt::format("vertex index out of range (got {}, allowed 0 to {})", index,
+                                  static_cast<std::int64_t>(count) - 1));
+  if (!mesh.triangle_materials.empty() && mesh.triangle_materials.size() != mesh.triangles.size())
+    return defect(path + ".triangle_materials", "one per triangle is needed");
+  for (const std::uint32_t material : mesh.triangle_materials)
+    if (material >= materials) return defect(path + ".triangle_materials", "material index out of range");
+  return std::nullopt;
+}
+
+Defect material_defect(const Material& m, const std::string& path, std::size_t textures) {
+  const auto bad = [&](std::string_view key, std::string_view allowed) {
+    return defect(fmt::format("{}.{}", path, key), fmt::format("out of range (allowed {})", allowed));
+  };
+  if (!radiance(m.diffuse)) return bad("diffuse", "finite, >= 0");
+  if (!radiance(m.specular)) return bad("specular", "finite, >= 0");
+  if (!radiance(m.emission)) return bad("emission", "finite, >= 0");
+  if (!radiance(m.absorption)) return bad("absorption", "finite, >= 0");
+  if (!(m.shininess > 0.0f) || !std::isfinite(m.shininess)) return bad("shininess", "> 0");
+  if (!(m.ior > 0.0f) || !std::isfinite(m.ior)) return bad("ior", "> 0");
+  if (!fraction(m.mirror)) return bad("mirror", "0 to 1");
+  if (!fraction(m.transmission)) return bad("transmission", "0 to 1");
+  if (!fraction(m.roughness)) return bad("roughness", "0 to 1");
+  if (!fraction(m.alpha)) return bad("alpha", "0 to 1");
+  if (!(m.alpha_cutoff >= 0.0f)) return bad("alpha_cutoff", ">= 0");
+  if (m.diffuse_texture != no_id && m.diffuse_texture >= textures)
+    return bad("texture", "an existing texture");
+  const TextureTransform& t = m.texture_transform;
+  for (const double v : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation})
+    if (!std::isfinite(v)) return bad("texture", "a finite transform");
+  return std::nullopt;
+}
+
+Defect instance_defect(const Scene& scene, const MeshInstance& instance, const std::string& path) {
+  if (instance.mesh >= scene.meshes.size()) return defect(path + ".mesh", "there is no such mesh");
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  if (mesh.triangle_materials.empty() && instance.material >= scene.materials.size())
+    return defect(path + ".material", "there is no such material");
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!coordinate(instance.world_from_object[column][row]))
+        return defect(path + ".matrix",
+                      fmt::format("is not finite or above {:g} in magnitude", max_coordinate));
+  if (is_singular(Mat3(instance.world_from_object)))
+    return defect(path + ".matrix", "is singular: it flattens the mesh");
+  for (const Vec3& p : mesh.positions) {
+    const Vec3 world = Vec3(instance.world_from_object * Vec4(p, 1.0));
+    if (!coordinates(world)) return position_defect(path, world);
+  }
+  return std::nullopt;
+}
+
+Defect shape_defect(const Shape& shape, const std::string& path, std::size_t materials) {
+  if (shape.material >= materials) return defect(path + ".material", "there is no such material");
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    if (!coordinates(sphere->center)) return position_defect(path + ".sphere.center", sphere->center);
+    if (!(sphere->radius > 0.0) || !coordinate(sphere->radius))
+      return defect(path + ".sphere.radius", "out of range (allowed > 0)");
+    return std::nullopt;
+  }
+  const Plane& plane = std::get<Plane>(shape.geometry);
+  if (!coordinates(plane.point)) return position_defect(path + ".plane.point", plane.point);
+  if (!unit(plane.normal)) return defect(path + ".plane.normal", "is not of unit length");
+  return std::nullopt;
+}
+
+Defect light_defect(const Light& light, const std::string& path) {
+  if (!radiance(light.intensity)) return defect(path + ".intensity", "out of range (allowed finite, >= 0)");
+  if (light.type != LightType::directional && !coordinates(light.position))
+    return position_defect(path + ".position", light.position);
+  if (light.type != LightType::point && !unit(light.direction))
+    return defect(path + ".direction", "is not of unit length");
+  const bool cone =
+      light.inner_angle >= 0.0 && light.inner_angle < light.outer_angle && light.outer_angle < 0.5 * pi;
+  if (light.type == LightType::spot && !cone)
+    return defect(
+        path + ".outer_angle",
+        fmt::format("half-angles of the cone (got {:g} and {:g} degrees, allowed 0 <= inner < outer < 90)",
+                    light.inner_angle * 180.0 / pi, light.outer_angle * 180.0 / pi));
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_singular(const Mat3& matrix) {
+  // Against the volume that columns of these lengths could span, so that a small scale is not called
+  // singular.
+  const double volume = glm::length(matrix[0]) * glm::length(matrix[1]) * glm::length(matrix[2]);
+  constexpr double flattest = 1e-12;
+  return !(volume > 0.0) || !(std::abs(glm::determinant(matrix)) > flattest * volume);
+}
+
+std::optional<Error> find_camera_defect(const Camera& camera) {
+  if (!coordinates(camera.eye)) return position_defect("camera.eye", camera.eye);
+  if (!coordinates(camera.target)) return position_defect("camera.target", camera.target);
+  if (!coordinates(camera.up)) return position_defect("camera.up", camera.up);
+  if (camera.eye == camera.target)
+    return defect("camera.target", "is the eye itself (allowed: another point)");
+  if (camera.up == Vec3(0.0))
+    return defect("camera.up", "has no direction (got [0, 0, 0], allowed a vector that is not zero)");
+  const Vec3 forward = glm::normalize(camera.target - camera.eye);
+  constexpr double narrowest = 1e-6;  // radians between up and the view: below, the frame is mostly rounding
+  if (!(glm::length(glm::cross(forward, glm::normalize(camera.up))) > narrowest))
+    return defect("camera.up", "is parallel to the view direction (allowed: across it)");
+  if (!(camera.vertical_fov > 0.0) || !(camera.vertical_fov < pi))
+    return defect("camera.vertical_fov",
+                  fmt::format("out of range (got {:g} degrees, allowed 0 to 180, both excluded)",
+                              camera.vertical_fov * 180.0 / pi));
+  return std::nullopt;
+}
+
+std::optional<Error> find_geometry_defect(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (auto found =
+            material_defect(scene.materials[i], fmt::format("materials[{}]", i), scene.textures.size()))
+      return found;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i)
+    if (scene.textures[i].texels.empty() ||
+        scene.textures[i].texels.size() != scene.textures[i].size.pixels())
+      return defect(fmt::format("textures[{}]", i), "has no texels");
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    if (auto found = mesh_defect(scene.meshes[i], fmt::format("meshes[{}]", i), scene.materials.size()))
+      return found;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    if (auto found = instance_defect(scene, scene.instances[i], fmt::format("instances[{}]", i)))
+      return found;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    if (auto found = shape_defect(scene.shapes[i], fmt::format("shapes[{}]", i), scene.materials.size()))
+      return found;
+  return std::nullopt;
+}
+
+std::optional<Error> find_defect(const Scene& scene) {
+  if (auto found = find_geometry_defect(scene)) return found;
+  if (auto found = find_camera_defect(scene.camera)) return found;
+  if (scene.lights.empty()) return defect("lights", "there is none (allowed: at least one)");
+  if (scene.materials.empty()) return defect("materials", "there is none (allowed: at least one)");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (auto found = light_defect(scene.lights[i], fmt::format("lights[{}]", i))) return found;
+  if (!radiance(scene.ambient)) return defect("ambient", "out of range (allowed finite, >= 0)");
+  if (!radiance(scene.background)) return defect("background", "out of range (allowed finite, >= 0)");
+  return std::nullopt;
+}
+
+}  // namespace gnomon
