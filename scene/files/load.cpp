@@ -65,7 +65,7 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
 }  // namespace
 
 std::string_view known_extensions() {
-  return ".json .obj";
+  return ".json .obj .ply";
 }
 
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
@@ -74,6 +74,7 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
   const std::string folder = folder_of(path);
   if (extension == ".json") return read_json_scene(bytes, path, folder, options, includes);
   if (extension == ".obj") return read_obj(bytes, path, folder, options);
+  if (extension == ".ply") return read_ply(bytes, path);
   Error error{ErrorKind::bad_input, fmt::format("unknown extension (got \"{}\", allowed {})",
                                                 printable(extension), known_extensions())};
   error.file = path;

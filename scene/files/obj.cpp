@@ -1,16 +1,18 @@
-// OBJ and MTL: checked by obj_check, parsed by tinyobjloader (which also cuts polygons into triangles),
+// OBJ and MTL: checked by obj_check, parsed by tinyobjloader, cut into triangles by polygon.h and
 // brought into the scene model here. One mesh and one instance per object or group; v of texture coordinates
 // is turned over.
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
 #include <filesystem>
+#include <span>
 #include <sstream>
 #include <unordered_map>
 
 #include "scene/files/formats.h"
 #include "scene/files/obj_check.h"
 #include "scene/files/obj_materials.h"
+#include "scene/files/polygon.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
@@ -98,13 +100,10 @@ class MeshGatherer {
     std::size_t corner = 0;
     for (std::size_t face = 0; face < m.num_face_vertices.size(); ++face) {
       const std::size_t corners = m.num_face_vertices[face];
-      if (corners == 3) {
-        mesh_.triangles.push_back(
-            {vertex(m.indices[corner]), vertex(m.indices[corner + 1]), vertex(m.indices[corner + 2])});
-        const int material = m.material_ids[face];
-        mesh_.triangle_materials.push_back(material < 0 ? default_material
-                                                        : static_cast<std::uint32_t>(material));
-      }
+      const int material = m.material_ids[face];
+      if (corners >= 3)
+        add_face(std::span(m.indices).subspan(corner, corners),
+                 material < 0 ? default_material : static_cast<std::uint32_t>(material));
       corner += corners;
     }
     if (!has_uvs_) mesh_.uvs.clear();
@@ -113,6 +112,19 @@ class MeshGatherer {
   }
 
  private:
+  void add_face(std::span<const tinyobj::index_t> corners, std::uint32_t material) {
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> vertices;
+    for (const tinyobj::index_t& corner : corners) {
+      vertices.push_back(vertex(corner));
+      positions.push_back(mesh_.positions[vertices.back()]);
+    }
+    for (const auto& t : triangulate_polygon(positions)) {
+      mesh_.triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+      mesh_.triangle_materials.push_back(material);
+    }
+  }
+
   std::uint32_t vertex(const tinyobj::index_t& index) {
     const auto [found, is_new] =
         known_.try_emplace({index.vertex_index, index.texcoord_index, index.normal_index},
@@ -143,7 +155,7 @@ class MeshGatherer {
   bool has_uvs_ = false, has_normals_ = false;
 };
 
-void note_skipped(Scene& scene, const ObjSurvey& survey, std::size_t triangles) {
+void note_skipped(Scene& scene, const ObjSurvey& survey) {
   if (survey.small_faces > 0)
     scene.notes.push_back(
         fmt::format("{} face(s) with fewer than three corners were skipped (the first in line {}).",
@@ -152,9 +164,6 @@ void note_skipped(Scene& scene, const ObjSurvey& survey, std::size_t triangles) 
     scene.notes.push_back(fmt::format("{} point(s) and {} line(s) were skipped: only triangles are drawn.",
                                       survey.points, survey.lines));
   if (survey.has_vertex_colors) scene.notes.push_back("Vertex colours are not used.");
-  if (triangles < survey.polygon_triangles)
-    scene.notes.push_back(fmt::format("{} of {} triangles were lost where polygons are degenerate.",
-                                      survey.polygon_triangles - triangles, survey.polygon_triangles));
 }
 
 // The name of the file's only unnamed object.
@@ -176,7 +185,7 @@ Expected<ParsedObj> parse(const std::string& text, const std::string& file, Libr
   std::istringstream stream(text);
   const bool done = tinyobj::LoadObj(&parsed.attributes, &parsed.shapes, &parsed.materials, &warnings,
                                      &errors, &stream, &libraries,
-                                     /*triangulate=*/true, /*default_vcols_fallback=*/false);
+                                     /*triangulate=*/false, /*default_vcols_fallback=*/false);
   if (libraries.error) {
     libraries.error->file = file;
     return fail(*libraries.error);
@@ -220,7 +229,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
     scene.instances.push_back({mesh.name, index, Mat4(1.0), default_material});
     scene.meshes.push_back(std::move(mesh));
   }
-  note_skipped(scene, *survey, triangles);
+  note_skipped(scene, *survey);
   if (triangles == 0) return fail(obj_error(file, "the file has no triangles"));
   return loaded;
 }

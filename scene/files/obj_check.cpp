@@ -116,9 +116,7 @@ class ObjChecker {
     if (corners > max_polygon_corners)
       return add(whole, "f",
                  fmt::format("too many corners (got {}, allowed 3 to {})", corners, max_polygon_corners));
-    if (corners >= 3) {
-      survey_.polygon_triangles += corners - 2;
-    } else if (survey_.small_faces++ == 0) {
+    if (corners < 3 && survey_.small_faces++ == 0) {
       survey_.first_small_face_line =
           line_column(text_, static_cast<std::size_t>(whole.data() - text_.data())).line;
     }

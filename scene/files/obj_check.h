@@ -10,8 +10,7 @@
 namespace gnomon {
 
 struct ObjSurvey {
-  std::size_t polygon_triangles = 0;  ///< that the faces come to: corners - 2 each
-  std::size_t small_faces = 0;        ///< faces with fewer than three corners
+  std::size_t small_faces = 0;  ///< faces with fewer than three corners
   int first_small_face_line = 0;
   std::size_t points = 0, lines = 0;
   bool has_vertex_colors = false;
