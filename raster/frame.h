@@ -32,6 +32,11 @@ struct ShadowMap {
   }
 };
 
+/// World width of a texel of the map, as a bias in texels is measured: on a perspective map at the depth of
+/// the finite scene's centre, or halfway through the map (geometric mean) when the scene has no such centre
+/// before the light.
+double texel_world(const LightView& view, const World& world);
+
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1 and the rest
 /// 0.
 struct LightRecord {

@@ -51,12 +51,15 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   return check_bias(options.map.bias);
 }
 
-double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {
-  if (bias.unit == BiasUnit::world) return bias.constant;
+double texel_world(const LightView& view, const World& world) {
   double depth = 0.0;
   if (!world.finite_bounds.empty()) depth = project_to_texel(view, world.finite_bounds.center()).depth;
   if (!(depth > 0.0)) depth = std::sqrt(std::max(0.0, view.near_depth * view.far_depth));
-  return bias.constant * texel_world_size(view, depth);
+  return texel_world_size(view, depth);
+}
+
+double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {
+  return bias.unit == BiasUnit::world ? bias.constant : bias.constant * texel_world(view, world);
 }
 
 }  // namespace gnomon::raster

@@ -10,9 +10,7 @@ namespace gnomon::raster {
 /// limit.
 Expected<void> check_options(const RasterOptions& options, const ContextInfo& context);
 
-/// The constant bias in world units. A texel's width on a perspective map is the one at the depth of the
-/// finite scene's centre, or halfway through the map (geometric mean) when the scene has no such centre
-/// before the light.
+/// The constant bias in world units (texel_world() says how wide a texel is).
 double constant_bias_world(const Bias& bias, const LightView& view, const World& world);
 
 }  // namespace gnomon::raster

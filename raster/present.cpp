@@ -1,5 +1,7 @@
 #include "raster/present.h"
 
+#include <algorithm>
+
 #include "raster/gl_program.h"
 #include "shaders/shared_constants.h"
 
@@ -30,6 +32,21 @@ class GlPresenter final : public Presenter {
     gl->BindVertexArray(0);
     gl->UseProgram(0);
     return gl.check("showing the picture");
+  }
+
+  Expected<Rgb8Image> read(const Viewport& viewport) override {
+    Gl& gl = *gl_;
+    Rgb8Image bottom_up({viewport.width, viewport.height});
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    gl->ReadBuffer(GL_BACK);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl->ReadPixels(viewport.x, viewport.y, viewport.width, viewport.height, GL_RGB, GL_UNSIGNED_BYTE,
+                   bottom_up.data.data());
+    if (auto ok = gl.check("reading the window back"); !ok) return fail(ok.error());
+    Rgb8Image picture(bottom_up.size);
+    for (int y = 0; y < viewport.height; ++y)
+      std::copy_n(&bottom_up.at(0, viewport.height - 1 - y), viewport.width, &picture.at(0, y));
+    return picture;
   }
 
  private:

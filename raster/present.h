@@ -25,6 +25,9 @@ class Presenter {
   /// Draws the picture over the viewport of the default framebuffer, stretched to fill it; 8-bit values reach
   /// the screen unchanged.
   virtual Expected<void> draw(const Rgb8Image& picture, const Viewport& viewport, Scaling scaling) = 0;
+
+  /// What has been drawn there and not yet been swapped to the screen.
+  virtual Expected<Rgb8Image> read(const Viewport& viewport) = 0;
 };
 
 }  // namespace gnomon::raster
