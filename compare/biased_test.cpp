@@ -20,7 +20,7 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
   const auto slope = [&](double du, double dv) {
     const double below = plane_depth(view, at.face, at.u - du, at.v - dv, position, normal);
     const double above = plane_depth(view, at.face, at.u + du, at.v + dv, position, normal);
-    return 0.5 * std::abs(above - below);
+    return std::isinf(below) || std::isinf(above) ? infinity : 0.5 * std::abs(above - below);
   };
   const double along_ray = at.distance / at.depth;
   const double scale = view.projection == LightProjection::orthographic ? 1.0 : along_ray;
