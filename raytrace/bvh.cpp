@@ -229,10 +229,22 @@ void fill_leaves(const World& world, std::span<const BoxRef> refs, Bvh& bvh) {
   });
 }
 
+// A difference of doubles is right to 2^-53 of itself, far less than float_below and float_above give way.
 BoxRef box_of(const Vec3& min, const Vec3& max, std::uint32_t id) {
   return {{float_below(min.x), float_below(min.y), float_below(min.z)},
           {float_above(max.x), float_above(max.y), float_above(max.z)},
           id};
+}
+
+BoxRef triangle_box(const World& world, std::uint32_t id, const Vec3& center) {
+  const auto [a, b, c] = world.corners(id);
+  return box_of(glm::min(a, glm::min(b, c)) - center, glm::max(a, glm::max(b, c)) - center, id);
+}
+
+BoxRef sphere_box(const Sphere& sphere, std::uint32_t id, const Vec3& center) {
+  const Vec3 middle = sphere.center - center;
+  const Vec3 half = Vec3(sphere.radius) + error_gamma(3) * (glm::abs(middle) + Vec3(sphere.radius));
+  return box_of(middle - half, middle + half, id);
 }
 
 bool usable_triangle(const World& world, std::uint32_t id) {
@@ -245,20 +257,20 @@ bool usable_triangle(const World& world, std::uint32_t id) {
 FinitePrimitives finite_primitives(const World& world) {
   FinitePrimitives out;
   out.boxes.reserve(world.triangle_count());
+  const Vec3 middle = world.finite_bounds.center();
+  if (all_finite(middle)) out.center = middle;
   for (std::uint32_t id = 0; id < world.triangle_count(); ++id) {
     if (!usable_triangle(world, id)) {
       ++out.dropped;
       continue;
     }
-    const auto [a, b, c] = world.corners(id);
-    out.boxes.push_back(box_of(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), id));
+    out.boxes.push_back(triangle_box(world, id, out.center));
   }
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* sphere = std::get_if<Sphere>(&world.shape(id).geometry);
     if (sphere == nullptr) continue;
-    const Vec3 r(sphere->radius);
     if (all_finite(sphere->center) && std::isfinite(sphere->radius) && sphere->radius > 0.0)
-      out.boxes.push_back(box_of(sphere->center - r, sphere->center + r, id));
+      out.boxes.push_back(sphere_box(*sphere, id, out.center));
     else
       ++out.dropped;
   }
@@ -269,6 +281,7 @@ Bvh build_bvh(const World& world) {
   FinitePrimitives finite = finite_primitives(world);
   Bvh bvh;
   bvh.dropped = finite.dropped;
+  bvh.center = finite.center;
   if (finite.boxes.empty()) return bvh;
   const std::vector<BinaryNode> binary = std::move(Builder(finite.boxes).build());
   Folder(binary, bvh.nodes).fold(0);
@@ -281,6 +294,7 @@ Bvh build_flat(const World& world) {
   const FinitePrimitives finite = finite_primitives(world);
   Bvh bvh;
   bvh.dropped = finite.dropped;
+  bvh.center = finite.center;
   fill_leaves(world, finite.boxes, bvh);
   return bvh;
 }

@@ -46,11 +46,12 @@ struct Bvh {
   std::vector<LeafPrimitive> primitives;  ///< in leaf order
   std::vector<std::uint32_t> ids;         ///< of the primitives, in leaf order
   std::uint64_t dropped = 0;              ///< primitives left out: not finite, zero area or zero radius
+  Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
   /// The tree's depth is limited so that a stack of this size always suffices: three per level and one.
   static constexpr int max_depth = 80, stack_size = 3 * max_depth + 1;
 };
 
-/// A primitive's box, rounded outwards.
+/// A primitive's box relative to the centre, rounded outwards.
 struct BoxRef {
   std::array<float, 3> min, max;
   std::uint32_t id;
@@ -59,6 +60,7 @@ struct BoxRef {
 /// The finite, non-degenerate triangles and spheres of a world, in ascending order of ids.
 struct FinitePrimitives {
   std::vector<BoxRef> boxes;
+  Vec3 center{0.0};  ///< of the world's finite bounds
   std::uint64_t dropped = 0;
 };
 FinitePrimitives finite_primitives(const World& world);

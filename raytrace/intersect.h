@@ -27,7 +27,7 @@ struct RayFrame {
   std::size_t kx, ky, kz;  ///< kz: the axis of the largest component
   double shear_x, shear_y, shear_z;
   double kernel_t_from_t;  ///< a power of two
-  Interval t;              ///< hits count in [t.min, t.max)
+  Interval t;              ///< hits count in the open interval (t.min, t.max)
 };
 
 /// Nothing for a ray that cannot hit: NaN or infinite origin or direction, direction zero, interval empty or
@@ -106,7 +106,7 @@ inline bool finish_triangle(const RayFrame& ray, const ShearedTriangle& s, Trian
 inline bool intersect_triangle(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
   const ShearedTriangle s = shear(ray, triangle);
   if ((s.u < 0.0 || s.v < 0.0 || s.w < 0.0) && (s.u > 0.0 || s.v > 0.0 || s.w > 0.0)) return false;
-  return finish_triangle(ray, s, hit) && hit.t >= ray.t.min && hit.t < ray.t.max;
+  return finish_triangle(ray, s, hit) && hit.t > ray.t.min && hit.t < ray.t.max;
 }
 
 /// |offset|^2 - r^2 with the squares' residuals added: exact to the last place where it nearly vanishes.
@@ -148,7 +148,7 @@ inline bool sphere_roots(const RayFrame& ray, const Vec3& center, double radius,
 inline bool intersect_sphere(const RayFrame& ray, const LeafPrimitive& sphere, double& t) {
   SphereRoots roots;
   if (!sphere_roots(ray, Vec3(sphere.v[0], sphere.v[1], sphere.v[2]), sphere.v[3], roots)) return false;
-  const auto inside = [&](double root) { return root >= ray.t.min && root < ray.t.max; };
+  const auto inside = [&](double root) { return root > ray.t.min && root < ray.t.max; };
   if (!inside(roots.near) && !inside(roots.far)) return false;
   t = inside(roots.near) ? roots.near : roots.far;
   return true;
@@ -163,7 +163,7 @@ inline bool intersect_plane(const RayFrame& ray, const Plane& plane, double& t) 
     slope += n * ray.direction[a];
   }
   t = height / slope;
-  return std::isfinite(t) && t >= ray.t.min && t < ray.t.max;
+  return std::isfinite(t) && t > ray.t.min && t < ray.t.max;
 }
 
 }  // namespace gnomon::raytrace

@@ -86,7 +86,7 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   Hit hit;
   for (const std::uint32_t plane : s.planes)
     if (plane != skip && intersect_plane(s, ray, plane, hit)) keep(hit);
-  BoxRay boxes(ray);
+  BoxRay boxes(ray, s.bvh.center);
   walk(s.bvh, boxes, stats, [&](std::uint32_t i) {
     if (intersect_leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
       boxes.t_max = float_above(best.t);
@@ -106,7 +106,7 @@ bool any(const Structures& s, const RayFrame& ray, Stats stats) {
   };
   for (const std::uint32_t plane : s.planes)
     if (intersect_plane(s, ray, plane, hit) && blocks()) return true;
-  BoxRay boxes(ray);
+  BoxRay boxes(ray, s.bvh.center);
   return walk(s.bvh, boxes, stats,
               [&](std::uint32_t i) { return intersect_leaf(s, ray, i, hit) && blocks(); });
 }

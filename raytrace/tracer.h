@@ -1,7 +1,7 @@
 // Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight
 // triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id. A ray's
-// hits count for t in [t.min, t.max): a surface exactly at t.max is not hit. NaN, infinite and zero-direction
-// rays hit nothing.
+// hits count for t in the open interval (t.min, t.max): a surface exactly at an end is not hit. NaN, infinite
+// and zero-direction rays hit nothing.
 #pragma once
 
 #include <cstdint>

@@ -23,13 +23,13 @@ struct BoxRay {
   std::array<std::size_t, 3> near_plane, far_plane;  ///< rows of BvhNode::bounds
   float t_min, t_max;
 
-  /// origin_error: how far the true origin may lie from the frame's, per axis (0 for a ray that is what it
-  /// says).
-  explicit BoxRay(const RayFrame& ray, const Vec3& origin_error = Vec3(0.0))
+  /// center: Bvh::center. origin_error: how far the true origin may lie from the frame's, per axis (0 for a
+  /// ray that is what it says).
+  BoxRay(const RayFrame& ray, const Vec3& center, const Vec3& origin_error = Vec3(0.0))
       : t_min(float_below(ray.t.min)), t_max(float_above(ray.t.max)) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const double e = origin_error[static_cast<int>(a)];
-      const float below = float_below(ray.origin[a] - e), above = float_above(ray.origin[a] + e);
+      const double o = ray.origin[a] - center[static_cast<int>(a)], e = origin_error[static_cast<int>(a)];
+      const float below = float_below(o - e), above = float_above(o + e);
       inverse[a] = static_cast<float>(1.0 / ray.direction[a]);
       const bool backwards = std::signbit(inverse[a]);
       near_origin[a] = backwards ? below : above;

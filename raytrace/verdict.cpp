@@ -38,7 +38,7 @@ class Query {
     for (const std::uint32_t plane : s_.planes)
       if (plane != from_.primitive && count<masks>(plane, meet_plane(plane), -1, false))
         return Verdict::shadowed;
-    BoxRay boxes(ray_, error_);
+    BoxRay boxes(ray_, s_.bvh.center, error_);
     NoStats stats;
     const bool sure = walk(s_.bvh, boxes, stats, [&](std::uint32_t i) { return visit<masks>(i); });
     if (sure || (doubts_ > 0 && neighbours_cover())) return Verdict::shadowed;
@@ -126,7 +126,7 @@ class Query {
   // `t` against the ray's interval.
   Meets in_interval(const Interval3& t) const {
     if (!(t.hi >= ray_.t.min && t.lo < ray_.t.max)) return Meets::no;
-    return t.lo >= ray_.t.min && t.hi < ray_.t.max ? Meets::surely : Meets::perhaps;
+    return t.lo > ray_.t.min && t.hi < ray_.t.max ? Meets::surely : Meets::perhaps;
   }
 
   Meets meet_triangle(const ShearedTriangle& s, const LeafPrimitive& triangle, int& edge) const {

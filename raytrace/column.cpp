@@ -1,0 +1,148 @@
+#include "raytrace/column.h"
+
+#include <vector>
+
+namespace gnomon::raytrace {
+namespace {
+
+constexpr double vertex_gamma =
+    error_gamma(32);  // of a coordinate, of a receiver on it, and of the light's frame
+constexpr double product_gamma = error_gamma(16);
+
+double sum_of_magnitudes(const Vec3& v) {
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+double segment_distance(const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double length_squared = glm::dot(d, d);
+  const double s = length_squared > 0.0 ? std::clamp(-glm::dot(a, d) / length_squared, 0.0, 1.0) : 0.0;
+  return glm::length(a + s * d);
+}
+
+}  // namespace
+
+Column::Column(const LightView& view, int face, int column, int row)
+    : perspective_(view.projection == LightProjection::perspective),
+      face_(view.faces[static_cast<std::size_t>(face)]),
+      origin_(view.origin),
+      origin_size_(sum_of_magnitudes(view.origin)) {
+  const auto edge = [&](int i, double half) { return (2.0 * i / view.size - 1.0) * half; };
+  x_ = {edge(column, view.half_extent.x), edge(column + 1, view.half_extent.x)};
+  y_ = {edge(row, view.half_extent.y), edge(row + 1, view.half_extent.y)};
+  reach_ = std::max({std::abs(x_[0]), std::abs(x_[1]), std::abs(y_[0]), std::abs(y_[1])});
+  grid_error_ = product_gamma * std::max(view.half_extent.x, view.half_extent.y);
+  handedness_ = glm::dot(glm::cross(face_.right, face_.up), face_.forward) < 0.0 ? -1.0 : 1.0;
+  corners_ = {Vec3(x_[0], y_[0], 1.0), Vec3(x_[1], y_[0], 1.0), Vec3(x_[1], y_[1], 1.0),
+              Vec3(x_[0], y_[1], 1.0)};
+}
+
+LightVertex Column::vertex(const Vec3& world) const {
+  const Vec3 d = world - origin_;
+  const Vec3 q(glm::dot(face_.right, d), glm::dot(face_.up, d), glm::dot(face_.forward, d));
+  return {q, homogeneous(q), vertex_gamma * (sum_of_magnitudes(world) + origin_size_)};
+}
+
+bool Column::surely_outside(std::span<const LightVertex> vertices) const {
+  std::array<bool, 5> outside{true, true, true, true, perspective_};
+  for (const LightVertex& v : vertices) {
+    const std::array<double, 4> values = plane_values(v.h);
+    const double error = plane_error(v);
+    for (std::size_t k = 0; k < 4; ++k) outside[k] = outside[k] && values[k] < -error;
+    outside[4] = outside[4] && v.q.z < -v.error;
+  }
+  return outside[0] || outside[1] || outside[2] || outside[3] || outside[4];
+}
+
+int Column::side_of_corners(const LightVertex& a, const LightVertex& b) const {
+  const Vec3 n = glm::cross(a.h, b.h);
+  const double size_a = max_component(glm::abs(a.h)), size_b = max_component(glm::abs(b.h));
+  const double size_c = std::max(1.0, reach_);
+  // A 3 x 3 determinant has six products of one component each (of a, b and a corner).
+  const double error = 6.0 * (size_c * (a.error * (size_b + b.error) + b.error * size_a) +
+                              (grid_error_ + product_gamma * size_c) * size_a * size_b);
+  bool all_above = true, all_below = true;
+  for (const Vec3& corner : corners_) {
+    const double side = glm::dot(n, corner);
+    all_above = all_above && side > error;
+    all_below = all_below && side < -error;
+  }
+  return all_above ? 1 : all_below ? -1 : 0;
+}
+
+bool Column::surely_misses(const LightVertex& a, const LightVertex& b) const {
+  const std::array<LightVertex, 2> segment{a, b};
+  return surely_outside(segment) || side_of_corners(a, b) != 0;
+}
+
+bool Column::surely_misses(const std::array<LightVertex, 3>& triangle) const {
+  if (surely_outside(triangle)) return true;
+  const int facing_light = facing(triangle);
+  if (facing_light == 0) return false;
+  // The projected winding: a triangle that faces the light has its normal against forward.
+  const int inside = facing_light * (handedness_ > 0.0 ? -1 : 1);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (side_of_corners(triangle[k], triangle[(k + 1) % 3]) == -inside) return true;
+  return false;
+}
+
+int Column::facing(const std::array<LightVertex, 3>& t) const {
+  const Vec3 e1 = t[1].q - t[0].q, e2 = t[2].q - t[0].q;
+  const Vec3 n = glm::cross(e1, e2);
+  const double error = t[0].error + t[1].error + t[2].error;
+  const double s1 = max_component(glm::abs(e1)), s2 = max_component(glm::abs(e2));
+  // n . ray, with the ray through the first corner; n is off by n_error in each component.
+  const double n_error = 2.0 * (error * (s1 + s2 + error) + product_gamma * s1 * s2);
+  const Vec3 ray = perspective_ ? t[0].q : Vec3(0.0, 0.0, 1.0);
+  const double value = glm::dot(n, ray);
+  const double ray_size = sum_of_magnitudes(ray);
+  const double bound = n_error * ray_size + (perspective_ ? error * sum_of_magnitudes(n) : 0.0) +
+                       product_gamma * glm::dot(glm::abs(n), glm::abs(ray));
+  if (std::abs(value) <= bound || !std::isfinite(value)) return 0;
+  // A mirrored frame turns the cross product round.
+  return (value < 0.0) == (handedness_ > 0.0) ? 1 : -1;
+}
+
+Interval Column::distances(std::span<const LightVertex> polygon) const {
+  double error = 0.0;
+  std::vector<Vec3> part, next;
+  for (const LightVertex& v : polygon) {
+    part.push_back(v.q);
+    error = std::max(error, plane_error(v));
+  }
+  const Vec3 normal = glm::cross(part[1] - part[0], part[2] - part[0]);
+  // Clipped a little outside each plane (Sutherland & Hodgman 1974): rounding in the cut stays within the
+  // slack.
+  const double slack = 4.0 * error;
+  const auto value = [&](const Vec3& q, std::size_t plane) {
+    return plane < 4 ? plane_values(homogeneous(q))[plane] : q.z;
+  };
+  for (std::size_t plane = 0; plane < (perspective_ ? 5U : 4U); ++plane) {
+    next.clear();
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vec3& a = part[i];
+      const Vec3& b = part[(i + 1) % part.size()];
+      const double va = value(a, plane) + slack, vb = value(b, plane) + slack;
+      if (va >= 0.0) next.push_back(a);
+      if ((va >= 0.0) != (vb >= 0.0)) next.push_back(a + (va / (va - vb)) * (b - a));
+    }
+    part.swap(next);
+    if (part.empty()) return {infinity, -infinity};
+  }
+  Interval range{infinity, -infinity};
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const double distance = perspective_ ? glm::length(part[i]) : part[i].z;
+    range.max = std::max(range.max, distance);
+    range.min =
+        std::min(range.min, perspective_ ? segment_distance(part[i], part[(i + 1) % part.size()]) : distance);
+  }
+  if (perspective_ &&
+      glm::dot(normal, normal) > 0.0) {  // the nearest point of the plane, if the column holds it
+    const Vec3 foot = normal * (glm::dot(normal, part[0]) / glm::dot(normal, normal));
+    const LightVertex v{foot, foot, slack};
+    if (may_contain(v)) range.min = std::min(range.min, glm::length(foot));
+  }
+  return {range.min - slack, range.max + slack};
+}
+
+}  // namespace gnomon::raytrace
