@@ -1,6 +1,7 @@
-// Where the camera stands and where a light comes from, as angles: what the viewer turns and what scripts set.
-// Degrees. About y, azimuth 0 is +z and 90 is +x, as in scene files; elevation is the height above the horizon. A camera
-// turns about its own up vector. A pose fixes the result bit for bit: no drift, whatever the way to it was.
+// Where the camera stands and where a light comes from, as angles: what the viewer turns and what scripts
+// set. Degrees. About y, azimuth 0 is +z and 90 is +x, as in scene files; elevation is the height above the
+// horizon. A camera turns about its own up vector. A pose fixes the result bit for bit: no drift, whatever
+// the way to it was.
 #pragma once
 
 #include "scene/world.h"

@@ -83,24 +83,36 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
       "degrees");
 }
 
-Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
-                           const World& world) {
+Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light,
+                                      const World& world) {
+  const Scene& scene = *world.scene;
+  ResolvedPoses resolved;
   if (poses.camera_orbit || poses.camera_distance) {
     CameraPose pose = camera_pose(scene.camera);
     if (poses.camera_orbit)
       pose.azimuth_degrees = poses.camera_orbit->x, pose.elevation_degrees = poses.camera_orbit->y;
-    if (poses.camera_distance) pose.distance = *poses.camera_distance;
-    scene.camera = posed_camera(scene.camera, pose);
+    pose.distance = poses.camera_distance.value_or(pose.distance);
+    resolved.camera = pose;
   }
-  if (!poses.light_azimuth && !poses.light_elevation) return {};
+  if (!poses.light_azimuth && !poses.light_elevation) return resolved;
   const Expected<std::uint32_t> chosen = chosen_light(light, scene);
   if (!chosen) return fail(chosen.error());
-  Light& turned = scene.lights[*chosen];
-  const Vec3 centre = scene_centre(world);
-  LightPose pose = light_pose(turned, centre);
-  if (poses.light_azimuth) pose.azimuth_degrees = *poses.light_azimuth;
-  if (poses.light_elevation) pose.elevation_degrees = *poses.light_elevation;
-  turned = posed_light(turned, centre, pose);
+  LightPose pose = light_pose(scene.lights[*chosen], scene_centre(world));
+  pose.azimuth_degrees = poses.light_azimuth.value_or(pose.azimuth_degrees);
+  pose.elevation_degrees = poses.light_elevation.value_or(pose.elevation_degrees);
+  resolved.light_pose = pose;
+  resolved.light = *chosen;
+  return resolved;
+}
+
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
+                           const World& world) {
+  const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, world);
+  if (!resolved) return fail(resolved.error());
+  if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
+  if (!resolved->light_pose) return {};
+  Light& turned = scene.lights[resolved->light];
+  turned = posed_light(turned, scene_centre(world), *resolved->light_pose);
   return {};
 }
 

@@ -1,5 +1,5 @@
-// --camera-orbit, --camera-distance, --light-azimuth, --light-elevation: another camera and another light than the
-// scene's own, for every command that draws.
+// --camera-orbit, --camera-distance, --light-azimuth, --light-elevation: another camera and another light
+// than the scene's own, for every command that draws.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,25 @@ class App;
 namespace gnomon::app {
 
 struct PoseOptions {
-  std::optional<Vec2> camera_orbit;       ///< azimuth, elevation: degrees
-  std::optional<double> camera_distance;  ///< world units
+  std::optional<Vec2> camera_orbit;                      ///< azimuth, elevation: degrees
+  std::optional<double> camera_distance;                 ///< world units
   std::optional<double> light_azimuth, light_elevation;  ///< degrees
 };
 
 void add_pose_options(CLI::App& command, PoseOptions& poses);
 
-/// Moves the scene's camera, and turns the light of that name; without a name, the only light there is. Errors are
-/// ErrorKind::usage.
-Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene, const World& world);
+/// The poses in full, each angle that is not given being the scene's own.
+struct ResolvedPoses {
+  std::optional<CameraPose> camera;
+  std::optional<LightPose> light_pose;
+  std::uint32_t light = 0;  ///< whose pose it is
+};
+
+/// The light is the one of that name or, without a name, the only one there is. Errors are ErrorKind::usage.
+Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const World& world);
+
+/// Moves the scene's camera and turns its light.
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
+                           const World& world);
 
 }  // namespace gnomon::app

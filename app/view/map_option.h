@@ -1,5 +1,5 @@
-// One option of the shadow map by its command-line name: the very options of `gnomon compare`, with their ranges and
-// messages, for the viewer's scripts.
+// One option of the shadow map by its command-line name: the very options of `gnomon compare`, with their
+// ranges and messages, for the viewer's scripts.
 #pragma once
 
 #include <string>

@@ -24,8 +24,8 @@ constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_li
 constexpr NumberRange distance_range{0.0, 1e12, true};
 constexpr std::int64_t max_wait_frames = 1'000'000;
 constexpr std::array<std::string_view, 4> verbs{"set", "wait", "screenshot", "quit"};
-constexpr std::array<std::string_view, 7> own_keys{"view",          "size",         "light",          "light-azimuth",
-                                                   "light-elevation", "camera-orbit", "camera-distance"};
+constexpr std::array<std::string_view, 7> own_keys{
+    "view", "size", "light", "light-azimuth", "light-elevation", "camera-orbit", "camera-distance"};
 
 Words words_of(const std::string& line) {
   std::istringstream stream(line.substr(0, line.find('#')));
@@ -34,7 +34,9 @@ Words words_of(const std::string& line) {
   return words;
 }
 
-tl::unexpected<Error> wrong(std::string reason) { return fail(ErrorKind::bad_input, std::move(reason)); }
+tl::unexpected<Error> wrong(std::string reason) {
+  return fail(ErrorKind::bad_input, std::move(reason));
+}
 
 Expected<void> expect_count(const Words& words, std::size_t count, std::string_view usage) {
   if (words.size() == count) return {};
@@ -60,8 +62,9 @@ Expected<Change> pick_light(const std::string& name, const std::vector<Light>& l
 Expected<Change> orbit_to(const Words& words) {
   const Expected<double> azimuth = parse_number(words[2], azimuth_range);
   if (!azimuth) return fail(azimuth.error());
-  return change_of(parse_number(words[3], camera_elevation_range),
-                   [&](double elevation) { return OrbitTo{*azimuth, elevation}; });
+  return change_of(parse_number(words[3], camera_elevation_range), [&](double elevation) {
+    return OrbitTo{*azimuth, elevation};
+  });
 }
 
 Expected<Change> set_own(const Words& words, const std::vector<Light>& lights) {
@@ -97,7 +100,8 @@ Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
   const bool own = std::find(own_keys.begin(), own_keys.end(), key) != own_keys.end();
   if (!own && !is_map_option(key)) return fail(unknown_key(key).error());
   const bool orbit = key == "camera-orbit";
-  const auto complete = expect_count(words, orbit ? 4 : 3, orbit ? "set camera-orbit AZIMUTH ELEVATION" : "set KEY VALUE");
+  const auto complete =
+      expect_count(words, orbit ? 4 : 3, orbit ? "set camera-orbit AZIMUTH ELEVATION" : "set KEY VALUE");
   if (!complete) return fail(complete.error());
   const Expected<Change> change = own ? set_own(words, lights) : set_map(key, words[2]);
   if (change) return Step{*change};
@@ -107,16 +111,20 @@ Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
 }
 
 Expected<Step> parse_wait(const Words& words) {
-  if (const auto complete = expect_count(words, 2, "wait N, or wait done"); !complete) return fail(complete.error());
+  if (const auto complete = expect_count(words, 2, "wait N, or wait done"); !complete)
+    return fail(complete.error());
   if (words[1] == "done") return Step{WaitDone{}};
   const Expected<std::int64_t> frames = parse_integer(words[1], 1, max_wait_frames);
-  if (!frames) return wrong(fmt::format("not a wait (got {}, allowed 1 to {}, or done)", words[1], max_wait_frames));
+  if (!frames)
+    return wrong(fmt::format("not a wait (got {}, allowed 1 to {}, or done)", words[1], max_wait_frames));
   return Step{WaitFrames{*frames}};
 }
 
 Expected<Step> parse_screenshot(const Words& words) {
-  if (const auto complete = expect_count(words, 2, "screenshot FILE.png"); !complete) return fail(complete.error());
-  if (lower_extension(words[1]) != ".png") return wrong(fmt::format("not a PNG file's name (got {}, allowed *.png)", words[1]));
+  if (const auto complete = expect_count(words, 2, "screenshot FILE.png"); !complete)
+    return fail(complete.error());
+  if (lower_extension(words[1]) != ".png")
+    return wrong(fmt::format("not a PNG file's name (got {}, allowed *.png)", words[1]));
   return Step{Screenshot{words[1]}};
 }
 
@@ -126,7 +134,8 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
   if (verb == "wait") return parse_wait(words);
   if (verb == "screenshot") return parse_screenshot(words);
   if (verb != "quit") {
-    return wrong(fmt::format("no such step (got {}, allowed {}){}", verb, fmt::join(verbs, ", "), did_you_mean(verb, verbs)));
+    return wrong(fmt::format("no such step (got {}, allowed {}){}", verb, fmt::join(verbs, ", "),
+                             did_you_mean(verb, verbs)));
   }
   if (const auto complete = expect_count(words, 1, "quit"); !complete) return fail(complete.error());
   return Step{Quit{}};

@@ -1,12 +1,12 @@
 // The viewer's scripts: one step a line, `#` starts a comment, words are separated by blanks.
 //
-//   set KEY VALUE...      a key below, or any option of the shadow map as on the command line (set bias 0.5texel)
-//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown
+//   set KEY VALUE...      a key below, or any option of the shadow map as on the command line (set bias
+//   0.5texel) wait N | wait done    N frames, or until the comparison of what is set is finished and shown
 //   screenshot FILE.png   what the window shows, once all that is set before has been drawn
 //   quit                  ends the program; so does the end of the script
 //
-// Keys: view NAME, size WxH, light NAME, light-azimuth DEG, light-elevation DEG, camera-orbit AZIMUTH ELEVATION,
-// camera-distance D. A script is read and checked as a whole before the window opens.
+// Keys: view NAME, size WxH, light NAME, light-azimuth DEG, light-elevation DEG, camera-orbit AZIMUTH
+// ELEVATION, camera-distance D. A script is read and checked as a whole before the window opens.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,13 @@
 
 namespace gnomon::app {
 
-struct WaitFrames { std::int64_t frames; };
+struct WaitFrames {
+  std::int64_t frames;
+};
 struct WaitDone {};
-struct Screenshot { std::string path; };
+struct Screenshot {
+  std::string path;
+};
 struct Quit {};
 
 struct ScriptStep {

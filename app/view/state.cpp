@@ -12,17 +12,21 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr std::array<std::string_view, picture_count> picture_names{"raster", "raytrace", "difference", "labels",
-                                                                    "depth"};
+constexpr std::array<std::string_view, picture_count> picture_names{"raster", "raytrace", "difference",
+                                                                    "labels", "depth"};
 
-CameraPose current_camera(const ViewState& s) { return s.setup.camera.value_or(camera_pose(s.given.camera)); }
+CameraPose current_camera(const ViewState& s) {
+  return s.setup.camera.value_or(camera_pose(s.given.camera));
+}
 
 LightPose current_light(const ViewState& s) {
   const std::uint32_t i = s.setup.light;
   return s.setup.lights[i].value_or(light_pose(s.given.lights[i], s.given.centre));
 }
 
-double clamped(double value, double limit) { return std::clamp(value, -limit, limit); }
+double clamped(double value, double limit) {
+  return std::clamp(value, -limit, limit);
+}
 
 void show(ViewState& s, Picture picture) {
   if (picture == s.picture) return;
@@ -64,8 +68,12 @@ struct SetupChange {
     const LightPose pose = current_light(s);
     turn_light(pose.azimuth_degrees + c.azimuth, pose.elevation_degrees + c.elevation);
   }
-  void operator()(const LightAzimuthTo& c) const { turn_light(c.azimuth, current_light(s).elevation_degrees); }
-  void operator()(const LightElevationTo& c) const { turn_light(current_light(s).azimuth_degrees, c.elevation); }
+  void operator()(const LightAzimuthTo& c) const {
+    turn_light(c.azimuth, current_light(s).elevation_degrees);
+  }
+  void operator()(const LightElevationTo& c) const {
+    turn_light(current_light(s).azimuth_degrees, c.elevation);
+  }
   void operator()(const NextLight&) const {
     s.setup.light = (s.setup.light + 1) % static_cast<std::uint32_t>(s.given.lights.size());
   }
@@ -88,7 +96,8 @@ struct SetupChange {
     offset = std::max(0.0, offset + c.texels);
   }
   void operator()(const DoubleMap&) const {
-    s.setup.map.size = static_cast<int>(std::min<std::int64_t>(2 * std::int64_t{s.setup.map.size}, s.max_map_size));
+    s.setup.map.size =
+        static_cast<int>(std::min<std::int64_t>(2 * std::int64_t{s.setup.map.size}, s.max_map_size));
   }
   void operator()(const HalveMap&) const { s.setup.map.size = std::max(1, s.setup.map.size / 2); }
   void operator()(const NextDepthFormat&) const {
@@ -116,14 +125,17 @@ struct SetupChange {
 
 }  // namespace
 
-std::string_view picture_name(Picture picture) { return picture_names[static_cast<std::size_t>(picture)]; }
+std::string_view picture_name(Picture picture) {
+  return picture_names[static_cast<std::size_t>(picture)];
+}
 
 Expected<Picture> parse_picture(std::string_view name) {
   for (std::size_t i = 0; i < picture_count; ++i) {
     if (picture_names[i] == name) return static_cast<Picture>(i);
   }
-  return fail(ErrorKind::usage, fmt::format("no such view (got {}, allowed {}){}", name, fmt::join(picture_names, ", "),
-                                            did_you_mean(name, picture_names)));
+  return fail(ErrorKind::usage,
+              fmt::format("no such view (got {}, allowed {}){}", name, fmt::join(picture_names, ", "),
+                          did_you_mean(name, picture_names)));
 }
 
 GivenScene given_scene(const Scene& scene, const World& world) {
@@ -138,7 +150,7 @@ void place(const GivenScene& given, const Setup& setup, Scene& scene) {
   }
 }
 
-void apply(ViewState& state, const Change& change) {
+void carry_out(ViewState& state, const Change& change) {
   if (const auto* shown = std::get_if<Show>(&change)) return show(state, shown->picture);
   if (std::holds_alternative<ShowPrevious>(change)) return show(state, state.previous);
   std::visit(

@@ -17,7 +17,8 @@ std::string bias_words(const raster::Bias& bias, const Readings& readings) {
                                                              : 0.0;
   std::string text = fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels);
   if (bias.slope != 0.0) text += fmt::format(" + {:.4g} slope", bias.slope);
-  if (bias.normal_offset_texels != 0.0) text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
+  if (bias.normal_offset_texels != 0.0)
+    text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
   if (bias.receiver_plane) text += ", receiver plane";
   return text;
 }
@@ -27,7 +28,8 @@ std::string compared_words(const std::optional<Readings::Compared>& compared) {
   std::string text = "wrong " + compare::percent(compared->wrong_fraction);
   if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
   return text + fmt::format(" | map {}, shading {}, shadow rays {}", compare::milliseconds(compared->map_ms),
-                            compare::milliseconds(compared->shade_ms), compare::milliseconds(compared->shadow_rays_ms));
+                            compare::milliseconds(compared->shade_ms),
+                            compare::milliseconds(compared->shadow_rays_ms));
 }
 
 /// A value that begins with a dash is joined to its option, so as not to look like one.
@@ -38,7 +40,8 @@ void add_if(std::string& text, bool wanted, std::string_view key, const std::str
 void add_map(std::string& text, const raster::MapOptions& map) {
   const raster::MapOptions plain;
   add_if(text, true, "--map-size", std::to_string(map.size));
-  add_if(text, map.technique != plain.technique, "--technique", std::string(compare::technique_name(map.technique)));
+  add_if(text, map.technique != plain.technique, "--technique",
+         std::string(compare::technique_name(map.technique)));
   add_if(text, true, "--bias", bias_text(map.bias));
   add_if(text, map.bias.slope != plain.bias.slope, "--slope-bias", number_text(map.bias.slope));
   add_if(text, map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
@@ -75,8 +78,8 @@ std::vector<std::string> other_turned_lights(const ViewState& state) {
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene) {
   std::string text = fmt::format("{} | {}", scene, picture_name(state.picture));
   if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
-  text += fmt::format(" | {} {}² | {}", compare::technique_name(state.setup.map.technique), state.setup.map.size,
-                      bias_words(state.setup.map.bias, readings));
+  text += fmt::format(" | {} {}² | {}", compare::technique_name(state.setup.map.technique),
+                      state.setup.map.size, bias_words(state.setup.map.bias, readings));
   return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
                             compared_words(readings.compared));
 }
@@ -89,9 +92,10 @@ std::string compare_command(const ViewState& state, const ViewOptions& options) 
   add_if(text, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
   add_poses(text, state.setup);
   add_if(text, options.compare.accel != plain.accel, "--accel", "brute");
-  add_if(text, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution, "--min-contribution",
-         number_text(options.compare.raytrace.min_contribution));
-  if (options.exposure) add_if(text, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+  add_if(text, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
+         "--min-contribution", number_text(options.compare.raytrace.min_contribution));
+  if (options.exposure)
+    add_if(text, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
   return text;
 }
 

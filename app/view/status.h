@@ -1,4 +1,5 @@
-// The viewer in words: the window's title, and the command line that makes the same comparison without a window.
+// The viewer in words: the window's title, and the command line that makes the same comparison without a
+// window.
 #pragma once
 
 #include <string>

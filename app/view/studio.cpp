@@ -2,6 +2,7 @@
 
 #include "compare/outputs.h"
 #include "scene/exposure.h"
+#include "scene/files/image_io.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -21,7 +22,8 @@ Expected<std::unique_ptr<raster::Renderer>> make_window_renderer(std::unique_ptr
 
 }  // namespace
 
-Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context> context, const LoadedScene& loaded,
+Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context> context,
+                                                 const LoadedScene& loaded,
                                                  const compare::CompareOptions& options,
                                                  std::function<void()> on_finished) {
   auto renderer = make_window_renderer(std::move(context), loaded);
@@ -104,17 +106,23 @@ Expected<void> Studio::start_next(const ViewState& state) {
 }
 
 bool Studio::is_done(const ViewState& state) const {
-  return outcome_ && !outcome_->preview && outcome_->revision == state.revision && drawn_revision_ == state.revision;
+  return outcome_ && !outcome_->preview && outcome_->revision == state.revision &&
+         drawn_revision_ == state.revision;
 }
 
 const Rgb8Image& Studio::picture(Picture picture) const {
   if (!outcome_) return live_picture_;
   switch (picture) {
-    case Picture::raytrace: return outcome_->raytrace;
-    case Picture::difference: return outcome_->difference;
-    case Picture::labels: return outcome_->labels;
-    case Picture::depth: return outcome_->depth;
-    case Picture::raster: break;
+    case Picture::raytrace:
+      return outcome_->raytrace;
+    case Picture::difference:
+      return outcome_->difference;
+    case Picture::labels:
+      return outcome_->labels;
+    case Picture::depth:
+      return outcome_->depth;
+    case Picture::raster:
+      break;
   }
   return live_picture_;
 }

@@ -1,6 +1,6 @@
-// Keeps every picture of the window up to date with its state: the rasterizer at once, on the caller's thread; rays and
-// comparison beside it, first at a quarter of the window's width and height, then in full. Knows no window: any OpenGL
-// context will do. All pictures but the first are made by compare's own code.
+// Keeps every picture of the window up to date with its state: the rasterizer at once, on the caller's
+// thread; rays and comparison beside it, first at a quarter of the window's width and height, then in full.
+// Knows no window: any OpenGL context will do. All pictures but the first are made by compare's own code.
 #pragma once
 
 #include <functional>
@@ -31,14 +31,15 @@ struct Readings {
 
 class Studio {
  public:
-  /// `loaded` must outlive the studio, which moves its scene's camera and lights. `on_finished` is called from another
-  /// thread when it is worth calling update() again.
-  static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context, const LoadedScene& loaded,
+  /// `loaded` must outlive the studio, which moves its scene's camera and lights. `on_finished` is called
+  /// from another thread when it is worth calling update() again.
+  static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
+                                                  const LoadedScene& loaded,
                                                   const compare::CompareOptions& options,
                                                   std::function<void()> on_finished);
 
-  /// Draws what the state asks for, takes what is finished, starts what is next. Sets the state's measures. Error: what
-  /// the state asks for cannot be drawn, or a comparison failed.
+  /// Draws what the state asks for, takes what is finished, starts what is next. Sets the state's measures.
+  /// Error: what the state asks for cannot be drawn, or a comparison failed.
   Expected<void> update(ViewState& state);
 
   /// The full comparison of this state is finished.
@@ -50,8 +51,8 @@ class Studio {
   const raster::ContextInfo& context_info() const { return renderer_->info(); }
 
  private:
-  Studio(std::unique_ptr<raster::Renderer> renderer, const LoadedScene& loaded, const compare::CompareOptions& options,
-         std::function<void()> on_finished);
+  Studio(std::unique_ptr<raster::Renderer> renderer, const LoadedScene& loaded,
+         const compare::CompareOptions& options, std::function<void()> on_finished);
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
   Expected<void> draw_live(ViewState& state);
   Expected<void> take_outcome();

@@ -25,8 +25,10 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
   state.setup.light = lights->front();
   state.setup.map = options.compare.raster.map;
   state.setup.size = options.compare.raster.size;
-  const auto posed = pose_setup(options.poses, options.compare.light, state.given, state.setup);
-  if (!posed) return fail(posed.error());
+  const auto poses = resolve_poses(options.poses, options.compare.light, *loaded.world);
+  if (!poses) return fail(poses.error());
+  state.setup.camera = poses->camera;
+  if (poses->light_pose) state.setup.lights[poses->light] = poses->light_pose;
   state.initial = state.setup;
   return state;
 }

@@ -12,8 +12,8 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr double idle_wait_seconds = 1.0;      // between frames when nothing happens
-constexpr double resize_patience_ms = 5000.0;  // for a window manager to grant a size
+constexpr double idle_wait_seconds = 1.0;           // between frames when nothing happens
+constexpr double resize_patience_ms = 5000.0;       // for a window manager to grant a size
 const Rgb8Image surround({1, 1}, glm::u8vec3(24));  // where a picture leaves the window free
 
 /// The largest place in the window that has the picture's proportions.
@@ -33,8 +33,9 @@ raster::Scaling scaling_of(Picture picture) {
 
 }  // namespace
 
-Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
-                                               std::vector<ScriptStep> script, Console& console) {
+Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, const LoadedScene& loaded,
+                                               ViewState state, std::vector<ScriptStep> script,
+                                               Console& console) {
   std::unique_ptr<Viewer> viewer(new Viewer(options, loaded, std::move(state), std::move(script), console));
   auto window = Window::open("gnomon", viewer->state_.setup.size);
   if (!window) return fail(window.error());
@@ -50,8 +51,8 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, const
   return viewer;
 }
 
-Viewer::Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state, std::vector<ScriptStep> script,
-               Console& console)
+Viewer::Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
+               std::vector<ScriptStep> script, Console& console)
     : options_(options),
       loaded_(loaded),
       console_(console),
@@ -66,19 +67,27 @@ void Viewer::listen() {
   };
   events.button = [this](int button, bool down) { down ? pointer_.press(button) : pointer_.release(button); };
   events.pointer = [this](double x, double y) {
-    if (const auto change = pointer_.move_to(x, y)) apply(state_, *change);
+    if (const auto change = pointer_.move_to(x, y)) carry_out(state_, *change);
   };
-  events.scroll = [this](double notches) { apply(state_, zoom_for_scroll(notches)); };
+  events.scroll = [this](double notches) { carry_out(state_, zoom_for_scroll(notches)); };
   window_->listen(std::move(events));
 }
 
 void Viewer::act(const Action& action) {
-  if (const auto* change = std::get_if<Change>(&action)) return apply(state_, *change);
+  if (const auto* change = std::get_if<Change>(&action)) return carry_out(state_, *change);
   switch (std::get<Command>(action)) {
-    case Command::save_screenshot: screenshot_asked_ = true; return;
-    case Command::print_command: print_command(); return;
-    case Command::print_help: console_.message(key_help()); return;
-    case Command::quit: quit_ = true; return;
+    case Command::save_screenshot:
+      screenshot_asked_ = true;
+      return;
+    case Command::print_command:
+      print_command();
+      return;
+    case Command::print_help:
+      console_.message(key_help());
+      return;
+    case Command::quit:
+      quit_ = true;
+      return;
   }
 }
 
@@ -99,7 +108,7 @@ Expected<void> Viewer::run() {
 /// The state's size is always that of the framebuffer; an iconified window keeps its last one.
 void Viewer::follow_window_size() {
   const ImageSize size = window_->framebuffer_size();
-  if (size.pixels() > 0 && !(size == state_.setup.size)) apply(state_, Resize{size});
+  if (size.pixels() > 0 && !(size == state_.setup.size)) carry_out(state_, Resize{size});
 }
 
 /// A person's wish that cannot be drawn is taken back, with a word about it; a script's ends the program.
@@ -129,7 +138,8 @@ Expected<void> Viewer::draw_frame() {
   if (!as_window) {
     if (auto ok = presenter_->draw(surround, whole, raster::Scaling::nearest); !ok) return ok;
   }
-  if (auto ok = presenter_->draw(picture, as_window ? whole : fitted(picture.size, size), scaling_of(shown)); !ok)
+  if (auto ok = presenter_->draw(picture, as_window ? whole : fitted(picture.size, size), scaling_of(shown));
+      !ok)
     return ok;
   std::string title = status_line(state_, studio_->readings(state_), loaded_.scene->name);
   if (title != title_) window_->set_title(title_ = std::move(title));
@@ -168,13 +178,15 @@ void Viewer::print_command() const {
   print_data(compare_command(state_, options_) + "\n");
   std::fflush(stdout);
   for (const std::string& light : other_turned_lights(state_))
-    console_.note(fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
+    console_.note(
+        fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
 }
 
 void Viewer::sleep() {
   if (!has_script()) return window_->wait(idle_wait_seconds);
   const bool waits_for_worker = next_step_ < script_.size() &&
-                                std::holds_alternative<WaitDone>(script_[next_step_].what) && !studio_->is_done(state_);
+                                std::holds_alternative<WaitDone>(script_[next_step_].what) &&
+                                !studio_->is_done(state_);
   if (waits_for_worker || resizing_) window_->wait(idle_wait_seconds / 100.0);
 }
 
@@ -203,7 +215,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
   }
   const Change& change = std::get<Change>(step.what);
   if (const auto* resize = std::get_if<Resize>(&change)) return pass_resize(*resize);
-  apply(state_, change);
+  carry_out(state_, change);
   return true;
 }
 
@@ -220,8 +232,9 @@ Expected<bool> Viewer::pass_resize(const Resize& resize) {
     window_->ask_for_size(resize.size);
   }
   if (resizing_->elapsed_ms() < resize_patience_ms) return false;
-  return fail(ErrorKind::graphics, fmt::format("the display does not grant this window size (got {}x{}, asked for {}x{})",
-                                               now.width, now.height, resize.size.width, resize.size.height));
+  return fail(ErrorKind::graphics,
+              fmt::format("the display does not grant this window size (got {}x{}, asked for {}x{})",
+                          now.width, now.height, resize.size.width, resize.size.height));
 }
 
 /// The error with the script's line, where it does not name a place of its own.

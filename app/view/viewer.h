@@ -1,5 +1,5 @@
-// One window's life: what the keys, the mouse and the script ask for goes into the state; what the studio draws of the
-// state goes on the screen, one frame after another.
+// One window's life: what the keys, the mouse and the script ask for goes into the state; what the studio
+// draws of the state goes on the screen, one frame after another.
 #pragma once
 
 #include <memory>
@@ -21,16 +21,18 @@ namespace gnomon::app {
 
 class Viewer {
  public:
-  /// Opens the window. All must outlive the viewer. script: empty for a window that people drive.
-  static Expected<std::unique_ptr<Viewer>> open(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
-                                                std::vector<ScriptStep> script, Console& console);
+  /// Opens the window. All must outlive the viewer.
+  static Expected<std::unique_ptr<Viewer>> open(const ViewOptions& options, const LoadedScene& loaded,
+                                                ViewState state, std::vector<ScriptStep> script,
+                                                Console& console);
 
-  /// Until the window is closed or the script ends. Error: a script's step failed, or nothing can be drawn at all.
+  /// Until the window is closed or the script ends. Error: a script's step failed, or nothing can be drawn at
+  /// all.
   Expected<void> run();
 
  private:
-  Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state, std::vector<ScriptStep> script,
-         Console& console);
+  Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
+         std::vector<ScriptStep> script, Console& console);
   void listen();
   void act(const Action& action);
   void follow_window_size();
@@ -42,7 +44,7 @@ class Viewer {
   void sleep();
 
   // The script
-  bool has_script() const { return !script_.empty(); }
+  bool has_script() const { return !options_.script.empty(); }
   /// Makes the changes up to the next step that needs a frame or time.
   Expected<void> advance_script();
   /// Whether the step is over; called once before each frame.
@@ -60,7 +62,7 @@ class Viewer {
   std::vector<ScriptStep> script_;
   std::size_t next_step_ = 0;
   std::int64_t frames_waited_ = 0;
-  std::optional<Stopwatch> resizing_;           ///< since the script asked for another size
+  std::optional<Stopwatch> resizing_;            ///< since the script asked for another size
   std::optional<std::string> shot_after_frame_;  ///< the script's, to be taken when this frame is drawn
 
   std::unique_ptr<Window> window_;  ///< outlives all below

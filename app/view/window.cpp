@@ -54,11 +54,15 @@ void ask_for_core_context() {
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
-Window& window_of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+Window& window_of(GLFWwindow* window) {
+  return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
 
 }  // namespace
 
-Window::Library::~Library() { glfwTerminate(); }
+Window::Library::~Library() {
+  glfwTerminate();
+}
 
 Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSize size) {
   if (glfwInit() != GLFW_TRUE) return cannot_open(library_reason());
@@ -96,11 +100,17 @@ void Window::connect() {
   });
 }
 
-std::unique_ptr<raster::Context> Window::context() const { return std::make_unique<WindowContext>(window_); }
+std::unique_ptr<raster::Context> Window::context() const {
+  return std::make_unique<WindowContext>(window_);
+}
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(window_, title.c_str());
+}
 
-void Window::ask_for_size(ImageSize size) { glfwSetWindowSize(window_, size.width, size.height); }
+void Window::ask_for_size(ImageSize size) {
+  glfwSetWindowSize(window_, size.width, size.height);
+}
 
 ImageSize Window::framebuffer_size() const {
   ImageSize size;
@@ -108,14 +118,24 @@ ImageSize Window::framebuffer_size() const {
   return size;
 }
 
-bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+bool Window::should_close() const {
+  return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
 
-void Window::show_frame() { glfwSwapBuffers(window_); }
+void Window::show_frame() {
+  glfwSwapBuffers(window_);
+}
 
-void Window::poll() { glfwPollEvents(); }
+void Window::poll() {
+  glfwPollEvents();
+}
 
-void Window::wait(double at_most_seconds) { glfwWaitEventsTimeout(at_most_seconds); }
+void Window::wait(double at_most_seconds) {
+  glfwWaitEventsTimeout(at_most_seconds);
+}
 
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+  glfwPostEmptyEvent();
+}
 
 }  // namespace gnomon::app

@@ -42,9 +42,9 @@ class Window {
   bool should_close() const;
   void show_frame();  ///< swaps the buffers
 
-  void poll();                           ///< handles what has happened
-  void wait(double at_most_seconds);     ///< sleeps until something happens
-  static void wake();                    ///< ends a wait(); from any thread
+  void poll();                        ///< handles what has happened
+  void wait(double at_most_seconds);  ///< sleeps until something happens
+  static void wake();                 ///< ends a wait(); from any thread
 
  private:
   /// GLFW lives from before the window to after it.

@@ -11,8 +11,8 @@
 
 namespace gnomon::app {
 
-/// What is under way. Only tracing is ever cut short: cancelling the group ends the loops inside it, and what they leave
-/// behind is thrown away unread.
+/// What is under way. Only tracing is ever cut short: cancelling the group ends the loops inside it, and what
+/// they leave behind is thrown away unread.
 struct CompareWorker::Job {
   bool preview = false;
   std::atomic<bool> given_up{false};
@@ -21,7 +21,8 @@ struct CompareWorker::Job {
 
 namespace {
 
-/// A world of its own for the thread. The flattened world holds all geometry, so the meshes are not copied with it.
+/// A world of its own for the thread. The flattened world holds all geometry, so the meshes are not copied
+/// with it.
 std::unique_ptr<Scene> copy_without_meshes(const Scene& scene) {
   auto copy = std::make_unique<Scene>();
   copy->name = scene.name;
@@ -150,12 +151,12 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   options.raytrace.size = comparison.raster.options.size;
   const std::vector<std::uint32_t> lights{comparison.raster.lights.front().light};
   const tbb::task_group_status traced = job.tracing.run_and_wait([&] {
-    comparison.raytraced =
-        raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
+    comparison.raytraced = raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
   });
   if (traced == tbb::task_group_status::canceled || job.given_up) return std::nullopt;
 
-  auto compared = compare::compare_frames(*world_, *tracer_, comparison.raster, comparison.raytraced, options);
+  auto compared =
+      compare::compare_frames(*world_, *tracer_, comparison.raster, comparison.raytraced, options);
   if (!compared) return Expected<ComparisonOutcome>(fail(compared.error()));
   comparison.lights = std::move(*compared);
   comparison.exposure = scene_->exposure ? *scene_->exposure : auto_exposure(comparison.raytraced.color);

@@ -1,6 +1,6 @@
-// Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the window may
-// move camera and light while it works. The newest request wins: a full-size one that is under way is given up when
-// another comes; a preview is finished, so that dragging shows something.
+// Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the
+// window may move camera and light while it works. The newest request wins: a full-size one that is under way
+// is given up when another comes; a preview is finished, so that dragging shows something.
 #pragma once
 
 #include <condition_variable>
@@ -37,8 +37,8 @@ struct ComparisonOutcome {
 class CompareWorker {
  public:
   /// Builds the tracer on the worker's thread. `on_finished` is called there whenever an outcome is ready.
-  CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan, const compare::CompareOptions& options,
-                std::function<void()> on_finished);
+  CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan,
+                const compare::CompareOptions& options, std::function<void()> on_finished);
   /// Gives up what is under way and waits for the thread.
   ~CompareWorker();
 

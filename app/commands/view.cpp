@@ -1,0 +1,39 @@
+// gnomon view: the interactive window.
+#include "app/view/view.h"
+
+#include <CLI/App.hpp>
+#include <memory>
+
+#include "app/invocation.h"
+#include "app/options.h"
+
+namespace gnomon::app {
+
+void add_view(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "view",
+      "Turn the camera and the light, change bias and map, and watch the shadows and their differences.");
+  app->footer(
+      "gnomon view fence                                     H prints the keys\n"
+      "gnomon view model.glb --size 1600x900 --bias 0.5texel\n"
+      "gnomon view floating-box --script tour.txt            drives the window; see the manual");
+  const auto options = std::make_shared<ViewOptions>();
+  add_scene(*app, options->scene);
+  add_size(*app, options->compare.raster.size);
+  add_map_options(*app, options->compare.raster.map);
+  add_light(*app, options->compare.light, "begin with this light");
+  add_pose_options(*app, options->poses);
+  add_tracer_options(*app, options->compare.accel);
+  add_min_contribution(*app, options->compare.raytrace.min_contribution);
+  add_exposure(*app, options->exposure);
+  app->add_option(
+         "--script", options->script,
+         "drive the window by a file of lines set KEY VALUE, wait N or wait done, screenshot FILE.png, quit "
+         "[default off]")
+      ->type_name("FILE");
+  add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
+  add_quiet(*app, options->quiet);
+  app->callback([options, &invocation] { invocation.action = [options] { return run_view(*options); }; });
+}
+
+}  // namespace gnomon::app
