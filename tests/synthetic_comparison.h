@@ -251,4 +251,15 @@ inline std::unique_ptr<Synthetic> make_synthetic(int lights = 1) {
   return made;
 }
 
+/// A light for which no pixel can be compared.
+inline void clear_comparison(LightComparison& light) {
+  LightComparison empty;
+  empty.light = light.light;
+  empty.record = light.record;
+  empty.rungs = light.rungs;
+  empty.labels = Image<Label>(light.labels.size, Label::background);
+  empty.pixels.total = empty.pixels.background = light.labels.data.size();
+  light = std::move(empty);
+}
+
 }  // namespace gnomon::compare

@@ -4,14 +4,16 @@
 
 #include <embedded/report.h>
 
+#include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "compare/report/html.h"
+#include "compare/report/sections.h"
 #include "scene/files/sha256.h"
 
 namespace gnomon::compare {
 namespace {
 
-// A content-security-policy source for an inline block: 'sha256-' and its digest in base64.
+// A content-security-policy source for one inline block: the base64 of its SHA-256.
 std::string hash_source(std::string_view block) {
   const std::string hex = sha256_hex(block);
   std::string digest;
@@ -20,41 +22,54 @@ std::string hash_source(std::string_view block) {
   return "'sha256-" + base64(digest) + "'";
 }
 
-std::string head(const std::string& title) {
-  const std::string_view css = embedded::report("report.css"), js = embedded::report("report.js");
+// Nothing may be loaded, sent or run but the page's own images, style and script.
+std::string security_policy() {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-      "{}; "
-      "script-src {}; base-uri 'none'; form-action 'none'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<style>{}</style>\n</head>\n",
-      hash_source(css), hash_source(js), escaped(title), css);
+      "default-src 'none'; img-src data:; style-src {}; script-src {}; base-uri 'none'; form-action 'none'",
+      hash_source(embedded::report("report.css")), hash_source(embedded::report("report.js")));
 }
 
-std::string image(const EncodedPicture& picture, std::string_view alt) {
-  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
-                     data_uri("image/png", picture.png), picture.size.width, picture.size.height,
-                     escaped(alt));
+std::string title(const Comparison& c) {
+  std::string text = c.world->scene->name;
+  if (c.lights.size() == 1 && c.lights[0].pixels.compared > 0)
+    text += ": " + percent(c.lights[0].error.wrong_fraction) + " wrong";
+  return text + " \u2013 Gnomon";
+}
+
+std::string head(const Comparison& c) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<link rel=\"icon\" "
+      "href=\"data:,\">\n"
+      "<style>{}</style>\n</head>\n",
+      security_policy(), escaped(title(c)), embedded::report("report.css"));
+}
+
+std::string navigation(const Comparison& c) {
+  std::string links = "<li><a href=\"#overview\">Overview</a></li>";
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    links += fmt::format("<li><a href=\"#light-{}\">Light: {}</a></li>", i, escaped(shown_light_name(c, i)));
+  links +=
+      "<li><a href=\"#cost\">Time and work</a></li><li><a href=\"#effects\">Effects</a></li>"
+      "<li><a href=\"#provenance\">Provenance</a></li>";
+  return "<header class=\"bar-top\"><span class=\"brand\">Gnomon</span>\n<nav aria-label=\"Sections\"><ul>" +
+         links + "</ul></nav></header>\n";
 }
 
 }  // namespace
 
 std::string report_page(const PageInput& in) {
   const Comparison& c = in.comparison;
-  std::string body = fmt::format("<body>\n<main>\n<h1>{}</h1>\n", escaped(c.world->scene->name));
-  body += image(in.pictures.raster, "Rasterized") + image(in.pictures.raytraced, "Ray traced");
-  for (std::size_t i = 0; i < c.lights.size(); ++i) {
-    body += fmt::format("<p>{}</p>\n", escaped(verdict_sentence(c, c.lights[i])));
-    body += image(in.pictures.lights[i].difference, "Difference") +
-            image(in.pictures.lights[i].labels, "Labels") +
-            image(in.pictures.lights[i].depth_map_small, "Depth map");
-  }
-  body += fmt::format(
-      "</main>\n<script type=\"application/json\" "
-      "id=\"result\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
-      script_safe(in.json), embedded::report("report.js"));
-  return head(c.world->scene->name) + body;
+  std::string page =
+      head(c) + "<body>\n<a class=\"skip\" href=\"#overview\">Skip to the report</a>\n" + navigation(c);
+  page += "<main>\n" + overview_section(in);
+  for (std::size_t i = 0; i < c.lights.size(); ++i) page += light_section(in, i);
+  page += cost_section(in) + effects_section(in) + provenance_section(in) + "</main>\n";
+  page += "<script type=\"application/json\" id=\"result\">" + script_safe(in.json) + "</script>\n";
+  page.append("<script>").append(embedded::report("report.js")).append("</script>\n</body>\n</html>\n");
+  return page;
 }
 
 Expected<std::string> report_html(const Comparison& comparison) {

@@ -1,0 +1,187 @@
+#include "compare/report/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "compare/number_text.h"
+#include "compare/palette.h"
+#include "compare/report/html.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double width = 760.0, height = 330.0;  // of the bias chart, SVG units (CSS pixels when not scaled)
+constexpr double left = 58.0, right = 126.0, top = 40.0,
+                 bottom = 46.0;  // margins; names of curves on the right
+
+// Maps the chart's data to SVG units.
+struct Scale {
+  double min_x, max_x, max_y;
+  double x(double v) const { return left + (v - min_x) / (max_x - min_x) * (width - left - right); }
+  double y(double v) const { return height - bottom - v / max_y * (height - top - bottom); }
+  double clamp_x(double v) const { return x(std::clamp(v, min_x, max_x)); }
+};
+
+std::string vertical(double x, std::string_view kind) {
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.0f}\" y2=\"{:.0f}\"/>", kind, x,
+                     x, top, height - bottom);
+}
+
+std::string label(double x, double y, std::string_view kind, std::string_view text) {
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", kind, x, y, escaped(text));
+}
+
+std::string axes(const Scale& scale) {
+  std::string out;
+  for (const double v : nice_ticks(0.0, scale.max_y, 4)) {
+    out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
+                       width - right, scale.y(v), scale.y(v));
+    out += label(left - 8, scale.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
+  }
+  for (const double v : nice_ticks(scale.min_x, scale.max_x, 6))
+    out += label(scale.x(v), height - bottom + 20, "tick middle", fmt::format("{:.3g}", v));
+  out += label((left + width - right) / 2, height - 6, "axis middle",
+               "constant bias, world units along the light ray");
+  return out;
+}
+
+template <class Value>
+std::string curve(const LightComparison& light, const Scale& scale, std::string_view kind,
+                  const Value& value) {
+  std::string points;
+  for (const BiasCurvePoint& p : light.bias_curve)
+    fmt::format_to(std::back_inserter(points), "{}{:.1f},{:.1f}", points.empty() ? "" : " ", scale.x(p.bias),
+                   scale.y(value(p)));
+  return fmt::format("<polyline class=\"curve {}\" points=\"{}\"/>", kind, points);
+}
+
+// Names at the curves' right ends, moved apart so that they do not overlap.
+std::string curve_names(const LightComparison& light, const Scale& scale, double compared) {
+  struct Name {
+    double y;
+    std::string_view kind, text;
+  };
+  const BiasCurvePoint& last = light.bias_curve.back();
+  const auto f = static_cast<double>(last.false_shadow), m = static_cast<double>(last.missed_shadow);
+  std::array<Name, 3> names{{{scale.y((f + m) / compared), "total", "all wrong"},
+                             {scale.y(m / compared), "missed", "missed shadow"},
+                             {scale.y(f / compared), "false", "false shadow"}}};
+  std::stable_sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y < b.y; });
+  constexpr double spacing = 16.0;
+  for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + spacing);
+  const double excess = std::max(0.0, names.back().y - (height - bottom));
+  std::string out;
+  for (const Name& n : names)
+    out += label(width - right + 8, n.y - excess + 4, fmt::format("name {}", n.kind), n.text);
+  return out;
+}
+
+// The interval between what lit and what shadowed pixels need.
+std::string interval(const LightComparison& light, const Scale& scale, std::string_view id) {
+  const BestBias& b = light.best_bias;
+  if (!b.feasible && std::isinf(b.needs_less_than)) return "";
+  const double from = scale.clamp_x(std::min(b.needs_more_than, b.needs_less_than));
+  const double to = scale.clamp_x(std::max(b.needs_more_than, b.needs_less_than));
+  const std::string fill = b.feasible ? "class=\"feasible\"" : fmt::format("fill=\"url(#{}-hatch)\"", id);
+  return fmt::format("<rect {} x=\"{:.1f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.0f}\"/>", fill, from,
+                     top, std::max(1.0, to - from), height - top - bottom) +
+         label(std::clamp((from + to) / 2, left + 70, width - right - 70), top - 24, "note middle",
+               b.feasible ? "right everywhere" : "pixels contradict each other");
+}
+
+std::string description(const LightComparison& light, double used_bias) {
+  const BestBias& b = light.best_bias;
+  return fmt::format("Used: a bias of {}, {} of the compared pixels wrong. Best: {}, {} wrong.",
+                     plain_number(used_bias), percent(light.error.wrong_fraction),
+                     plain_number(b.constant_world), percent(b.wrong_fraction));
+}
+
+// Used and best bias as marks with their names above the plot, the right one's name to the right of its line.
+std::string marks(const LightComparison& light, const Scale& scale, double used_bias) {
+  const double best = scale.clamp_x(light.best_bias.constant_world), used = scale.clamp_x(used_bias);
+  const bool best_is_right = best >= used;
+  std::string out = vertical(best, "best");
+  out += label(best + (best_is_right ? 5 : -5), top - 7, best_is_right ? "note" : "note end", "best");
+  if (std::abs(best - used) < 1.0) return out;
+  out += vertical(used, "used");
+  return out + label(used + (best_is_right ? -5 : 5), top - 7, best_is_right ? "note end" : "note", "used");
+}
+
+}  // namespace
+
+std::vector<double> nice_ticks(double min, double max, int wanted) {
+  std::vector<double> ticks;
+  if (!(max > min) || wanted < 1) return ticks;
+  const double rough = (max - min) / wanted, power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double lead = rough / power;
+  const double step = power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
+  for (double k = std::ceil(min / step); k * step <= max; k += 1.0) ticks.push_back(k * step + 0.0);
+  return ticks;
+}
+
+std::string waterfall_bar(double from, double to, double min, double max, std::string_view kind) {
+  const auto x = [&](double v) { return max > min ? 1000.0 * (v - min) / (max - min) : 500.0; };
+  const double a = std::min(x(from), x(to)), b = std::max(x(from), x(to));
+  return fmt::format(
+      "<svg class=\"bar\" viewBox=\"0 0 1000 24\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
+      "focusable=\"false\">"
+      "<line class=\"zero\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"0\" y2=\"24\"/>"
+      "<line class=\"link\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"0\" y2=\"5\"/>"
+      "<line class=\"link\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"19\" y2=\"24\"/>"
+      "<rect class=\"{}\" x=\"{:.1f}\" y=\"5\" width=\"{:.1f}\" height=\"14\"/></svg>",
+      x(0.0), x(0.0), x(from), x(from), x(to), x(to), kind, a, std::max(b - a, 1.5));
+}
+
+std::string share_bar(double share, std::string_view kind) {
+  return fmt::format(
+      "<svg class=\"bar\" viewBox=\"0 0 1000 24\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
+      "focusable=\"false\">"
+      "<rect class=\"{}\" x=\"0\" y=\"7\" width=\"{:.1f}\" height=\"10\"/></svg>",
+      kind, share > 0.0 ? std::max(1000.0 * std::min(share, 1.0), 1.5) : 0.0);
+}
+
+std::string bias_chart(const LightComparison& light, double used_bias, std::string_view id) {
+  if (light.bias_curve.size() < 2 || light.pixels.compared == 0) return "";
+  const auto compared = static_cast<double>(light.pixels.compared);
+  const auto total = [](const BiasCurvePoint& p) {
+    return static_cast<double>(p.false_shadow + p.missed_shadow);
+  };
+  double highest = 0.0;
+  for (const BiasCurvePoint& p : light.bias_curve) highest = std::max(highest, total(p) / compared);
+  const Scale scale{light.bias_curve.front().bias, light.bias_curve.back().bias,
+                    std::max(1.05 * highest, 1e-9)};
+  if (!(scale.max_x > scale.min_x)) return "";
+  std::string svg = fmt::format(
+      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-labelledby=\"{}-title {}-desc\">"
+      "<title id=\"{}-title\">Wrong pixels at every constant bias</title><desc id=\"{}-desc\">{}</desc>"
+      "<defs><pattern id=\"{}-hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><line class=\"hatch\" x1=\"0\" y1=\"0\" x2=\"0\" "
+      "y2=\"7\"/></pattern></defs>",
+      width, height, id, id, id, id, escaped(description(light, used_bias)), id);
+  svg += interval(light, scale, id) + axes(scale);
+  svg += curve(light, scale, "total", [&](const BiasCurvePoint& p) { return total(p) / compared; });
+  svg += curve(light, scale, "false",
+               [&](const BiasCurvePoint& p) { return static_cast<double>(p.false_shadow) / compared; });
+  svg += curve(light, scale, "missed",
+               [&](const BiasCurvePoint& p) { return static_cast<double>(p.missed_shadow) / compared; });
+  return svg + marks(light, scale, used_bias) + curve_names(light, scale, compared) + "</svg>";
+}
+
+std::string depth_scale(std::string_view id) {
+  std::string stops;
+  for (int i = 0; i <= 8; ++i) {
+    const glm::u8vec3 c = viridis(i / 8.0);
+    stops += fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", i / 8.0, hex_colour(c.r, c.g, c.b));
+  }
+  return fmt::format(
+      "<svg class=\"scale\" viewBox=\"0 0 200 12\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
+      "focusable=\"false\">"
+      "<defs><linearGradient id=\"{}\">{}</linearGradient></defs>"
+      "<rect width=\"200\" height=\"12\" fill=\"url(#{})\"/></svg>",
+      id, stops, id);
+}
+
+}  // namespace gnomon::compare

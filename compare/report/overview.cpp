@@ -1,0 +1,158 @@
+// The first screen: both pictures with their times, and for each light the verdict beside its error budget.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/number_text.h"
+#include "compare/option_names.h"
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/report/charts.h"
+#include "compare/report/explanations.h"
+#include "compare/report/html.h"
+#include "compare/report/sections.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string timed(std::string_view key, const Times& times) {
+  if (times.runs.empty()) return "not timed";
+  return keyed(fmt::format("{}.median", key), times.median(), milliseconds(times.median()));
+}
+
+double median_sum(const Comparison& c, const Times& (*pick)(const Comparison&, const LightComparison&)) {
+  double sum = 0.0;
+  for (const LightComparison& light : c.lights) sum += pick(c, light).median();
+  return sum;
+}
+
+const Times& map_times(const Comparison& c, const LightComparison& light) {
+  return drawn_record(c, light).map_pass;
+}
+const Times& ray_times(const Comparison& c, const LightComparison& light) {
+  return true_record(c, light).shadow_rays;
+}
+
+// One light's time under its key, or the sum of several.
+std::string shadow_time(const Comparison& c, std::string_view pass,
+                        const Times& (*pick)(const Comparison&, const LightComparison&)) {
+  if (c.lights.size() == 1)
+    return timed(light_key(0, fmt::format("times_ms.{}", pass)), pick(c, c.lights[0]));
+  return escaped(milliseconds(median_sum(c, pick)));
+}
+
+std::string raster_caption(const Comparison& c) {
+  if (c.lights.empty()) return "<b>Rasterizer</b>, shadow maps";
+  const LightComparison& first = c.lights.front();
+  return fmt::format("<b>Rasterizer</b>, shadow map{}: {} for the map{}, {} to shade with {}",
+                     c.lights.size() > 1 ? "s" : "", shadow_time(c, "map_pass", map_times),
+                     c.lights.size() > 1 ? "s" : "",
+                     timed(light_key(0, "times_ms.shade_pass"), drawn_record(c, first).shade_pass),
+                     c.lights.size() > 1 ? "them" : "it");
+}
+
+std::string raytraced_caption(const Comparison& c) {
+  if (c.lights.empty()) return "<b>Ray tracer</b>, exact shadows";
+  return fmt::format("<b>Ray tracer</b>, exact shadows: {} for the shadow rays, {} for the primary rays",
+                     shadow_time(c, "shadow_rays", ray_times),
+                     timed("times_ms.primary_rays", c.raytraced.primary_rays));
+}
+
+std::string figure(const EncodedPicture& encoded, std::string_view id, std::string_view alt,
+                   const std::string& caption) {
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture(encoded, alt, id), caption);
+}
+
+std::string map_text(const Comparison& c) {
+  const raster::MapOptions& map = c.raster.options.map;
+  std::string text = fmt::format("{} shadows, map {}\u202f\u00d7\u202f{} {}", technique_name(map.technique),
+                                 map.size, map.size, depth_format_name(map.depth_format));
+  if (c.lights.size() == 1) {
+    const double bias = drawn_record(c, c.lights[0]).bias_constant_world, texel = c.lights[0].texel_world[1];
+    text += fmt::format(", bias {}", plain_number(bias));
+    if (texel > 0.0) text += fmt::format(" ({})", texels_text(bias / texel));
+  }
+  if (map.bias.slope != 0.0) text += fmt::format(", slope bias {}", plain_number(map.bias.slope));
+  if (map.bias.normal_offset_texels != 0.0)
+    text += fmt::format(", normal offset {}", texels_text(map.bias.normal_offset_texels));
+  if (map.bias.receiver_plane) text += ", receiver plane";
+  if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
+  return text;
+}
+
+std::string setting_line(const Comparison& c) {
+  const ImageSize size = c.raster.options.size;
+  return fmt::format(
+      "<p class=\"setting\">{}\u202f\u00d7\u202f{} pixels <span aria-hidden=\"true\">\u00b7</span> {} "
+      "<span aria-hidden=\"true\">\u00b7</span> {} triangles, {} shapes</p>\n",
+      size.width, size.height, escaped(map_text(c)),
+      keyed_count("scene.triangles", c.world->triangle_count()),
+      keyed_count("scene.shapes", c.world->shapes.size()));
+}
+
+std::string card(const PageInput& in, std::size_t i) {
+  const Comparison& c = in.comparison;
+  const LightComparison& light = c.lights[i];
+  const std::string title =
+      c.lights.size() > 1 ? fmt::format("<p class=\"eyebrow\">Light: <a href=\"#light-{}\">{}</a></p>\n", i,
+                                        escaped(shown_light_name(c, i)))
+                          : std::string();
+  const std::string budget = light.pixels.compared == 0
+                                 ? std::string()
+                                 : fmt::format(
+                                       "<div class=\"card-budget\"><p class=\"eyebrow\">Where the error "
+                                       "comes from: drawn minus true, on "
+                                       "average</p>\n{}</div>\n",
+                                       budget_table(light, i));
+  return fmt::format("<div class=\"card\"><div>{}<p class=\"verdict\">{}</p></div>{}</div>\n", title,
+                     escaped(verdict_sentence(c, light)), budget);
+}
+
+}  // namespace
+
+std::string budget_table(const LightComparison& light, std::size_t index) {
+  const auto means = rung_means(light);
+  // The scale spans every running sum, so that each bar starts where the last one ended.
+  std::array<double, cause_count + 1> running{};
+  for (std::size_t k = 0; k < cause_count; ++k) running[k + 1] = running[k] + light.budget[k].signed_mean;
+  const auto [min, max] = std::minmax_element(running.begin(), running.end());
+  const double margin = 0.02 * (*max - *min), low = *min - margin, high = *max + margin;
+  std::string rows;
+  for (std::size_t k = 0; k < cause_count; ++k) {
+    if (light.budget[k].absolute_mean == 0.0) continue;
+    const double step = light.budget[k].signed_mean;
+    rows +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td class=\"wide\">{}</td><td class=\"n\">{}</td></tr>\n",
+                    step_text(static_cast<Cause>(k)).name,
+                    waterfall_bar(running[k], running[k + 1], low, high, step < 0.0 ? "minus" : "plus"),
+                    keyed(light_key(index, fmt::format("budget.{}.signed", k)), step, signed_number(step)));
+  }
+  return fmt::format(
+      "<table class=\"budget\"><thead class=\"quiet\"><tr><th scope=\"col\">step</th><th "
+      "scope=\"col\">adds</th>"
+      "<th scope=\"col\">mean</th></tr></thead><tbody>\n{}<tr class=\"sum\"><th scope=\"row\">sum</th>"
+      "<td class=\"wide\">{}</td><td class=\"n\">{}</td></tr></tbody></table>\n",
+      rows, waterfall_bar(0.0, running.back(), low, high, "sum"),
+      signed_number(means.back() - means.front()));
+}
+
+std::string overview_section(const PageInput& in) {
+  const Comparison& c = in.comparison;
+  const std::string name = c.world->scene->name;
+  std::string out =
+      fmt::format("<section id=\"overview\" aria-labelledby=\"title\">\n<h1 id=\"title\">{}</h1>\n{}",
+                  escaped(name.empty() ? "Scene without a name" : name), setting_line(c));
+  out += "<div class=\"pair\">\n";
+  out += figure(in.pictures.raster, "picture-raster",
+                "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c));
+  out += figure(in.pictures.raytraced, "picture-raytraced", "The same view ray traced, with exact shadows.",
+                raytraced_caption(c));
+  out += "</div>\n";
+  for (std::size_t i = 0; i < c.lights.size(); ++i) out += card(in, i);
+  if (c.lights.empty())
+    out += "<p class=\"verdict\">The scene has no light: there is no shadow to compare.</p>\n";
+  return out + "</section>\n";
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,31 @@
+// The parts of the page, top to bottom. Each returns a whole block of HTML.
+#pragma once
+
+#include <string>
+
+#include "compare/report/page.h"
+
+namespace gnomon::compare {
+
+/// The pictures side by side, the verdicts and the budgets: what a projector shows first.
+std::string overview_section(const PageInput& input);
+/// Everything about one light; `index` in Comparison::lights.
+std::string light_section(const PageInput& input, std::size_t index);
+/// Times and what does not depend on the machine.
+std::string cost_section(const PageInput& input);
+/// What was simulated and what was not, and what the loader had to say.
+std::string effects_section(const PageInput& input);
+/// Where the numbers come from, and the files.
+std::string provenance_section(const PageInput& input);
+
+/// The name that the page gives a light: as in the file, or "light 2" where it has none. Not escaped.
+std::string shown_light_name(const Comparison& comparison, std::size_t index);
+/// "lights.0.error.wrong": a key in result.json.
+std::string light_key(std::size_t index, std::string_view rest);
+
+/// <img> with its size, so that the page does not jump. `id` may be empty.
+std::string picture(const EncodedPicture& encoded, std::string_view alt, std::string_view id);
+/// The budget as a waterfall that adds up: one row per step that changes anything, and the sum.
+std::string budget_table(const LightComparison& light, std::size_t index);
+
+}  // namespace gnomon::compare

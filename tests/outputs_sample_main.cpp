@@ -1,0 +1,31 @@
+// Writes the outputs of hand-made comparisons (one light, three lights, nothing compared) into folders below
+// the one given, for the browser test of the report page.
+#include <iostream>
+
+#include "compare/outputs.h"
+#include "tests/synthetic_comparison.h"
+
+namespace {
+
+bool write(const gnomon::compare::Comparison& comparison, const std::string& folder) {
+  const auto paths = gnomon::compare::write_outputs(comparison, folder);
+  if (!paths) std::cerr << paths.error().message() << '\n';
+  return paths.has_value();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: outputs_sample FOLDER\n";
+    return 2;
+  }
+  const std::string folder = argv[1];
+  const auto one = gnomon::compare::make_synthetic(1), three = gnomon::compare::make_synthetic(3),
+             none = gnomon::compare::make_synthetic(1);
+  gnomon::compare::clear_comparison(none->comparison.lights[0]);
+  return write(one->comparison, folder + "/one") && write(three->comparison, folder + "/three") &&
+                 write(none->comparison, folder + "/none")
+             ? 0
+             : 1;
+}
