@@ -23,8 +23,9 @@ std::string percent(double fraction) {
   if (p == 0.0) return "0 %";
   if (p > 0.0 && p < 0.001) return "less than 0.001 %";
   if (p > 99.99 && p < 100.0) return "more than 99.99 %";
-  if (p > 99.0 && p < 100.0) return fmt::format("{:.2f} %", p);
-  return p < 10.0 ? fmt::format("{:.2g} %", p) : fmt::format("{:.3g} %", p);
+  if (p == 100.0) return "100 %";
+  if (p > 99.0) return fmt::format("{:.2f} %", p);
+  return p < 1.0 ? fmt::format("{:.2g} %", p) : fmt::format("{:.1f} %", p);
 }
 
 std::string plain_number(double value) {

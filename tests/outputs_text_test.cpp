@@ -21,6 +21,8 @@ TEST(NumberText, WritesCountsSharesAndTimes) {
   EXPECT_EQ(percent(0.0412), "4.1 %");
   EXPECT_EQ(percent(0.006), "0.6 %");
   EXPECT_EQ(percent(0.4361), "43.6 %");
+  EXPECT_EQ(percent(0.01), "1.0 %");
+  EXPECT_EQ(percent(0.99), "99.0 %");
   EXPECT_EQ(percent(1.0), "100 %");
   EXPECT_EQ(percent(1e-9), "less than 0.001 %");
   EXPECT_EQ(percent(0.99996), "more than 99.99 %");

@@ -13,9 +13,9 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double width = 760.0, height = 330.0;  // of the bias chart, SVG units (CSS pixels when not scaled)
+constexpr double width = 760.0, height = 340.0;  // of the bias chart, SVG units (CSS pixels when not scaled)
 constexpr double left = 58.0, right = 126.0, top = 40.0,
-                 bottom = 46.0;  // margins; names of curves on the right
+                 bottom = 56.0;  // margins; names of curves on the right
 
 // Maps the chart's data to SVG units.
 struct Scale {
@@ -34,18 +34,27 @@ std::string label(double x, double y, std::string_view kind, std::string_view te
   return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", kind, x, y, escaped(text));
 }
 
-std::string axes(const Scale& scale) {
+// One row of ticks below the plot, in multiples of `unit` world units, its name at the right end.
+std::string bias_ticks(const Scale& scale, double unit, double below, std::string_view name) {
+  std::string out;
+  const double y = height - bottom + below;
+  for (const double v : nice_ticks(scale.min_x / unit, scale.max_x / unit, 6)) {
+    out += fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>",
+                       scale.x(v * unit), y - 15, y - 11);
+    out += label(scale.x(v * unit), y, "tick middle", fmt::format("{:.3g}", v));
+  }
+  return out + label(width - right + 8, y, "tick", name);
+}
+
+std::string axes(const Scale& scale, double texel_world) {
   std::string out;
   for (const double v : nice_ticks(0.0, scale.max_y, 4)) {
     out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
                        width - right, scale.y(v), scale.y(v));
     out += label(left - 8, scale.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
   }
-  for (const double v : nice_ticks(scale.min_x, scale.max_x, 6))
-    out += label(scale.x(v), height - bottom + 20, "tick middle", fmt::format("{:.3g}", v));
-  out += label((left + width - right) / 2, height - 6, "axis middle",
-               "constant bias, world units along the light ray");
-  return out;
+  out += bias_ticks(scale, 1.0, 20, "bias, world units");
+  return texel_world > 0.0 ? out + bias_ticks(scale, texel_world, 46, "bias, texels") : out;
 }
 
 template <class Value>
@@ -161,7 +170,7 @@ std::string bias_chart(const LightComparison& light, double used_bias, std::stri
       "patternTransform=\"rotate(45)\"><line class=\"hatch\" x1=\"0\" y1=\"0\" x2=\"0\" "
       "y2=\"7\"/></pattern></defs>",
       width, height, id, id, id, id, escaped(description(light, used_bias)), id);
-  svg += interval(light, scale, id) + axes(scale);
+  svg += interval(light, scale, id) + axes(scale, light.texel_world[1]);
   svg += curve(light, scale, "total", [&](const BiasCurvePoint& p) { return total(p) / compared; });
   svg += curve(light, scale, "false",
                [&](const BiasCurvePoint& p) { return static_cast<double>(p.false_shadow) / compared; });

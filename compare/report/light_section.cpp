@@ -67,7 +67,8 @@ std::string viewer(const Block& b) {
       "<div class=\"pane\"><img alt=\"\"><span class=\"tag\"></span></div><div "
       "class=\"divider\"></div></div>\n"
       "<label class=\"slider\">Divider <input type=\"range\" min=\"0\" max=\"100\" value=\"50\"></label>\n"
-      "<p class=\"probe\" role=\"status\"></p>\n<p class=\"hint\" id=\"hint-{1}\">Drag to move the divider, "
+      "<p class=\"probe\" role=\"status\">Point at a pixel to read it.</p>\n<p class=\"hint\" "
+      "id=\"hint-{1}\">Drag to move the divider, "
       "or the picture "
       "once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips, <kbd>+</kbd> <kbd>\u2212</kbd> "
       "<kbd>0</kbd> zoom, "
@@ -334,11 +335,14 @@ std::string light_section(const PageInput& in, std::size_t i) {
       "<section id=\"light-{0}\" aria-labelledby=\"light-{0}-title\">\n<h2 id=\"light-{0}-title\">Light: "
       "{1}</h2>\n"
       "<p class=\"setting\">{2}, {3}; map of {4}\u202f\u00d7\u202f{4}{5} texels, bias {6} world "
-      "units</p>\n<p class=\"lead\">{7}</p>\n",
+      "units</p>\n{7}",
       i, escaped(shown_light_name(in.comparison, i)), light_type_name(light.type), where(light),
       map.view.size, map.view.face_count > 1 ? "\u202f\u00d7\u202f6" : "",
       plain_number(drawn_record(in.comparison, b.light).bias_constant_world),
-      escaped(verdict_sentence(in.comparison, b.light)));
+      // A single light's verdict stands right above, on the first screen.
+      in.comparison.lights.size() == 1
+          ? ""
+          : fmt::format("<p class=\"lead\">{}</p>\n", escaped(verdict_sentence(in.comparison, b.light))));
   out += viewer(b);
   out += "<div class=\"pair\">\n" + difference_figure(b) + label_figure(b) + "</div>\n";
   if (b.light.pixels.compared == 0) return out + label_table(b) + depth_map_block(b) + "</section>\n";

@@ -102,8 +102,8 @@ std::string card(const PageInput& in, std::size_t i) {
                                  ? std::string()
                                  : fmt::format(
                                        "<div class=\"card-budget\"><p class=\"eyebrow\">Where the error "
-                                       "comes from: drawn minus true, on "
-                                       "average</p>\n{}</div>\n",
+                                       "comes from: mean visibility, drawn minus true. Left is darker, right "
+                                       "lighter.</p>\n{}</div>\n",
                                        budget_table(light, i));
   return fmt::format("<div class=\"card\"><div>{}<p class=\"verdict\">{}</p></div>{}</div>\n", title,
                      escaped(verdict_sentence(c, light)), budget);
