@@ -12,6 +12,27 @@ std::uint64_t count_above(const std::vector<float>& sorted, float b) {
   return static_cast<std::uint64_t>(sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), b));
 }
 
+// Values less than b.
+std::uint64_t count_below(const std::vector<float>& sorted, float b) {
+  return static_cast<std::uint64_t>(std::lower_bound(sorted.begin(), sorted.end(), b) - sorted.begin());
+}
+
+// The interval of a feasible bias, or the two sets of pixels that contradict each other.
+void find_proof(const GapLists& gaps, BestBias& best) {
+  best.needs_more_than = gaps.lit.empty() ? -infinity : gaps.lit.back();
+  best.needs_less_than = gaps.shadowed.empty() ? infinity : gaps.shadowed.front();
+  if (best.feasible) return;
+  const auto b = static_cast<float>(best.constant_world);
+  const auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), b);
+  const auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), b);
+  if (lit != gaps.lit.end()) best.needs_more_than = *lit;
+  if (shadowed != gaps.shadowed.begin()) best.needs_less_than = *std::prev(shadowed);
+  const auto least_lit = static_cast<float>(best.needs_more_than);
+  const auto most_shadowed = static_cast<float>(best.needs_less_than);
+  best.lit_pixels_above = gaps.lit.size() - count_below(gaps.lit, least_lit);
+  best.shadowed_pixels_below = gaps.shadowed.size() - count_above(gaps.shadowed, most_shadowed);
+}
+
 }  // namespace
 
 BiasCurvePoint GapLists::at(double bias) const {
@@ -57,13 +78,7 @@ BestBias find_best_bias(const GapLists& gaps) {
   const std::uint64_t count = gaps.lit.size() + gaps.shadowed.size();
   best.wrong_fraction = count == 0 ? 0.0 : double(least) / double(count);
   best.feasible = least == 0;
-  best.needs_more_than = gaps.lit.empty() ? -infinity : gaps.lit.back();
-  best.needs_less_than = gaps.shadowed.empty() ? infinity : gaps.shadowed.front();
-  const auto first_conflict = std::lower_bound(gaps.lit.begin(), gaps.lit.end(), best.needs_less_than);
-  const auto last_conflict =
-      std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), best.needs_more_than);
-  best.lit_pixels_above = static_cast<std::uint64_t>(gaps.lit.end() - first_conflict);
-  best.shadowed_pixels_below = static_cast<std::uint64_t>(last_conflict - gaps.shadowed.begin());
+  find_proof(gaps, best);
   return best;
 }
 

@@ -87,16 +87,23 @@ struct BiasCurvePoint {
 };
 
 /// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right
-/// everywhere.
+/// everywhere. When none can, the proof stands in the last four fields: `lit_pixels_above` truly lit pixels
+/// need a bias of at least needs_more_than, `shadowed_pixels_below` truly shadowed ones need less than
+/// needs_less_than, and needs_less_than <= needs_more_than: no bias satisfies both.
 struct BestBias {
   double constant_world = 0.0;
   double wrong_fraction = 0.0;
-  bool feasible = false;         ///< some constant bias makes every compared pixel right
-  double needs_more_than = 0.0;  ///< the largest gap among truly lit pixels: a smaller bias shadows one
-  double needs_less_than =
-      0.0;  ///< the smallest gap among truly shadowed pixels: a bias from here on lights one
-  std::uint64_t lit_pixels_above = 0;       ///< lit pixels whose gap >= needs_less_than (they contradict)
-  std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels whose gap <= needs_more_than
+  bool feasible = false;  ///< some constant bias >= 0 makes every compared pixel right
+  /// Feasible: the largest gap among lit pixels (-infinity: none), the interval's start. Otherwise the
+  /// smallest gap among the lit pixels that the best bias leaves in false shadow (the largest of all lit gaps
+  /// when it leaves none).
+  double needs_more_than = 0.0;
+  /// Feasible: the smallest gap among shadowed pixels (+infinity: none), the interval's end. Otherwise the
+  /// largest gap among the shadowed pixels that the best bias misses (the smallest of all shadowed gaps when
+  /// it misses none).
+  double needs_less_than = 0.0;
+  std::uint64_t lit_pixels_above = 0;       ///< lit pixels with gap >= needs_more_than; 0 when feasible
+  std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels with gap <= needs_less_than; 0 when feasible
 };
 
 struct LightComparison {

@@ -32,7 +32,20 @@ TEST(BestBias, SaysWhichPixelsContradict) {
   EXPECT_DOUBLE_EQ(best.wrong_fraction, 1.0 / 6.0);
   EXPECT_DOUBLE_EQ(best.constant_world, 0.5f * (1.0f + 0.2f));
   EXPECT_EQ(best.lit_pixels_above, 1u);
+  EXPECT_EQ(best.needs_more_than, 3.0);
+  EXPECT_EQ(best.shadowed_pixels_below, 1u)
+      << "no bias misses a shadow here but any below 1 shadows a lit pixel";
+  EXPECT_EQ(best.needs_less_than, 1.0);
+}
+
+TEST(BestBias, AShadowThatNothingStoredCastsIsMissedAtAnyBias) {
+  const float nothing = -std::numeric_limits<float>::infinity();
+  const BestBias best = find_best_bias({{0.1f, 0.2f}, {nothing, nothing, 1.0f}});
+  EXPECT_FALSE(best.feasible);
+  EXPECT_DOUBLE_EQ(best.wrong_fraction, 0.4);
   EXPECT_EQ(best.shadowed_pixels_below, 2u);
+  EXPECT_EQ(best.needs_less_than, -infinity);
+  EXPECT_EQ(best.lit_pixels_above, 1u);
 }
 
 TEST(BestBias, WithoutShadowsIsTheLargestLitGap) {
