@@ -217,14 +217,16 @@ Error JsonDocument::error_at(std::size_t offset, std::string field, std::string 
   const LineColumn at = line_column(text, offset);
   Error error{ErrorKind::bad_input, std::move(reason)};
   error.file = file;
-  error.line = at.line;
-  error.column = at.column;
+  if (has_lines) {
+    error.line = at.line;
+    error.column = at.column;
+  }
   error.field = std::move(field);
   return error;
 }
 
-Expected<JsonDocument> parse_json(std::string_view text, const std::string& file) {
-  JsonDocument document{file, std::string(text), {}};
+Expected<JsonDocument> parse_json(std::string_view text, const std::string& file, bool has_lines) {
+  JsonDocument document{file, std::string(text), {}, has_lines};
   if (auto error = check_outside(document)) return fail(std::move(*error));
   TreeBuilder builder(document, document.root);
   const bool parsed = nlohmann::json::sax_parse(document.text, &builder, nlohmann::json::input_format_t::json,

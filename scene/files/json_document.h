@@ -40,12 +40,13 @@ struct JsonDocument {
   std::string file;  ///< for messages
   std::string text;
   JsonValue root;
+  bool has_lines = true;  ///< false: the text is part of a binary file, and positions would mislead
 
   /// An error at a byte offset of the text.
   Error error_at(std::size_t offset, std::string field, std::string reason) const;
 };
 
-Expected<JsonDocument> parse_json(std::string_view text, const std::string& file);
+Expected<JsonDocument> parse_json(std::string_view text, const std::string& file, bool has_lines = true);
 
 /// "a string", "an object", "an array of 3", or a number or literal as written: for "(got X, ...)".
 std::string describe(const JsonDocument& document, const JsonValue& value);

@@ -65,7 +65,7 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
 }  // namespace
 
 std::string_view known_extensions() {
-  return ".json .obj .ply";
+  return ".json .gltf .glb .obj .ply";
 }
 
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
@@ -73,6 +73,7 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
   const std::string extension = lower_extension(path);
   const std::string folder = folder_of(path);
   if (extension == ".json") return read_json_scene(bytes, path, folder, options, includes);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(bytes, path, folder, options);
   if (extension == ".obj") return read_obj(bytes, path, folder, options);
   if (extension == ".ply") return read_ply(bytes, path);
   Error error{ErrorKind::bad_input, fmt::format("unknown extension (got \"{}\", allowed {})",

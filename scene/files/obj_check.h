@@ -16,7 +16,7 @@ struct ObjSurvey {
   bool has_vertex_colors = false;
 };
 
-inline constexpr std::size_t max_polygon_corners = 4096;
+inline constexpr std::size_t max_polygon_corners = 255;  ///< tinyobjloader counts them in a byte
 
 /// Lines that a backslash continues are joined, in place, with spaces.
 void join_continued_lines(std::string& text);

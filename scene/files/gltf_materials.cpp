@@ -1,0 +1,286 @@
+#include "scene/files/gltf_materials.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tiny_gltf.h>
+
+#include <map>
+#include <set>
+
+#include "scene/files/formats.h"
+#include "scene/files/image_io.h"
+#include "scene/files/validate.h"
+#include "scene/texture_sample.h"
+
+namespace gnomon {
+namespace {
+
+using Extensions = tinygltf::ExtensionMap;
+
+const tinygltf::Value* extension(const Extensions& extensions, const std::string& name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+
+double number(const tinygltf::Value* object, const std::string& key, double otherwise) {
+  if (!object || !object->IsObject() || !object->Has(key) || !object->Get(key).IsNumber()) return otherwise;
+  return object->Get(key).GetNumberAsDouble();
+}
+
+std::vector<double> numbers(const tinygltf::Value* object, const std::string& key,
+                            std::vector<double> otherwise) {
+  if (!object || !object->IsObject() || !object->Has(key) || !object->Get(key).IsArray()) return otherwise;
+  const tinygltf::Value& list = object->Get(key);
+  if (list.ArrayLen() != otherwise.size()) return otherwise;
+  for (std::size_t i = 0; i < otherwise.size(); ++i)
+    if (list.Get(i).IsNumber()) otherwise[i] = list.Get(i).GetNumberAsDouble();
+  return otherwise;
+}
+
+bool has(const tinygltf::Value* object, const std::string& key) {
+  return object && object->IsObject() && object->Has(key);
+}
+
+Vec3f color(const std::vector<double>& c) {
+  return c.size() < 3 ? Vec3f(0.0f) : Vec3f(Vec3(c[0], c[1], c[2]));
+}
+
+float fraction(double v) {
+  return static_cast<float>(std::clamp(v, 0.0, 1.0));
+}
+
+struct TextureStatistics {
+  Vec3f mean{1.0f};  ///< linear when the texture is sRGB
+  bool has_alpha = false;
+};
+
+TextureStatistics statistics(const Texture& texture) {
+  TextureStatistics out;
+  Vec3 sum(0.0);
+  const auto& linear = linear_from_srgb8();
+  for (const glm::u8vec4& t : texture.texels) {
+    sum += texture.srgb ? Vec3(linear[t.r], linear[t.g], linear[t.b]) : Vec3(t.r, t.g, t.b) / 255.0;
+    if (t.a < 255) out.has_alpha = true;
+  }
+  if (!texture.texels.empty()) out.mean = Vec3f(sum / static_cast<double>(texture.texels.size()));
+  return out;
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(Scene& scene, const tinygltf::Model& model, const std::string& file)
+      : scene_(scene), model_(model), file_(file) {}
+
+  Expected<TexcoordSets> run() {
+    for (std::size_t i = 0; i < model_.materials.size(); ++i) {
+      auto material = read(i);
+      if (!material) return fail(material.error());
+      scene_.materials.push_back(std::move(*material));
+    }
+    for (const auto& [what, names] : unused_)
+      scene_.notes.push_back(fmt::format("{} not used (material{} {}).", what, names.size() > 1 ? "s" : "",
+                                         fmt::join(names, ", ")));
+    return sets_;
+  }
+
+ private:
+  Expected<Material> read(std::size_t index) {
+    const tinygltf::Material& from = model_.materials[index];
+    const auto& pbr = from.pbrMetallicRoughness;
+    Material m = model_material(from.name.empty() ? fmt::format("material-{}", index + 1) : from.name);
+    path_ = fmt::format("materials[{}]", index);
+    sets_.push_back(0);
+    TextureStatistics base_texture;
+    if (pbr.baseColorTexture.index >= 0)
+      if (const auto read = read_base_texture(from, m, base_texture); !read) return fail(read.error());
+    const Vec3f base = glm::clamp(color(pbr.baseColorFactor), 0.0f, 1.0f);
+    const auto rough = metallic_roughness(from);
+    if (!rough) return fail(rough.error());
+    map_surface(m, base, base_texture.mean, rough->x, rough->y);
+    map_emission(from, m);
+    map_transmission(from, m);
+    map_alpha(from, m, base_texture.has_alpha);
+    m.roughness = m.mirror > 0.0f || m.transmission > 0.0f ? static_cast<float>(rough->y) : 0.0f;
+    note_unused(from, m.name);
+    return m;
+  }
+
+  void map_surface(Material& m, const Vec3f& base, const Vec3f& texture_mean, double metallic,
+                   double roughness) {
+    const auto metal = static_cast<float>(metallic);
+    const double a = std::max(roughness * roughness, 0.01);
+    m.diffuse = base * (1.0f - metal);
+    m.specular = glm::mix(Vec3f(0.04f), base * texture_mean, metal);
+    m.shininess = static_cast<float>(std::max(1.0, 2.0 / (a * a) - 2.0));
+    if (metallic > 0.9 && roughness < 0.1)
+      m.mirror = fraction((m.specular.x + m.specular.y + m.specular.z) / 3.0f);
+  }
+
+  void map_emission(const tinygltf::Material& from, Material& m) {
+    const double strength =
+        number(extension(from.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+    m.emission = color(from.emissiveFactor) * static_cast<float>(strength);
+    if (from.emissiveTexture.index >= 0) {  // the texture says where it glows; everywhere would be wrong
+      m.emission = Vec3f(0.0f);
+      unused_["Emissive textures are"].insert(m.name);
+    }
+  }
+
+  void make_thin_sheet(Material& m, float transmission, double ior) {
+    const double reflected = std::pow((ior - 1.0) / (ior + 1.0), 2.0);
+    m.mirror = fraction(transmission * reflected);
+    m.transmission = transmission - m.mirror;
+    m.ior = 1.0f;
+  }
+
+  void map_transmission(const tinygltf::Material& from, Material& m) {
+    const tinygltf::Value* transmission = extension(from.extensions, "KHR_materials_transmission");
+    const float factor = fraction(number(transmission, "transmissionFactor", 0.0));
+    if (factor <= 0.0f) return;
+    if (has(transmission, "transmissionTexture")) unused_["Transmission textures are"].insert(m.name);
+    const double ior = std::max(1.0, number(extension(from.extensions, "KHR_materials_ior"), "ior", 1.5));
+    const tinygltf::Value* volume = extension(from.extensions, "KHR_materials_volume");
+    m.mirror = 0.0f;
+    if (!(number(volume, "thicknessFactor", 0.0) > 0.0)) return make_thin_sheet(m, factor, ior);
+    if (has(volume, "thicknessTexture"))
+      unused_["Thickness textures (the geometry's own thickness counts) are"].insert(m.name);
+    m.transmission = factor;
+    m.ior = static_cast<float>(std::min(ior, 100.0));
+    const double distance = number(volume, "attenuationDistance", infinity);
+    const Vec3f attenuation = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}));
+    constexpr float darkest = 1e-6f;  // ln(0) is not finite; this is black after one attenuation distance
+    if (distance > 0.0 && std::isfinite(distance))
+      m.absorption = -glm::log(glm::clamp(attenuation, darkest, 1.0f)) / static_cast<float>(distance);
+  }
+
+  void map_alpha(const tinygltf::Material& from, Material& m, bool texture_has_alpha) {
+    m.alpha = fraction(from.pbrMetallicRoughness.baseColorFactor.size() == 4
+                           ? from.pbrMetallicRoughness.baseColorFactor[3]
+                           : 1.0);
+    if (from.alphaMode == "MASK") {
+      m.alpha_mode = AlphaMode::mask;
+      m.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+    }
+    if (from.alphaMode != "BLEND") return;
+    if (m.transmission > 0.0f) {
+      scene_.notes.push_back(fmt::format("Material '{}': blending was left to its transmission.", m.name));
+    } else if (texture_has_alpha) {
+      m.alpha_mode = AlphaMode::mask;
+      scene_.notes.push_back(
+          fmt::format("Material '{}': blending became an alpha mask with cutoff 0.5.", m.name));
+    } else if (m.alpha < 1.0f) {
+      make_thin_sheet(m, 1.0f - m.alpha, 1.0);
+      scene_.notes.push_back(
+          fmt::format("Material '{}': blending with alpha {:g} became a thin sheet with transmission {:g}.",
+                      m.name, m.alpha, m.transmission));
+      m.alpha = 1.0f;
+    }
+  }
+
+  // The unknown ones in the file's own list are noted by gltf_check.
+  bool is_listed(const std::string& name) const {
+    const auto& used = model_.extensionsUsed;
+    return std::find(used.begin(), used.end(), name) != used.end();
+  }
+
+  void note_unused(const tinygltf::Material& from, const std::string& name) {
+    if (from.normalTexture.index >= 0) unused_["Normal textures are"].insert(name);
+    if (from.occlusionTexture.index >= 0) unused_["Occlusion textures are"].insert(name);
+    for (const auto& [key, value] : from.extensions)
+      if (key.starts_with("KHR_materials_") && !is_listed(key) && key != "KHR_materials_transmission" &&
+          key != "KHR_materials_ior" && key != "KHR_materials_volume" &&
+          key != "KHR_materials_emissive_strength")
+        unused_[key + " is"].insert(name);
+  }
+
+  // Metallic and roughness factors, times the means of the texture's blue and green channels.
+  Expected<Vec2> metallic_roughness(const tinygltf::Material& from) {
+    const auto& pbr = from.pbrMetallicRoughness;
+    Vec2 out(pbr.metallicFactor, pbr.roughnessFactor);
+    const int index = pbr.metallicRoughnessTexture.index;
+    if (index < 0) return out;
+    const auto texture = decode(index, false);
+    if (!texture) return fail(texture.error());
+    const Vec3f mean = statistics(*texture).mean;
+    unused_["Metallic-roughness textures are averaged, the rest of them"].insert(from.name);
+    return out * Vec2(mean.b, mean.g);
+  }
+
+  Expected<void> read_base_texture(const tinygltf::Material& from, Material& m, TextureStatistics& result) {
+    const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
+    sets_.back() = info.texCoord;
+    if (const tinygltf::Value* transform = extension(info.extensions, "KHR_texture_transform")) {
+      const auto offset = numbers(transform, "offset", {0.0, 0.0});
+      const auto scale = numbers(transform, "scale", {1.0, 1.0});
+      m.texture_transform = {
+          {offset[0], offset[1]}, {scale[0], scale[1]}, number(transform, "rotation", 0.0)};
+      sets_.back() = static_cast<int>(number(transform, "texCoord", info.texCoord));
+    }
+    if (sets_.back() < 0 || sets_.back() > 1) {
+      scene_.notes.push_back(fmt::format(
+          "Material '{}': texture coordinates {} are not used (allowed 0 and 1).", m.name, sets_.back()));
+      return {};
+    }
+    if (const auto known = textures_.find(info.index); known != textures_.end()) {
+      m.diffuse_texture = known->second;
+    } else {
+      auto texture = decode(info.index, true);
+      if (!texture) return fail(texture.error());
+      apply_sampler(info.index, *texture, m.name);
+      m.diffuse_texture = static_cast<std::uint32_t>(scene_.textures.size());
+      textures_.emplace(info.index, m.diffuse_texture);
+      scene_.textures.push_back(std::move(*texture));
+    }
+    result = statistics(scene_.textures[m.diffuse_texture]);
+    return {};
+  }
+
+  void apply_sampler(int texture_index, Texture& texture, const std::string& material) {
+    const int index = model_.textures[static_cast<std::size_t>(texture_index)].sampler;
+    if (index < 0) return;
+    const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(index)];
+    texture.repeat_s = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    texture.repeat_t = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
+        sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT)
+      unused_["Mirrored repeat of textures (they repeat plainly) is"].insert(material);
+  }
+
+  Expected<Texture> decode(int texture_index, bool srgb) {
+    const int source = model_.textures[static_cast<std::size_t>(texture_index)].source;
+    const auto bad = [&](std::string field, std::string reason) {
+      return fail(Error{ErrorKind::bad_input, std::move(reason), file_, 0, 0, std::move(field)});
+    };
+    if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size())
+      return bad(fmt::format("textures[{}].source", texture_index),
+                 fmt::format("there is no such image (got {}, allowed 0 to {})", source,
+                             static_cast<int>(model_.images.size()) - 1));
+    const std::string path = fmt::format("images[{}]", source);
+    const tinygltf::Image& image = model_.images[static_cast<std::size_t>(source)];
+    if (image.image.empty())
+      return bad(path, fmt::format("the image cannot be read (got \"{}\")", image.uri));
+    const std::string_view bytes(reinterpret_cast<const char*>(image.image.data()), image.image.size());
+    auto texture = read_texture_bytes(path, bytes, srgb);
+    if (!texture) return bad(path, texture.error().reason);
+    texture->name = image.name.empty() ? (image.uri.empty() ? path : image.uri) : image.name;
+    return texture;
+  }
+
+  Scene& scene_;
+  const tinygltf::Model& model_;
+  const std::string& file_;
+  std::string path_;
+  TexcoordSets sets_;
+  std::map<int, std::uint32_t> textures_;                // glTF texture to ours
+  std::map<std::string, std::set<std::string>> unused_;  // what, and by which materials
+};
+
+}  // namespace
+
+Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model,
+                                          const std::string& file) {
+  return MaterialReader(scene, model, file).run();
+}
+
+}  // namespace gnomon

@@ -1,0 +1,18 @@
+// Triangles of glTF meshes: every primitive mode, indexed or not. Points and lines are skipped, with a note.
+#pragma once
+
+#include <string>
+
+#include "scene/expected.h"
+#include "scene/files/gltf_materials.h"
+#include "scene/scene.h"
+
+namespace gnomon {
+
+/// One mesh of ours for each of the model's; a mesh without triangles is empty. Primitives without a material
+/// get `default_material`.
+Expected<std::vector<Mesh>> read_gltf_meshes(Scene& scene, const tinygltf::Model& model,
+                                             const TexcoordSets& sets, std::uint32_t default_material,
+                                             const std::string& file);
+
+}  // namespace gnomon
