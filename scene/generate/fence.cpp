@@ -1,6 +1,6 @@
-// A picket fence along the x axis, from x = 0 to x = length, its pickets on the +z side of two rails that run
-// between posts. Every picket, rail and post is its own closed body; rails run into the posts, pickets stand
-// off the rails by nothing but a hair's overlap, so that no two faces coincide.
+// Garden carpentry. A picket fence along the x axis, from x = 0 to x = length, its pickets on the +z side of
+// two rails that run between posts. Every picket, rail and post is its own closed body; rails run into the
+// posts, pickets stand off the rails by nothing but a hair's overlap, so that no two faces coincide.
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/generate/generator.h"
@@ -120,10 +120,65 @@ const std::array<ParameterInfo, 17> parameters{{
     seed_parameter(),
 }};
 
+// ---- bench: slats on two or three frames; the sitter looks towards +z
+
+// A slat from x = -half to half whose section is a bevelled rectangle, `thickness` along `normal` (in the z-y
+// plane).
+void add_slat(MeshBuilder& b, double half, const Vec2& middle, double width, double thickness, double tilt) {
+  const double bevel = 0.2 * thickness;
+  const double w = 0.5 * width, t = 0.5 * thickness;
+  const std::array<Vec2, 4> section{{{-w, -t}, {w, -t}, {w, t}, {-w, t}}};
+  // Local x runs along -z (or up the back when tilted), local y across the slat, local z along x.
+  Mat4 place{Vec4(0, 0, -1, 0), Vec4(0, 1, 0, 0), Vec4(1, 0, 0, 0), Vec4(0, middle.y, middle.x, 1)};
+  place = glm::rotate(place, tilt, Vec3(0.0, 0.0, 1.0));
+  b.prism(section, -half, half, bevel, place);
+}
+
+Expected<GeneratedModel> make_bench(const Values& v) {
+  const double half = 0.5 * v.number("length"), seat = v.number("seat_height"), slat = 0.055, gap = 0.014;
+  const int frames = v.number("length") > 1.8 ? 3 : 2;
+  MeshBuilder slats, wood;
+  for (int i = 0; i < 6; ++i) {  // the seat, from front to back
+    add_slat(slats, half, {0.21 - i * (slat + gap), seat}, slat, 0.022, 0.0);
+  }
+  const double lean = 1.35;  // radians from the seat's plane: a comfortable back
+  const Vec2 along{-std::cos(lean), std::sin(lean)};
+  for (int i = 0; i < 5; ++i) {
+    const Vec2 middle = Vec2(-0.21, seat + 0.09) + (i * (slat + gap) + 0.02) * along;
+    add_slat(slats, half, middle, slat, 0.022, lean);
+  }
+  for (int i = 0; i < frames; ++i) {
+    const double x = (half - 0.08) * (2.0 * i / (frames - 1) - 1.0), w = 0.03, top = seat - 0.009;
+    wood.box({x - w, -overlap, 0.17}, {x + w, top, 0.23}, 0.004);                       // front leg
+    wood.box({x - 0.8 * w, top - 0.07, -0.2}, {x + 0.8 * w, top - 0.004, 0.2}, 0.004);  // seat bearer
+    const double leg = seat + 0.46;  // the back leg leans as the back does
+    const Mat4 lean_back =
+        glm::rotate(glm::translate(Mat4(1.0), Vec3(x, -overlap, -0.125)), lean - 0.5 * pi, Vec3(1, 0, 0));
+    MeshBuilder back;
+    back.box({-0.9 * w, 0.0, -0.055}, {0.9 * w, leg, 0.0}, 0.004);
+    wood.append(back.take(), lean_back);
+    if (i == 0 || i == frames - 1) {
+      wood.box({x - 0.85 * w, seat - 0.02, 0.175}, {x + 0.85 * w, seat + 0.21, 0.225}, 0.004);  // arm post
+      wood.box({x - 1.2 * w, seat + 0.2, -0.24}, {x + 1.2 * w, seat + 0.228, 0.25}, 0.005);     // arm rest
+    }
+  }
+  GeneratedModel model;
+  model.parts.push_back({"slat", slats.take()});
+  model.parts.push_back({"frame", wood.take()});
+  return model;
+}
+
+const std::array<std::string_view, 2> bench_parts{"slat", "frame"};
+const std::array<ParameterInfo, 2> bench_parameters{{
+    length_parameter("length", 1.5, 0.5, 20.0, "of the slats"),
+    length_parameter("seat_height", 0.44, 0.2, 2.0, "of the slats' middle"),
+}};
+
 }  // namespace
 
 std::span<const MeshGenerator> fence_generators() {
-  static const std::array<MeshGenerator, 1> list{{
+  static const std::array<MeshGenerator, 2> list{{
+      {{"bench", "A garden bench of slats, its back towards -z.", bench_parameters, bench_parts}, make_bench},
       {{"fence", "A picket fence along x with rails and capped posts.", parameters, parts}, make_fence},
   }};
   return list;

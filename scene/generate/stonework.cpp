@@ -1,4 +1,5 @@
-// Balustrades and stairs. Closed bodies that run a few millimetres into what they rest on.
+// Balustrades, stairs and windows. Closed bodies that run a few millimetres into what they rest on.
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/generate/generator.h"
@@ -140,16 +141,70 @@ const std::array<ParameterInfo, 5> stairs_parameters{{
     length_parameter("nosing", 0.02, 0.001, 0.5, "overhang of the treads in front and at the sides"),
 }};
 
+// ---- window: frame, pane and shutters before a wall whose face is z = 0
+
+Expected<GeneratedModel> make_window(const Values& v) {
+  const double w = 0.5 * v.number("width"), h = v.number("height"), f = v.number("frame"),
+               proud = v.number("depth");
+  if (v.flag("shutters") && proud < 0.03)
+    return fail_parameter("depth", "must be at least 0.03 m to carry shutters");
+  const double bevel = 0.1 * std::min(f, proud);
+  MeshBuilder frame, pane, shutters;
+  frame.box({-w - f, h - overlap, -overlap}, {w + f, h + f, proud}, bevel);  // lintel
+  frame.box({-w - 1.4 * f, h + f - overlap, -overlap}, {w + 1.4 * f, h + 1.5 * f, 1.5 * proud},
+            bevel);                                                                       // drip mould
+  frame.box({-w - 1.4 * f, -0.7 * f, -overlap}, {w + 1.4 * f, 0.0, 1.6 * proud}, bevel);  // sill
+  for (const double s : {-1.0, 1.0}) {
+    const double x0 = s * w, x1 = s * (w + f);
+    frame.box({std::min(x0, x1), -overlap, -overlap}, {std::max(x0, x1), h, 0.96 * proud}, bevel);
+    if (!v.flag("shutters")) continue;
+    // An open shutter: two stiles, rails and slats that lean.
+    const double out = s * (w + f + 0.02), in = s * (w + f + 0.02 + 0.9 * w);
+    const double l = std::min(out, in), r = std::max(out, in), thick = 0.022, stile = 0.05;
+    shutters.box({l, 0.01, 0.004}, {l + stile, h - 0.01, thick}, 0.0);
+    shutters.box({r - stile, 0.01, 0.004}, {r, h - 0.01, thick}, 0.0);
+    const int slats = std::max(4, static_cast<int>(h / 0.075));
+    for (int i = 0; i < slats; ++i) {
+      const double y = 0.05 + (h - 0.1) * (i + 0.5) / slats;
+      const std::array<Vec2, 4> section{
+          {{0.006, y + 0.02}, {0.010, y + 0.02}, {0.020, y - 0.02}, {0.016, y - 0.02}}};
+      // A section in (z, y), drawn along -x.
+      const Mat4 place{Vec4(0, 0, 1, 0), Vec4(0, 1, 0, 0), Vec4(-1, 0, 0, 0), Vec4(0, 0, 0, 1)};
+      std::array<Vec2, 4> ccw = section;
+      std::reverse(ccw.begin(), ccw.end());
+      shutters.prism(ccw, -(r - stile + overlap), -(l + stile - overlap), 0.0, place);
+    }
+  }
+  pane.box({-w - overlap, -overlap, -overlap}, {w + overlap, h + 0.5 * overlap, 0.25 * proud}, 0.0);
+  GeneratedModel model;
+  model.parts.push_back({"frame", frame.take()});
+  model.parts.push_back({"pane", pane.take()});
+  if (!shutters.empty()) model.parts.push_back({"shutter", shutters.take()});
+  return model;
+}
+
+const std::array<std::string_view, 3> window_parts{"frame", "pane", "shutter"};
+const std::array<ParameterInfo, 5> window_parameters{{
+    length_parameter("width", 0.9, 0.1, 20.0, "of the opening"),
+    length_parameter("height", 1.5, 0.2, 20.0, "of the opening, which begins at y = 0"),
+    length_parameter("frame", 0.14, 0.02, 2.0, "width of the frame"),
+    length_parameter("depth", 0.07, 0.01, 1.0, "how far the frame stands out of the wall"),
+    {"shutters", "", true, -infinity, infinity, "an open shutter on each side"},
+}};
+
 }  // namespace
 
 std::span<const MeshGenerator> stonework_generators() {
-  static const std::array<MeshGenerator, 2> list{{
+  static const std::array<MeshGenerator, 3> list{{
       {{"balustrade", "Turned balusters between pedestals along x, with a base and a hand rail.",
         balustrade_parameters, balustrade_parts},
        make_balustrade},
       {{"stairs", "Steps that climb towards -z from a first riser at z = 0.", stairs_parameters,
         stairs_parts},
        make_stairs},
+      {{"window", "A window before a wall's face at z = 0: frame, pane, open shutters.", window_parameters,
+        window_parts},
+       make_window},
   }};
   return list;
 }
