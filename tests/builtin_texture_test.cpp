@@ -42,17 +42,31 @@ TEST(TextureGenerators, WrongParametersAreNamed) {
 }
 
 TEST(PeriodicNoise, RepeatsWithoutASeamAndStaysInRange) {
-  double low = 1.0, high = 0.0;
-  for (int i = 0; i < 400; ++i) {
-    const double t = i / 400.0;
-    EXPECT_NEAR(periodic_fractal({0.0, t}, {4, 3}, 5, 9), periodic_fractal({1.0, t}, {4, 3}, 5, 9), 1e-12);
-    EXPECT_NEAR(periodic_fractal({t, 0.0}, {4, 3}, 5, 9), periodic_fractal({t, 1.0}, {4, 3}, 5, 9), 1e-12);
-    const double n = periodic_fractal({t, 0.37}, {4, 3}, 5, 9);
-    low = std::min(low, n), high = std::max(high, n);
+  const Image<float> n = periodic_fractal({256, 192}, {4, 3}, 3, 9);
+  const auto step = [&](int x0, int y0, int x1, int y1) { return std::abs(n.at(x0, y0) - n.at(x1, y1)); };
+  float inner_x = 0, inner_y = 0, seam_x = 0, seam_y = 0;
+  for (int y = 0; y < 192; ++y) {
+    for (int x = 1; x < 256; ++x) inner_x = std::max(inner_x, step(x - 1, y, x, y));
+    seam_x = std::max(seam_x, step(255, y, 0, y));
   }
-  EXPECT_GE(low, 0.0);
-  EXPECT_LE(high, 1.0);
-  EXPECT_GT(high - low, 0.2);  // and it is not constant
+  for (int x = 0; x < 256; ++x) {
+    for (int y = 1; y < 192; ++y) inner_y = std::max(inner_y, step(x, y - 1, x, y));
+    seam_y = std::max(seam_y, step(x, 191, x, 0));
+  }
+  // A step over the border is no larger than the steps inside.
+  EXPECT_LE(seam_x, inner_x);
+  EXPECT_LE(seam_y, inner_y);
+  const auto [low, high] = std::minmax_element(n.data.begin(), n.data.end());
+  EXPECT_GE(*low, 0.0f);
+  EXPECT_LE(*high, 1.0f);
+  EXPECT_GT(*high - *low, 0.3f);  // and it is not constant
+}
+
+TEST(PeriodicNoise, LeavesOutOctavesFinerThanTheTexels) {
+  // 64 texels hold octaves of 16, 32 and 64 cells; a fourth would have 128.
+  EXPECT_EQ(periodic_fractal({64, 64}, {16, 16}, 3, 1).data,
+            periodic_fractal({64, 64}, {16, 16}, 10, 1).data);
+  EXPECT_NE(periodic_fractal({64, 64}, {16, 16}, 2, 1).data, periodic_fractal({64, 64}, {16, 16}, 3, 1).data);
 }
 
 }  // namespace

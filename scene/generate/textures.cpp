@@ -16,12 +16,24 @@ double lattice(int x, int y, std::uint64_t seed) {
       .unit();
 }
 
-// IEC 61966-2-1.
+// IEC 61966-2-1, tabulated: 16 bits of linear input are finer than 8 bits of sRGB everywhere.
 std::uint8_t encode_srgb(double v) {
-  const double c = std::clamp(v, 0.0, 1.0);
-  const double e = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * e));
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> t(65536);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double c = static_cast<double>(i) / 65535.0;
+      const double e = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+      t[i] = static_cast<std::uint8_t>(std::lround(255.0 * e));
+    }
+    return t;
+  }();
+  return table[static_cast<std::size_t>(std::lround(65535.0 * std::clamp(v, 0.0, 1.0)))];
 }
+
+struct Texel {
+  int x, y;
+  Vec2 uv;  ///< of its centre
+};
 
 template <class Color>
 Texture draw(std::string_view name, ImageSize size, const Color& color_at) {
@@ -29,7 +41,7 @@ Texture draw(std::string_view name, ImageSize size, const Color& color_at) {
   t.texels.reserve(size.pixels());
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      const Vec3 c = color_at(Vec2((x + 0.5) / size.width, (y + 0.5) / size.height));
+      const Vec3 c = color_at(Texel{x, y, Vec2((x + 0.5) / size.width, (y + 0.5) / size.height)});
       t.texels.emplace_back(encode_srgb(c.x), encode_srgb(c.y), encode_srgb(c.z), std::uint8_t{255});
     }
   }
@@ -47,9 +59,8 @@ ImageSize square(const Values& v) {
 // ---- checker: two by two squares
 
 Expected<Texture> make_checker(const Values& v) {
-  Texture t = draw("checker", {2, 2}, [&](const Vec2& uv) {
-    return Vec3(v.color((uv.x < 0.5) == (uv.y < 0.5) ? "color_a" : "color_b"));
-  });
+  Texture t = draw("checker", {2, 2},
+                   [&](const Texel& at) { return Vec3(v.color(at.x == at.y ? "color_a" : "color_b")); });
   t.nearest = true;
   return t;
 }
@@ -65,8 +76,9 @@ Expected<Texture> make_noise(const Values& v) {
   const Vec3 a{v.color("color_a")}, b{v.color("color_b")};
   const double contrast = v.number("contrast");
   const glm::ivec2 cells{static_cast<int>(v.list("cells")[0]), static_cast<int>(v.list("cells")[1])};
-  return draw("noise", square(v), [&](const Vec2& uv) {
-    const double n = 0.5 + contrast * (periodic_fractal(uv, cells, v.count("octaves"), v.seed()) - 0.5);
+  const Image<float> noise = periodic_fractal(square(v), cells, v.count("octaves"), v.seed());
+  return draw("noise", square(v), [&](const Texel& at) {
+    const double n = 0.5 + contrast * (noise.at(at.x, at.y) - 0.5);
     return glm::mix(a, b, std::clamp(n, 0.0, 1.0));
   });
 }
@@ -90,19 +102,19 @@ Expected<Texture> make_paving_texture(const Values& v) {
   const Vec3 color{v.color("color")}, joint_color{v.color("joint_color")};
   const std::uint64_t seed = v.seed();
   const double aspect = v.number("aspect");
-  return draw("paving", square(v), [&](const Vec2& uv) {
-    const int row = std::min(static_cast<int>(uv.y * rows), rows - 1);
-    const double shifted = uv.x * columns + bond * (row % 2);
+  const Image<float> wobble = periodic_fractal(square(v), {8 * columns, 8 * rows}, 1, seed + 1);
+  const Image<float> grain = periodic_fractal(square(v), {6 * columns, 6 * rows}, 4, seed + 2);
+  return draw("paving", square(v), [&](const Texel& at) {
+    const int row = std::min(static_cast<int>(at.uv.y * rows), rows - 1);
+    const double shifted = at.uv.x * columns + bond * (row % 2);
     const int column = static_cast<int>(std::floor(shifted)) % columns;
-    // Distances to the nearest joint's middle, in units of a flag's height.
-    const double fx = shifted - std::floor(shifted), fy = uv.y * rows - row;
-    const double wobble = 0.03 * (periodic_noise(uv, {8 * columns, 8 * rows}, seed + 1) - 0.5);
-    const double edge =
-        std::min(std::min(fx, 1.0 - fx) * aspect, std::min(fy, 1.0 - fy)) + wobble * joint * 8.0;
-    const double grain = periodic_fractal(uv, {6 * columns, 6 * rows}, 4, seed + 2) - 0.5;
-    if (edge < 0.5 * joint) return joint_color * (1.0 + 0.6 * grain);
-    const double shade = 1.0 + variation * (2.0 * lattice(column, row, seed) - 1.0) + 0.5 * variation * grain;
-    return color * shade;
+    // Distances to the nearest joint's middle, in units of a flag's height; the edges are a little worn.
+    const double fx = shifted - std::floor(shifted), fy = at.uv.y * rows - row;
+    const double worn = 0.24 * joint * (wobble.at(at.x, at.y) - 0.5);
+    const double edge = std::min(std::min(fx, 1.0 - fx) * aspect, std::min(fy, 1.0 - fy)) + worn;
+    const double g = grain.at(at.x, at.y) - 0.5;
+    if (edge < 0.5 * joint) return joint_color * (1.0 + 0.6 * g);
+    return color * (1.0 + variation * (2.0 * lattice(column, row, seed) - 1.0) + 0.5 * variation * g);
   });
 }
 
@@ -123,47 +135,90 @@ const std::array<ParameterInfo, 10> paving_parameters{{
 
 Expected<Texture> make_wood(const Values& v) {
   const Vec3 color{v.color("color")}, dark{v.color("grain_color")};
-  const int rings = v.count("rings");
-  const double strength = v.number("strength");
-  return draw("wood", square(v), [&](const Vec2& uv) {
-    const double bend = 0.35 * periodic_fractal(uv, {2, 2}, 3, v.seed());
-    const double phase = 2.0 * pi * (rings * uv.x + 3.0 * bend);
-    const double ring = 0.5 + 0.5 * std::sin(phase);
-    const double fibre = periodic_fractal(uv, {64, 4}, 3, v.seed() + 1);
-    return glm::mix(color, dark, std::clamp(strength * (0.55 * ring * ring + 0.6 * fibre), 0.0, 1.0));
+  const int rings = v.count("rings"), boards = v.count("boards");
+  const double strength = v.number("strength"), joint = v.number("joint");
+  const std::uint64_t seed = v.seed();
+  const ImageSize size = square(v);
+  const Image<float> bend = periodic_fractal(size, {2 * boards, 2}, 3, seed);
+  const Image<float> fibre = periodic_fractal(size, {32 * std::max(rings / 8, 1), 4}, 3, seed + 1);
+  return draw("wood", size, [&](const Texel& at) {
+    const int board = std::min(static_cast<int>(at.uv.x * boards), boards - 1);
+    const double across = at.uv.x * boards - board;
+    if (std::min(across, 1.0 - across) < 0.5 * joint) return 0.3 * dark;
+    // Each board is cut elsewhere from the tree: another stretch of the same noise.
+    const int cut = boards == 1 ? 0 : static_cast<int>(size.height * lattice(board, 0, seed + 2));
+    const int y = (at.y + cut) % size.height;
+    const double ring = glm::fract(rings * at.uv.x + 2.5 * bend.at(at.x, y));
+    const double late_wood = ring * ring * (1.0 - glm::smoothstep(0.9, 1.0, ring));
+    const double grain = std::clamp(strength * (0.75 * late_wood + 0.55 * fibre.at(at.x, y)), 0.0, 1.0);
+    const double shade = boards == 1 ? 1.0 : 0.86 + 0.28 * lattice(board, 1, seed + 2);
+    return shade * glm::mix(color, dark, grain);
   });
 }
 
-const std::array<ParameterInfo, 6> wood_parameters{{
+const std::array<ParameterInfo, 8> wood_parameters{{
     color_parameter("color", {0.42, 0.26, 0.13}, "between the grain"),
     color_parameter("grain_color", {0.20, 0.11, 0.05}, "of the grain"),
     count_parameter("rings", 6, 1, 200, "year rings across u"),
     {"strength", "", 0.8, 0.0, 1.0, "of the grain"},
+    count_parameter("boards", 1, 1, 64, "boards side by side across u"),
+    {"joint", "board widths", 0.0, 0.0, 0.5, "width of the joints between boards"},
     resolution_parameter(512),
     seed_parameter(),
 }};
 
 }  // namespace
 
-double periodic_noise(const Vec2& uv, const glm::ivec2& cells, std::uint64_t seed) {
-  const Vec2 p{uv.x * cells.x, uv.y * cells.y};
-  const Vec2 floor = glm::floor(p), f = p - floor;
-  const auto wrap = [](double i, int n) { return ((static_cast<int>(i) % n) + n) % n; };
-  const int x0 = wrap(floor.x, cells.x), y0 = wrap(floor.y, cells.y);
-  const int x1 = (x0 + 1) % cells.x, y1 = (y0 + 1) % cells.y;
-  const Vec2 s = f * f * (3.0 - 2.0 * f);
-  return glm::mix(glm::mix(lattice(x0, y0, seed), lattice(x1, y0, seed), s.x),
-                  glm::mix(lattice(x0, y1, seed), lattice(x1, y1, seed), s.x), s.y);
+namespace {
+
+// Where a texel's centre lies among an octave's cells: the two neighbours and the smooth weight of the
+// second.
+struct Between {
+  std::size_t first, second;
+  float weight;
+};
+
+std::vector<Between> place(int texels, int cells) {
+  std::vector<Between> out;
+  for (int i = 0; i < texels; ++i) {
+    const double p = (i + 0.5) * cells / texels, f = p - std::floor(p);
+    const auto cell = static_cast<std::size_t>(p);
+    out.push_back(
+        {cell, (cell + 1) % static_cast<std::size_t>(cells), static_cast<float>(f * f * (3.0 - 2.0 * f))});
+  }
+  return out;
 }
 
-double periodic_fractal(const Vec2& uv, const glm::ivec2& cells, int octaves, std::uint64_t seed) {
-  double sum = 0.0, weight = 1.0, total = 0.0;
-  for (int i = 0; i < octaves; ++i) {
-    sum += weight * periodic_noise(uv, cells * (1 << i), seed + 101u * static_cast<std::uint64_t>(i));
-    total += weight;
-    weight *= 0.5;
+void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::uint64_t seed) {
+  std::vector<float> values;
+  for (int y = 0; y < cells.y; ++y) {
+    for (int x = 0; x < cells.x; ++x) values.push_back(weight * static_cast<float>(lattice(x, y, seed)));
   }
-  return sum / total;
+  const std::vector<Between> across = place(sum.size.width, cells.x), down = place(sum.size.height, cells.y);
+  const auto stride = static_cast<std::size_t>(cells.x);
+  for (std::size_t y = 0; y < down.size(); ++y) {
+    const float *above = &values[down[y].first * stride], *below = &values[down[y].second * stride];
+    float* row = &sum.data[y * across.size()];
+    for (std::size_t x = 0; x < across.size(); ++x) {
+      const auto [a, b, s] = across[x];
+      const float top = above[a] + s * (above[b] - above[a]), bottom = below[a] + s * (below[b] - below[a]);
+      row[x] += top + down[y].weight * (bottom - top);
+    }
+  }
+}
+
+}  // namespace
+
+Image<float> periodic_fractal(ImageSize size, const glm::ivec2& cells, int octaves, std::uint64_t seed) {
+  int used = 1;
+  while (used < octaves && cells.x << used <= size.width && cells.y << used <= size.height) ++used;
+  const double total = 2.0 - std::ldexp(1.0, 1 - used);  // 1 + 1/2 + 1/4 + ...
+  Image<float> sum(size);
+  for (int i = 0; i < used; ++i) {
+    const auto weight = static_cast<float>(std::ldexp(1.0, -i) / total);
+    add_octave(sum, cells * (1 << i), weight, seed + 101u * static_cast<std::uint64_t>(i));
+  }
+  return sum;
 }
 
 std::span<const TextureGenerator> all_texture_generators() {

@@ -1,16 +1,15 @@
-// Periodic noise for generated textures: everything here repeats over the unit square without a seam.
+// Periodic noise for generated textures: it repeats over the unit square without a seam.
 #pragma once
 
 #include <cstdint>
 
-#include "scene/math.h"
+#include "scene/image.h"
 
 namespace gnomon {
 
-/// Value noise in [0, 1] at uv (period 1), with `cells` random values along each side, smoothly interpolated.
-double periodic_noise(const Vec2& uv, const glm::ivec2& cells, std::uint64_t seed);
-
-/// `octaves` of it, each twice as fine and half as strong; in [0, 1], 0.5 in the mean.
-double periodic_fractal(const Vec2& uv, const glm::ivec2& cells, int octaves, std::uint64_t seed);
+/// Fractal value noise (Perlin 1985's sum of octaves, each twice as fine and half as strong) at the texel
+/// centres of the unit square: in [0, 1], 0.5 in the mean. The coarsest octave has `cells` random values
+/// along each side, smoothly interpolated; octaves finer than the texels are left out.
+Image<float> periodic_fractal(ImageSize size, const glm::ivec2& cells, int octaves, std::uint64_t seed);
 
 }  // namespace gnomon
