@@ -76,19 +76,21 @@ Expected<Texture> make_noise(const Values& v) {
   const Vec3 a{v.color("color_a")}, b{v.color("color_b")};
   const double contrast = v.number("contrast");
   const glm::ivec2 cells{static_cast<int>(v.list("cells")[0]), static_cast<int>(v.list("cells")[1])};
-  const Image<float> noise = periodic_fractal(square(v), cells, v.count("octaves"), v.seed());
+  const Image<float> noise =
+      periodic_fractal(square(v), cells, v.count("octaves"), v.seed(), v.number("persistence"));
   return draw("noise", square(v), [&](const Texel& at) {
     const double n = 0.5 + contrast * (noise.at(at.x, at.y) - 0.5);
     return glm::mix(a, b, std::clamp(n, 0.0, 1.0));
   });
 }
 
-const std::array<ParameterInfo, 7> noise_parameters{{
+const std::array<ParameterInfo, 8> noise_parameters{{
     color_parameter("color_a", {0.05, 0.12, 0.02}, "where the noise is low"),
     color_parameter("color_b", {0.12, 0.25, 0.05}, "where it is high"),
     {"cells", "", std::vector<double>{4.0, 4.0}, 1.0, 1024.0, "cells of the coarsest octave along u and v",
      true},
     count_parameter("octaves", 5, 1, 10, "each twice as fine as the one before"),
+    {"persistence", "", 0.5, 0.0, 1.0, "strength of each octave as a share of the one before"},
     {"contrast", "", 1.5, 0.0, 20.0, "1 keeps the noise's own range"},
     resolution_parameter(512),
     seed_parameter(),
@@ -209,13 +211,15 @@ void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::u
 
 }  // namespace
 
-Image<float> periodic_fractal(ImageSize size, const glm::ivec2& cells, int octaves, std::uint64_t seed) {
+Image<float> periodic_fractal(ImageSize size, const glm::ivec2& cells, int octaves, std::uint64_t seed,
+                              double persistence) {
   int used = 1;
   while (used < octaves && cells.x << used <= size.width && cells.y << used <= size.height) ++used;
-  const double total = 2.0 - std::ldexp(1.0, 1 - used);  // 1 + 1/2 + 1/4 + ...
+  double total = 0.0;
+  for (int i = 0; i < used; ++i) total += std::pow(persistence, i);
   Image<float> sum(size);
   for (int i = 0; i < used; ++i) {
-    const auto weight = static_cast<float>(std::ldexp(1.0, -i) / total);
+    const auto weight = static_cast<float>(std::pow(persistence, i) / total);
     add_octave(sum, cells * (1 << i), weight, seed + 101u * static_cast<std::uint64_t>(i));
   }
   return sum;
