@@ -17,22 +17,13 @@
 #include "app/help.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
+#include "app/shell.h"
 #include "app/suggest.h"
 #include "scene/load.h"
 
 namespace gnomon::app {
 
 namespace {
-
-/// As a shell would need it typed.
-std::string shell_quoted(std::string_view word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string command_line_text(int argc, const char* const* argv) {
   std::string text = "gnomon";

@@ -13,6 +13,7 @@
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/pose_options.h"
 #include "app/session.h"
 #include "compare/outputs.h"
 #include "scene/files/write_file.h"
@@ -29,6 +30,7 @@ struct CompareCommand {
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
   std::optional<double> fail_above;
+  PoseOptions poses;
   std::uint64_t seed = 0;
   int threads = 0;
   bool quiet = false;
@@ -116,6 +118,8 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   const auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
+  const auto posed = apply_poses(command.poses, command.options.light, *loaded->scene, *loaded->world);
+  if (!posed) return fail(posed.error());
   auto comparison = render_and_compare(command, *loaded, console);
   if (!comparison) return fail(comparison.error());
   comparison->total_ms = total.elapsed_ms();
@@ -138,6 +142,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_size(app, command.options.raster.size);
   add_map_options(app, command.options.raster.map);
   add_light(app, command.options.light, "compare this light only");
+  add_pose_options(app, command.poses);
   add_tracer_options(app, command.options.accel);
   add_min_contribution(app, command.options.raytrace.min_contribution);
   add_backend(app, command.backend);

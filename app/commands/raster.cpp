@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_file.h"
+#include "app/pose_options.h"
 #include "app/session.h"
 
 namespace gnomon::app {
@@ -20,6 +21,7 @@ struct RasterCommand {
   raster::RasterOptions options;
   raster::Backend backend = raster::Backend::automatic;
   std::optional<std::optional<double>> exposure;
+  PoseOptions poses;
   int threads = 0;
   bool quiet = false;
 };
@@ -36,6 +38,8 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
+  const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
+  if (!posed) return fail(posed.error());
   const auto renderer = make_renderer(command.backend, *loaded);
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);
@@ -70,6 +74,7 @@ void add_raster(CLI::App& program, Invocation& invocation) {
   add_map_options(*app, command->options.map);
   add_light(*app, command->light,
             "put this light's records only into the .exr; the picture always has all lights");
+  add_pose_options(*app, command->poses);
   add_backend(*app, command->backend);
   add_threads(*app, command->threads, "threads of Mesa's software rasterizer");
   add_exposure(*app, command->exposure);

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_file.h"
+#include "app/pose_options.h"
 #include "app/session.h"
 
 namespace gnomon::app {
@@ -20,6 +21,7 @@ struct RaytraceCommand {
   raytrace::RaytraceOptions options;
   raytrace::Accel accel = raytrace::Accel::bvh;
   std::optional<std::optional<double>> exposure;
+  PoseOptions poses;
   int threads = 0;
   bool quiet = false;
 };
@@ -36,6 +38,8 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
+  const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
+  if (!posed) return fail(posed.error());
   console.progress("ray tracing", 0.2);
   const raytrace::Tracer tracer(*loaded->world, command.accel);
   const raytrace::RayTracedFrame frame =
@@ -66,6 +70,7 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_size(*app, command->options.size);
   add_light(*app, command->light,
             "put this light's visibility only into the .exr; the picture always has all lights");
+  add_pose_options(*app, command->poses);
   add_tracer_options(*app, command->accel);
   add_min_contribution(*app, command->options.min_contribution);
   add_threads(*app, command->threads, "threads of the ray tracer");

@@ -39,12 +39,6 @@ Studio::Studio(std::unique_ptr<raster::Renderer> renderer, const LoadedScene& lo
       exposure_(loaded.scene->exposure),
       worker_(*loaded.scene, *loaded.world, loaded.plan, options, std::move(on_finished)) {}
 
-Expected<void> Studio::update(ViewState& state) {
-  if (auto ok = draw_live(state); !ok) return ok;
-  if (auto ok = take_outcome(); !ok) return ok;
-  return start_next(state);
-}
-
 Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size, bool analysis, int runs) {
   raster::RasterOptions options = options_.raster;
   options.size = size;
@@ -55,7 +49,7 @@ Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size,
   return renderer_->render(options, lights);
 }
 
-Expected<void> Studio::draw_live(ViewState& state) {
+Expected<void> Studio::draw(ViewState& state) {
   if (drawn_revision_ == state.revision) return {};
   place(state.given, state.setup, *loaded_.scene);
   const Stopwatch watch;
@@ -75,6 +69,12 @@ Expected<void> Studio::draw_live(ViewState& state) {
 /// The picture as `compare` would write it, with the factor that the newest comparison chose.
 void Studio::encode_live() {
   live_picture_ = display_image(live_.color, *exposure_);
+}
+
+Expected<void> Studio::compare(const ViewState& state) {
+  const Expected<void> taken = take_outcome();
+  const Expected<void> started = start_next(state);
+  return taken ? started : taken;
 }
 
 Expected<void> Studio::take_outcome() {
@@ -97,10 +97,10 @@ Expected<void> Studio::start_next(const ViewState& state) {
   }
   const ImageSize small = preview_size(state.setup.size);
   const bool preview = !same && !(small == state.setup.size);
-  auto drawn = render(state.setup, preview ? small : state.setup.size, true, preview ? 0 : 1);
-  if (!drawn) return fail(drawn.error());
   started_revision_ = state.revision;
   started_full_ = !preview;
+  auto drawn = render(state.setup, preview ? small : state.setup.size, true, preview ? 0 : 1);
+  if (!drawn) return fail(drawn.error());
   worker_.start({state.revision, preview, loaded_.scene->camera, loaded_.scene->lights, std::move(*drawn)});
   return {};
 }

@@ -32,20 +32,24 @@ struct Readings {
 class Studio {
  public:
   /// `loaded` must outlive the studio, which moves its scene's camera and lights. `on_finished` is called
-  /// from another thread when it is worth calling update() again.
+  /// from another thread when it is worth calling compare() again.
   static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
                                                   const LoadedScene& loaded,
                                                   const compare::CompareOptions& options,
                                                   std::function<void()> on_finished);
 
-  /// Draws what the state asks for, takes what is finished, starts what is next. Sets the state's measures.
-  /// Error: what the state asks for cannot be drawn, or a comparison failed.
-  Expected<void> update(ViewState& state);
+  /// Draws the live picture where the state has changed, and sets the state's measures. Error: this cannot be
+  /// drawn.
+  Expected<void> draw(ViewState& state);
+
+  /// Takes what is finished and starts what is next, for a state that was drawn. Error, once: a comparison
+  /// failed.
+  Expected<void> compare(const ViewState& state);
 
   /// The full comparison of this state is finished.
   bool is_done(const ViewState& state) const;
 
-  /// Never empty after the first update; the live picture stands in for those that are not there yet.
+  /// Never empty after the first draw(); the live picture stands in for those that are not there yet.
   const Rgb8Image& picture(Picture picture) const;
   Readings readings(const ViewState& state) const;
   const raster::ContextInfo& context_info() const { return renderer_->info(); }
@@ -54,7 +58,6 @@ class Studio {
   Studio(std::unique_ptr<raster::Renderer> renderer, const LoadedScene& loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished);
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
-  Expected<void> draw_live(ViewState& state);
   Expected<void> take_outcome();
   Expected<void> start_next(const ViewState& state);
   void encode_live();

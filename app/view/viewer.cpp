@@ -57,7 +57,6 @@ Viewer::Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState 
       loaded_(loaded),
       console_(console),
       state_(std::move(state)),
-      drawable_(state_),
       script_(std::move(script)) {}
 
 void Viewer::listen() {
@@ -113,20 +112,25 @@ void Viewer::follow_window_size() {
 
 /// A person's wish that cannot be drawn is taken back, with a word about it; a script's ends the program.
 Expected<void> Viewer::update_pictures() {
-  const Expected<void> updated = studio_->update(state_);
-  if (updated) {
-    drawable_ = state_;
-    return {};
+  Expected<void> drawn = studio_->draw(state_);
+  if (!drawn && drawable_ && !has_script()) {
+    print_error(drawn.error());
+    take_back();
+    drawn = studio_->draw(state_);
   }
-  const bool taken_back = drawable_.revision != state_.revision;
-  if (has_script() || !taken_back) return fail(has_script() ? located(updated.error()) : updated.error());
-  print_error(updated.error());
-  const std::uint64_t newer = state_.revision + 1;
+  if (!drawn) return fail(located(drawn.error(), changed_line_));
+  drawable_ = state_.setup;
+  const Expected<void> compared = studio_->compare(state_);
+  if (!compared && has_script()) return fail(located(compared.error(), changed_line_));
+  if (!compared) print_error(compared.error());
+  return {};
+}
+
+void Viewer::take_back() {
   const ImageSize size = state_.setup.size;
-  state_ = drawable_;
+  state_.setup = *drawable_;
   state_.setup.size = size;
-  state_.revision = newer;
-  return studio_->update(state_);
+  ++state_.revision;
 }
 
 Expected<void> Viewer::draw_frame() {
@@ -197,7 +201,7 @@ Expected<void> Viewer::advance_script() {
       return {};
     }
     const Expected<bool> over = pass(script_[next_step_]);
-    if (!over) return fail(located(over.error()));
+    if (!over) return fail(located(over.error(), script_[next_step_].line));
     if (!*over) return {};
     ++next_step_;
     frames_waited_ = 0;
@@ -214,6 +218,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     return true;
   }
   const Change& change = std::get<Change>(step.what);
+  changed_line_ = step.line;
   if (const auto* resize = std::get_if<Resize>(&change)) return pass_resize(*resize);
   carry_out(state_, change);
   return true;
@@ -237,11 +242,10 @@ Expected<bool> Viewer::pass_resize(const Resize& resize) {
                           now.width, now.height, resize.size.width, resize.size.height));
 }
 
-/// The error with the script's line, where it does not name a place of its own.
-Error Viewer::located(Error error) const {
-  if (!error.file.empty() || next_step_ >= script_.size()) return error;
+Error Viewer::located(Error error, int line) const {
+  if (line == 0 || !error.file.empty()) return error;
   error.file = options_.script;
-  error.line = script_[next_step_].line;
+  error.line = line;
   return error;
 }
 

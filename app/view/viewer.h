@@ -37,6 +37,7 @@ class Viewer {
   void act(const Action& action);
   void follow_window_size();
   Expected<void> update_pictures();
+  void take_back();
   Expected<void> draw_frame();
   Expected<void> save_screenshot(const std::string& path);
   Expected<void> save_numbered_screenshot();
@@ -50,17 +51,20 @@ class Viewer {
   /// Whether the step is over; called once before each frame.
   Expected<bool> pass(const ScriptStep& step);
   Expected<bool> pass_resize(const Resize& resize);
-  Error located(Error error) const;
+  /// With the script's line, where there is one and the error does not name a place of its own.
+  Error located(Error error, int line) const;
 
   const ViewOptions& options_;
   const LoadedScene& loaded_;
   Console& console_;
-  ViewState state_, drawable_;  ///< drawable_: the last state that could be drawn
+  ViewState state_;
+  std::optional<Setup> drawable_;  ///< the last one that could be drawn
   bool quit_ = false;
   bool screenshot_asked_ = false;
 
   std::vector<ScriptStep> script_;
   std::size_t next_step_ = 0;
+  int changed_line_ = 0;  ///< of the last step that changed the state; 0: none yet
   std::int64_t frames_waited_ = 0;
   std::optional<Stopwatch> resizing_;            ///< since the script asked for another size
   std::optional<std::string> shot_after_frame_;  ///< the script's, to be taken when this frame is drawn

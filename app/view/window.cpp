@@ -2,9 +2,6 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
-
-#include <cstdlib>
 
 namespace gnomon::app {
 
@@ -17,17 +14,8 @@ std::string library_reason() {
   return text == nullptr ? "no reason given" : text;
 }
 
-bool has_display() {
-  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
-    const char* value = std::getenv(name);
-    if (value != nullptr && *value != '\0') return true;
-  }
-  return false;
-}
-
 tl::unexpected<Error> cannot_open(const std::string& reason) {
-  return fail(ErrorKind::graphics, fmt::format("cannot open a window: {}{}", reason,
-                                               has_display() ? "" : " (no display: DISPLAY is not set)"));
+  return fail(ErrorKind::graphics, "cannot open a window: " + reason);
 }
 
 class WindowContext final : public raster::Context {
