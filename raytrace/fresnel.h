@@ -17,7 +17,8 @@ struct Refraction {
 /// negative number.
 inline Refraction refract(const Vec3& incoming, const Vec3& normal, double eta) {
   const double cos_in = std::clamp(-glm::dot(incoming, normal), 0.0, 1.0);
-  const double cos_out_squared = 1.0 - eta * eta * (1.0 - cos_in * cos_in);
+  // 1 - (eta sin)^2 without the cancellation at eta near 1.
+  const double cos_out_squared = (1.0 - eta) * (1.0 + eta) + (eta * cos_in) * (eta * cos_in);
   if (!(cos_out_squared >= 0.0)) return {1.0, Vec3(0.0), true};
   const double cos_out = std::sqrt(cos_out_squared);
   const double across = eta * cos_in + cos_out;  // s polarisation: electric field along the surface

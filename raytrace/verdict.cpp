@@ -73,7 +73,7 @@ class Query {
   template <bool masks>
   bool count(std::uint32_t id, Meets meets, int edge, bool positive) {
     if (meets == Meets::no) return false;
-    if (meets == Meets::perhaps && below_horizon(id)) return false;
+    if (meets == Meets::perhaps && (below_horizon(id) || beyond_light(id))) return false;
     if constexpr (masks) {
       if (!solid_here(id)) return false;
     }
@@ -121,6 +121,25 @@ class Query {
     }
     const auto* sphere = std::get_if<Sphere>(&s_.world->shape(id).geometry);
     return sphere != nullptr && is_below(sphere->center, sphere->radius);
+  }
+
+  // Nothing that lies wholly beyond the plane through the light, across the ray, can be in its way. The ray
+  // ends before the light by its own error bound; a body that the light touches from behind is told apart so.
+  bool beyond_light(std::uint32_t id) const {
+    const Vec3 d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
+    const double end = ray_.t.max * glm::dot(d, d);
+    const auto is_beyond = [&](const Vec3& p, double radius) {
+      const Vec3 offset = p - Vec3(ray_.origin[0], ray_.origin[1], ray_.origin[2]);
+      const double reach = radius * glm::length(d);
+      const double bound = error_gamma(8) * (glm::dot(glm::abs(d), glm::abs(offset)) + reach + std::abs(end));
+      return glm::dot(d, offset) - reach >= end - bound;
+    };
+    if (s_.world->is_triangle(id)) {
+      const auto [a, b, c] = s_.world->corners(id);
+      return is_beyond(a, 0.0) && is_beyond(b, 0.0) && is_beyond(c, 0.0);
+    }
+    const auto* sphere = std::get_if<Sphere>(&s_.world->shape(id).geometry);
+    return sphere != nullptr && is_beyond(sphere->center, sphere->radius);
   }
 
   // `t` against the ray's interval.

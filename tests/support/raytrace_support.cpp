@@ -1,0 +1,228 @@
+#include "raytrace_support.h"
+
+#include <fstream>
+#include <sstream>
+
+namespace gnomon::test {
+
+TestWorld::TestWorld(Scene scene) : scene_(std::move(scene)), world_(make_world(scene_)) {}
+
+Scene scene_of(std::vector<Mesh> meshes, std::vector<Shape> shapes) {
+  Scene scene;
+  scene.materials.emplace_back();
+  for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+    MeshInstance instance;
+    instance.mesh = i;
+    scene.instances.push_back(instance);
+  }
+  scene.meshes = std::move(meshes);
+  scene.shapes = std::move(shapes);
+  return scene;
+}
+
+Shape sphere(const Vec3& center, double radius, std::uint32_t material) {
+  return {"sphere", Sphere{center, radius}, material};
+}
+Shape plane(const Vec3& point, const Vec3& normal, std::uint32_t material) {
+  return {"plane", Plane{point, glm::normalize(normal)}, material};
+}
+
+Vec3 Random::direction() {
+  for (;;) {
+    const Vec3 d = in_box(1.0);
+    const double length = glm::length(d);
+    if (length > 0.1 && length <= 1.0) return d / length;
+  }
+}
+
+Vec3 Random::nudged(Vec3 p, int steps) {
+  for (int a = 0; a < 3; ++a)
+    for (auto n = static_cast<int>(below(static_cast<std::uint32_t>(2 * steps + 1))) - steps; n != 0;
+         n += n < 0 ? 1 : -1)
+      p[a] = std::nextafter(p[a], n < 0 ? -infinity : infinity);
+  return p;
+}
+
+Mesh quad(const Vec3& origin, const Vec3& a, const Vec3& b) {
+  Mesh mesh;
+  mesh.positions = {origin, origin + a, origin + a + b, origin + b};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+Mesh box(const Vec3& lo, const Vec3& hi) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y,
+                                (i & 4) != 0 ? hi.z : lo.z);
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+Mesh uv_sphere(const Vec3& center, double radius, int rings, int sectors, double jitter, std::uint64_t seed) {
+  Random random(seed);
+  Mesh mesh;
+  const auto add = [&](const Vec3& n) {
+    mesh.positions.push_back(center + radius * (1.0 + random.uniform(-jitter, jitter)) * n);
+  };
+  add({0.0, 1.0, 0.0});
+  for (int i = 1; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double theta = pi * i / rings, phi = 2.0 * pi * j / sectors;
+      add({std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)});
+    }
+  add({0.0, -1.0, 0.0});
+  const auto at = [&](int i, int j) {
+    return static_cast<std::uint32_t>(1 + (i - 1) * sectors + j % sectors);
+  };
+  const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  for (int j = 0; j < sectors; ++j) {
+    mesh.triangles.push_back({0, at(1, j + 1), at(1, j)});
+    for (int i = 1; i + 1 < rings; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+      mesh.triangles.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+    }
+    mesh.triangles.push_back({at(rings - 1, j), at(rings - 1, j + 1), last});
+  }
+  return mesh;
+}
+
+Mesh triangle_soup(int count, double extent, double size, std::uint64_t seed) {
+  Random random(seed);
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 middle = random.in_box(extent);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int k = 0; k < 3; ++k) mesh.positions.push_back(middle + random.in_box(size));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+std::optional<Mesh> read_obj(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) return std::nullopt;
+  Mesh mesh;
+  std::string line;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "v") {
+      Vec3 p;
+      words >> p.x >> p.y >> p.z;
+      mesh.positions.push_back(p);
+    } else if (word == "f") {
+      std::vector<std::uint32_t> ids;
+      while (words >> word) ids.push_back(static_cast<std::uint32_t>(std::stoul(word) - 1));
+      for (std::size_t i = 2; i < ids.size(); ++i) mesh.triangles.push_back({ids[0], ids[i - 1], ids[i]});
+    }
+  }
+  return mesh;
+}
+
+Mesh normalised(Mesh mesh) {
+  Aabb bounds;
+  for (const Vec3& p : mesh.positions) bounds.grow(p);
+  for (Vec3& p : mesh.positions) p = (p - bounds.center()) / bounds.diagonal();
+  return mesh;
+}
+
+Light point_light(const Vec3& position) {
+  Light light;
+  light.type = LightType::point;
+  light.position = position;
+  return light;
+}
+Light sun(const Vec3& direction) {
+  Light light;
+  light.direction = glm::normalize(direction);
+  return light;
+}
+
+namespace {
+
+__extension__ typedef __float128 Quad;
+
+struct Quad3 {
+  Quad x, y, z;
+  explicit Quad3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+  Quad3(Quad a, Quad b, Quad c) : x(a), y(b), z(c) {}
+};
+Quad3 operator-(const Quad3& a, const Quad3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Quad dot(const Quad3& a, const Quad3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Quad3 cross(const Quad3& a, const Quad3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Quad root(Quad v) {  // Newton on the double's root: three times the digits twice over
+  Quad r = std::sqrt(static_cast<double>(v));
+  for (int i = 0; i < 3 && r > 0; ++i) r = (r + v / r) / 2;
+  return r;
+}
+Quad magnitude(Quad v) {
+  return v < 0 ? -v : v;
+}
+
+// How far from an edge (in barycentric units), from a tangent or between two hits (relative) the oracle still
+// vouches for double precision: the scenes below have coordinates up to 10 and triangles from 0.01 on, which
+// leaves 1e-16 * 1e3.
+constexpr double margin = 1e-11;
+
+struct Candidate {
+  Quad t = 0;
+  bool hit = false, doubtful = false;
+};
+
+Candidate oracle_triangle(const World& world, std::uint32_t id, const Ray& ray) {
+  const auto [a, b, c] = world.corners(id);
+  const Quad3 e1 = Quad3(b) - Quad3(a), e2 = Quad3(c) - Quad3(a), d(ray.direction),
+              s = Quad3(ray.origin) - Quad3(a);
+  const Quad3 p = cross(d, e2);
+  const Quad det = dot(e1, p);
+  if (det == 0) return {};
+  const Quad u = dot(s, p) / det, v = dot(d, cross(s, e1)) / det, t = dot(e2, cross(s, e1)) / det;
+  const Quad inside = std::min({u, v, 1 - u - v});
+  const Quad grazing = magnitude(det) / root(dot(cross(e1, e2), cross(e1, e2)) * dot(d, d));
+  const bool doubtful = magnitude(inside) * grazing < Quad(margin) || magnitude(t) < Quad(margin);
+  return {t, inside >= 0 && t > 0, doubtful};
+}
+
+Candidate oracle_sphere(const Sphere& sphere, const Ray& ray) {
+  const Quad3 o = Quad3(ray.origin) - Quad3(sphere.center), d(ray.direction);
+  const Quad a = dot(d, d), b = dot(o, d), c = dot(o, o) - Quad(sphere.radius) * Quad(sphere.radius);
+  const Quad discriminant = b * b - a * c;
+  const bool doubtful =
+      magnitude(discriminant) < Quad(margin) * a * dot(o, o) || magnitude(c) < Quad(margin) * dot(o, o);
+  if (discriminant < 0) return {0, false, doubtful};
+  const Quad near = (-b - root(discriminant)) / a, far = (-b + root(discriminant)) / a;
+  return {near > 0 ? near : far, far > 0, doubtful};
+}
+
+}  // namespace
+
+OracleHit oracle_closest(const World& world, const Ray& ray) {
+  OracleHit best;
+  Quad best_t = 0;
+  bool doubtful = false;
+  for (std::uint32_t id = 0; id < world.primitive_count(); ++id) {
+    const Candidate c = world.is_triangle(id)
+                            ? oracle_triangle(world, id, ray)
+                            : oracle_sphere(std::get<Sphere>(world.shape(id).geometry), ray);
+    doubtful = doubtful || c.doubtful;
+    if (!c.hit) continue;
+    const bool tie =
+        best.primitive != no_id && magnitude(c.t - best_t) < Quad(margin) * (1 + magnitude(best_t));
+    doubtful = doubtful || tie;
+    if (best.primitive == no_id || c.t < best_t) best_t = c.t, best.primitive = id;
+  }
+  best.t = static_cast<double>(best_t);
+  best.doubtful = doubtful;
+  return best;
+}
+
+}  // namespace gnomon::test
