@@ -119,7 +119,7 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
                                               .alpha_mask = masked && programs_->features().alpha_mask});
     if (!program) return fail(program.error());
     (*program)->use();
-    (*program)->set_shape(static_cast<int>(i), *bounds);
+    (*program)->set_shape(static_cast<int>(i), *bounds, shape_in_frame(view.origin, projection.frame, shape));
     (*program)->set_face(face, cull);
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

@@ -75,11 +75,12 @@ Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation&
       Program::link(gl, "impostor.vert", p.camera ? "impostor_camera.frag" : "impostor_map.frag", defines));
 }
 
-void ImpostorProgram::set_shape(int index, const ClipRectangle& r) const {
+void ImpostorProgram::set_shape(int index, const ClipRectangle& rectangle, const Vec4& in_frame) const {
   gl()->ProgramUniform1i(id(), shaders::shape_uniform, index);
-  gl()->ProgramUniform4f(id(), shaders::rectangle_uniform, static_cast<float>(r.min.x),
-                         static_cast<float>(r.min.y), static_cast<float>(r.max.x),
-                         static_cast<float>(r.max.y));
+  const Vec4f corners(Vec4(rectangle.min, rectangle.max));
+  gl()->ProgramUniform4fv(id(), shaders::rectangle_uniform, 1, glm::value_ptr(corners));
+  const Vec4f rounded(in_frame);
+  gl()->ProgramUniform4fv(id(), shaders::shape_in_frame_uniform, 1, glm::value_ptr(rounded));
 }
 
 void ImpostorProgram::set_face(int face, Cull cull) const {

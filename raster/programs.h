@@ -52,7 +52,8 @@ class ImpostorProgram : public Program {
     auto operator<=>(const Permutation&) const = default;
   };
   static Expected<ImpostorProgram> link(const Gl& gl, const Permutation& permutation);
-  void set_shape(int index, const ClipRectangle& rectangle) const;
+  /// `in_frame`: see shape_in_frame().
+  void set_shape(int index, const ClipRectangle& rectangle, const Vec4& in_frame) const;
   /// Of a map.
   void set_face(int face, Cull cull) const;
 };

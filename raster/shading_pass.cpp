@@ -112,6 +112,7 @@ Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View&
                               Vec2(view.tan_half_x, view.tan_half_y),
                               true,
                               Vec2(2.0 / size_.width, 2.0 / size_.height)};
+  const LightFace world_axes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
     const auto bounds = shape_bounds(projection, shape);
@@ -124,7 +125,7 @@ Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View&
                                               .alpha_mask = masked && programs_->features().alpha_mask});
     if (!program) return fail(program.error());
     (*program)->use();
-    (*program)->set_shape(static_cast<int>(i), *bounds);
+    (*program)->set_shape(static_cast<int>(i), *bounds, shape_in_frame(view.eye, world_axes, shape));
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   return {};

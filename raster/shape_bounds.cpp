@@ -1,5 +1,7 @@
 #include "raster/shape_bounds.h"
 
+#include <array>
+
 namespace gnomon::raster {
 namespace {
 
@@ -12,15 +14,38 @@ Interval slopes(double x, double z, double r) {
   return {(x * z - root) * scale, (x * z + root) * scale};
 }
 
-}  // namespace
+// The bounding rectangle of the image's part whose rays meet the plane ahead of a perspective origin: the
+// image clipped at the plane's horizon, where the direction's component towards the plane is zero (it is
+// linear over the image).
+std::optional<ClipRectangle> plane_bounds(const Projection& projection, const Plane& plane) {
+  if (!projection.perspective) return ClipRectangle{};
+  const double height = glm::dot(plane.normal, plane.point - projection.origin);
+  const Vec3 towards = height < 0.0 ? -plane.normal : plane.normal;
+  const double base = glm::dot(towards, projection.frame.forward);
+  const Vec2 slope = projection.half_extent *
+                     Vec2(glm::dot(towards, projection.frame.right), glm::dot(towards, projection.frame.up));
+  constexpr std::array<Vec2, 4> corners{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
+  ClipRectangle out{Vec2(infinity), Vec2(-infinity)};
+  const auto grow = [&](const Vec2& p) { out.min = glm::min(out.min, p), out.max = glm::max(out.max, p); };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 a = corners[i];
+    const Vec2 b = corners[(i + 1) % corners.size()];
+    const double ha = base + glm::dot(slope, a);
+    const double hb = base + glm::dot(slope, b);
+    if (ha > 0.0) grow(a);
+    if ((ha > 0.0) != (hb > 0.0)) grow(a + (b - a) * (ha / (ha - hb)));
+  }
+  if (!(out.min.x <= out.max.x)) return std::nullopt;
+  out.min = glm::max(out.min - projection.pixel, Vec2(-1.0));
+  out.max = glm::min(out.max + projection.pixel, Vec2(1.0));
+  return out;
+}
 
-std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape) {
-  const auto* sphere = std::get_if<Sphere>(&shape.geometry);
-  if (sphere == nullptr) return ClipRectangle{};
-  const Vec3 d = sphere->center - projection.origin;
+std::optional<ClipRectangle> sphere_bounds(const Projection& projection, const Sphere& sphere) {
+  const Vec3 d = sphere.center - projection.origin;
   const Vec3 c(glm::dot(d, projection.frame.right), glm::dot(d, projection.frame.up),
                glm::dot(d, projection.frame.forward));
-  const double r = sphere->radius;
+  const double r = sphere.radius;
   if (projection.perspective && c.z + r <= 0.0) return std::nullopt;
   ClipRectangle out;
   for (int axis = 0; axis < 2; ++axis) {
@@ -31,6 +56,23 @@ std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Sh
     if (!(out.min[axis] < out.max[axis])) return std::nullopt;
   }
   return out;
+}
+
+}  // namespace
+
+std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere_bounds(projection, *sphere);
+  return plane_bounds(projection, std::get<Plane>(shape.geometry));
+}
+
+Vec4 shape_in_frame(const Vec3& origin, const LightFace& frame, const Shape& shape) {
+  const auto along_axes = [&](const Vec3& v) {
+    return Vec3(glm::dot(v, frame.right), glm::dot(v, frame.up), glm::dot(v, frame.forward));
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+    return Vec4(along_axes(sphere->center - origin), sphere->radius);
+  const auto& plane = std::get<Plane>(shape.geometry);
+  return Vec4(along_axes(plane.normal), glm::dot(plane.normal, plane.point - origin));
 }
 
 }  // namespace gnomon::raster

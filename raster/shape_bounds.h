@@ -23,7 +23,11 @@ struct Projection {
   Vec2 pixel;  ///< one pixel in normalised device coordinates: the margin kept around the shape
 };
 
-/// None when no part of the shape can be seen. A plane covers the whole image.
+/// None when no part of the shape can be seen. A plane's rectangle ends at its horizon.
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape);
+
+/// The shape as seen from the projection's origin along its axes, worked out in double precision: a sphere's
+/// centre and radius, or a plane's unit normal n and the offset d of n . p = d.
+Vec4 shape_in_frame(const Vec3& origin, const LightFace& frame, const Shape& shape);
 
 }  // namespace gnomon::raster

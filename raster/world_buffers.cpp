@@ -16,7 +16,7 @@ MaterialData material_data(const Material& m) {
   MaterialData out{};
   out.diffuse_and_alpha = Vec4f(m.diffuse, m.alpha);
   out.specular_and_shininess = Vec4f(m.specular, m.shininess);
-  out.emission_and_local = Vec4f(m.emission, 1.0f - m.mirror - m.transmission);
+  out.emission_and_local = Vec4f(m.emission, std::max(0.0f, 1.0f - m.mirror - m.transmission));
   out.uv_matrix = Vec4f(glm::dvec4(c * t.scale.x, -s * t.scale.x, s * t.scale.y, c * t.scale.y));
   out.uv_offset_and_cutoff =
       Vec4f(Vec2f(t.offset), m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0f, 0.0f);

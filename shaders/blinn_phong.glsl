@@ -6,8 +6,10 @@ vec3 blinn_phong(vec3 diffuse, vec4 specular_and_shininess, vec3 irradiance, vec
   if (!(n_l > 0.0)) return vec3(0.0);
   vec3 reflected = diffuse * n_l;
 #ifdef SPECULAR
-  float n_h = max(0.0, dot(n, normalize(to_light + to_eye)));
-  reflected += specular_and_shininess.rgb * pow(n_h, specular_and_shininess.w);
+  vec3 half_way = to_light + to_eye;
+  float squared = dot(half_way, half_way);
+  float n_h = squared > 0.0 ? max(0.0, dot(n, half_way) * inversesqrt(squared)) : 0.0;
+  if (n_h > 0.0) reflected += specular_and_shininess.rgb * pow(n_h, specular_and_shininess.w);
 #endif
   return reflected * irradiance;
 }

@@ -2,6 +2,7 @@
 #include "shared_constants.h"
 
 layout(location = shape_uniform) uniform int shape_index;
+layout(location = shape_in_frame_uniform) uniform vec4 shape_in_frame;  // relative to the eye: centre and radius, or normal and offset
 
 #include "camera.glsl"
 #include "world.glsl"
@@ -12,26 +13,25 @@ layout(location = shape_uniform) uniform int shape_index;
 
 layout(location = 0) out uint primitive_id;
 
-bool usable(ShapeData shape, vec3 direction, float t) {
+bool usable(vec3 direction, float t) {
   if (!(t > 0.0) || isinf(t)) return false;
 #ifdef ALPHA_MASK
+  ShapeData shape = shapes[shape_index];
   if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) return false;
 #endif
   return true;
 }
 
 void main() {
-  ShapeData shape = shapes[shape_index];
-  vec3 eye = camera.eye_and_near.xyz;
   vec3 direction = pixel_direction(gl_FragCoord.xy);
 #ifdef SPHERE
   float t, t_far;
-  if (!sphere_crossings(eye, direction, shape.center_and_radius.xyz, shape.center_and_radius.w, t, t_far)) discard;
-  if (!usable(shape, direction, t)) t = t_far;
+  if (!sphere_crossings(vec3(0.0), direction, shape_in_frame.xyz, shape_in_frame.w, t, t_far)) discard;
+  if (!usable(direction, t)) t = t_far;
 #else
-  float t = (shape.normal.w - dot(shape.normal.xyz, eye)) / dot(shape.normal.xyz, direction);
+  float t = shape_in_frame.w / dot(shape_in_frame.xyz, direction);
 #endif
-  if (!usable(shape, direction, t)) discard;
-  primitive_id = shape.primitive;
+  if (!usable(direction, t)) discard;
+  primitive_id = shapes[shape_index].primitive;
   gl_FragDepth = reversed_depth(t);
 }

@@ -6,6 +6,7 @@
 layout(location = shape_uniform) uniform int shape_index;
 layout(location = face_uniform) uniform int face;
 layout(location = cull_uniform) uniform int cull;
+layout(location = shape_in_frame_uniform) uniform vec4 shape_in_frame;  // centre and radius, or normal and offset
 
 #include "light_map.glsl"
 #include "world.glsl"
@@ -17,46 +18,53 @@ layout(location = cull_uniform) uniform int cull;
 layout(location = 0) out uint primitive_id;
 #endif
 
-bool usable(ShapeData shape, vec3 origin, vec3 direction, float t) {
+// Ray of a texel in the face's own frame (right, up, forward); t along it is the depth in both projections.
+struct TexelRay {
+  vec3 origin, direction;
+};
+
+TexelRay texel_ray() {
+  vec2 offset = (2.0 * gl_FragCoord.xy / light.origin_and_size.w - 1.0) * light.extent_and_depths.xy;
+#ifdef PERSPECTIVE
+  return TexelRay(vec3(0.0), vec3(offset, 1.0));
+#else
+  return TexelRay(vec3(offset, 0.0), vec3(0.0, 0.0, 1.0));
+#endif
+}
+
+bool usable(TexelRay ray, float t) {
 #ifdef PERSPECTIVE
   if (!(t > 0.0)) return false;
 #endif
   if (isnan(t) || isinf(t)) return false;
 #ifdef ALPHA_MASK
-  if (is_hole(materials[shape.material], shape_uv(shape, origin + t * direction))) return false;
+  ShapeData shape = shapes[shape_index];
+  vec3 p = ray.origin + t * ray.direction;
+  vec3 position = light.origin_and_size.xyz + p.x * light.right[face].xyz + p.y * light.up[face].xyz +
+                  p.z * light.forward[face].xyz;
+  if (is_hole(materials[shape.material], shape_uv(shape, position))) return false;
 #endif
   return true;
 }
 
 void main() {
-  ShapeData shape = shapes[shape_index];
-  vec2 offset = (2.0 * gl_FragCoord.xy / light.origin_and_size.w - 1.0) * light.extent_and_depths.xy;
-  vec3 sideways = offset.x * light.right[face].xyz + offset.y * light.up[face].xyz;
-  // t is the depth along forward in both projections.
-#ifdef PERSPECTIVE
-  vec3 origin = light.origin_and_size.xyz;
-  vec3 direction = light.forward[face].xyz + sideways;
-#else
-  vec3 origin = light.origin_and_size.xyz + sideways;
-  vec3 direction = light.forward[face].xyz;
-#endif
+  TexelRay ray = texel_ray();
 #ifdef SPHERE
   float t_near, t_far;
-  if (!sphere_crossings(origin, direction, shape.center_and_radius.xyz, shape.center_and_radius.w, t_near, t_far))
-    discard;
-  bool near_counts = cull != cull_front && usable(shape, origin, direction, t_near);
+  if (!sphere_crossings(ray.origin, ray.direction, shape_in_frame.xyz, shape_in_frame.w, t_near, t_far)) discard;
+  bool near_counts = cull != cull_front && usable(ray, t_near);
   if (!near_counts && cull == cull_back) discard;
   float t = near_counts ? t_near : t_far;
 #else
-  float facing = dot(shape.normal.xyz, direction);
+  float facing = dot(shape_in_frame.xyz, ray.direction);
   if ((cull == cull_back && facing > 0.0) || (cull == cull_front && facing < 0.0)) discard;
-  float t = (shape.normal.w - dot(shape.normal.xyz, origin)) / facing;
+  float t = (shape_in_frame.w - dot(shape_in_frame.xyz, ray.origin)) / facing;
 #endif
-  if (!usable(shape, origin, direction, t)) discard;
+  if (!usable(ray, t)) discard;
   float stored = stored_from_depth(t);
   if (stored >= map_clear_depth) discard;
   gl_FragDepth = max(stored, 0.0);
 #ifdef PRIMITIVE_IDS
-  primitive_id = shape.primitive;
+  primitive_id = shapes[shape_index].primitive;
 #endif
 }

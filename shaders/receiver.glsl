@@ -24,7 +24,7 @@ layout(std430, binding = planes_buffer) readonly buffer Planes { vec4 planes[]; 
 struct Receiver {
   vec3 position;   // relative to the frame's reference
   vec3 normal;     // geometric, unit, on the viewer's side
-  vec3 shading;    // shading normal, on the viewer's side
+  vec3 shading;    // shading normal, on the geometric normal's side
   vec3 to_eye;     // unit
   vec2 uv;
   uint material;
@@ -53,7 +53,7 @@ vec3 normal_of(uint vertex) {
 }
 #endif
 
-void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, vec3 direction, inout Receiver r) {
+void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
 #if defined(SMOOTH_NORMALS) || defined(TEXTURES)
   vec3 n = cross(b - a, c - a);
   float area = dot(n, n);
@@ -62,7 +62,10 @@ void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, vec3 direction, inout R
   float wa = 1.0 - wb - wc;
 #ifdef SMOOTH_NORMALS
   vec3 shading = wa * normal_of(t.a) + wb * normal_of(t.b) + wc * normal_of(t.c);
-  if (dot(shading, shading) > 0.0) r.shading = face_forward(normalize(shading), direction);
+  if (dot(shading, shading) > 0.0) {
+    shading = normalize(shading);
+    r.shading = dot(shading, r.normal) < 0.0 ? -shading : shading;
+  }
 #endif
 #ifdef TEXTURES
   r.uv = wa * uvs[t.a] + wb * uvs[t.b] + wc * uvs[t.c];
@@ -84,7 +87,7 @@ Receiver triangle_receiver(uint id, vec3 direction) {
   r.shading = r.normal;
   r.uv = vec2(0.0);
   r.material = t.material;
-  interpolate(t, a, b, c, direction, r);
+  interpolate(t, a, b, c, r);
   return r;
 }
 
@@ -103,7 +106,11 @@ Receiver shape_receiver(ShapeData shape, vec3 direction) {
     r.normal = face_forward(outward, direction);
   }
   r.shading = r.normal;
+#ifdef TEXTURES
   r.uv = shape_uv(shape, r.position);
+#else
+  r.uv = vec2(0.0);
+#endif
   r.material = shape.material;
   return r;
 }

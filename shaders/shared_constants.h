@@ -17,6 +17,7 @@ const int rectangle_uniform = 0;
 const int shape_uniform = 1;
 const int face_uniform = 2;
 const int cull_uniform = 3;
+const int shape_in_frame_uniform = 4;
 const int viewport_uniform = 0;
 
 // Shader storage buffers

@@ -14,9 +14,13 @@ struct ShapeData {
 
 layout(std430, binding = shapes_buffer) readonly buffer Shapes { ShapeData shapes[]; };
 
-// Texture coordinates of a plane's point (scene.h); a sphere has none.
+// Texture coordinates of a shape's point: along a plane's axes (scene.h); longitude and angle from the top of a sphere.
+// Twin of raytrace/surface_uv.h.
 vec2 shape_uv(ShapeData shape, vec3 position) {
-  if (shape.kind != uint(shape_plane)) return vec2(0.0);
   vec3 offset = position - shape.center_and_radius.xyz;
-  return vec2(dot(shape.tangent.xyz, offset), dot(shape.bitangent.xyz, offset));
+  if (shape.kind == uint(shape_plane)) return vec2(dot(shape.tangent.xyz, offset), dot(shape.bitangent.xyz, offset));
+  const float pi = 3.14159265358979;
+  vec3 n = normalize(offset);
+  float u = atan(n.z, n.x) / (2.0 * pi);
+  return vec2(u < 0.0 ? u + 1.0 : u, acos(clamp(n.y, -1.0, 1.0)) / pi);
 }

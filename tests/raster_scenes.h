@@ -17,7 +17,8 @@ inline Mesh box_mesh() {
   return mesh;
 }
 
-/// A square of the given half side in the plane y = 0, two triangles, facing +y, with texture coordinates 0 … 1.
+/// A square of the given half side in the plane y = 0, two triangles, facing +y, with texture coordinates 0
+/// … 1.
 inline Mesh square_mesh(double half) {
   Mesh mesh;
   mesh.name = "square";
