@@ -28,7 +28,7 @@ Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, 
   const ImageSize size{view.size, view.size};
   const bool same = depth_ && depth_.size() == size && depth_.layers() == view.face_count &&
                     depth_.format() == gl_format(format);
-  if (same && (!with_ids || ids_)) return {};
+  if (same && !faces_.empty() && (!with_ids || ids_)) return {};
   faces_.clear();
   depth_ = Texture2D();
   ids_ = Texture2D();
@@ -37,6 +37,7 @@ Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, 
   const std::string what =
       fmt::format("a depth map of {0} x {0} texels, {1} face(s)", view.size, view.face_count);
   if (auto ok = gl.check(what); !ok) return ok;
+  std::vector<Face> faces;
   for (int i = 0; i < view.face_count; ++i) {
     Face face{Framebuffer(gl), Framebuffer(gl)};
     face.depth.attach(GL_DEPTH_ATTACHMENT, depth_, i);
@@ -48,9 +49,11 @@ Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, 
       face.depth_and_ids.draw_to(1);
       if (auto ok = face.depth_and_ids.check_complete(); !ok) return ok;
     }
-    faces_.push_back(std::move(face));
+    faces.push_back(std::move(face));
   }
-  return gl.check(what);
+  if (auto ok = gl.check(what); !ok) return ok;
+  faces_ = std::move(faces);
+  return {};
 }
 
 void DepthMapPass::set_state(int size, Cull cull) const {

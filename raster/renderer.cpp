@@ -100,13 +100,14 @@ Expected<RasterFrame> GlRenderer::render(const RasterOptions& options,
                                          std::span<const std::uint32_t> lights) {
   if (!context_->make_current())
     return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  Expected<RasterFrame> frame;
   try {
-    auto frame = render_checked(options, lights);
-    restore_state();
-    return frame;
+    frame = render_checked(options, lights);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::graphics, "out of memory for the images and depth maps to read back");
+    frame = fail(ErrorKind::graphics, "out of memory for the images and depth maps to read back");
   }
+  restore_state();
+  return frame;
 }
 
 Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
