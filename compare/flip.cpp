@@ -109,8 +109,7 @@ float hyab(const Vec3f& a, const Vec3f& b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// --- filters
-// ---------------------------------------------------------------------------------------------------------
+// --- filters ---
 
 // A contrast sensitivity function in the image domain: a sum of a_i sqrt(pi / b_i) exp(-pi^2 d^2 / b_i), d in
 // degrees (section 4.1.1, table 1).
@@ -195,8 +194,7 @@ Plane length_of(Plane x, const Plane& y) {
   return x;
 }
 
-// --- one image
-// -------------------------------------------------------------------------------------------------------
+// --- one image ---
 
 struct Perceived {
   Image<Vec3f> colour;  // Hunt-adjusted CIELAB after the eye's blur
@@ -252,8 +250,7 @@ Perceived perceive(const ColorImage& linear, double ppd) {
   return p;
 }
 
-// --- the difference
-// --------------------------------------------------------------------------------------------------
+// --- the difference ---
 
 constexpr float colour_exponent = 0.7f, feature_exponent = 0.5f;  // q_c, q_f
 

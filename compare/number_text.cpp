@@ -36,11 +36,16 @@ std::string plain_number(double value) {
   return fmt::format("{:.3g}", value);
 }
 
+std::string unsigned_number(double value) {
+  if (value == 0.0) return "0";
+  // Four decimals, or as many more as the first digit needs.
+  const int decimals = value < 5e-5 ? static_cast<int>(std::ceil(-std::log10(value))) : 4;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string signed_number(double value) {
   if (value == 0.0) return "0";
-  const char* sign = value < 0.0 ? "\u2212" : "+";
-  const double size = std::abs(value);
-  return size < 5e-5 ? fmt::format("{}{:.1e}", sign, size) : fmt::format("{}{:.4f}", sign, size);
+  return (value < 0.0 ? "\u2212" : "+") + unsigned_number(std::abs(value));
 }
 
 std::string texels_text(double texels) {

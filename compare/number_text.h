@@ -14,8 +14,11 @@ std::string grouped(std::uint64_t count);
 std::string percent(double fraction);
 /// Three significant digits, no exponent between 1e-4 and 1e6; "unlimited" for infinities.
 std::string plain_number(double value);
-/// With its sign, four decimals and a true zero: "+0.0120", "−0.0417", "0", "−0.00002".
+/// With its sign, four decimals or as many as its first digit needs, and a true zero: "+0.0120", "0",
+/// "−0.00002".
 std::string signed_number(double value);
+/// The same for a size, without a sign.
+std::string unsigned_number(double value);
 /// "0.8 texel", "1.6 texels".
 std::string texels_text(double texels);
 /// "12 ms", "0.42 ms", "1.9 s"; "not timed" for a negative value.

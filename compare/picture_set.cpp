@@ -36,7 +36,8 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
   out.labels.file_name = "labels" + suffix + ".png";
   out.depth_map.file_name = out.depth_map_small.file_name = "depth-map" + suffix + ".png";
   out.depth_map_step = step_for_width(map, folder_width);
-  const int small_step = step_for_width(map, page_width), full_step = out.depth_map_step;
+  out.depth_map_small_step = step_for_width(map, page_width);
+  const int small_step = out.depth_map_small_step, full_step = out.depth_map_step;
   jobs.push_back({&out.depth_map, [&map, full_step] {
                     return full_step == 1 ? depth_map_picture(map)
                                           : depth_map_picture(reduced_map(map, full_step));

@@ -19,7 +19,8 @@ struct LightPictures {
   EncodedPicture difference, labels;
   EncodedPicture depth_map;        ///< as many pixels as texels, up to 4096 wide
   EncodedPicture depth_map_small;  ///< for the page: up to 1024 wide
-  int depth_map_step = 1;  ///< depth_map has one pixel per step x step texels, the nearest depth of each
+  /// One pixel of the picture per step x step texels, which shows the nearest depth of them.
+  int depth_map_step = 1, depth_map_small_step = 1;
 };
 
 struct PictureSet {

@@ -52,19 +52,21 @@ std::string bias_text(const LightComparison& light, double bias) {
                                             : world;
 }
 
-std::string contradiction(const LightComparison& light) {
-  const BestBias& best = light.best_bias;
+std::string opposing_needs(const BestBias& best) {
+  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
+  return fmt::format(
+      " No constant bias can be right everywhere: {} lit pixel{} {} or more, {} shadowed pixel{} less than "
+      "{}.",
+      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_more_than), grouped(shadowed),
+      shadowed == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
+}
+
+// Why no constant bias is right everywhere.
+std::string contradiction(const BestBias& best) {
   if (best.needs_less_than == -infinity)
     return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
            "map.";
-  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
-  return fmt::format(
-      " No constant bias can be right everywhere: {} lit pixel{} at least {}, up to {}, and {} shadowed "
-      "pixel{} less "
-      "than {}, down to {}.",
-      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_less_than),
-      plain_number(best.needs_more_than), grouped(shadowed), shadowed == 1 ? " needs" : "s need",
-      plain_number(best.needs_more_than), plain_number(best.needs_less_than));
+  return opposing_needs(best);
 }
 
 std::string bias_part(const LightComparison& light) {
@@ -80,7 +82,7 @@ std::string bias_part(const LightComparison& light) {
   } else if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction) {
     text = " No other constant bias does better.";
   }
-  return best.feasible ? text : text + contradiction(light);
+  return best.feasible ? text : text + contradiction(best);
 }
 
 std::string nothing_compared(const PixelCounts& p) {

@@ -11,8 +11,7 @@
 namespace gnomon::compare {
 namespace {
 
-// --- the direct implementation
-// ---------------------------------------------------------------------------------------
+// --- the direct implementation ---
 
 struct Direct {
   int width, height;

@@ -6,3 +6,14 @@ gnomon_test(outputs_test
 # The report page in a real browser: sample pages are written first, then looked at.
 add_executable(outputs_sample "${CMAKE_CURRENT_LIST_DIR}/outputs_sample_main.cpp")
 target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::compare)
+
+find_program(GNOMON_NODE node)
+if(GNOMON_NODE)
+  add_test(NAME report_browser_test
+    COMMAND ${GNOMON_NODE} "${CMAKE_CURRENT_LIST_DIR}/report_browser_test.mjs" $<TARGET_FILE:outputs_sample>
+      "${CMAKE_CURRENT_BINARY_DIR}/report_browser")
+else()
+  add_test(NAME report_browser_test COMMAND ${CMAKE_COMMAND} -E echo "skipped: node is not installed")
+  set_tests_properties(report_browser_test PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: node")
+endif()
+set_tests_properties(report_browser_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)

@@ -28,7 +28,8 @@ TEST(NumberText, WritesCountsSharesAndTimes) {
   EXPECT_EQ(percent(0.99996), "more than 99.99 %");
   EXPECT_EQ(signed_number(-0.04171), "\u22120.0417");
   EXPECT_EQ(signed_number(0.0), "0");
-  EXPECT_EQ(signed_number(2e-5), "+2.0e-05");
+  EXPECT_EQ(unsigned_number(0.0163), "0.0163");
+  EXPECT_EQ(signed_number(2e-5), "+0.00002");
   EXPECT_EQ(milliseconds(0.423), "0.42 ms");
   EXPECT_EQ(milliseconds(95.25), "95 ms");
   EXPECT_EQ(milliseconds(1904.0), "1.9 s");
@@ -65,13 +66,12 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
 
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-  c.light.best_bias = {0.01, 0.041, false, 0.031, 0.012, 213, 97};
+  c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
   EXPECT_EQ(c.verdict(),
             "4.1 % of the lit-or-shadowed pixels are wrong, all of them acne. No other constant bias does "
             "better. No constant "
-            "bias can be right everywhere: 213 lit pixels need at least 0.012, up to 0.031, and 97 shadowed "
-            "pixels need less "
-            "than 0.031, down to 0.012.");
+            "bias can be right everywhere: 213 lit pixels need 0.031 or more, 97 shadowed pixels need less "
+            "than 0.012.");
   c.light.best_bias.needs_less_than = -infinity;
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
 }

@@ -178,6 +178,7 @@ inline LightComparison make_light(std::uint32_t index) {
 inline void make_frames(Comparison& c) {
   c.raster.context = {"osmesa", "4.5 (Core Profile) Mesa 22.3.6", "llvmpipe (LLVM 15.0.6, 256 bits)", 16384};
   c.raster.options.size = image_size;
+  c.raster.options.map.size = map_size;
   c.raster.color = c.raytraced.color = ColorImage(image_size);
   c.raster.primitive = Image<std::uint32_t>(image_size, no_id);
   c.raytraced.receiver = Image<raytrace::SurfacePoint>(image_size);

@@ -13,8 +13,7 @@
 namespace gnomon::compare {
 namespace {
 
-// --- times
-// -----------------------------------------------------------------------------------------------------------
+// --- times ---
 
 struct TimeRow {
   std::string key;   // in result.json, of the {median, runs} object
@@ -45,8 +44,9 @@ std::string time_row(const TimeRow& row, double longest) {
   const double median = row.times.median();
   const std::size_t runs = row.times.runs.size();
   return fmt::format(
-      "<tr><th scope=\"row\">{}<small>{}</small></th><td class=\"wide\">{}</td><td class=\"n\">{}</td>"
-      "<td class=\"n\">{}</td></tr>\n",
+      R"(<tr><th scope="row">{}<small>{}</small></th><td class="wide">{}</td><td class="n">{}</td><td
+class="n">{}</td></tr>
+)",
       row.name, row.what, timed ? share_bar(median / longest, row.rays ? "rays" : "raster") : "",
       timed ? keyed(row.key + ".median", median, milliseconds(median)) : "not timed",
       runs > 1    ? fmt::format("{} runs", runs)
@@ -66,16 +66,17 @@ std::string time_table(const PageInput& in) {
   for (const TimeRow& row : rows) longest = std::max(longest, row.times.median());
   std::string text;
   for (const TimeRow& row : rows) text += time_row(row, std::max(longest, 1e-9));
-  return "<table class=\"times\"><caption>What the pictures took</caption><thead class=\"quiet\"><tr><th "
-         "scope=\"col\">pass</th>"
-         "<th scope=\"col\">share of the longest</th><th scope=\"col\" class=\"n\">median</th><th "
-         "scope=\"col\" "
-         "class=\"n\">of</th></tr></thead><tbody>\n" +
-         text + "</tbody></table>\n";
+  return R"(<table class="times"><caption>What the pictures took</caption><thead class="quiet"><tr><th
+scope="col">pass</th><th scope="col">share of the longest</th><th scope="col"
+class="n">median</th><th scope="col" class="n">of</th></tr></thead><tbody>
+)" + text +
+         "</tbody></table>\n";
 }
 
 std::string plain_row(std::string_view name, const std::string& value) {
-  return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td></tr>\n", name, value);
+  return fmt::format(R"(<tr><th scope="row">{}</th><td class="n">{}</td></tr>
+)",
+                     name, value);
 }
 
 std::string one_time(std::string_view key, double ms) {
@@ -112,8 +113,7 @@ std::string whole_table(const PageInput& in) {
   return "<table><caption>The rest of the run</caption><tbody>\n" + rows + "</tbody></table>\n";
 }
 
-// --- provenance
-// ------------------------------------------------------------------------------------------------------
+// --- provenance ---
 
 std::string entry(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
@@ -125,9 +125,9 @@ std::string text_entry(std::string_view name, std::string_view text) {
 
 std::string saving(const PageInput& in) {
   return fmt::format(
-      "<p class=\"save\"><a class=\"button\" download=\"result.json\" href=\"{}\">Save result.json</a> <a "
-      "class=\"button\" "
-      "download=\"result.csv\" href=\"{}\">Save result.csv</a></p>\n",
+      R"(<p class="save"><a class="button" download="result.json" href="{}">Save result.json</a> <a
+class="button" download="result.csv" href="{}">Save result.csv</a></p>
+)",
       data_uri("application/json", in.json), data_uri("text/csv", in.csv));
 }
 
@@ -135,7 +135,12 @@ std::string saving(const PageInput& in) {
 
 std::string shown_light_name(const Comparison& c, std::size_t index) {
   const std::string& name = light_of(c, c.lights[index]).name;
-  return name.empty() ? fmt::format("light {}", c.lights[index].light + 1) : name;
+  const std::uint32_t number = c.lights[index].light + 1;
+  if (name.empty()) return fmt::format("light {}", number);
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    if (i != index && light_of(c, c.lights[i]).name == name)
+      return fmt::format("{} (light {})", name, number);
+  return name;
 }
 
 std::string light_key(std::size_t index, std::string_view rest) {
@@ -143,18 +148,26 @@ std::string light_key(std::size_t index, std::string_view rest) {
 }
 
 std::string picture(const EncodedPicture& encoded, std::string_view alt, std::string_view id) {
-  return fmt::format("<img{} src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+  return fmt::format(R"(<img{} src="{}" width="{}" height="{}" alt="{}">)",
                      id.empty() ? std::string() : fmt::format(" id=\"{}\"", id),
                      data_uri("image/png", encoded.png), encoded.size.width, encoded.size.height,
                      escaped(alt));
 }
 
+std::string scroll_region(std::string_view label, std::string_view content) {
+  return fmt::format(R"(<div class="scroll" role="region" tabindex="0" aria-label="{}">{}</div>
+)",
+                     label, content);
+}
+
 std::string cost_section(const PageInput& in) {
-  return "<section id=\"cost\" aria-labelledby=\"cost-title\">\n<h2 id=\"cost-title\">Time and "
-         "work</h2>\n<p>Wall-clock "
-         "medians on this machine, each pass finished before the clock stops.</p>\n" +
-         time_table(in) + "<div class=\"columns\">\n<div>" + work_table(in.comparison) + "</div>\n<div>" +
-         whole_table(in) + "</div>\n</div>\n</section>\n";
+  return R"(<section id="cost" aria-labelledby="cost-title">
+<h2 id="cost-title">Time and work</h2>
+<p>Wall-clock medians on this machine, each pass finished before the clock stops.</p>
+)" + time_table(in) +
+         R"(<div class="columns">
+<div>)" + work_table(in.comparison) +
+         "</div>\n<div>" + whole_table(in) + "</div>\n</div>\n</section>\n";
 }
 
 std::string effects_section(const PageInput& in) {
@@ -166,7 +179,8 @@ std::string effects_section(const PageInput& in) {
     const std::string_view state = e.simulated    ? "simulated"
                                    : e.called_for ? "asked for, not simulated"
                                                   : "not needed";
-    rows += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
+    rows += fmt::format(R"(<tr class="{}"><th scope="row">{}</th><td>{}</td><td>{}</td></tr>
+)",
                         e.simulated    ? "on"
                         : e.called_for ? "lacking"
                                        : "off",
@@ -174,17 +188,17 @@ std::string effects_section(const PageInput& in) {
   }
   std::string notes;
   for (const std::string& note : c.world->scene->notes) notes += "<li>" + escaped(note) + "</li>\n";
-  return "<section id=\"effects\" aria-labelledby=\"effects-title\">\n<h2 id=\"effects-title\">What was "
-         "simulated</h2>\n"
-         "<p>Only what the scene calls for runs; the rest costs nothing.</p>\n<div class=\"scroll\" "
-         "role=\"region\" "
-         "tabindex=\"0\" aria-label=\"Effects\"><table class=\"effects\"><thead><tr><th "
-         "scope=\"col\">effect</th><th "
-         "scope=\"col\">here</th><th scope=\"col\">because</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n" +
-         (notes.empty() ? ""
-                        : "<h3>Notes on the scene file</h3>\n<ul class=\"notes\">\n" + notes + "</ul>\n") +
-         "</section>\n";
+  if (!notes.empty()) notes = "<h3>Notes on the scene file</h3>\n<ul class=\"notes\">\n" + notes + "</ul>\n";
+  const std::string table =
+      R"(<table class="effects"><thead><tr><th scope="col">effect</th><th scope="col">here</th>
+<th scope="col">because</th></tr></thead><tbody>
+)" + rows +
+      "</tbody></table>";
+  return R"(<section id="effects" aria-labelledby="effects-title">
+<h2 id="effects-title">What was simulated</h2>
+<p>Only what the scene calls for runs; the rest costs nothing.</p>
+)" + scroll_region("Effects", table) +
+         notes + "</section>\n";
 }
 
 std::string provenance_section(const PageInput& in) {
@@ -200,11 +214,13 @@ std::string provenance_section(const PageInput& in) {
   out += text_entry("OpenGL", fmt::format("{} through {}: {}", c.raster.context.version,
                                           c.raster.context.backend, c.raster.context.renderer));
   out += entry("Exposure of both pictures", keyed("exposure", c.exposure, plain_number(c.exposure)));
-  return "<section id=\"provenance\" aria-labelledby=\"provenance-title\">\n<h2 "
-         "id=\"provenance-title\">Where this comes "
-         "from</h2>\n<p class=\"command\"><code>" +
-         escaped(c.command) + "</code></p>\n<dl class=\"provenance\">\n" + out + "</dl>\n" + saving(in) +
-         "</section>\n";
+  return R"(<section id="provenance" aria-labelledby="provenance-title">
+<h2 id="provenance-title">Where this comes from</h2>
+<p class="command"><code>)" +
+         escaped(c.command) + R"(</code></p>
+<dl class="provenance">
+)" + out +
+         "</dl>\n" + saving(in) + "</section>\n";
 }
 
 }  // namespace gnomon::compare

@@ -14,7 +14,7 @@ namespace gnomon::compare {
 namespace {
 
 constexpr double width = 760.0, height = 340.0;  // of the bias chart, SVG units (CSS pixels when not scaled)
-constexpr double left = 58.0, right = 126.0, top = 40.0,
+constexpr double left = 58.0, right = 152.0, top = 40.0,
                  bottom = 56.0;  // margins; names of curves on the right
 
 // Maps the chart's data to SVG units.
@@ -26,12 +26,12 @@ struct Scale {
 };
 
 std::string vertical(double x, std::string_view kind) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.0f}\" y2=\"{:.0f}\"/>", kind, x,
-                     x, top, height - bottom);
+  return fmt::format(R"(<line class="{}" x1="{:.1f}" x2="{:.1f}" y1="{:.0f}" y2="{:.0f}"/>)", kind, x, x, top,
+                     height - bottom);
 }
 
 std::string label(double x, double y, std::string_view kind, std::string_view text) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", kind, x, y, escaped(text));
+  return fmt::format(R"(<text class="{}" x="{:.1f}" y="{:.1f}">{}</text>)", kind, x, y, escaped(text));
 }
 
 // One row of ticks below the plot, in multiples of `unit` world units, its name at the right end.
@@ -39,17 +39,17 @@ std::string bias_ticks(const Scale& scale, double unit, double below, std::strin
   std::string out;
   const double y = height - bottom + below;
   for (const double v : nice_ticks(scale.min_x / unit, scale.max_x / unit, 6)) {
-    out += fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>",
+    out += fmt::format(R"(<line class="mark" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}"/>)",
                        scale.x(v * unit), y - 15, y - 11);
     out += label(scale.x(v * unit), y, "tick middle", fmt::format("{:.3g}", v));
   }
-  return out + label(width - right + 8, y, "tick", name);
+  return out + label(width - right + 26, y, "tick", name);
 }
 
 std::string axes(const Scale& scale, double texel_world) {
   std::string out;
   for (const double v : nice_ticks(0.0, scale.max_y, 4)) {
-    out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
+    out += fmt::format(R"(<line class="grid" x1="{:.0f}" x2="{:.0f}" y1="{:.1f}" y2="{:.1f}"/>)", left,
                        width - right, scale.y(v), scale.y(v));
     out += label(left - 8, scale.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
   }
@@ -64,7 +64,7 @@ std::string curve(const LightComparison& light, const Scale& scale, std::string_
   for (const BiasCurvePoint& p : light.bias_curve)
     fmt::format_to(std::back_inserter(points), "{}{:.1f},{:.1f}", points.empty() ? "" : " ", scale.x(p.bias),
                    scale.y(value(p)));
-  return fmt::format("<polyline class=\"curve {}\" points=\"{}\"/>", kind, points);
+  return fmt::format(R"(<polyline class="curve {}" points="{}"/>)", kind, points);
 }
 
 // Names at the curves' right ends, moved apart so that they do not overlap.
@@ -88,17 +88,14 @@ std::string curve_names(const LightComparison& light, const Scale& scale, double
   return out;
 }
 
-// The interval between what lit and what shadowed pixels need.
-std::string interval(const LightComparison& light, const Scale& scale, std::string_view id) {
-  const BestBias& b = light.best_bias;
-  if (!b.feasible && std::isinf(b.needs_less_than)) return "";
-  const double from = scale.clamp_x(std::min(b.needs_more_than, b.needs_less_than));
-  const double to = scale.clamp_x(std::max(b.needs_more_than, b.needs_less_than));
-  const std::string fill = b.feasible ? "class=\"feasible\"" : fmt::format("fill=\"url(#{}-hatch)\"", id);
-  return fmt::format("<rect {} x=\"{:.1f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.0f}\"/>", fill, from,
+// The interval of biases that make every compared pixel right, where there is one.
+std::string feasible_interval(const BestBias& best, const Scale& scale) {
+  if (!best.feasible) return "";
+  const double from = scale.clamp_x(best.needs_more_than), to = scale.clamp_x(best.needs_less_than);
+  return fmt::format(R"(<rect class="feasible" x="{:.1f}" y="{:.0f}" width="{:.1f}" height="{:.0f}"/>)", from,
                      top, std::max(1.0, to - from), height - top - bottom) +
-         label(std::clamp((from + to) / 2, left + 70, width - right - 70), top - 24, "note middle",
-               b.feasible ? "right everywhere" : "pixels contradict each other");
+         label(std::clamp((from + to) / 2, left + 60, width - right - 60), top - 24, "note middle",
+               "right everywhere");
 }
 
 std::string description(const LightComparison& light, double used_bias) {
@@ -135,20 +132,17 @@ std::string waterfall_bar(double from, double to, double min, double max, std::s
   const auto x = [&](double v) { return max > min ? 1000.0 * (v - min) / (max - min) : 500.0; };
   const double a = std::min(x(from), x(to)), b = std::max(x(from), x(to));
   return fmt::format(
-      "<svg class=\"bar\" viewBox=\"0 0 1000 24\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
-      "focusable=\"false\">"
-      "<line class=\"zero\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"0\" y2=\"24\"/>"
-      "<line class=\"link\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"0\" y2=\"5\"/>"
-      "<line class=\"link\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"19\" y2=\"24\"/>"
-      "<rect class=\"{}\" x=\"{:.1f}\" y=\"5\" width=\"{:.1f}\" height=\"14\"/></svg>",
+      R"(<svg class="bar" viewBox="0 0 1000 24" preserveAspectRatio="none" aria-hidden="true"
+focusable="false"><line class="zero" x1="{:.1f}" x2="{:.1f}" y1="0" y2="24"/><line class="link"
+x1="{:.1f}" x2="{:.1f}" y1="0" y2="5"/><line class="link" x1="{:.1f}" x2="{:.1f}" y1="19"
+y2="24"/><rect class="{}" x="{:.1f}" y="5" width="{:.1f}" height="14"/></svg>)",
       x(0.0), x(0.0), x(from), x(from), x(to), x(to), kind, a, std::max(b - a, 1.5));
 }
 
 std::string share_bar(double share, std::string_view kind) {
   return fmt::format(
-      "<svg class=\"bar\" viewBox=\"0 0 1000 24\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
-      "focusable=\"false\">"
-      "<rect class=\"{}\" x=\"0\" y=\"7\" width=\"{:.1f}\" height=\"10\"/></svg>",
+      R"(<svg class="bar" viewBox="0 0 1000 24" preserveAspectRatio="none" aria-hidden="true"
+focusable="false"><rect class="{}" x="0" y="7" width="{:.1f}" height="10"/></svg>)",
       kind, share > 0.0 ? std::max(1000.0 * std::min(share, 1.0), 1.5) : 0.0);
 }
 
@@ -164,13 +158,10 @@ std::string bias_chart(const LightComparison& light, double used_bias, std::stri
                     std::max(1.05 * highest, 1e-9)};
   if (!(scale.max_x > scale.min_x)) return "";
   std::string svg = fmt::format(
-      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-labelledby=\"{}-title {}-desc\">"
-      "<title id=\"{}-title\">Wrong pixels at every constant bias</title><desc id=\"{}-desc\">{}</desc>"
-      "<defs><pattern id=\"{}-hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-      "patternTransform=\"rotate(45)\"><line class=\"hatch\" x1=\"0\" y1=\"0\" x2=\"0\" "
-      "y2=\"7\"/></pattern></defs>",
-      width, height, id, id, id, id, escaped(description(light, used_bias)), id);
-  svg += interval(light, scale, id) + axes(scale, light.texel_world[1]);
+      R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-labelledby="{}-title {}-desc"><title
+id="{}-title">Wrong pixels at every constant bias</title><desc id="{}-desc">{}</desc>)",
+      width, height, id, id, id, id, escaped(description(light, used_bias)));
+  svg += feasible_interval(light.best_bias, scale) + axes(scale, light.texel_world[1]);
   svg += curve(light, scale, "total", [&](const BiasCurvePoint& p) { return total(p) / compared; });
   svg += curve(light, scale, "false",
                [&](const BiasCurvePoint& p) { return static_cast<double>(p.false_shadow) / compared; });
@@ -183,13 +174,12 @@ std::string depth_scale(std::string_view id) {
   std::string stops;
   for (int i = 0; i <= 8; ++i) {
     const glm::u8vec3 c = viridis(i / 8.0);
-    stops += fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", i / 8.0, hex_colour(c.r, c.g, c.b));
+    stops += fmt::format(R"(<stop offset="{}" stop-color="{}"/>)", i / 8.0, hex_colour(c.r, c.g, c.b));
   }
   return fmt::format(
-      "<svg class=\"scale\" viewBox=\"0 0 200 12\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
-      "focusable=\"false\">"
-      "<defs><linearGradient id=\"{}\">{}</linearGradient></defs>"
-      "<rect width=\"200\" height=\"12\" fill=\"url(#{})\"/></svg>",
+      R"svg(<svg class="scale" viewBox="0 0 200 12" preserveAspectRatio="none" aria-hidden="true"
+focusable="false"><defs><linearGradient id="{}">{}</linearGradient></defs><rect width="200"
+height="12" fill="url(#{})"/></svg>)svg",
       id, stops, id);
 }
 

@@ -20,7 +20,7 @@ std::string waterfall_bar(double from, double to, double min, double max, std::s
 std::string share_bar(double share, std::string_view kind);
 
 /// Wrong pixels against the constant bias: false shadow, missed shadow and their sum; the best bias, the bias
-/// used, and the interval where a bias is right everywhere or where pixels contradict each other.
+/// used, and the interval where a bias is right everywhere.
 std::string bias_chart(const LightComparison& light, double used_bias, std::string_view id);
 
 /// Viridis from far (left) to near (right).

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 
 #include "compare/number_text.h"
@@ -31,6 +32,18 @@ std::string escaped(std::string_view text) {
         out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
     }
   return out;
+}
+
+std::string flowing(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool after_digit = i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1])) != 0;
+    if (text[i] == ' ' && after_digit)
+      out += "\u00a0";
+    else
+      out += text[i];
+  }
+  return escaped(out);
 }
 
 std::string base64(std::string_view bytes) {

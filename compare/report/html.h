@@ -10,6 +10,8 @@ namespace gnomon::compare {
 
 /// Text for element content and quoted attributes. Control characters become spaces.
 std::string escaped(std::string_view text);
+/// The same, with numbers held together with the word behind them ("4.1 %" does not break).
+std::string flowing(std::string_view text);
 std::string base64(std::string_view bytes);
 std::string data_uri(std::string_view mime, std::string_view bytes);
 /// JSON text that may stand inside <script>: no '<' is left in it.

@@ -54,7 +54,7 @@ std::string raster_caption(const Comparison& c) {
 
 std::string raytraced_caption(const Comparison& c) {
   if (c.lights.empty()) return "<b>Ray tracer</b>, exact shadows";
-  return fmt::format("<b>Ray tracer</b>, exact shadows: {} for the shadow rays, {} for the primary rays",
+  return fmt::format("<b>Ray tracer</b>, exact shadows: {} for shadow rays, {} for primary rays",
                      shadow_time(c, "shadow_rays", ray_times),
                      timed("times_ms.primary_rays", c.raytraced.primary_rays));
 }
@@ -84,29 +84,34 @@ std::string map_text(const Comparison& c) {
 std::string setting_line(const Comparison& c) {
   const ImageSize size = c.raster.options.size;
   return fmt::format(
-      "<p class=\"setting\">{}\u202f\u00d7\u202f{} pixels <span aria-hidden=\"true\">\u00b7</span> {} "
-      "<span aria-hidden=\"true\">\u00b7</span> {} triangles, {} shapes</p>\n",
+      R"(<p class="setting">{} × {} pixels <span aria-hidden="true">·</span> {} <span
+aria-hidden="true">·</span> {} triangle{}, {} shape{}</p>
+)",
       size.width, size.height, escaped(map_text(c)),
-      keyed_count("scene.triangles", c.world->triangle_count()),
-      keyed_count("scene.shapes", c.world->shapes.size()));
+      keyed_count("scene.triangles", c.world->triangle_count()), c.world->triangle_count() == 1 ? "" : "s",
+      keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s");
 }
 
 std::string card(const PageInput& in, std::size_t i) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[i];
-  const std::string title =
-      c.lights.size() > 1 ? fmt::format("<p class=\"eyebrow\">Light: <a href=\"#light-{}\">{}</a></p>\n", i,
-                                        escaped(shown_light_name(c, i)))
-                          : std::string();
-  const std::string budget = light.pixels.compared == 0
-                                 ? std::string()
-                                 : fmt::format(
-                                       "<div class=\"card-budget\"><p class=\"eyebrow\">Where the error "
-                                       "comes from: mean visibility, drawn minus true. Left is darker, right "
-                                       "lighter.</p>\n{}</div>\n",
-                                       budget_table(light, i));
-  return fmt::format("<div class=\"card\"><div>{}<p class=\"verdict\">{}</p></div>{}</div>\n", title,
-                     escaped(verdict_sentence(c, light)), budget);
+  const std::string title = c.lights.size() > 1
+                                ? fmt::format(R"(<p class="eyebrow">Light: <a href="#light-{}">{}</a></p>
+)",
+                                              i, escaped(shown_light_name(c, i)))
+                                : std::string();
+  const std::string budget =
+      light.pixels.compared == 0
+          ? std::string()
+          : fmt::format(
+                R"(<div class="card-budget"><p class="eyebrow">Where the error comes from: mean visibility, drawn
+minus true. Left is darker, right lighter.</p>
+{}</div>
+)",
+                budget_table(light, i));
+  return fmt::format(R"(<div class="card"><div>{}<p class="verdict">{}</p></div>{}</div>
+)",
+                     title, flowing(verdict_sentence(c, light)), budget);
 }
 
 }  // namespace
@@ -123,16 +128,18 @@ std::string budget_table(const LightComparison& light, std::size_t index) {
     if (light.budget[k].absolute_mean == 0.0) continue;
     const double step = light.budget[k].signed_mean;
     rows +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td class=\"wide\">{}</td><td class=\"n\">{}</td></tr>\n",
+        fmt::format(R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td></tr>
+)",
                     step_text(static_cast<Cause>(k)).name,
                     waterfall_bar(running[k], running[k + 1], low, high, step < 0.0 ? "minus" : "plus"),
                     keyed(light_key(index, fmt::format("budget.{}.signed", k)), step, signed_number(step)));
   }
   return fmt::format(
-      "<table class=\"budget\"><thead class=\"quiet\"><tr><th scope=\"col\">step</th><th "
-      "scope=\"col\">adds</th>"
-      "<th scope=\"col\">mean</th></tr></thead><tbody>\n{}<tr class=\"sum\"><th scope=\"row\">sum</th>"
-      "<td class=\"wide\">{}</td><td class=\"n\">{}</td></tr></tbody></table>\n",
+      R"(<table class="budget"><thead class="quiet"><tr><th scope="col">step</th><th
+scope="col">adds</th><th scope="col">mean</th></tr></thead><tbody>
+{}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td
+class="n">{}</td></tr></tbody></table>
+)",
       rows, waterfall_bar(0.0, running.back(), low, high, "sum"),
       signed_number(means.back() - means.front()));
 }
@@ -140,10 +147,12 @@ std::string budget_table(const LightComparison& light, std::size_t index) {
 std::string overview_section(const PageInput& in) {
   const Comparison& c = in.comparison;
   const std::string name = c.world->scene->name;
-  std::string out =
-      fmt::format("<section id=\"overview\" aria-labelledby=\"title\">\n<h1 id=\"title\">{}</h1>\n{}",
-                  escaped(name.empty() ? "Scene without a name" : name), setting_line(c));
-  out += "<div class=\"pair\">\n";
+  std::string out = fmt::format(R"(<section id="overview" aria-labelledby="title">
+<h1 id="title">{}</h1>
+{})",
+                                escaped(name.empty() ? "Scene without a name" : name), setting_line(c));
+  out += R"(<div class="pair">
+)";
   out += figure(in.pictures.raster, "picture-raster",
                 "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c));
   out += figure(in.pictures.raytraced, "picture-raytraced", "The same view ray traced, with exact shadows.",
@@ -151,7 +160,8 @@ std::string overview_section(const PageInput& in) {
   out += "</div>\n";
   for (std::size_t i = 0; i < c.lights.size(); ++i) out += card(in, i);
   if (c.lights.empty())
-    out += "<p class=\"verdict\">The scene has no light: there is no shadow to compare.</p>\n";
+    out += R"(<p class="verdict">The scene has no light: there is no shadow to compare.</p>
+)";
   return out + "</section>\n";
 }
 

@@ -38,23 +38,30 @@ std::string title(const Comparison& c) {
 
 std::string head(const Comparison& c) {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<link rel=\"icon\" "
-      "href=\"data:,\">\n"
-      "<style>{}</style>\n</head>\n",
+      R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{}</title>
+<link rel="icon" href="data:,">
+<style>{}</style>
+</head>
+)",
       security_policy(), escaped(title(c)), embedded::report("report.css"));
 }
 
 std::string navigation(const Comparison& c) {
-  std::string links = "<li><a href=\"#overview\">Overview</a></li>";
+  std::string links = R"(<li><a href="#overview">Overview</a></li>)";
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    links += fmt::format("<li><a href=\"#light-{}\">Light: {}</a></li>", i, escaped(shown_light_name(c, i)));
+    links += fmt::format(R"(<li><a href="#light-{}">Light: {}</a></li>)", i, escaped(shown_light_name(c, i)));
   links +=
-      "<li><a href=\"#cost\">Time and work</a></li><li><a href=\"#effects\">Effects</a></li>"
-      "<li><a href=\"#provenance\">Provenance</a></li>";
-  return "<header class=\"bar-top\"><span class=\"brand\">Gnomon</span>\n<nav aria-label=\"Sections\"><ul>" +
+      R"(<li><a href="#cost">Time and work</a></li><li><a href="#effects">Effects</a></li><li><a
+href="#provenance">Provenance</a></li>)";
+  return R"(<header class="bar-top"><span class="brand">Gnomon</span>
+<nav aria-label="Sections"><ul>)" +
          links + "</ul></nav></header>\n";
 }
 
@@ -62,12 +69,13 @@ std::string navigation(const Comparison& c) {
 
 std::string report_page(const PageInput& in) {
   const Comparison& c = in.comparison;
-  std::string page =
-      head(c) + "<body>\n<a class=\"skip\" href=\"#overview\">Skip to the report</a>\n" + navigation(c);
+  std::string page = head(c) + R"(<body>
+<a class="skip" href="#overview">Skip to the report</a>
+)" + navigation(c);
   page += "<main>\n" + overview_section(in);
   for (std::size_t i = 0; i < c.lights.size(); ++i) page += light_section(in, i);
   page += cost_section(in) + effects_section(in) + provenance_section(in) + "</main>\n";
-  page += "<script type=\"application/json\" id=\"result\">" + script_safe(in.json) + "</script>\n";
+  page += R"(<script type="application/json" id="result">)" + script_safe(in.json) + "</script>\n";
   page.append("<script>").append(embedded::report("report.js")).append("</script>\n</body>\n</html>\n");
   return page;
 }

@@ -18,13 +18,17 @@ std::string effects_section(const PageInput& input);
 /// Where the numbers come from, and the files.
 std::string provenance_section(const PageInput& input);
 
-/// The name that the page gives a light: as in the file, or "light 2" where it has none. Not escaped.
+/// The name that the page gives a light: as in the file, "light 2" where it has none, both where two share
+/// one. Not escaped.
 std::string shown_light_name(const Comparison& comparison, std::size_t index);
 /// "lights.0.error.wrong": a key in result.json.
 std::string light_key(std::size_t index, std::string_view rest);
 
 /// <img> with its size, so that the page does not jump. `id` may be empty.
 std::string picture(const EncodedPicture& encoded, std::string_view alt, std::string_view id);
+/// A block that scrolls sideways where the page is narrow, by keyboard too; `label` must be unique on the
+/// page.
+std::string scroll_region(std::string_view label, std::string_view content);
 /// The budget as a waterfall that adds up: one row per step that changes anything, and the sum.
 std::string budget_table(const LightComparison& light, std::size_t index);
 

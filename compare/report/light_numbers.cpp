@@ -1,0 +1,155 @@
+// The numbers of one light: the ladder, every constant bias, edges and gaps, the depth map.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "compare/output_parts.h"
+#include "compare/report/charts.h"
+#include "compare/report/explanations.h"
+#include "compare/report/html.h"
+#include "compare/report/light_block.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string ladder_step(const LightBlock& b, std::size_t k) {
+  const BudgetStep& step = b.light.budget[k];
+  return fmt::format(
+      R"(<td>{}</td><td class="n">{}</td><td class="n">{}</td>)", step_text(static_cast<Cause>(k)).name,
+      keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean, signed_number(step.signed_mean)),
+      keyed(b.key(fmt::format("budget.{}.absolute", k)), step.absolute_mean,
+            unsigned_number(step.absolute_mean)));
+}
+
+std::string bias_words(const LightBlock& b) {
+  const BestBias& best = b.light.best_bias;
+  const auto value = [&b](std::string_view key, double v) {
+    return keyed(b.key(fmt::format("best_bias.{}", key)), v, plain_number(v));
+  };
+  const double texel = b.light.texel_world[1];
+  std::string text = fmt::format(
+      R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one, is
+larger than the bias. Sorting the gaps of one render gives the exact error of every constant bias.
+The best is {}{}, which leaves {} wrong.)",
+      value("constant_world", best.constant_world),
+      texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
+      keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
+  if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
+  text += " No constant bias can be right everywhere: ";
+  if (!std::isfinite(best.needs_less_than))
+    return text + "some shadowed pixels find no caster stored in the map.";
+  return text + fmt::format("{} lit pixels need {} or more, {} shadowed pixels need less than {}.",
+                            keyed_count(b.key("best_bias.lit_pixels_above"), best.lit_pixels_above),
+                            value("needs_more_than", best.needs_more_than),
+                            keyed_count(b.key("best_bias.shadowed_pixels_below"), best.shadowed_pixels_below),
+                            value("needs_less_than", best.needs_less_than));
+}
+
+std::string fact(std::string_view name, const std::string& value, const std::string& what) {
+  return fmt::format("<div><dt>{}</dt><dd class=\"big\">{}</dd><dd>{}</dd></div>\n", name, value, what);
+}
+
+std::string fact_value(const LightBlock& b, std::string_view key, double value) {
+  return keyed(b.key(key), value, plain_number(value));
+}
+
+std::string edge_facts(const LightBlock& b) {
+  const EdgeStats& e = b.light.edges;
+  if (e.edges == 0) return "";
+  return fact("Edge error", fact_value(b, "edges.rms_texels", e.rms_texels) + " texels",
+              fmt::format("root mean square over {} true edge pixels; {} pixels on the screen",
+                          keyed_count(b.key("edges.count"), e.edges),
+                          fact_value(b, "edges.rms_pixels", e.rms_pixels))) +
+         fact("Edge offset", fact_value(b, "edges.mean_texels", e.mean_texels) + " texels",
+              fmt::format("on average the drawn shadow is {} than the true one",
+                          e.mean_texels >= 0.0 ? "larger" : "smaller"));
+}
+
+std::string detachment_fact(const LightBlock& b) {
+  const Detachment& d = b.light.detachment;
+  if (d.pixels == 0) return "";
+  return fact("Detachment", fact_value(b, "detachment.mean_world", d.mean_world),
+              fmt::format("world units from caster to drawn shadow on {} pixels, {} at most",
+                          keyed_count(b.key("detachment.pixels"), d.pixels),
+                          fact_value(b, "detachment.max_world", d.max_world)));
+}
+
+std::string texel_fact(const LightBlock& b) {
+  const auto& [least, median, most] = b.light.texel_world;
+  return fact("Texel width", fact_value(b, "map.texel_world.median", median),
+              least == most ? std::string("world units, everywhere")
+                            : fmt::format("world units, median; from {} to {} over the compared surface",
+                                          fact_value(b, "map.texel_world.min", least),
+                                          fact_value(b, "map.texel_world.max", most)));
+}
+
+}  // namespace
+
+std::string ladder_block(const LightBlock& b) {
+  const auto means = rung_means(b.light);
+  std::string rows;
+  for (std::size_t k = 0; k < rung_count; ++k) {
+    const RungText& rung = rung_text(static_cast<Rung>(k));
+    rows += fmt::format(
+        R"(<tr><th scope="row"><i>V</i><sub>{}</sub> {}<small>{}</small></th><td class="n">{}</td>{}</tr>
+)",
+        k, rung.name, rung.what,
+        keyed(b.key(fmt::format("ladder.{}.mean", k)), means[k], fmt::format("{:.4f}", means[k])),
+        k == 0 ? "<td></td><td></td><td></td>" : ladder_step(b, k - 1));
+  }
+  const std::string table = fmt::format(
+      R"(<table class="ladder"><thead><tr><th scope="col">visibility</th><th scope="col" class="n">mean</th>
+<th scope="col">charged to</th><th scope="col" class="n">signed step</th>
+<th scope="col" class="n">absolute</th></tr></thead><tbody>
+{}<tr class="sum"><th scope="row">sum of the steps</th><td></td><td></td><td class="n">{}</td><td></td></tr>
+</tbody></table>)",
+      rows, signed_number(means.back() - means.front()));
+  return R"(<h3>The ladder, from the truth to what was drawn</h3>
+<p>Each rung changes one thing. The signed steps add up to the whole difference, exactly; an
+absolute step much larger than its signed one is error that cancels out on average, but not in the
+picture.</p>
+)" + scroll_region("The ladder of light " + std::to_string(b.index + 1), table);
+}
+
+std::string bias_block(const LightBlock& b) {
+  const double used = drawn_record(b.in.comparison, b.light).bias_constant_world;
+  const std::string chart = bias_chart(b.light, used, fmt::format("bias-{}", b.index));
+  if (chart.empty()) return "";
+  return "<h3>Every constant bias, from this one render</h3>\n<p>" + bias_words(b) + "</p>\n" +
+         scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
+                       chart);
+}
+
+std::string facts_block(const LightBlock& b) {
+  const ErrorStats& error = b.light.error;
+  return R"(<h3>How far, how visible</h3>
+<dl class="facts">
+)" + edge_facts(b) +
+         detachment_fact(b) + texel_fact(b) +
+         fact("FLIP", fact_value(b, "error.flip", error.flip),
+              "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
+              "entirely") +
+         fact("Mean error", fact_value(b, "error.mean_absolute", error.mean_absolute),
+              fmt::format("mean |<i>V</i><sub>6</sub> \u2212 <i>V</i><sub>0</sub>|; root mean square {}",
+                          fact_value(b, "error.rms", error.rms))) +
+         "</dl>\n";
+}
+
+std::string depth_map_block(const LightBlock& b) {
+  const LightPictures& pictures = b.in.pictures.lights[b.index];
+  const LightView& view = drawn_record(b.in.comparison, b.light).map.view;
+  const int step = pictures.depth_map_small_step;
+  return fmt::format(
+      R"(<h3>The depth map</h3>
+<figure class="depth">{}<figcaption><span class="scale-row"><span>far {}</span>{}<span>near {}</span></span>
+Depth from the light in world units; dark grey where nothing is stored.{}{}</figcaption></figure>
+)",
+      picture(pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
+              ""),
+      plain_number(view.far_depth), depth_scale(fmt::format("depth-scale-{}", b.index)),
+      plain_number(view.near_depth),
+      view.face_count > 1 ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z." : "",
+      step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "");
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,181 @@
+// The report page in a real browser. Needs node, tests/browser (npm ci) and Debian's chromium-headless-shell; what is
+// missing is said, and the test is skipped (exit 77). Usage: node report_browser_test.mjs SAMPLE_PROGRAM WORK_FOLDER
+//
+// Per sample page: nothing in the console, no request, no axe-core violation in light and dark, every number equal to
+// result.json, readable without scripts, no sideways scrolling on a phone; then the viewer by keyboard and by mouse.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+function skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+
+const require = createRequire(new URL("browser/package.json", import.meta.url));
+function load(name) {
+  try { return require(name); } catch { return skip(`${name} is not installed: npm ci --prefix tests/browser`); }
+}
+const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
+  || skip("no chromium-headless-shell or chromium in /usr/bin");
+const { chromium } = load("playwright-core");
+const axeSource = load("axe-core").source;
+
+const [sampleProgram, folder] = process.argv.slice(2);
+execFileSync(sampleProgram, [folder], { stdio: "inherit" });
+const browser = await chromium.launch({ executablePath: browserPath });
+
+// Opens a page and collects everything that it must not do.
+async function open(name, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const page = await context.newPage();
+  const url = pathToFileURL(resolve(folder, name, "report.html")).href;
+  page.offences = [];
+  page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
+  page.on("request", (request) => {
+    if (request.url() !== url && !request.url().startsWith("data:")) page.offences.push(`request: ${request.url()}`);
+  });
+  await page.goto(url);
+  if (options.javaScriptEnabled !== false)
+    await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  return page;
+}
+
+async function close(page) {
+  assert.deepEqual(page.offences, []);
+  await page.context().close();
+}
+
+const byKey = (json, key) => key.split(".").reduce((value, part) => value?.[part], json);
+
+// The number that a reader sees, in the unit of result.json.
+function numberShown(text) {
+  const match = text.replaceAll(",", "").replaceAll("\u2212", "-").match(/^([+-]?[\d.]+(?:e[+-]?\d+)?)(?:\s(.*))?$/);
+  if (!match) return null;
+  const units = { "%": 0.01, s: 1000, ms: 1, kB: 1e3, MB: 1e6, GB: 1e9, bytes: 1 };
+  return Number(match[1]) * (units[match[2]] ?? 1);
+}
+
+async function checkNumbers(page, name) {
+  const file = JSON.parse(readFileSync(join(folder, name, "result.json"), "utf8"));
+  const embedded = JSON.parse(await page.locator("#result").textContent());
+  assert.deepEqual(embedded, file, "the embedded result differs from result.json");
+  const shown = await page.locator("data[data-key]").evaluateAll((all) =>
+    all.map((e) => ({ key: e.dataset.key, value: e.getAttribute("value"), text: e.textContent })));
+  assert.ok(shown.length > 30, `only ${shown.length} numbers on the page`);
+  for (const { key, value, text } of shown) {
+    const expected = byKey(file, key);
+    assert.notEqual(expected, undefined, `${key} is not in result.json`);
+    assert.equal(Number(value), expected, `${key} on the page`);
+    const read = numberShown(text);
+    // Texts are rounded to two significant digits or more, or to four decimals.
+    if (read !== null)
+      assert.ok(Math.abs(read - expected) <= Math.max(0.051 * Math.abs(expected), 0.00005), `${key}: ${text} for ${expected}`);
+  }
+  return shown.length;
+}
+
+async function checkAccessibility(name) {
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await open(name, { colorScheme });
+    await page.evaluate(axeSource);
+    const { violations } = await page.evaluate(() => window.axe.run());
+    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${name}, ${colorScheme}`);
+    await close(page);
+  }
+}
+
+async function checkSaving(page, name) {
+  for (const file of ["result.json", "result.csv"]) {
+    const href = await page.locator(`a[download="${file}"]`).getAttribute("href");
+    const text = Buffer.from(href.slice(href.indexOf(",") + 1), "base64").toString("utf8");
+    assert.equal(text, readFileSync(join(folder, name, file), "utf8"), `${file} as saved from the page`);
+  }
+}
+
+async function checkWithoutScripts(name) {
+  const page = await open(name, { javaScriptEnabled: false });
+  await checkNumbers(page, name);
+  assert.equal(await page.locator(".viewer:visible").count(), 0, "the viewer shows without scripts");
+  assert.ok((await page.locator(".verdict").first().textContent()).includes("pixel"));
+  for (const image of await page.locator("main img:visible").all()) {
+    assert.ok((await image.boundingBox()).width > 0);
+    assert.notEqual(await image.getAttribute("alt"), "");
+  }
+  await close(page);
+}
+
+async function checkPhone(name) {
+  const page = await open(name, { viewport: { width: 390, height: 844 } });
+  const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
+  assert.ok(width <= 390, `${name} is ${width} pixels wide on a phone`);
+  await close(page);
+}
+
+async function checkPolicy(page) {
+  const ran = await page.evaluate(() => {
+    const script = document.createElement("script");
+    script.textContent = "window.intruder = true";
+    document.body.append(script);
+    return window.intruder === true;
+  });
+  assert.equal(ran, false, "an inline script that is not the page's own ran");
+  assert.equal(page.offences.splice(0).filter((text) => /Content Security Policy/.test(text)).length, 1);
+}
+
+async function checkViewer() {
+  const page = await open("one");
+  const viewer = page.locator(".viewer").first(), stage = viewer.locator(".stage"), probe = viewer.locator(".probe");
+  const transform = () => stage.locator("img").first().evaluate((e) => e.style.transform);
+  await stage.focus();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await viewer.locator("input[type=range]").inputValue(), "52");
+  await page.keyboard.press("f");
+  assert.equal(await stage.getAttribute("data-mode"), "flip");
+  const front = () => stage.locator(".pane:not(.away) .tag").textContent();
+  const first = await front();
+  await page.keyboard.press("f");
+  assert.notEqual(await front(), first, "F did not flip");
+  await page.keyboard.press("+");
+  assert.match(await transform(), /scale\(1\.5\)/);
+  await page.keyboard.press("0");
+  assert.match(await transform(), /scale\(1\)/);
+  // Pixel (10, 120) of the hand-made picture is acne: (10 + 120) is even, in the first patch.
+  const box = await stage.boundingBox();
+  await stage.hover({ position: { x: (10.5 / 320) * box.width, y: (120.5 / 180) * box.height } });
+  assert.match(await probe.textContent(), /^Pixel 10, 120: acne; rasterized #[0-9a-f]{6}, ray traced #[0-9a-f]{6}$/);
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.match(await probe.textContent(), /^Pixel 11, 120: right/);
+  await viewer.getByRole("button", { name: "Side by side" }).click();
+  const panes = await stage.locator(".pane").evaluateAll((all) => all.map((e) => e.getBoundingClientRect().left));
+  assert.ok(panes[1] > panes[0]);
+  const picture = page.locator("#picture-labels-0"), before = await picture.getAttribute("src");
+  const acne = page.getByRole("button", { name: "acne", exact: true });
+  await acne.click();
+  assert.notEqual(await picture.getAttribute("src"), before, "the label picture did not change");
+  await acne.click();
+  assert.equal(await picture.getAttribute("src"), before);
+  await close(page);
+}
+
+try {
+  for (const name of ["one", "three", "none"]) {
+    const page = await open(name);
+    const numbers = await checkNumbers(page, name);
+    await checkSaving(page, name);
+    if (name === "one") await checkPolicy(page);
+    await close(page);
+    await checkWithoutScripts(name);
+    await checkPhone(name);
+    await checkAccessibility(name);
+    console.log(`${name}: ${numbers} numbers equal to result.json, no violation, no request`);
+  }
+  await checkViewer();
+  console.log("viewer: keys, mouse and labels work");
+} finally {
+  await browser.close();
+}
