@@ -11,23 +11,46 @@
 namespace gnomon::raytrace {
 namespace {
 
+/// Neighbouring columns of one row, which share one descent. The lists do not depend on how keys are grouped:
+/// whatever the boxes leave out, the test of the single column would leave out too.
+struct Strip {
+  int face, row, first, last;  // columns first ... last
+  static constexpr int longest = 8;
+  bool joins(TexelKey key) const {
+    return key.face() == face && key.row() == row && key.column() < first + longest;
+  }
+};
+
 /// A box is kept unless it lies wholly outside one plane: normal . p >= offset for its farthest corner.
-struct BoxColumn {
+class BoxColumn {
+ public:
+  BoxColumn(const LightView& view, const Strip& strip, const Bvh& bvh, double reach) {
+    auto planes = column_planes(view, strip.face, strip.first, strip.row);
+    planes[1] = column_planes(view, strip.face, strip.last, strip.row)[1];
+    for (std::size_t k = 0; k < 4; ++k) sides_[k] = side(planes[k], view.origin, bvh, reach);
+    if (view.projection != LightProjection::perspective) return;
+    const Vec3& forward = view.faces[static_cast<std::size_t>(strip.face)].forward;
+    sides_[count_++] = side({forward, 0.0}, view.origin, bvh, reach);
+  }
+
+  int meet(const BvhNode& node) const {
+    int mask = 15;
+    for (std::size_t k = 0; k < count_ && mask != 0; ++k) {
+      const Side& s = sides_[k];
+      const Float4 sum = Float4::load(node.bounds[s.far_plane[0]]) * Float4::all(s.normal[0]) +
+                         Float4::load(node.bounds[s.far_plane[1]]) * Float4::all(s.normal[1]) +
+                         Float4::load(node.bounds[s.far_plane[2]]) * Float4::all(s.normal[2]);
+      mask &= less_equal_mask(Float4::all(s.offset), sum);
+    }
+    return mask;
+  }
+
+ private:
   struct Side {
     std::array<float, 3> normal;
     std::array<std::size_t, 3> far_plane;  // rows of BvhNode::bounds
     float offset;
   };
-  std::array<Side, 5> sides;
-  std::size_t count = 4;
-
-  BoxColumn(const LightView& view, TexelKey key, const Bvh& bvh, double reach) {
-    const auto planes = column_planes(view, key.face(), key.column(), key.row());
-    for (std::size_t k = 0; k < 4; ++k) sides[k] = side(planes[k], view.origin, bvh, reach);
-    if (view.projection == LightProjection::perspective)
-      sides[count++] =
-          side({view.faces[static_cast<std::size_t>(key.face())].forward, 0.0}, view.origin, bvh, reach);
-  }
 
   // reach: the largest coordinate of a box, from the centre. Eight float roundings in the sum and the normal.
   static Side side(const HalfSpace& plane, const Vec3& origin, const Bvh& bvh, double reach) {
@@ -43,17 +66,8 @@ struct BoxColumn {
     return out;
   }
 
-  int meet(const BvhNode& node) const {
-    int mask = 15;
-    for (std::size_t k = 0; k < count && mask != 0; ++k) {
-      const Side& s = sides[k];
-      const Float4 sum = Float4::load(node.bounds[s.far_plane[0]]) * Float4::all(s.normal[0]) +
-                         Float4::load(node.bounds[s.far_plane[1]]) * Float4::all(s.normal[1]) +
-                         Float4::load(node.bounds[s.far_plane[2]]) * Float4::all(s.normal[2]);
-      mask &= less_equal_mask(Float4::all(s.offset), sum);
-    }
-    return mask;
-  }
+  std::array<Side, 5> sides_;
+  std::size_t count_ = 4;
 };
 
 bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey key) {
@@ -69,7 +83,7 @@ bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey 
          glm::dot(forward, offset) < -(sphere.radius + slack);
 }
 
-/// The list of one column, appended to `out`.
+/// Collects the lists of a run of keys; one per task, for it keeps its buffers.
 class Collector {
  public:
   Collector(const Structures& s, const LightView& view) : s_(s), view_(view) {
@@ -79,28 +93,55 @@ class Collector {
                  : max_component(glm::max(glm::abs(b.min - s.bvh.center), glm::abs(b.max - s.bvh.center)));
   }
 
-  void collect(TexelKey key, std::vector<std::uint32_t>& out) const {
-    const std::size_t first = out.size();
-    const Column column(view_, key.face(), key.column(), key.row());
-    if (s_.bvh.nodes.empty())
-      for (std::uint32_t i = 0; i < s_.bvh.ids.size(); ++i) offer(column, key, i, out);
-    else
-      descend(column, key, out);
-    out.insert(out.end(), s_.planes.begin(), s_.planes.end());
-    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+  /// The lists one after the other in `out`; ends[i] is where the i-th ends.
+  void collect(std::span<const TexelKey> keys, std::span<std::uint64_t> ends,
+               std::vector<std::uint32_t>& out) {
+    for (std::size_t i = 0; i < keys.size();) {
+      Strip strip{keys[i].face(), keys[i].row(), keys[i].column(), keys[i].column()};
+      std::size_t end = i + 1;
+      for (; end < keys.size() && strip.joins(keys[end]); ++end) strip.last = keys[end].column();
+      gather(strip);
+      for (; i < end; ++i) {
+        list(keys[i], out);
+        ends[i] = out.size();
+      }
+    }
   }
 
  private:
-  void descend(const Column& column, TexelKey key, std::vector<std::uint32_t>& out) const {
-    const BoxColumn boxes(view_, key, s_.bvh, reach_);
+  struct Candidate {
+    std::uint32_t id;
+    std::array<LightVertex, 3> corners;  // of a triangle
+  };
+
+  // The primitives that may meet the strip, ascending.
+  void gather(const Strip& strip) {
+    found_.clear();
+    if (s_.bvh.nodes.empty())
+      for (std::uint32_t i = 0; i < s_.bvh.ids.size(); ++i) found_.push_back(i);
+    else
+      descend(BoxColumn(view_, strip, s_.bvh, reach_));
+    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return s_.bvh.ids[a] < s_.bvh.ids[b]; });
+    const Column column(view_, strip.face, strip.first, strip.row);
+    candidates_.resize(found_.size());
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      Candidate& c = candidates_[i];
+      c.id = s_.bvh.ids[found_[i]];
+      if (!s_.world->is_triangle(c.id)) continue;
+      const auto& v = s_.bvh.primitives[found_[i]].v;
+      for (std::size_t k = 0; k < 3; ++k)
+        c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
+    }
+  }
+
+  void descend(const BoxColumn& boxes) {
     std::array<BvhChild, Bvh::stack_size> stack;
     std::size_t size = 0;
     stack[size++] = BvhChild::node(0);
     while (size > 0) {
       const BvhChild child = stack[--size];
       if (child.is_leaf()) {
-        for (std::uint32_t i = child.first(); i < child.first() + child.count(); ++i)
-          offer(column, key, i, out);
+        for (std::uint32_t i = child.first(); i < child.first() + child.count(); ++i) found_.push_back(i);
         continue;
       }
       const BvhNode& node = s_.bvh.nodes[child.index()];
@@ -109,21 +150,26 @@ class Collector {
     }
   }
 
-  void offer(const Column& column, TexelKey key, std::uint32_t index, std::vector<std::uint32_t>& out) const {
-    const std::uint32_t id = s_.bvh.ids[index];
-    if (s_.world->is_triangle(id)) {
-      const auto& v = s_.bvh.primitives[index].v;
-      const std::array<LightVertex, 3> t{column.vertex({v[0], v[1], v[2]}), column.vertex({v[3], v[4], v[5]}),
-                                         column.vertex({v[6], v[7], v[8]})};
-      if (!column.surely_misses(t)) out.push_back(id);
-    } else if (!sphere_surely_misses(std::get<Sphere>(s_.world->shape(id).geometry), view_, key)) {
-      out.push_back(id);
+  void list(TexelKey key, std::vector<std::uint32_t>& out) const {
+    const Column column(view_, key.face(), key.column(), key.row());
+    const std::size_t first = out.size();
+    for (const Candidate& c : candidates_) {
+      const bool misses =
+          s_.world->is_triangle(c.id)
+              ? column.surely_misses(c.corners)
+              : sphere_surely_misses(std::get<Sphere>(s_.world->shape(c.id).geometry), view_, key);
+      if (!misses) out.push_back(c.id);
     }
+    if (s_.planes.empty()) return;
+    out.insert(out.end(), s_.planes.begin(), s_.planes.end());
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   }
 
   const Structures& s_;
   const LightView& view_;
   double reach_;
+  std::vector<std::uint32_t> found_;  // places in leaf order
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace
@@ -140,14 +186,13 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   lists.keys = std::move(keys);
   const std::size_t count = lists.keys.size(), blocks = (count + block - 1) / block;
-  const Collector collector(tracer.structures(), view);
   std::vector<std::vector<std::uint32_t>> found(blocks);
   lists.offsets.assign(count + 1, 0);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i) {
-      collector.collect(lists.keys[i], found[b]);
-      lists.offsets[i + 1] = found[b].size();
-    }
+    const std::size_t begin = b * block, size = std::min(count, begin + block) - begin;
+    Collector(tracer.structures(), view)
+        .collect(std::span(lists.keys).subspan(begin, size),
+                 std::span(lists.offsets).subspan(begin + 1, size), found[b]);
   });
   std::vector<std::uint64_t> first(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + found[b].size();
