@@ -98,7 +98,8 @@ Expected<void> parse(tinygltf::Model& model, std::string_view bytes, bool binary
                                         reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
           : loader.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), length, folder);
   if (!access.problem.empty()) return fail(gltf_error(file, "uri", access.problem));
-  if (!done || !errors.empty()) return fail(gltf_error(file, "", one_line(errors)));
+  const bool is_file = errors.starts_with("File ");  // a buffer's: images that are missing are no error yet
+  if (!done || !errors.empty()) return fail(gltf_error(file, is_file ? "buffers" : "", one_line(errors)));
   return {};
 }
 
@@ -291,12 +292,11 @@ Expected<LoadedFile> build(const tinygltf::Model& model, CheckedGltf checked, co
   loaded.scene.materials.push_back(model_material("default"));
   auto meshes = read_gltf_meshes(loaded.scene, model, *sets, default_material, file);
   if (!meshes) return fail(meshes.error());
-  SceneBuilder(loaded, model, std::move(*meshes)).run();
-  if (loaded.scene.instances.empty()) {
-    std::string reason = "the file has no triangles";
-    for (const std::string& note : loaded.scene.notes) reason += fmt::format("; {}", note);
-    return fail(gltf_error(file, "", reason));
-  }
+  SceneBuilder(loaded, model, std::move(meshes->meshes)).run();
+  if (loaded.scene.instances.empty() && !meshes->skipped_points)
+    return fail(gltf_error(file, "", "the file has no triangles"));
+  if (loaded.scene.instances.empty())
+    loaded.scene.notes.push_back("The file has no triangles: only what was made for it is shown.");
   return loaded;
 }
 

@@ -34,7 +34,7 @@ class GltfMeshReader {
                  const std::string& file)
       : model_(model), sets_(sets), default_material_(default_material), file_(file) {}
 
-  Expected<std::vector<Mesh>> run(Scene& scene) {
+  Expected<GltfMeshes> run(Scene& scene) {
     std::vector<Mesh> meshes;
     for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
       const tinygltf::Mesh& from = model_.meshes[m];
@@ -49,7 +49,7 @@ class GltfMeshReader {
       meshes.push_back(std::move(mesh));
     }
     add_notes(scene);
-    return meshes;
+    return GltfMeshes{std::move(meshes), skipped_ > 0};
   }
 
  private:
@@ -186,9 +186,8 @@ class GltfMeshReader {
 
 }  // namespace
 
-Expected<std::vector<Mesh>> read_gltf_meshes(Scene& scene, const tinygltf::Model& model,
-                                             const TexcoordSets& sets, std::uint32_t default_material,
-                                             const std::string& file) {
+Expected<GltfMeshes> read_gltf_meshes(Scene& scene, const tinygltf::Model& model, const TexcoordSets& sets,
+                                      std::uint32_t default_material, const std::string& file) {
   return GltfMeshReader(model, sets, default_material, file).run(scene);
 }
 

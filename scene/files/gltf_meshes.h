@@ -9,10 +9,13 @@
 
 namespace gnomon {
 
-/// One mesh of ours for each of the model's; a mesh without triangles is empty. Primitives without a material
-/// get `default_material`.
-Expected<std::vector<Mesh>> read_gltf_meshes(Scene& scene, const tinygltf::Model& model,
-                                             const TexcoordSets& sets, std::uint32_t default_material,
-                                             const std::string& file);
+struct GltfMeshes {
+  std::vector<Mesh> meshes;     ///< one for each of the model's; one without triangles is empty
+  bool skipped_points = false;  ///< the model has primitives of points or lines
+};
+
+/// Primitives without a material get `default_material`.
+Expected<GltfMeshes> read_gltf_meshes(Scene& scene, const tinygltf::Model& model, const TexcoordSets& sets,
+                                      std::uint32_t default_material, const std::string& file);
 
 }  // namespace gnomon

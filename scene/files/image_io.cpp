@@ -8,6 +8,7 @@
 #include <array>
 #include <memory>
 
+#include "scene/files/png_check.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
@@ -31,6 +32,7 @@ std::string library_error(const std::string& own) {
 }
 
 struct OpenImage {
+  std::string bytes;                                      // what `memory` reads, where it is not the caller's
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`
   std::unique_ptr<OIIO::ImageInput> input;
 };
@@ -85,6 +87,12 @@ Expected<OpenImage> open_bytes(const std::string& name, std::string_view bytes) 
                        "image in a format that is not known (allowed PNG, JPEG, WebP, BMP, "
                        "EXR, HDR, GIF)");
   OpenImage image;
+  if (format == "png") {
+    auto essential = essential_png(bytes, name);
+    if (!essential) return fail(essential.error());
+    image.bytes = std::move(*essential);
+    bytes = image.bytes;
+  }
   image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
   image.input = OIIO::ImageInput::create(std::string(format));
   OIIO::ImageSpec hints = read_hints();

@@ -166,6 +166,15 @@ void note_skipped(Scene& scene, const ObjSurvey& survey) {
   if (survey.has_vertex_colors) scene.notes.push_back("Vertex colours are not used.");
 }
 
+// Undefined materials and the like.
+void note_warnings(Scene& scene, const std::set<std::string>& warnings) {
+  constexpr std::size_t most = 10;
+  std::size_t count = 0;
+  for (const std::string& warning : warnings)
+    if (count++ < most) scene.notes.push_back(printable(warning, 200));
+  if (count > most) scene.notes.push_back(fmt::format("... and {} more of the kind.", count - most));
+}
+
 // The name of the file's only unnamed object.
 std::string object_name(const std::string& name, const std::string& file, std::size_t index) {
   if (!name.empty()) return name;
@@ -177,6 +186,7 @@ struct ParsedObj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
+  std::set<std::string> warnings;  ///< the library's own, once each
 };
 
 Expected<ParsedObj> parse(const std::string& text, const std::string& file, LibraryReader& libraries) {
@@ -191,6 +201,9 @@ Expected<ParsedObj> parse(const std::string& text, const std::string& file, Libr
     return fail(*libraries.error);
   }
   if (!done) return fail(obj_error(file, first_line(errors)));
+  std::istringstream lines(warnings);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) parsed.warnings.insert(line);
   return parsed;
 }
 
@@ -199,7 +212,7 @@ Expected<ParsedObj> parse(const std::string& text, const std::string& file, Libr
 Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, const std::string& folder,
                               const LoadOptions& options) {
   std::string text(bytes);
-  join_continued_lines(text);
+  blank_continuations_and_comments(text);
   const auto survey = check_obj(text, file);
   if (!survey) return fail(survey.error());
   LibraryReader libraries(folder, options);
@@ -210,6 +223,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
   loaded.is_model = true;
   Scene& scene = loaded.scene;
   scene.notes = libraries.notes;
+  note_warnings(scene, parsed->warnings);
   if (const auto added =
           add_obj_materials(scene, parsed->materials, libraries.without_diffuse, folder, options);
       !added) {

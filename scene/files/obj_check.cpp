@@ -92,15 +92,11 @@ class ObjChecker {
   }
 
   void check_number(std::string_view word, Kind kind) {
-    const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
-    double value = 0.0;
-    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool read = status == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
-    const bool underflow = status == std::errc::result_out_of_range && std::abs(value) < 1.0;
-    if (!read && !underflow)
+    const auto value = parse_decimal(word);
+    if (!value)
       return add(word, "",
                  fmt::format("not a finite number (got {}, allowed for example -1.5e2)", printable(word)));
-    if (kind == vertex && std::abs(value) > max_coordinate)
+    if (kind == vertex && std::abs(*value) > max_coordinate)
       add(word, "",
           fmt::format("coordinate (got {}, allowed up to {:g} in magnitude)", printable(word),
                       max_coordinate));
@@ -166,12 +162,22 @@ class ObjChecker {
 
 }  // namespace
 
-void join_continued_lines(std::string& text) {
+void blank_continuations_and_comments(std::string& text) {
   for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
     const std::size_t end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3 : at + 2;
     if (end > text.size() || text[end - 1] != '\n') continue;
     std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end),
               ' ');
+  }
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find('\n', line), text.size());
+    const std::size_t word = std::min(text.find_first_not_of(" \t", line), end);
+    const std::size_t comment = std::min(text.find('#', line), end);
+    const bool is_data = word < end && std::string_view("vflp").find(text[word]) != std::string_view::npos;
+    if (is_data)
+      std::fill(text.begin() + static_cast<std::ptrdiff_t>(comment),
+                text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    line = end + 1;
   }
 }
 

@@ -18,8 +18,9 @@ struct ObjSurvey {
 
 inline constexpr std::size_t max_polygon_corners = 255;  ///< tinyobjloader counts them in a byte
 
-/// Lines that a backslash continues are joined, in place, with spaces.
-void join_continued_lines(std::string& text);
+/// Joins lines that a backslash continues, and removes comments behind data, both by spaces in place: offsets
+/// stay.
+void blank_continuations_and_comments(std::string& text);
 
 /// Errors: a byte of 0, a coordinate that is not a finite number, an index that is 0 or out of range, a face
 /// of too many corners.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 
@@ -72,14 +71,10 @@ class NumberStream {
     last_ = std::min(begin, bytes_.size());
     if (begin == std::string_view::npos) return missing();
     const std::size_t end = std::min(bytes_.find_first_of(" \t\r\n", begin), bytes_.size());
-    std::string_view word = bytes_.substr(begin, end - begin);
+    const std::string_view word = bytes_.substr(begin, end - begin);
     at_ = end;
-    if (word.front() == '+') word.remove_prefix(1);
-    double value = 0.0;
-    const auto [stop, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool underflow = status == std::errc::result_out_of_range && std::abs(value) < 1.0;
-    if ((status == std::errc() || underflow) && stop == word.data() + word.size()) return value;
-    problem_ = fmt::format("not a number (got {})", printable(word));
+    if (const auto value = parse_decimal(word)) return value;
+    problem_ = fmt::format("not a finite number (got {})", printable(word));
     return std::nullopt;
   }
 

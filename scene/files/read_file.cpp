@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -80,8 +82,26 @@ LineColumn line_column(std::string_view text, std::size_t offset) {
   return at;
 }
 
+std::optional<double> parse_decimal(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const char* const last = word.data() + word.size();
+  const auto [end, status] = std::from_chars(word.data(), last, value);
+  if (end != last || word.empty()) return std::nullopt;
+  if (status == std::errc() && std::isfinite(value)) return value;
+  if (status != std::errc::result_out_of_range) return std::nullopt;
+  // from_chars does not say on which side: only a negative exponent, or a fraction alone, is too small.
+  const std::size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos)
+    return word[exponent + 1] == '-' ? std::optional(0.0) : std::nullopt;
+  return word.find_first_of("123456789") > word.find('.') ? std::optional(0.0) : std::nullopt;
+}
+
 std::string printable(std::string_view text) {
-  constexpr std::size_t longest = 40;
+  return printable(text, 40);
+}
+
+std::string printable(std::string_view text, std::size_t longest) {
   std::string out;
   for (const char c : text.substr(0, longest)) {
     const auto byte = static_cast<unsigned char>(c);

@@ -1,6 +1,7 @@
 // Whole input files, and the paths that they name.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,7 +28,13 @@ struct LineColumn {
 };
 LineColumn line_column(std::string_view text, std::size_t offset);
 
+/// A decimal number in text, "+1.5e2"; a tiny one becomes 0. None when it is not one, not finite or too
+/// large.
+std::optional<double> parse_decimal(std::string_view word);
+
 /// Up to 40 characters of hostile text, with every byte that is not printable ASCII escaped: for messages.
 std::string printable(std::string_view text);
+/// The same for up to `longest` characters.
+std::string printable(std::string_view text, std::size_t longest);
 
 }  // namespace gnomon

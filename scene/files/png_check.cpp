@@ -1,0 +1,90 @@
+#include "scene/files/png_check.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+
+#include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
+
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+// ISO 3309, as the PNG specification's annex D has it.
+std::uint32_t crc(std::string_view bytes) {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> values{};
+    for (std::uint32_t n = 0; n < 256; ++n) {
+      std::uint32_t c = n;
+      for (int bit = 0; bit < 8; ++bit) c = c & 1u ? 0xedb88320u ^ (c >> 1) : c >> 1;
+      values[n] = c;
+    }
+    return values;
+  }();
+  std::uint32_t c = 0xffffffffu;
+  for (const char byte : bytes) c = table[(c ^ static_cast<unsigned char>(byte)) & 0xffu] ^ (c >> 8);
+  return ~c;
+}
+
+tl::unexpected<Error> png_error(const std::string& name, std::string reason) {
+  Error error{ErrorKind::bad_input, std::move(reason)};
+  error.file = name;
+  return fail(std::move(error));
+}
+
+// PNG specification, 11.2.2: sizes, and which depths go with which colour types.
+Expected<void> check_header(std::string_view data, const std::string& name) {
+  if (data.size() != 13) return png_error(name, "the PNG header has a wrong length");
+  const std::uint32_t width = big_endian(data);
+  const std::uint32_t height = big_endian(data.substr(4));
+  if (width < 1 || height < 1 || width > max_image_side || height > max_image_side)
+    return png_error(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", width, height,
+                                       max_image_side, max_image_side));
+  const int depth = data[8], type = data[9];
+  const bool small_depth = depth == 1 || depth == 2 || depth == 4;
+  const bool fits = (depth == 8 && (type == 0 || type == 2 || type == 3 || type == 4 || type == 6)) ||
+                    (depth == 16 && (type == 0 || type == 2 || type == 4 || type == 6)) ||
+                    (small_depth && (type == 0 || type == 3));
+  if (!fits || data[10] != 0 || data[11] != 0 || data[12] < 0 || data[12] > 1)
+    return png_error(name, "the PNG header is not valid");
+  return {};
+}
+
+}  // namespace
+
+Expected<std::string> essential_png(std::string_view bytes, const std::string& name) {
+  if (!bytes.starts_with(signature)) return png_error(name, "not a PNG file");
+  std::string out(signature);
+  bool has_data = false;
+  for (std::size_t at = signature.size(); at < bytes.size();) {
+    if (bytes.size() - at < 12) break;
+    const std::uint32_t length = big_endian(bytes.substr(at));
+    const std::string_view type = bytes.substr(at + 4, 4);
+    if (length > bytes.size() - at - 12)
+      return png_error(name, fmt::format("the PNG file is cut off in its chunk {}", printable(type)));
+    const std::string_view body = bytes.substr(at + 4, 4 + length);
+    const bool first = at == signature.size();
+    if (first != (type == "IHDR")) return png_error(name, "the PNG file does not begin with its header");
+    const bool essential = first || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
+    if (essential && crc(body) != big_endian(bytes.substr(at + 8 + length)))
+      return png_error(name, fmt::format("the PNG file is damaged in its chunk {}", printable(type)));
+    if (first)
+      if (const auto header = check_header(body.substr(4), name); !header) return fail(header.error());
+    if (essential) out += bytes.substr(at, length + 12);
+    if (type == "IDAT") has_data = true;
+    if (type == "IEND" && has_data) return out;
+    at += length + 12;
+  }
+  return png_error(name, "the PNG file is cut off");
+}
+
+}  // namespace gnomon

@@ -1,0 +1,155 @@
+// PLY: the three encodings give the same mesh, and hostile headers and data give one line.
+#include <bit>
+#include <cstring>
+
+#include "scene/load.h"
+#include "scene/world.h"
+#include "scene_files_support.h"
+
+namespace gnomon {
+namespace {
+
+template <class T>
+void put_binary(std::string& out, T value, bool big) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if (big) std::reverse(raw, raw + sizeof(T));
+  out.append(raw, sizeof(T));
+}
+
+std::string header(const std::string& format, const std::string& vertices = "4",
+                   const std::string& faces = "2") {
+  return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " + vertices +
+         "\nproperty double x\nproperty float y\nproperty float z\nproperty float nx\nproperty float "
+         "ny\nproperty float nz\n"
+         "property float s\nproperty float t\nproperty uchar red\nelement face " +
+         faces + "\nproperty uchar flags\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+const double xs[4] = {0.1, 1.0, 1.0, 0.0};
+const float ys[4] = {0, 0, 1, 1};
+
+std::string binary_quad(bool big) {
+  std::string out = header(big ? "binary_big_endian" : "binary_little_endian");
+  for (int i = 0; i < 4; ++i) {
+    put_binary(out, xs[i], big);
+    for (const float v : {ys[i], 0.0f, 0.0f, 0.0f, 1.0f, 0.25f, 0.75f}) put_binary(out, v, big);
+    out += '\x80';
+  }
+  for (const std::array<int, 4>& face : {std::array{4, 0, 1, 2}, std::array{3, 0, 1, 2}}) {
+    out += '\0';
+    out += static_cast<char>(face[0]);
+    for (int i = 0; i < 3; ++i)
+      put_binary(out, static_cast<std::int32_t>(face[static_cast<std::size_t>(i + 1)]), big);
+    if (face[0] == 4) put_binary(out, std::int32_t{3}, big);
+  }
+  return out;
+}
+
+std::string text_quad() {
+  return header("ascii") +
+         "0.1 0 0 0 0 1 0.25 0.75 128\n1 0 0 0 0 1 0.25 0.75 128\n1 1 0 0 0 1 0.25 0.75 128\n0 1 0 0 0 1 "
+         "0.25 0.75 128\n"
+         "0 4 0 1 2 3\n0 3 0 1 2\n";
+}
+
+TEST(Ply, TheThreeEncodingsAgree) {
+  const TemporaryFolder folder;
+  for (const std::string& bytes : {text_quad(), binary_quad(false), binary_quad(true)}) {
+    const auto scene = load_scene(folder.put("m.ply", bytes));
+    ASSERT_TRUE(scene) << scene.error().message();
+    const Mesh& mesh = scene->meshes[0];
+    EXPECT_EQ(mesh.positions[0], Vec3(0.1, 0.0, 0.0));
+    EXPECT_EQ(mesh.positions[2], Vec3(1.0, 1.0, 0.0));
+    EXPECT_EQ(mesh.normals[3], Vec3f(0, 0, 1));
+    EXPECT_EQ(mesh.uvs[1], Vec2f(0.25f, 0.25f));
+    EXPECT_EQ(mesh.triangles.size(), 3u);
+    EXPECT_EQ(scene->notes[0], "Vertex colours are not used.");
+  }
+}
+
+struct PlyMistake {
+  std::string bytes;
+  std::string_view message;  // after the file's path
+};
+
+TEST(Ply, MistakesHaveTheirPlace) {
+  const TemporaryFolder folder;
+  const std::string body = "0 0 0 0 0 1 0 0 1\n1 0 0 0 0 1 0 0 1\n0 1 0 0 0 1 0 0 1\n";
+  const std::string ascii3 = header("ascii", "3", "1") + body;
+  const std::string binary = binary_quad(false);
+  const PlyMistake mistakes[] = {
+      {"", ":1:1: not a PLY file"},
+      {"plx\n", ":1:1: not a PLY file"},
+      {"ply\n", ":1:1: the header does not end"},
+      {"ply\nend_header\n", ":2:1: the header has no format line"},
+      {"ply\nformat ascii 2.0\n", ":2:1: format: unknown version (got \"2.0\", allowed 1.0)"},
+      {"ply\nformat text 1.0\n", ":2:1: format: unknown (got \"text\", allowed ascii"},
+      {"ply\nformat ascii 1.0\nelement vertex -1\n",
+       ":3:1: vertex: element count (got \"-1\", allowed a whole number from 0)"},
+      {"ply\nformat ascii 1.0\nproperty float x\n", ":3:1: a property before any element"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\n",
+       ":4:1: unknown property type (got \"vec3\""},
+      {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\n",
+       ":4:1: type of a list's length (got \"float\""},
+      {"ply\nformat ascii 1.0\nelemnt vertex 1\n", ":3:1: unknown header line (got \"elemnt\""},
+      {header("ascii", "1000000000000", "1") + body,
+       ":4:1: vertex: more elements than the file has data for (got 1000000000000, allowed at most 3)"},
+      {header("binary_little_endian", "1000000000000", "1") + body, ":4:1: vertex: more elements"},
+      {header("ascii", "99999999999999999999", "1"),
+       ":4:1: vertex: element count (got \"99999999999999999999\""},
+      {ascii3 + "0 -1 0 1 2\n", ":21:3: face[0].vertex_indices: list length (got -1, allowed 0 to"},
+      {ascii3 + "0 3 0 1 3\n", ": face[0]: vertex index out of range (got 3, allowed 0 to 2)"},
+      {ascii3 + "0 3 0 1 -2\n",
+       ":21:9: face[0].vertex_indices: vertex index (got -2, allowed a whole number from 0)"},
+      {ascii3 + "0 3 0 1 0.5\n", ":21:9: face[0].vertex_indices: vertex index (got 0.5"},
+      {ascii3 + "0 3 0 x 1\n", ":21:7: face[0].vertex_indices: not a finite number (got x)"},
+      {ascii3 + "0 3 0 1\n", ":22:1: face[0].vertex_indices: the data ends in the middle"},
+      {ascii3 + "0 0\n", ": the file has no triangles"},
+      {header("ascii", "3", "1") + "nan" + body.substr(1) + "0 3 0 1 2\n",
+       ":18:1: vertex[0].x: not a finite number (got nan)"},
+      {header("ascii", "3", "1") + "1e30" + body.substr(1) + "0 3 0 1 2\n",
+       ":18:1: vertex[0].x: coordinate (got 1e+30"},
+      {binary.substr(0, binary.size() - 1), ": face[1].vertex_indices: the data ends in the middle"},
+      {binary.substr(0, header("binary_little_endian").size() + 10),
+       ":4:1: vertex: more elements than the file has data for"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 0\nproperty list uchar int "
+       "vertex_indices\nend_header\n1\n",
+       ":3:1: vertex: vertices need the properties x, y and z"},
+      {"ply\nformat ascii 1.0\nelement face 1\nproperty int a\nend_header\n1\n",
+       ":3:1: face: faces need the list vertex_indices"},
+  };
+  for (const PlyMistake& m : mistakes) {
+    const std::string path = folder.put("m.ply", m.bytes);
+    const auto scene = load_scene(path);
+    ASSERT_FALSE(scene) << m.message;
+    EXPECT_EQ(scene.error().kind, ErrorKind::bad_input);
+    const std::string expected = path + std::string(m.message);
+    EXPECT_EQ(scene.error().message().substr(0, expected.size()), expected);
+    EXPECT_EQ(scene.error().message().find('\n'), std::string::npos);
+  }
+}
+
+// Read with the wrong byte order, the list lengths or the coordinates cannot make sense.
+TEST(Ply, WrongByteOrderIsNoticed) {
+  const TemporaryFolder folder;
+  std::string bytes = binary_quad(true);
+  bytes.replace(bytes.find("big_endian"), 10, "little_endian");
+  EXPECT_FALSE(load_scene(folder.put("m.ply", bytes)));
+}
+
+TEST(Ply, OtherElementsAreSkippedWithANote) {
+  const TemporaryFolder folder;
+  const auto scene = load_scene(folder.put("m.ply",
+                                           "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty "
+                                           "list uchar float b\nelement vertex 3\nproperty float x\n"
+                                           "property float y\nproperty float z\nelement face 1\nproperty "
+                                           "list uchar uint vertex_index\nend_header\n"
+                                           "7 2 0.5 0.5\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"));
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->notes[0], "1 element(s) 'edge' were skipped.");
+  EXPECT_EQ(make_world(*scene).triangle_count(), 1u);
+}
+
+}  // namespace
+}  // namespace gnomon
