@@ -1,0 +1,340 @@
+// The program from outside: exit codes, what goes to stdout and to stderr, what is left on the disk.
+// Pictures are small here: what they show is other tests' matter.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+using Words = std::vector<std::string>;
+using nlohmann::json;
+
+const Words small = {"--size", "64x36", "--map-size", "128", "--runs", "1"};
+
+Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::size_t line_count(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+void expect_one_line(const ProcessResult& result, int code, const std::string& part) {
+  EXPECT_EQ(result.exit_code, code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(line_count(result.err), 1u) << result.err;
+  EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+}
+
+// --- Usage: exit 2
+// -----------------------------------------------------------------------------------------------------
+
+TEST(Usage, WrongNamesGetASuggestion) {
+  expect_one_line(run_gnomon({"comapre", "fence"}), 2, "did you mean compare?");
+  expect_one_line(run_gnomon({"compare", "fence", "--bais", "1"}), 2, "did you mean --bias?");
+  expect_one_line(run_gnomon({"compare", "fence", "--map-sise=1"}), 2, "did you mean --map-size?");
+  expect_one_line(run_gnomon({"fence"}), 2, "did you mean gnomon compare fence?");
+  expect_one_line(run_gnomon({"model.glb"}), 2, "did you mean gnomon compare model.glb?");
+  expect_one_line(run_gnomon({"compare", "fence", "--depth-format", "d32"}), 2, "did you mean d32f?");
+}
+
+TEST(Usage, ValuesOutOfRange) {
+  const std::vector<Words> wrong = {{"--bias", "nan"},          {"--bias", "inf"},
+                                    {"--bias", "-inf"},         {"--bias", "wide"},
+                                    {"--slope-bias", "nan"},    {"--slope-bias", "inf"},
+                                    {"--normal-offset", "-1"},  {"--size", "0x10"},
+                                    {"--size", "-1x10"},        {"--size", "10"},
+                                    {"--size", "2147483648x1"}, {"--map-size", "0"},
+                                    {"--map-size", "-5"},       {"--map-size", "2147483648"},
+                                    {"--threads", "-1"},        {"--runs", "0"},
+                                    {"--technique", "soft"},    {"--precision", "exact"},
+                                    {"--accel", "octree"},      {"--cull", "both"},
+                                    {"--backend", "vulkan"},    {"--exposure", "0"},
+                                    {"--seed", "-1"},           {"--fail-above", "101%"},
+                                    {"--min-contribution", "2"}};
+  for (const Words& option : wrong) {
+    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, option[0] + ": ");
+    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, "(got " + option[1] + ", allowed ");
+  }
+}
+
+TEST(Usage, MissingAndSuperfluousWords) {
+  expect_one_line(run_gnomon({"compare"}), 2, "SCENE is required");
+  expect_one_line(run_gnomon({"compare", "fence", "other"}), 2, "one argument too many (got other)");
+  expect_one_line(run_gnomon({"compare", "fence", "--bias"}), 2, "--bias");
+  expect_one_line(run_gnomon({"--bogus"}), 2, "--bogus");
+  expect_one_line(run_gnomon({"raster", "fence", "-o", "x.jpg"}), 2, "(got x.jpg, allowed .png .exr)");
+  EXPECT_EQ(run_gnomon({}).exit_code, 2);
+}
+
+TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
+  expect_one_line(run_gnomon({"raytrace", "fence", "--map-size", "64"}), 2, "unknown option --map-size");
+  expect_one_line(run_gnomon({"raster", "fence", "--accel", "bvh"}), 2, "unknown option --accel");
+  expect_one_line(run_gnomon({"plan", "fence", "--size", "1x1"}), 2, "unknown option --size");
+}
+
+TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon(Words{"compare", "acne-floor", "--light", "snu", "--quiet"} + small,
+                                          {.folder = folder.path()});
+  expect_one_line(result, 2, "(got snu, allowed ");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+// --- Help
+// --------------------------------------------------------------------------------------------------------------
+
+/// The paragraphs of a help text that describe an option: each starts with two blanks and a dash.
+std::vector<std::string> option_paragraphs(const std::string& help) {
+  std::vector<std::string> paragraphs;
+  std::istringstream lines(help);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  -")) {
+      paragraphs.push_back(line);
+      inside = true;
+    } else if (inside && line.starts_with("      ")) {
+      paragraphs.back() += " " + line.substr(6);
+    } else {
+      inside = false;
+    }
+  }
+  return paragraphs;
+}
+
+TEST(Help, EveryOptionSaysItsDefaultAndNoLineIsTooLong) {
+  for (const char* command : {"compare", "raster", "raytrace", "plan", "scenes"}) {
+    const ProcessResult result = run_gnomon({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_LT(result.out.find("Examples:"), result.out.find("Options:"));
+    const std::vector<std::string> options = option_paragraphs(result.out);
+    EXPECT_GE(options.size(), 2u);
+    for (const std::string& option : options) {
+      if (option.find("--help") != std::string::npos) continue;
+      EXPECT_NE(option.find("default "), std::string::npos) << command << ":" << option;
+      EXPECT_NE(option.find('['), std::string::npos) << command << ":" << option;
+    }
+  }
+}
+
+TEST(Help, UnitsAreNamed) {
+  const std::string help = run_gnomon({"compare", "--help"}).out;
+  const std::vector<std::string> options = option_paragraphs(help);
+  const std::pair<const char*, const char*> units[] = {{"--size ", "pixels"},
+                                                       {"--map-size ", "texels"},
+                                                       {"--bias ", "world units along the light ray"},
+                                                       {"--slope-bias ", "multiples"},
+                                                       {"--normal-offset ", "texels"},
+                                                       {"--threads ", "cores"}};
+  for (const auto& [name, unit] : units) {
+    const auto found = std::find_if(options.begin(), options.end(), [&](const std::string& option) {
+      return option.find(name) != std::string::npos;
+    });
+    ASSERT_NE(found, options.end()) << name;
+    EXPECT_NE(found->find(unit), std::string::npos) << *found;
+  }
+}
+
+TEST(Help, Version) {
+  EXPECT_EQ(run_gnomon({"--version"}).out.substr(0, 7), "gnomon ");
+  EXPECT_EQ(run_gnomon({"--help"}).exit_code, 0);
+}
+
+// --- Data on stdout
+// ----------------------------------------------------------------------------------------------------
+
+TEST(Json, ScenesAndPlanArePure) {
+  const json scenes = json::parse(run_gnomon({"scenes", "--json", "-"}).out);
+  EXPECT_GE(scenes["scenes"].size(), 7u);
+  for (const json& scene : scenes["scenes"]) {
+    const ProcessResult plan = run_gnomon({"plan", scene["name"], "--json", "-"});
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    const json effects = json::parse(plan.out)["effects"];
+    EXPECT_EQ(effects.size(), 11u);
+    for (const json& effect : effects) {
+      EXPECT_TRUE(effect["simulated"].is_boolean() && effect["called_for"].is_boolean());
+      EXPECT_FALSE(effect["reason"].get<std::string>().empty());
+    }
+  }
+}
+
+TEST(Json, CompareGivesTheBytesOfItsResultFile) {
+  const TemporaryFolder folder;
+  const ProcessResult result =
+      run_gnomon(Words{"compare", "acne-floor", "--bias", "0", "--seed", "7", "--json", "-"} + small,
+                 {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, read_file(folder / "out/acne-floor/result.json"));
+  const json document = json::parse(result.out);
+  EXPECT_EQ(document["schema"], "gnomon/result/1");
+  EXPECT_EQ(document["seed"], 7);
+  EXPECT_EQ(document["command"],
+            "gnomon compare acne-floor --bias 0 --seed 7 --json - --size 64x36 --map-size 128 --runs 1");
+  EXPECT_GT(document["lights"][0]["classes"]["acne"], 0);
+}
+
+json without_times(json document) {
+  document.erase("times_ms");
+  document.erase("command");
+  document.erase("threads");
+  for (json& light : document["lights"]) light.erase("times_ms");
+  return document;
+}
+
+TEST(Json, TheSameForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  std::vector<json> results;
+  for (const char* threads : {"1", "2", "2"}) {
+    const ProcessResult result = run_gnomon(
+        Words{"compare", "fence", "--threads", threads, "--json", "-"} + small, {.folder = folder.path()});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    results.push_back(json::parse(result.out));
+    EXPECT_EQ(results.back()["threads"], std::stoi(threads));
+  }
+  EXPECT_EQ(without_times(results[0]), without_times(results[1]));
+  EXPECT_EQ(without_times(results[1]), without_times(results[2]));
+}
+
+TEST(Streams, TableOnStdoutMessagesOnStderrNothingWhenQuiet) {
+  const TemporaryFolder folder;
+  const Words words = Words{"compare", "acne-floor"} + small;
+  const ProcessResult loud = run_gnomon(words, {.folder = folder.path()});
+  EXPECT_EQ(loud.exit_code, 0);
+  EXPECT_NE(loud.out, "");
+  EXPECT_NE(loud.err.find("out/acne-floor/report.html"), std::string::npos);
+  EXPECT_EQ(loud.err.find('\r'), std::string::npos) << "a progress line off a terminal";
+  EXPECT_EQ(loud.out.find('\033'), std::string::npos) << "colour off a terminal";
+  const ProcessResult quiet = run_gnomon(words + Words{"--quiet"}, {.folder = folder.path()});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+// --- Outputs
+// -----------------------------------------------------------------------------------------------------------
+
+TEST(Outputs, CompareWritesItsFolderAndNothingElse) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon(
+      Words{"compare", "acne-floor", "-o", "a/b", "--aov", "a/all.exr", "--json", "a/copy.json", "-q"} +
+          small,
+      {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> entries = folder.entries();
+  for (const char* name :
+       {"a/b/report.html", "a/b/result.json", "a/b/result.csv", "a/all.exr", "a/copy.json"}) {
+    EXPECT_TRUE(std::binary_search(entries.begin(), entries.end(), name)) << name;
+  }
+  for (const std::string& entry : entries) {
+    EXPECT_EQ(entry.find(".tmp"), std::string::npos) << "left behind: " << entry;
+    EXPECT_EQ(entry.find(".gnomon-"), std::string::npos) << "left behind: " << entry;
+  }
+}
+
+Words exr_channels(const std::string& path) {
+  const auto file = OIIO::ImageInput::open(path);
+  if (!file) return {};
+  EXPECT_EQ(file->spec().width, 64);
+  EXPECT_EQ(file->spec().height, 36);
+  EXPECT_EQ(file->spec().format, OIIO::TypeDesc::FLOAT);
+  return {file->spec().channelnames.begin(), file->spec().channelnames.end()};
+}
+
+void expect_channels(const std::string& path, const Words& wanted) {
+  const Words channels = exr_channels(path);
+  for (const std::string& name : wanted) {
+    EXPECT_EQ(std::count(channels.begin(), channels.end(), name), 1) << name << " in " << path;
+  }
+}
+
+TEST(Outputs, PicturesArePngOrExrWithRecords) {
+  const TemporaryFolder folder;
+  const ProcessOptions here{.folder = folder.path()};
+  EXPECT_EQ(run_gnomon({"raster", "acne-floor", "--size", "64x36", "-o", "r.png"}, here).exit_code, 0);
+  EXPECT_EQ(run_gnomon({"raster", "acne-floor", "--size", "64x36", "-o", "r.exr"}, here).exit_code, 0);
+  EXPECT_EQ(run_gnomon({"raytrace", "acne-floor", "--size", "64x36", "-o", "t.png"}, here).exit_code, 0);
+  EXPECT_EQ(run_gnomon({"raytrace", "acne-floor", "--size", "64x36", "-o", "t.exr"}, here).exit_code, 0);
+  EXPECT_EQ(folder.entries(), (Words{"r.exr", "r.png", "t.exr", "t.png"}));
+  for (const char* name : {"r.png", "t.png"}) {
+    const auto file = OIIO::ImageInput::open(folder / name);
+    ASSERT_TRUE(file) << name;
+    EXPECT_EQ(file->spec().width, 64);
+    EXPECT_EQ(file->spec().nchannels, 3);
+  }
+  expect_channels(folder / "r.exr", {"R", "G", "B", "object.V", "primitive.V", "drawn.V", "gap.V",
+                                     "texel_uv.U", "texel_uv.V", "distance.V"});
+  expect_channels(folder / "t.exr", {"R", "G", "B", "Z", "position.X", "position.Y", "position.Z", "normal.X",
+                                     "normal.Y", "normal.Z", "object.V", "primitive.V", "truth.V"});
+}
+
+TEST(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "");
+  const std::vector<Words> wrong = {{"compare", "acne-floor", "-o", "file"},
+                                    {"compare", "acne-floor", "-o", "file/below"},
+                                    {"compare", "acne-floor", "--aov", "file/a.exr"},
+                                    {"compare", "acne-floor", "--json", "file/a.json"},
+                                    {"compare", "acne-floor", "--json", folder.path()},
+                                    {"raster", "acne-floor", "-o", "file/a.png"},
+                                    {"raytrace", "acne-floor", "-o", "file/a.exr"},
+                                    {"plan", "acne-floor", "--json", "file/a.json"},
+                                    {"scenes", "--json", "file/a.json"}};
+  for (const Words& words : wrong) {
+    expect_one_line(run_gnomon(words, {.folder = folder.path()}), 4, "cannot write here");
+    EXPECT_EQ(folder.entries(), Words{"file"}) << words.back();
+  }
+  EXPECT_EQ(run_gnomon({"scenes"}, {.out_path = "/dev/full"}).exit_code, 4);
+}
+
+TEST(Outputs, BadInputLeavesNothing) {
+  const TemporaryFolder folder;
+  write_text(folder / "broken.json", "{\n  \"camera\": {\"eye\": [0, 1,\n}");
+  const ProcessResult broken = run_gnomon({"compare", "broken.json"}, {.folder = folder.path()});
+  expect_one_line(broken, 3, "broken.json:3:");
+  const ProcessResult absent = run_gnomon({"compare", "absent.json"}, {.folder = folder.path()});
+  expect_one_line(absent, 3, "absent.json");
+  expect_one_line(run_gnomon({"compare", "fense"}, {.folder = folder.path()}), 3, "fence");
+  EXPECT_EQ(folder.entries(), Words{"broken.json"});
+}
+
+// --- The other exit codes
+// ----------------------------------------------------------------------------------------------
+
+TEST(ExitCodes, ThresholdExceeded) {
+  const TemporaryFolder folder;
+  const ProcessOptions here{.folder = folder.path()};
+  const Words acne = Words{"compare", "acne-floor", "--bias", "0"} + small;
+  EXPECT_EQ(run_gnomon(acne + Words{"--fail-above", "0.1%"}, here).exit_code, 1);
+  EXPECT_EQ(run_gnomon(acne + Words{"--fail-above", "100%"}, here).exit_code, 0);
+}
+
+TEST(ExitCodes, AMapBeyondTheContextsLimit) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon(
+      {"compare", "acne-floor", "--size", "64x36", "--map-size", "65536", "-q"}, {.folder = folder.path()});
+  expect_one_line(result, 5, "65536");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(ExitCodes, Interrupted) {
+  const TemporaryFolder folder;
+  // Far more work than the time before the signal allows.
+  const ProcessResult result = run_gnomon({"compare", "fence", "--size", "4096x4096", "--runs", "9"},
+                                          {.folder = folder.path(), .interrupt_after_ms = 300});
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos);
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+}  // namespace
+}  // namespace gnomon::app_test

@@ -1,0 +1,70 @@
+// A signal never cuts an output: it waits until the guard is gone, and the exit code then says that it came.
+#include "app/interrupt.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "tests/app_process.h"
+
+namespace gnomon::app {
+namespace {
+
+/// The exit code of a process that does `work` (or -1).
+int exit_code_of(const std::function<void()>& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGINT, SIG_DFL);
+    work();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void wait_for_the_end() {
+  std::this_thread::sleep_for(std::chrono::seconds(60));
+}
+
+TEST(Interrupt, EndsTheProcessWith130) {
+  EXPECT_EQ(exit_code_of([] {
+              watch_for_interrupts();
+              kill(getpid(), SIGINT);
+              wait_for_the_end();
+            }),
+            130);
+}
+
+TEST(Interrupt, WaitsForTheOutputs) {
+  const app_test::TemporaryFolder folder;
+  EXPECT_EQ(exit_code_of([&] {
+              watch_for_interrupts();
+              {
+                const OutputGuard guard;
+                kill(getpid(), SIGINT);
+                while (!was_interrupted()) std::this_thread::yield();
+                app_test::write_text(folder / "whole", "all of it");
+              }
+              wait_for_the_end();
+            }),
+            130);
+  EXPECT_EQ(app_test::read_file(folder / "whole"), "all of it");
+}
+
+TEST(Interrupt, AnIgnoredSignalStaysIgnored) {
+  EXPECT_EQ(exit_code_of([] {
+              signal(SIGINT, SIG_IGN);
+              watch_for_interrupts();
+              kill(getpid(), SIGINT);
+            }),
+            0);
+}
+
+}  // namespace
+}  // namespace gnomon::app

@@ -1,0 +1,120 @@
+#include "tests/app_process.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace gnomon::app_test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Pipe {
+  int read_end = -1, write_end = -1;
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) == 0) read_end = ends[0], write_end = ends[1];
+  }
+};
+
+[[noreturn]] void become(const std::vector<std::string>& arguments, const ProcessOptions& options, int out,
+                         int err) {
+  if (!options.out_path.empty()) out = open(options.out_path.c_str(), O_WRONLY | O_CREAT, 0644);
+  dup2(out, STDOUT_FILENO);
+  dup2(err, STDERR_FILENO);
+  signal(SIGINT, SIG_DFL);  // a shell that runs the tests in the background has it ignored
+  for (const std::string& variable : options.environment) putenv(strdup(variable.c_str()));
+  if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(99);
+  std::vector<char*> words{const_cast<char*>(GNOMON_PROGRAM)};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  execv(GNOMON_PROGRAM, words.data());
+  _exit(98);
+}
+
+/// Reads both streams until both are closed, so that neither can fill up.
+void read_both(int out, int err, ProcessResult& result) {
+  pollfd streams[2] = {{out, POLLIN, 0}, {err, POLLIN, 0}};
+  std::string* texts[2] = {&result.out, &result.err};
+  for (int open_streams = 2; open_streams > 0;) {
+    if (poll(streams, 2, -1) < 0) continue;
+    for (int k = 0; k < 2; ++k) {
+      if (streams[k].fd < 0 || streams[k].revents == 0) continue;
+      char buffer[65536];
+      const ssize_t count = read(streams[k].fd, buffer, sizeof buffer);
+      if (count > 0) {
+        texts[k]->append(buffer, static_cast<std::size_t>(count));
+      } else {
+        close(streams[k].fd);
+        streams[k].fd = -1;
+        --open_streams;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ProcessResult run_gnomon(const std::vector<std::string>& arguments, const ProcessOptions& options) {
+  const Pipe out, err;
+  const pid_t child = fork();
+  if (child == 0) become(arguments, options, out.write_end, err.write_end);
+  close(out.write_end);
+  close(err.write_end);
+  std::thread interrupter;
+  if (options.interrupt_after_ms >= 0) {
+    interrupter = std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
+      kill(child, SIGINT);
+    });
+  }
+  ProcessResult result;
+  read_both(out.read_end, err.read_end, result);
+  if (interrupter.joinable()) interrupter.join();
+  int status = 0;
+  waitpid(child, &status, 0);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "gnomon-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;  // what cannot be removed here is the system's to clean up
+  fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> TemporaryFolder::entries() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(path_)) {
+    names.push_back(fs::relative(entry.path(), path_).string() + (entry.is_directory() ? "/" : ""));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+}  // namespace gnomon::app_test

@@ -1,0 +1,43 @@
+// Runs a program as a person would, and keeps what it said. For the tests of the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gnomon::app_test {
+
+struct ProcessResult {
+  int exit_code = -1;  ///< -1 when a signal ended it
+  std::string out, err;
+};
+
+struct ProcessOptions {
+  std::string folder;                    ///< working directory; empty: the test's own
+  std::vector<std::string> environment;  ///< "NAME=value", added to the test's own
+  int interrupt_after_ms = -1;           ///< SIGINT is sent then; -1: never
+  std::string out_path;                  ///< stdout goes to this file instead
+};
+
+/// The program under test with these arguments.
+ProcessResult run_gnomon(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+
+/// A folder of its own that is removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  /// Names of what lies in it, sorted; folders end in '/'.
+  std::vector<std::string> entries() const;
+
+ private:
+  std::string path_;
+};
+
+std::string read_file(const std::string& path);
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace gnomon::app_test

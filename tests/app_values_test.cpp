@@ -1,0 +1,121 @@
+// The text of option values, suggestions, line breaking, and the picture's exposure.
+#include "app/values.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "app/help.h"
+#include "app/suggest.h"
+#include "scene/exposure.h"
+
+namespace gnomon::app {
+namespace {
+
+TEST(Values, NumbersAreWholeTextsAndFinite) {
+  const NumberRange range{-1.0, 2.0};
+  EXPECT_EQ(parse_number("1.5", range).value(), 1.5);
+  EXPECT_EQ(parse_number("+1e-3", range).value(), 1e-3);
+  EXPECT_EQ(parse_number("-1", range).value(), -1.0);
+  for (const char* text :
+       {"", " 1", "1 ", "1,5", "0x1", "nan", "-nan", "inf", "-inf", "1e400", "2.0000001", "one", "1m"}) {
+    const Expected<double> value = parse_number(text, range);
+    ASSERT_FALSE(value) << text;
+    EXPECT_EQ(value.error().kind, ErrorKind::usage);
+    EXPECT_NE(value.error().reason.find("(got " + std::string(text) + ", allowed -1 to 2)"),
+              std::string::npos);
+  }
+  EXPECT_FALSE(parse_number("0", {0.0, 1.0, true})) << "the excluded end";
+}
+
+TEST(Values, IntegersDoNotWrap) {
+  EXPECT_EQ(parse_integer("1024", 1, 65536).value(), 1024);
+  for (const char* text : {"0", "-1", "65537", "2147483648", "99999999999999999999", "1.0", "1e3", ""}) {
+    EXPECT_FALSE(parse_integer(text, 1, 65536)) << text;
+  }
+  EXPECT_EQ(parse_seed("18446744073709551615").value(), UINT64_MAX);
+  EXPECT_FALSE(parse_seed("18446744073709551616"));
+  EXPECT_FALSE(parse_seed("-1"));
+}
+
+TEST(Values, Sizes) {
+  EXPECT_EQ(parse_size("1280x720").value(), (ImageSize{1280, 720}));
+  EXPECT_EQ(parse_size("16384x1").value(), (ImageSize{16384, 1}));
+  for (const char* text : {"", "x", "1x", "x1", "0x1", "1x0", "-1x1", "1280X720", "1280", "1x1x1", "16385x1",
+                           "2147483648x1", "4294967297x1", "1.5x2", "nanxnan"}) {
+    EXPECT_FALSE(parse_size(text)) << text;
+  }
+}
+
+TEST(Values, BiasesSayTheirUnit) {
+  EXPECT_EQ(parse_bias("0.02")->constant, 0.02);
+  EXPECT_EQ(parse_bias("0.02")->unit, raster::BiasUnit::world);
+  for (const char* text : {"0.5texel", "0.5texels"}) {
+    EXPECT_EQ(parse_bias(text)->constant, 0.5);
+    EXPECT_EQ(parse_bias(text)->unit, raster::BiasUnit::texel);
+  }
+  EXPECT_EQ(parse_bias("-0.1")->constant, -0.1);
+  for (const char* text : {"", "texel", "nan", "inf", "infinity", "nantexel", "1 texel", "0.5px", "1e31"}) {
+    EXPECT_FALSE(parse_bias(text)) << text;
+  }
+}
+
+TEST(Values, SharesAndExposures) {
+  EXPECT_DOUBLE_EQ(parse_share("1%").value(), 0.01);
+  EXPECT_DOUBLE_EQ(parse_share("0.25").value(), 0.25);
+  EXPECT_EQ(parse_share("0").value(), 0.0);
+  for (const char* text : {"", "%", "101%", "1.1", "-1%", "nan", "1%%"})
+    EXPECT_FALSE(parse_share(text)) << text;
+  EXPECT_EQ(parse_exposure("auto").value(), std::nullopt);
+  EXPECT_EQ(parse_exposure("2").value(), 2.0);
+  for (const char* text : {"", "0", "-1", "nan", "Auto"}) EXPECT_FALSE(parse_exposure(text)) << text;
+}
+
+RC_GTEST_PROP(Values, NumbersReadBackExactly, (double value)) {
+  RC_PRE(std::isfinite(value));
+  const NumberRange any{-1e308, 1e308};
+  RC_PRE(std::abs(value) <= 1e308);
+  RC_ASSERT(parse_number(number_text(value), any).value() == value);
+}
+
+TEST(Suggestions, SlipsAreFoundAndStrangersAreNot) {
+  const std::string_view known[] = {"compare", "raster", "raytrace", "plan", "scenes"};
+  EXPECT_EQ(nearest_name("comapre", known), "compare");
+  EXPECT_EQ(nearest_name("rastre", known), "raster");
+  EXPECT_EQ(nearest_name("scene", known), "scenes");
+  EXPECT_EQ(nearest_name("render", known), "");
+  EXPECT_EQ(nearest_name("", known), "");
+  EXPECT_EQ(did_you_mean("pla", known), "; did you mean plan?");
+}
+
+TEST(Wrap, KeepsWordsAndWidth) {
+  EXPECT_EQ(wrap("one two three", 2, 9), "  one two\n  three\n");
+  EXPECT_EQ(wrap("unbreakable", 0, 4), "unbreakable\n");
+}
+
+ColorImage grey_ramp(int pixels) {
+  ColorImage image(ImageSize{pixels, 1});
+  for (int x = 0; x < pixels; ++x) image.at(x, 0) = Vec3f(static_cast<float>(x + 1));
+  return image;
+}
+
+TEST(Exposure, BringsThe95thPercentileTo80Percent) {
+  // Luminances 1 … 100: the 95th percentile by nearest rank is 95. The weights sum to 1 within a float's
+  // rounding.
+  EXPECT_NEAR(auto_exposure(grey_ramp(100)), 0.8 / 95.0, 1e-8);
+}
+
+TEST(Exposure, BlackAndBrokenPixelsDoNotCount) {
+  ColorImage image = grey_ramp(100);
+  const double expected = auto_exposure(image);
+  image.data.resize(300, Vec3f(0.0f));
+  image.data[150] = Vec3f(std::numeric_limits<float>::quiet_NaN());
+  image.data[151] = Vec3f(std::numeric_limits<float>::infinity());
+  EXPECT_EQ(auto_exposure(image), expected);
+  EXPECT_EQ(auto_exposure(ColorImage(ImageSize{4, 4})), 1.0);
+}
+
+}  // namespace
+}  // namespace gnomon::app
