@@ -121,7 +121,7 @@ Mesh cornice(const ArcadeShape& a, double end) {
   MeshBuilder b;
   const double x0 = -end, x1 = a.bays * a.bay + end;
   constexpr std::array<std::array<double, 3>, 3> courses{
-      {{-0.30, -0.20, 0.05}, {-0.205, -0.10, 0.11}, {-0.105, 0.0, 0.19}}};
+      {{-0.30, -0.20, 0.05}, {-0.205, -0.10, 0.11}, {-0.105, 0.006, 0.19}}};
   for (const auto& [low, high, out] : courses) {
     b.box({x0 - out, a.top + low, -0.5 * a.depth - out}, {x1 + out, a.top + high, 0.5 * a.depth + out}, 0.01);
   }

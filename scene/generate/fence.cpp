@@ -49,10 +49,11 @@ Mesh pickets(const Values& v, double length) {
 
 Mesh rails(const Values& v, double length) {
   const double height = v.number("rail_height"), thickness = v.number("rail_thickness");
-  const double ends = 0.4 * v.number("post_width");  // inside the end posts
+  const double inside = 0.4 * v.number("post_width");  // a rail ends within its post
+  const double x0 = v.flag("first_post") ? inside : 0.0, x1 = length - (v.flag("last_post") ? inside : 0.0);
   MeshBuilder b;
   for (const double y : v.list("rails")) {
-    b.box({ends, y - 0.5 * height, -thickness}, {length - ends, y + 0.5 * height, 0.0}, v.number("bevel"));
+    b.box({x0, y - 0.5 * height, -thickness}, {x1, y + 0.5 * height, 0.0}, v.number("bevel"));
   }
   return b.take();
 }
@@ -64,7 +65,7 @@ Mesh posts(const Values& v, double length) {
   const int spans = std::max(1, static_cast<int>(std::lround(length / v.number("post_spacing"))));
   const double front = -4.0 * overlap, back = front - width, eave = 0.015;
   MeshBuilder b;
-  for (int i = 0; i <= spans; ++i) {
+  for (int i = v.flag("first_post") ? 0 : 1; i <= spans - (v.flag("last_post") ? 0 : 1); ++i) {
     const double x0 = (length - width) * i / spans, x1 = x0 + width;
     const auto ring = [&](double y, double out) {
       return std::vector<Vec3>{{x0 - out, y, front + out},
@@ -94,13 +95,13 @@ Expected<GeneratedModel> make_fence(const Values& v) {
   GeneratedModel model;
   model.parts.push_back({"picket", pickets(v, length)});
   if (!v.list("rails").empty()) model.parts.push_back({"rail", rails(v, length)});
-  model.parts.push_back({"post", posts(v, length)});
+  if (Mesh mesh = posts(v, length); !mesh.triangles.empty()) model.parts.push_back({"post", std::move(mesh)});
   return model;
 }
 
 const std::array<std::string_view, 3> parts{"picket", "rail", "post"};
 const std::array<std::string_view, 3> tops{"pointed", "round", "flat"};
-const std::array<ParameterInfo, 17> parameters{{
+const std::array<ParameterInfo, 19> parameters{{
     length_parameter("length", 4.0, 0.1, 1000.0, "from the first post's outer side to the last one's"),
     length_parameter("height", 1.0, 0.05, 10.0, "of a picket, without the gap under it"),
     length_parameter("picket_width", 0.075, 0.005, 1.0, "of a picket"),
@@ -116,6 +117,8 @@ const std::array<ParameterInfo, 17> parameters{{
     length_parameter("post_width", 0.1, 0.01, 1.0, "of a post's square section"),
     length_parameter("post_height", 1.1, 0.05, 10.0, "of a post without its cap"),
     length_parameter("post_spacing", 2.0, 0.2, 100.0, "between posts, about: they are spread evenly"),
+    {"first_post", "", true, -infinity, infinity, "false: another fence brings the post at x = 0"},
+    {"last_post", "", true, -infinity, infinity, "false: another fence brings the post at the far end"},
     {"jitter", "", 1.0, 0.0, 4.0, "how irregular the pickets stand; 0 is perfect"},
     seed_parameter(),
 }};

@@ -55,7 +55,7 @@ Expected<GeneratedModel> make_teapot(const Values& values) {
 const std::array<std::string_view, 4> parts{"body", "lid", "handle", "spout"};
 const std::array<ParameterInfo, 2> parameters{{
     length_parameter("height", 0.315, 1e-6, 1e6, "from the foot to the knob's top; the spout points to +x"),
-    count_parameter("divisions", 16, 1, 256, "segments along each side of the 32 patches"),
+    count_parameter("divisions", 16, 2, 256, "segments along each side of the 32 patches"),
 }};
 
 }  // namespace
