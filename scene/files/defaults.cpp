@@ -26,6 +26,26 @@ void for_each_triangle(const Scene& scene, const Visit& visit) {
   }
 }
 
+template <class Visit>
+void for_each_corner(const Aabb& box, const Visit& visit) {
+  for (int corner = 0; corner < 8; ++corner)
+    visit(Vec3((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
+               (corner & 4) ? box.max.z : box.min.z));
+}
+
+// Points whose hull holds all that is finite: corners of triangles, and of the boxes around spheres.
+template <class Visit>
+void for_each_point(const Scene& scene, const Visit& visit) {
+  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double) {
+    visit(a);
+    visit(b);
+    visit(c);
+  });
+  for (const Shape& shape : scene.shapes)
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+      for_each_corner({sphere->center - Vec3(sphere->radius), sphere->center + Vec3(sphere->radius)}, visit);
+}
+
 Footprint footprint(const Scene& scene, const Aabb& bounds) {
   constexpr double floor_share = 0.1;      // of the height: a floor slab has some thickness
   constexpr double flat = 0.95;            // |n.y| of a horizontal triangle
@@ -62,7 +82,7 @@ void add_ground(Scene& scene, const Aabb& bounds) {
   // A visible face in the ground's own plane would fight with it for the same depth.
   const double drop = areas.lowest_faces_up ? 1e-3 * bounds.diagonal() : 0.0;
   Material material = model_material("ground");
-  material.diffuse = Vec3f(0.5f);
+  material.diffuse = Vec3f(0.4f);  // darker than the neutral model, so that this stands out
   const Vec3 center = bounds.center();
   Shape ground{"ground", Plane{{center.x, bounds.min.y - drop, center.z}, {0.0, 1.0, 0.0}},
                static_cast<std::uint32_t>(scene.materials.size())};
@@ -105,35 +125,27 @@ void add_sun(Scene& scene, bool is_model) {
 
 Aabb scene_bounds(const Scene& scene) {
   Aabb bounds;
-  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double) {
-    bounds.grow(a);
-    bounds.grow(b);
-    bounds.grow(c);
-  });
-  for (const Shape& shape : scene.shapes) {
-    const auto* sphere = std::get_if<Sphere>(&shape.geometry);
-    if (!sphere) continue;
-    bounds.grow(sphere->center - Vec3(sphere->radius));
-    bounds.grow(sphere->center + Vec3(sphere->radius));
-  }
+  for_each_point(scene, [&](const Vec3& p) { bounds.grow(p); });
   return bounds;
 }
 
-Camera default_camera(const Aabb& bounds) {
+Camera default_camera(const Scene& scene, const Aabb& bounds) {
   constexpr double margin = 1.1;
+  constexpr double narrowest_aspect = 4.0 / 3.0;
   const Vec3 center = bounds.center();
   const Vec3 back = glm::normalize(Vec3(0.55, 0.5, 1.0));  // from the target to the eye
   const Vec3 right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
   const Vec3 up = glm::cross(back, right);
-  const double tangent = std::tan(0.5 * default_fov);
+  const double tangent = std::tan(0.5 * default_fov) / margin;
   double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p((corner & 1) ? bounds.max.x : bounds.min.x, (corner & 2) ? bounds.max.y : bounds.min.y,
-                 (corner & 4) ? bounds.max.z : bounds.min.z);
+  const auto include = [&](const Vec3& p) {
     const Vec3 offset = p - center;
-    const double across = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
-    distance = std::max(distance, margin * across / tangent + glm::dot(offset, back));
-  }
+    const double across =
+        std::max(std::abs(glm::dot(offset, right)) / narrowest_aspect, std::abs(glm::dot(offset, up)));
+    distance = std::max(distance, across / tangent + glm::dot(offset, back));
+  };
+  for_each_point(scene, include);
+  if (distance == 0.0) for_each_corner(bounds, include);  // planes alone
   Camera camera;
   camera.target = center;
   camera.eye = center + back * (distance > 0.0 ? distance : 1.0);
@@ -151,7 +163,7 @@ Scene add_defaults(LoadedFile loaded) {
     bounds.grow(point + Vec3(2.0));
   }
   if (!loaded.has_camera) {
-    scene.camera = default_camera(bounds);
+    scene.camera = default_camera(scene, bounds);
     scene.notes.push_back(
         fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] that frames the scene: the file has none.",
                     scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z));

@@ -9,8 +9,9 @@ namespace gnomon {
 /// World-space bounds of all triangles and spheres; empty when the scene has only planes.
 Aabb scene_bounds(const Scene& scene);
 
-/// A camera that looks at the box from the front right and above, with all of it in a square picture.
-Camera default_camera(const Aabb& bounds);
+/// A camera that looks at the middle of the bounds from the front right and above, so near that everything is
+/// just in a picture of 4:3 (and so in a wider one).
+Camera default_camera(const Scene& scene, const Aabb& bounds);
 
 /// Completes a loaded file: at least one material; a camera that frames it and a sun from above on the
 /// camera's left if it has none; and for a bare model without lights a ground under it, unless it brings one.
