@@ -80,8 +80,8 @@ TEST(Generators, KeepTheirPromisesWithOtherParameters) {
       {"paving", {{"jitter", 3.0}, {"seed", 9.0}, {"size", std::vector{3.0, 3.0}}}},
       {"stepping_stones", {{"count", 40.0}, {"seed", 3.0}}},
       {"sphere", {{"subdivisions", 0.0}}},
-      {"teapot", {{"divisions", 4.0}}},  // coarser, and the true normals leave the facets behind
-      {"teapot", {{"divisions", 7.0}, {"height", 3.0}}},
+      {"teapot", {{"divisions", 9.0}}},  // coarser, and the true normals leave the facets behind
+      {"teapot", {{"divisions", 40.0}, {"height", 3.0}}},
   };
   for (const auto& [kind, parameters] : variants) {
     ASSERT_NE(find_generator(kind), nullptr) << kind;
