@@ -10,6 +10,7 @@
 
 namespace gnomon::raster {
 
+/// The viewer derives its own from this, around its window's context.
 class Context {
  public:
   using Procedure = void (*)();

@@ -37,8 +37,8 @@ struct ShadowMap {
 /// before the light.
 double texel_world(const LightView& view, const World& world);
 
-/// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1 and the rest
-/// 0.
+/// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
+/// The images, map.depth and map.primitive are empty unless RasterOptions::analysis.
 struct LightRecord {
   std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
@@ -50,9 +50,12 @@ struct LightRecord {
   /// The gap less every part of the bias but the constant: visibility is 0 iff gap >
   /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map.
   Image<float> gap;
-  Image<std::uint8_t>
-      outside_map;             ///< 1 where the lookup falls outside the map or at nothing stored beyond it
-  Times map_pass, shade_pass;  ///< ms, glFinish at the end
+  /// 1 where the lookup falls beside the map or behind the light, or finds nothing stored for a receiver that
+  /// lies outside the map's depth range.
+  Image<std::uint8_t> outside_map;
+  /// ms, from an idle device to glFinish, without the analysis. map_pass: the whole depth map, all faces.
+  /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
+  Times map_pass, shade_pass;
 };
 
 struct RasterFrame {
@@ -62,7 +65,7 @@ struct RasterFrame {
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id
   std::vector<LightRecord> lights;  ///< in the order asked for
   std::uint64_t map_texels = 0;     ///< texels rendered, all lights
-  std::uint64_t map_bytes = 0;      ///< device memory of the depth maps
+  std::uint64_t map_bytes = 0;      ///< device memory of depth maps at one time: the lights take turns in it
 };
 
 }  // namespace gnomon::raster

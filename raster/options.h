@@ -11,11 +11,8 @@ namespace gnomon::raster {
 enum class Backend : std::uint8_t { automatic, osmesa, egl };
 enum class Technique : std::uint8_t { hard };
 enum class DepthFormat : std::uint8_t { d16, d24, d32f };
-enum class Cull : std::uint8_t {
-  none,
-  front,
-  back
-};  ///< which triangles the map leaves out (shapes: which side)
+/// Which triangles the map leaves out, by their winding as the light sees it; of a shape, which side.
+enum class Cull : std::uint8_t { none, front, back };
 
 enum class BiasUnit : std::uint8_t {
   world,  ///< world units along the light ray
@@ -27,10 +24,13 @@ enum class BiasUnit : std::uint8_t {
 struct Bias {
   double constant = 1.0;  ///< in `unit`; finite; default 1 texel
   BiasUnit unit = BiasUnit::texel;
-  double slope = 0.0;  ///< finite; 1 is h_u |dz/du| + h_v |dz/dv| with h half a texel: no acne on a plane
-  double normal_offset_texels =
-      0.0;                      ///< >= 0; the receiver is moved along its normal by this times the texel's
-                                ///< world width times sin(angle between normal and light) (Holbein 2010)
+  /// Finite; in multiples of h_u |dz/du| + h_v |dz/dv| with h half a texel and z the depth of the receiver's
+  /// plane, taken as half the difference of that plane's depths across the texel: 1 leaves no acne on a
+  /// plane. Infinite where the plane is edge-on to a ray of the texel: such a receiver is lit.
+  double slope = 0.0;
+  /// >= 0; the receiver is moved along its normal by this times the texel's world width times sin(angle
+  /// between normal and light) (Holbein 2010).
+  double normal_offset_texels = 0.0;
   bool receiver_plane = false;  ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
 };
 

@@ -13,6 +13,9 @@
 namespace gnomon::raster {
 
 /// Holds one world's GPU resources; render() may be called again with other options, lights and cameras.
+/// The picture is linear radiance: emission, and (1 - mirror - transmission) of ambient and Blinn-Phong
+/// light; no reflections. Each call leaves the context with its default framebuffer, no program, and no
+/// depth, cull or blend state.
 class Renderer {
  public:
   /// Uploads the world and compiles the shader permutations that `plan` calls for.
@@ -22,9 +25,9 @@ class Renderer {
   virtual ~Renderer() = default;
 
   /// Renders all lights into the picture; `lights` (indices in Scene::lights) get a LightRecord each.
-  /// Errors (graphics, exit 5): a map larger than the context allows, out of memory, a GL error; never a
-  /// silent shrink. The lights and camera are read from the world's scene at each call, so a viewer may
-  /// change them in between.
+  /// Errors: usage for a choice outside its range; graphics (exit 5) for a map larger than the context
+  /// allows, out of memory, a GL error; never a silent shrink. The lights and camera are read from the
+  /// world's scene at each call, so a viewer may change them in between.
   virtual Expected<RasterFrame> render(const RasterOptions& options,
                                        std::span<const std::uint32_t> lights) = 0;
   virtual const ContextInfo& info() const = 0;

@@ -26,6 +26,7 @@ Scene masked_scene(bool as_plane) {
   scene.materials.resize(2);
   scene.textures = {holes()};
   scene.materials[1].alpha_mode = AlphaMode::mask;
+  scene.materials[1].alpha_cutoff = 1.0f;  // exactly what the opaque texels have: not less, so no hole
   scene.materials[1].diffuse_texture = 0;
   scene.materials[1].texture_transform = {.offset = {0.1, 0.2}, .scale = {1.5, 0.75}, .rotation = 0.4};
   scene.meshes = {square_mesh(4.0), square_mesh(1.5)};
