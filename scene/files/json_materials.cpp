@@ -68,10 +68,10 @@ Material read_material(SceneReader& reader, const JsonNode& node) {
   if (const auto mode = object.find("alpha_mode"))
     m.alpha_mode = mode->as_choice({"opaque", "mask"}) == 1 ? AlphaMode::mask : AlphaMode::opaque;
   m.alpha_cutoff = number("alpha_cutoff", m.alpha_cutoff, unit_interval);
-  if (m.mirror + m.transmission > 1.0f)
-    object.find("transmission")
-        ->error(fmt::format("mirror + transmission (got {:g} + {:g}, allowed up to 1)", m.mirror,
-                            m.transmission));
+  const auto transmission = object.find("transmission");
+  if (transmission && m.mirror + m.transmission > 1.0f)  // mirror alone has its own range
+    transmission->error(
+        fmt::format("mirror + transmission (got {:g} + {:g}, allowed up to 1)", m.mirror, m.transmission));
   if (const auto texture = object.find("texture")) read_texture_of(reader, *texture, m);
   return m;
 }
