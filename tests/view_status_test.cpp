@@ -1,0 +1,57 @@
+// The title and the command line in words.
+#include "app/view/status.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/view_fixture.h"
+
+namespace gnomon::app {
+namespace {
+
+TEST(ViewStatus, CommandSaysWhatDiffers) {
+  ViewOptions options;
+  options.scene = "my scene.json";
+  ViewState state = two_light_state();
+  EXPECT_EQ(compare_command(state, options),
+            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias 1texel --light sun");
+  carry_out(state, OrbitTo{-30.0, 20.5});
+  carry_out(state, PickLight{1});
+  carry_out(state, LightAzimuthTo{45.0});
+  carry_out(state, SetMapOption{"bias", "-0.25"});
+  carry_out(state, SetMapOption{"slope-bias", "2"});
+  carry_out(state, NextCull{});
+  options.exposure = std::optional<double>(1.5);
+  EXPECT_EQ(compare_command(state, options),
+            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias=-0.25 --slope-bias 2 "
+            "--cull front "
+            "--light lamp --camera-orbit=-30,20.5 --camera-distance 5 --light-azimuth 45 --light-elevation 0 "
+            "--exposure 1.5");
+}
+
+TEST(ViewStatus, LightsThatTheCommandCannotTurnAreNamed) {
+  ViewState state = two_light_state();
+  carry_out(state, TurnLightBy{5.0, 0.0});
+  EXPECT_TRUE(other_turned_lights(state).empty());
+  carry_out(state, NextLight{});
+  EXPECT_EQ(other_turned_lights(state), std::vector<std::string>{"sun"});
+}
+
+TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
+  ViewState state = two_light_state();
+  state.setup.map.bias = {0.02, raster::BiasUnit::world};
+  Readings readings{0.02, 0.01, 12.0, {}};
+  std::string line = status_line(state, readings, "fence");
+  EXPECT_NE(line.find("fence | raster | sun | hard 1024² | bias 0.02 = 2 texel"), std::string::npos) << line;
+  EXPECT_NE(line.find("comparing"), std::string::npos) << line;
+  readings.compared = Readings::Compared{true, false, 0.041, 1.0, 2.0, 30.0};
+  line = status_line(state, readings, "fence");
+  EXPECT_NE(line.find("wrong 4.1 %"), std::string::npos) << line;
+  EXPECT_NE(line.find("shadow rays 30 ms"), std::string::npos) << line;
+  readings.compared->preview = true;
+  EXPECT_NE(status_line(state, readings, "fence").find("(preview)"), std::string::npos);
+  readings.compared->current = false;
+  EXPECT_NE(status_line(state, readings, "fence").find("(before)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon::app
