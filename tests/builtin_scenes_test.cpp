@@ -63,7 +63,8 @@ TEST(BuiltinScenes, ThinWallIsWhatTheClosedFormNeeds) {
   ASSERT_TRUE(scene);
   // The sun shines square to the wall: no z component; the wall is 0.05 thick, centred on x = 0, and stands
   // on y = 0.
-  EXPECT_NEAR(scene->lights[0].direction.z, 0.0, 1e-15);
+  EXPECT_EQ(scene->lights[0].direction.z, 0.0);
+  EXPECT_NEAR(scene->lights[0].direction.y, -0.5, 1e-15);  // 60 degrees from the floor's normal
   EXPECT_LT(scene->lights[0].direction.x, 0.0);
   const World world = make_world(*scene);
   Aabb wall;
