@@ -74,6 +74,18 @@ TEST(Image, TruncatedPngIsAnErrorWhereverItEnds) {
   }
 }
 
+// A JPEG of no picture at all, but with the segments of one: only where it ends matters here.
+TEST(Image, TruncatedJpegIsAnError) {
+  const std::string thumbnail =
+      std::string("\xff\xe1\x00\x06", 4) + "\xff\xd8\xff\xd9";  // its end is not the file's
+  const std::string cut = "\xff\xd8" + thumbnail + std::string("\xff\xda\x00\x02", 4) + "data";
+  EXPECT_EQ(read_texture_bytes("a.jpg", cut, true).error().message(), "a.jpg: the JPEG file is cut off");
+  EXPECT_EQ(read_texture_bytes("a.jpg", cut.substr(0, 8), true).error().message(),
+            "a.jpg: the JPEG file is cut off");
+  EXPECT_NE(read_texture_bytes("a.jpg", cut + "\xff\xd9", true).error().message(),
+            "a.jpg: the JPEG file is cut off");
+}
+
 TEST(Image, HugeHeaderIsRefusedBeforeAllocation) {
   for (const std::uint32_t side : {16385u, 100000u, 0x7fffffffu}) {
     const auto read = read_texture_bytes(

@@ -8,7 +8,7 @@
 #include <array>
 #include <memory>
 
-#include "scene/files/png_check.h"
+#include "scene/files/image_check.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
@@ -85,7 +85,7 @@ Expected<OpenImage> open_bytes(const std::string& name, std::string_view bytes) 
   if (format.empty())
     return image_error(ErrorKind::bad_input, name,
                        "image in a format that is not known (allowed PNG, JPEG, WebP, BMP, "
-                       "EXR, HDR, GIF)");
+                       "EXR, HDR, GIF, TGA)");
   OpenImage image;
   if (format == "png") {
     auto essential = essential_png(bytes, name);
@@ -93,6 +93,8 @@ Expected<OpenImage> open_bytes(const std::string& name, std::string_view bytes) 
     image.bytes = std::move(*essential);
     bytes = image.bytes;
   }
+  if (format == "jpeg")
+    if (const auto whole = check_jpeg_is_whole(bytes, name); !whole) return fail(whole.error());
   image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
   image.input = OIIO::ImageInput::create(std::string(format));
   OIIO::ImageSpec hints = read_hints();
@@ -229,7 +231,7 @@ Rgb8Image display_image(const ColorImage& linear, double exposure) {
 Expected<Texture> read_texture(const std::string& path, bool srgb) {
   const auto bytes = read_file(path);
   if (!bytes) return fail(bytes.error());
-  if (!format_of(*bytes).empty()) return read_texture_bytes(path, *bytes, srgb);
+  if (lower_extension(path) != ".tga") return read_texture_bytes(path, *bytes, srgb);
   auto image = open_path(path);
   if (!image) return fail(image.error());
   return texture_from(path, std::move(*image), srgb);

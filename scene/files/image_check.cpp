@@ -1,4 +1,4 @@
-#include "scene/files/png_check.h"
+#include "scene/files/image_check.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ std::uint32_t crc(std::string_view bytes) {
   return ~c;
 }
 
-tl::unexpected<Error> png_error(const std::string& name, std::string reason) {
+tl::unexpected<Error> damage(const std::string& name, std::string reason) {
   Error error{ErrorKind::bad_input, std::move(reason)};
   error.file = name;
   return fail(std::move(error));
@@ -43,26 +43,26 @@ tl::unexpected<Error> png_error(const std::string& name, std::string reason) {
 
 // PNG specification, 11.2.2: sizes, and which depths go with which colour types.
 Expected<void> check_header(std::string_view data, const std::string& name) {
-  if (data.size() != 13) return png_error(name, "the PNG header has a wrong length");
+  if (data.size() != 13) return damage(name, "the PNG header has a wrong length");
   const std::uint32_t width = big_endian(data);
   const std::uint32_t height = big_endian(data.substr(4));
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side)
-    return png_error(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", width, height,
-                                       max_image_side, max_image_side));
+    return damage(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", width, height,
+                                    max_image_side, max_image_side));
   const int depth = data[8], type = data[9];
   const bool small_depth = depth == 1 || depth == 2 || depth == 4;
   const bool fits = (depth == 8 && (type == 0 || type == 2 || type == 3 || type == 4 || type == 6)) ||
                     (depth == 16 && (type == 0 || type == 2 || type == 4 || type == 6)) ||
                     (small_depth && (type == 0 || type == 3));
   if (!fits || data[10] != 0 || data[11] != 0 || data[12] < 0 || data[12] > 1)
-    return png_error(name, "the PNG header is not valid");
+    return damage(name, "the PNG header is not valid");
   return {};
 }
 
 }  // namespace
 
 Expected<std::string> essential_png(std::string_view bytes, const std::string& name) {
-  if (!bytes.starts_with(signature)) return png_error(name, "not a PNG file");
+  if (!bytes.starts_with(signature)) return damage(name, "not a PNG file");
   std::string out(signature);
   bool has_data = false;
   for (std::size_t at = signature.size(); at < bytes.size();) {
@@ -70,13 +70,13 @@ Expected<std::string> essential_png(std::string_view bytes, const std::string& n
     const std::uint32_t length = big_endian(bytes.substr(at));
     const std::string_view type = bytes.substr(at + 4, 4);
     if (length > bytes.size() - at - 12)
-      return png_error(name, fmt::format("the PNG file is cut off in its chunk {}", printable(type)));
+      return damage(name, fmt::format("the PNG file is cut off in its chunk {}", printable(type)));
     const std::string_view body = bytes.substr(at + 4, 4 + length);
     const bool first = at == signature.size();
-    if (first != (type == "IHDR")) return png_error(name, "the PNG file does not begin with its header");
+    if (first != (type == "IHDR")) return damage(name, "the PNG file does not begin with its header");
     const bool essential = first || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
     if (essential && crc(body) != big_endian(bytes.substr(at + 8 + length)))
-      return png_error(name, fmt::format("the PNG file is damaged in its chunk {}", printable(type)));
+      return damage(name, fmt::format("the PNG file is damaged in its chunk {}", printable(type)));
     if (first)
       if (const auto header = check_header(body.substr(4), name); !header) return fail(header.error());
     if (essential) out += bytes.substr(at, length + 12);
@@ -84,7 +84,24 @@ Expected<std::string> essential_png(std::string_view bytes, const std::string& n
     if (type == "IEND" && has_data) return out;
     at += length + 12;
   }
-  return png_error(name, "the PNG file is cut off");
+  return damage(name, "the PNG file is cut off");
+}
+
+// ISO/IEC 10918-1, annex B: segments with lengths up to the first scan; after it, 0xff 0xd9 is the end and
+// nothing else.
+Expected<void> check_jpeg_is_whole(std::string_view bytes, const std::string& name) {
+  constexpr unsigned char start_of_scan = 0xda;
+  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[at + i]); };
+    if (byte(0) != 0xff) return damage(name, "the JPEG file is damaged before its picture");
+    if (byte(1) == start_of_scan) {
+      if (bytes.find("\xff\xd9", at) != std::string_view::npos) return {};
+      break;
+    }
+    const bool is_fill = byte(1) == 0xff;
+    at += is_fill ? 1u : 2u + (static_cast<std::size_t>(byte(2)) << 8 | byte(3));
+  }
+  return damage(name, "the JPEG file is cut off");
 }
 
 }  // namespace gnomon
