@@ -13,6 +13,7 @@
 #include <new>
 #include <vector>
 
+#include "app/completion.h"
 #include "app/console.h"
 #include "app/help.h"
 #include "app/interrupt.h"
@@ -86,6 +87,23 @@ int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
   return usage_error(prefix + error.what());
 }
 
+/// CLI11's way to print a text and stop is the version flag's exception.
+void add_completion(CLI::App& program) {
+  program
+      .add_option_function<std::string>(
+          "--completion",
+          [&program](const std::string& shell) {
+            const std::string script = completion_script(program, shell);
+            if (script.empty()) {
+              throw CLI::ValidationError(
+                  "--completion", fmt::format("unknown shell (got {}, allowed bash, zsh, fish)", shell));
+            }
+            throw CLI::CallForVersion(script, 0);
+          },
+          "print what makes a shell complete commands, options and scenes, and exit [bash or zsh or fish]")
+      ->type_name("SHELL");
+}
+
 std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   auto program = std::make_unique<CLI::App>(
       "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
@@ -98,7 +116,8 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
       "gnomon plan model.glb      which effects are simulated, and why\n"
       "gnomon scenes              the built-in scenes");
   program->set_help_flag("--help,-h", "print this help and exit");
-  program->set_version_flag("--version", "gnomon " GNOMON_VERSION, "print the version and exit");
+  program->set_version_flag("--version", "gnomon " GNOMON_VERSION "\n", "print the version and exit");
+  add_completion(*program);
   program->require_subcommand(1);
   add_compare(*program, invocation);
   add_raster(*program, invocation);
@@ -109,18 +128,21 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   return program;
 }
 
-/// Runs the chosen command and makes sure that its data reached stdout.
+/// `code`, or the one for outputs that cannot be written when the data did not reach stdout.
+int code_after_stdout(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  print_error(Error{ErrorKind::cannot_write, "could not write to stdout"});
+  return static_cast<int>(ErrorKind::cannot_write);
+}
+
 int run_action(const Invocation& invocation) {
   const Expected<ExitCode> code = invocation.action();
   if (!code) {
     print_error(code.error());
     return static_cast<int>(code.error().kind);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    print_error(Error{ErrorKind::cannot_write, "could not write to stdout"});
-    return static_cast<int>(ErrorKind::cannot_write);
-  }
-  return was_interrupted() ? static_cast<int>(ErrorKind::interrupted) : static_cast<int>(*code);
+  if (was_interrupted()) return static_cast<int>(ErrorKind::interrupted);
+  return code_after_stdout(static_cast<int>(*code));
 }
 
 int parse_and_run(int argc, const char* const* argv) {
@@ -139,10 +161,10 @@ int parse_and_run(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
     print_data(help_text(chosen.empty() ? *program : *chosen.front()));
-    return 0;
+    return code_after_stdout(0);
   } catch (const CLI::CallForVersion& version) {
-    print_data(std::string(version.what()) + "\n");
-    return 0;
+    print_data(version.what());
+    return code_after_stdout(0);
   } catch (const CLI::ParseError& error) {
     return parse_failure(*program, error);
   }

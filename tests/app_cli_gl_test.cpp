@@ -102,7 +102,7 @@ std::vector<std::string> option_paragraphs(const std::string& help) {
       paragraphs.push_back(line);
       inside = true;
     } else if (inside && line.starts_with("      ")) {
-      paragraphs.back() += " " + line.substr(6);
+      paragraphs.back().append(" ").append(line.substr(6));
     } else {
       inside = false;
     }

@@ -64,6 +64,26 @@ void read_both(int out, int err, ProcessResult& result) {
   }
 }
 
+/// Linux: whether the process holds SIGINT back, as one does that waits for it in a thread of its own.
+bool blocks_interrupts(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigBlk:"))
+      return (std::stoull(line.substr(7), nullptr, 16) & (1u << (SIGINT - 1))) != 0;
+  }
+  return false;
+}
+
+/// A signal that comes before main would end the process without a word.
+void interrupt_when_ready(pid_t process, int after_ms) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!blocks_interrupts(process) && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+  kill(process, SIGINT);
+}
+
 }  // namespace
 
 ProcessResult run_gnomon(const std::vector<std::string>& arguments, const ProcessOptions& options) {
@@ -74,10 +94,7 @@ ProcessResult run_gnomon(const std::vector<std::string>& arguments, const Proces
   close(err.write_end);
   std::thread interrupter;
   if (options.interrupt_after_ms >= 0) {
-    interrupter = std::thread([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
-      kill(child, SIGINT);
-    });
+    interrupter = std::thread(interrupt_when_ready, child, options.interrupt_after_ms);
   }
   ProcessResult result;
   read_both(out.read_end, err.read_end, result);

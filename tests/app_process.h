@@ -12,10 +12,10 @@ struct ProcessResult {
 };
 
 struct ProcessOptions {
-  std::string folder;                    ///< working directory; empty: the test's own
-  std::vector<std::string> environment;  ///< "NAME=value", added to the test's own
-  int interrupt_after_ms = -1;           ///< SIGINT is sent then; -1: never
-  std::string out_path;                  ///< stdout goes to this file instead
+  std::string folder{};                    ///< working directory; empty: the test's own
+  std::vector<std::string> environment{};  ///< "NAME=value", added to the test's own
+  int interrupt_after_ms = -1;  ///< SIGINT is sent so long after the program waits for it; -1: never
+  std::string out_path{};       ///< stdout goes to this file instead
 };
 
 /// The program under test with these arguments.
