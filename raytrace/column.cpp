@@ -1,13 +1,15 @@
 #include "raytrace/column.h"
 
-#include <vector>
-
 namespace gnomon::raytrace {
 namespace {
 
 constexpr double vertex_gamma =
     error_gamma(32);  // of a coordinate, of a receiver on it, and of the light's frame
 constexpr double product_gamma = error_gamma(16);
+
+// A flat convex polygon gains at most one corner per plane; one bent by rounding at most half of its own,
+// five times. than convex.
+constexpr std::size_t max_clipped = 32;
 
 double sum_of_magnitudes(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
@@ -104,10 +106,11 @@ int Column::facing(const std::array<LightVertex, 3>& t) const {
 }
 
 Interval Column::distances(std::span<const LightVertex> polygon) const {
+  std::array<Vec3, max_clipped> part, next;
+  std::size_t count = 0;
   double error = 0.0;
-  std::vector<Vec3> part, next;
   for (const LightVertex& v : polygon) {
-    part.push_back(v.q);
+    part[count++] = v.q;
     error = std::max(error, plane_error(v));
   }
   const Vec3 normal = glm::cross(part[1] - part[0], part[2] - part[0]);
@@ -118,23 +121,24 @@ Interval Column::distances(std::span<const LightVertex> polygon) const {
     return plane < 4 ? plane_values(homogeneous(q))[plane] : q.z;
   };
   for (std::size_t plane = 0; plane < (perspective_ ? 5U : 4U); ++plane) {
-    next.clear();
-    for (std::size_t i = 0; i < part.size(); ++i) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
       const Vec3& a = part[i];
-      const Vec3& b = part[(i + 1) % part.size()];
+      const Vec3& b = part[(i + 1) % count];
       const double va = value(a, plane) + slack, vb = value(b, plane) + slack;
-      if (va >= 0.0) next.push_back(a);
-      if ((va >= 0.0) != (vb >= 0.0)) next.push_back(a + (va / (va - vb)) * (b - a));
+      if (va >= 0.0) next[kept++] = a;
+      if ((va >= 0.0) != (vb >= 0.0)) next[kept++] = a + (va / (va - vb)) * (b - a);
     }
-    part.swap(next);
-    if (part.empty()) return {infinity, -infinity};
+    std::swap(part, next);
+    count = kept;
+    if (count == 0) return {infinity, -infinity};
   }
   Interval range{infinity, -infinity};
-  for (std::size_t i = 0; i < part.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double distance = perspective_ ? glm::length(part[i]) : part[i].z;
     range.max = std::max(range.max, distance);
     range.min =
-        std::min(range.min, perspective_ ? segment_distance(part[i], part[(i + 1) % part.size()]) : distance);
+        std::min(range.min, perspective_ ? segment_distance(part[i], part[(i + 1) % count]) : distance);
   }
   if (perspective_ &&
       glm::dot(normal, normal) > 0.0) {  // the nearest point of the plane, if the column holds it

@@ -74,7 +74,8 @@ struct Sheet {
          farthest = 0.0;  ///< bounds on the distance along the light rays inside the column (conservative)
 };
 
-/// Splits one column's list into its sheets.
+/// Splits one column's list into its sheets. A piece that rounding put into the list but that lies beside the
+/// column is left out.
 std::vector<Sheet> find_sheets(const World& world, const Topology& topology, const LightView& view,
                                TexelKey texel, std::span<const std::uint32_t> primitives);
 
