@@ -8,7 +8,7 @@ constexpr double vertex_gamma =
 constexpr double product_gamma = error_gamma(16);
 
 // A flat convex polygon gains at most one corner per plane; one bent by rounding at most half of its own,
-// five times. than convex.
+// five times.
 constexpr std::size_t max_clipped = 32;
 
 double sum_of_magnitudes(const Vec3& v) {
