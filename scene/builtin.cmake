@@ -2,7 +2,7 @@
 target_sources(gnomon_scene PRIVATE
   builtin.cpp
   generate/architecture.cpp generate/basic.cpp generate/fence.cpp generate/garden.cpp generate/mesh_builder.cpp
-  generate/plants.cpp generate/registry.cpp generate/stonework.cpp generate/teapot.cpp generate/teapot_patches.cpp
+  generate/noise.cpp generate/plants.cpp generate/registry.cpp generate/stonework.cpp generate/teapot.cpp generate/teapot_patches.cpp
   generate/textures.cpp)
 gnomon_embed(gnomon_scene builtin_scenes
   builtin/acne-floor.json builtin/courtyard.json builtin/fence.json builtin/floating-box.json builtin/sphere-plane.json

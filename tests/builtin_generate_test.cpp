@@ -9,6 +9,7 @@ namespace gnomon {
 namespace {
 
 using test::inspect;
+using test::is_open;
 using test::MeshReport;
 
 GeneratedModel model(std::string_view kind, const Parameters& parameters = {}) {
@@ -24,11 +25,6 @@ const Mesh& part(const GeneratedModel& m, std::string_view name) {
   ADD_FAILURE() << "no part " << name;
   static const Mesh none;
   return none;
-}
-
-bool is_open(std::string_view kind, std::string_view part_name) {
-  return kind == "floor" || kind == "teapot" || part_name == "leaf" || part_name == "blade" ||
-         part_name == "flower";
 }
 
 void expect_promises_kept(const GeneratorInfo& info, const Parameters& parameters) {

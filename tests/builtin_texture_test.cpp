@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/generate/generate.h"
-#include "scene/generate/textures.h"
+#include "scene/generate/noise.h"
 
 namespace gnomon {
 namespace {

@@ -40,7 +40,8 @@ Expected<GeneratedModel> make_paving(const Values& v) {
     double x = -0.5 * size.x;
     double width = flag.x * (row % 2 ? 0.55 : 1.0);
     while (x < 0.5 * size.x - 1e-9 * size.x) {
-      double next = std::min(x + width * (1.0 + 0.18 * jitter * random.between(-1.0, 1.0)), 0.5 * size.x);
+      const double wanted = width * (1.0 + 0.18 * jitter * random.between(-1.0, 1.0));
+      double next = std::min(x + std::max(wanted, least), 0.5 * size.x);
       if (0.5 * size.x - next < std::max(least, 0.25 * flag.x)) next = 0.5 * size.x;
       const Vec2 half{0.5 * (next - x - joint), 0.5 * (depth - joint)};
       const double top = rise + jitter * random.between(-0.003, 0.003);

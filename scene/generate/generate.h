@@ -27,8 +27,8 @@ struct ParameterInfo {
   ParameterValue default_value;
   double min = -infinity, max = infinity;  ///< of a number, or of every element of a list
   std::string_view description;
-  bool whole = false;                         ///< a number (or every element) must be whole
-  std::size_t min_size = 0, max_size = 0;     ///< of a list; both 0: the default's size
+  bool whole = false;                           ///< a number (or every element) must be whole
+  std::size_t min_size = 0, max_size = 0;       ///< of a list; both 0: the default's size
   std::span<const std::string_view> choices{};  ///< of a string; empty: any
 };
 
@@ -48,8 +48,7 @@ struct GeneratedModel {
   std::vector<GeneratedPart> parts;  ///< none of them empty
 };
 
-/// Every generator of meshes, sorted by kind; and of textures (scene/generate/textures.h draws them; they
-/// have no parts).
+/// Every generator of meshes, sorted by kind; and of textures (they have no parts).
 std::span<const GeneratorInfo> generators();
 std::span<const GeneratorInfo> texture_generators();
 

@@ -99,14 +99,13 @@ Mesh stair_body(int steps, double rise, double tread, double width, double drop)
     quad({Vec3(-x, below, z0), Vec3(x, below, z0), Vec3(x, y, z0), Vec3(-x, y, z0)});
     quad({Vec3(-x, y, z0), Vec3(x, y, z0), Vec3(x, y, z1), Vec3(-x, y, z1)});
     quad({Vec3(-x, foot, z1), Vec3(x, foot, z1), Vec3(x, foot, z0), Vec3(-x, foot, z0)});
-    const double above = y;
-    std::vector<Vec3> right{Vec3(x, foot, z1), Vec3(x, above, z1), Vec3(x, y, z0)};
+    std::vector<Vec3> right{Vec3(x, foot, z1), Vec3(x, y, z1), Vec3(x, y, z0)};
     if (i > 0) right.emplace_back(x, below, z0);
     right.emplace_back(x, foot, z0);
     b.polygon(right);
     std::vector<Vec3> left{Vec3(-x, foot, z1), Vec3(-x, foot, z0)};
     if (i > 0) left.emplace_back(-x, below, z0);
-    left.insert(left.end(), {Vec3(-x, y, z0), Vec3(-x, above, z1)});
+    left.insert(left.end(), {Vec3(-x, y, z0), Vec3(-x, y, z1)});
     b.polygon(left);
   }
   const double z = -steps * tread, y = steps * rise - drop;
@@ -143,39 +142,46 @@ const std::array<ParameterInfo, 5> stairs_parameters{{
 
 // ---- window: frame, pane and shutters before a wall whose face is z = 0
 
-Expected<GeneratedModel> make_window(const Values& v) {
-  const double w = 0.5 * v.number("width"), h = v.number("height"), f = v.number("frame"),
-               proud = v.number("depth");
-  if (v.flag("shutters") && proud < 0.03)
-    return fail_parameter("depth", "must be at least 0.03 m to carry shutters");
-  const double bevel = 0.1 * std::min(f, proud);
-  MeshBuilder frame, pane, shutters;
-  frame.box({-w - f, h - overlap, -overlap}, {w + f, h + f, proud}, bevel);  // lintel
-  frame.box({-w - 1.4 * f, h + f - overlap, -overlap}, {w + 1.4 * f, h + 1.5 * f, 1.5 * proud},
-            bevel);                                                                       // drip mould
-  frame.box({-w - 1.4 * f, -0.7 * f, -overlap}, {w + 1.4 * f, 0.0, 1.6 * proud}, bevel);  // sill
-  for (const double s : {-1.0, 1.0}) {
-    const double x0 = s * w, x1 = s * (w + f);
-    frame.box({std::min(x0, x1), -overlap, -overlap}, {std::max(x0, x1), h, 0.96 * proud}, bevel);
-    if (!v.flag("shutters")) continue;
-    // An open shutter: two stiles, rails and slats that lean.
-    const double out = s * (w + f + 0.02), in = s * (w + f + 0.02 + 0.9 * w);
-    const double l = std::min(out, in), r = std::max(out, in), thick = 0.022, stile = 0.05;
-    shutters.box({l, 0.01, 0.004}, {l + stile, h - 0.01, thick}, 0.0);
-    shutters.box({r - stile, 0.01, 0.004}, {r, h - 0.01, thick}, 0.0);
-    const int slats = std::max(4, static_cast<int>(h / 0.075));
-    for (int i = 0; i < slats; ++i) {
-      const double y = 0.05 + (h - 0.1) * (i + 0.5) / slats;
-      const std::array<Vec2, 4> section{
-          {{0.006, y + 0.02}, {0.010, y + 0.02}, {0.020, y - 0.02}, {0.016, y - 0.02}}};
-      // A section in (z, y), drawn along -x.
-      const Mat4 place{Vec4(0, 0, 1, 0), Vec4(0, 1, 0, 0), Vec4(-1, 0, 0, 0), Vec4(0, 0, 0, 1)};
-      std::array<Vec2, 4> ccw = section;
-      std::reverse(ccw.begin(), ccw.end());
-      shutters.prism(ccw, -(r - stile + overlap), -(l + stile - overlap), 0.0, place);
-    }
+constexpr double stile = 0.05;  // metres, the width of a shutter's upright
+
+// An open shutter from x = left to right, flat against the wall: two stiles and slats that lean.
+void add_shutter(MeshBuilder& b, double left, double right, double height) {
+  const double back = 0.004, front = 0.022, foot = 0.01, head = height - 0.01;
+  b.box({left, foot, back}, {left + stile, head, front});
+  b.box({right - stile, foot, back}, {right, head, front});
+  const int slats = std::max(2, static_cast<int>(height / 0.075));
+  // The slats' section lies in the (z, y) plane and is drawn along -x.
+  const Mat4 place{Vec4(0, 0, 1, 0), Vec4(0, 1, 0, 0), Vec4(-1, 0, 0, 0), Vec4(0, 0, 0, 1)};
+  for (int i = 0; i < slats; ++i) {
+    const double y = 0.05 + (height - 0.1) * (i + 0.5) / slats;
+    const std::array<Vec2, 4> section{
+        {{0.016, y - 0.02}, {0.020, y - 0.02}, {0.010, y + 0.02}, {0.006, y + 0.02}}};
+    b.prism(section, -(right - stile + overlap), -(left + stile - overlap), 0.0, place);
   }
-  pane.box({-w - overlap, -overlap, -overlap}, {w + overlap, h + 0.5 * overlap, 0.25 * proud}, 0.0);
+}
+
+void add_window_frame(MeshBuilder& b, double w, double h, double f, double proud) {
+  const double bevel = 0.1 * std::min(f, proud), ledge = w + 1.4 * f;
+  b.box({-w - f, h - overlap, -overlap}, {w + f, h + f, proud}, bevel);                  // lintel
+  b.box({-ledge, h + f - overlap, -overlap}, {ledge, h + 1.5 * f, 1.5 * proud}, bevel);  // drip mould
+  b.box({-ledge, -0.7 * f, -overlap}, {ledge, 0.0, 1.6 * proud}, bevel);                 // sill
+  b.box({-w - f, -overlap, -overlap}, {-w, h, 0.96 * proud}, bevel);                     // jambs
+  b.box({w, -overlap, -overlap}, {w + f, h, 0.96 * proud}, bevel);
+}
+
+Expected<GeneratedModel> make_window(const Values& v) {
+  const double w = 0.5 * v.number("width"), h = v.number("height"), f = v.number("frame");
+  const double proud = v.number("depth"), shutter = 0.9 * w, hinge = w + f + 0.02;
+  if (v.flag("shutters") && shutter < 3.0 * stile) {
+    return fail_parameter("width", "must be at least 0.34 m for a window with shutters");
+  }
+  MeshBuilder frame, pane, shutters;
+  add_window_frame(frame, w, h, f, proud);
+  pane.box({-w - overlap, -overlap, -overlap}, {w + overlap, h + 0.5 * overlap, 0.25 * proud});
+  if (v.flag("shutters")) {
+    add_shutter(shutters, -hinge - shutter, -hinge, h);
+    add_shutter(shutters, hinge, hinge + shutter, h);
+  }
   GeneratedModel model;
   model.parts.push_back({"frame", frame.take()});
   model.parts.push_back({"pane", pane.take()});

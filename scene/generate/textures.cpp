@@ -1,20 +1,12 @@
 // Generated textures: checker, fractal noise, paving or bricks, wood. Texels are sRGB-encoded from linear
 // colours. Everything is sampled at texel centres of the unit square and repeats without a seam.
-#include "scene/generate/textures.h"
-
 #include <algorithm>
 
 #include "scene/generate/generator.h"
-#include "scene/generate/random.h"
+#include "scene/generate/noise.h"
 
 namespace gnomon {
 namespace {
-
-double lattice(int x, int y, std::uint64_t seed) {
-  return Random(seed * 0x632be59bd9b4e019ull + static_cast<std::uint64_t>(x) * 0x100000001b3ull +
-                static_cast<std::uint64_t>(y))
-      .unit();
-}
 
 // IEC 61966-2-1, tabulated: 16 bits of linear input are finer than 8 bits of sRGB everywhere.
 std::uint8_t encode_srgb(double v) {
@@ -116,7 +108,7 @@ Expected<Texture> make_paving_texture(const Values& v) {
     const double edge = std::min(std::min(fx, 1.0 - fx) * aspect, std::min(fy, 1.0 - fy)) + worn;
     const double g = grain.at(at.x, at.y) - 0.5;
     if (edge < 0.5 * joint) return joint_color * (1.0 + 0.6 * g);
-    return color * (1.0 + variation * (2.0 * lattice(column, row, seed) - 1.0) + 0.5 * variation * g);
+    return color * (1.0 + variation * (2.0 * lattice_noise(column, row, seed) - 1.0) + 0.5 * variation * g);
   });
 }
 
@@ -148,12 +140,12 @@ Expected<Texture> make_wood(const Values& v) {
     const double across = at.uv.x * boards - board;
     if (std::min(across, 1.0 - across) < 0.5 * joint) return 0.3 * dark;
     // Each board is cut elsewhere from the tree: another stretch of the same noise.
-    const int cut = boards == 1 ? 0 : static_cast<int>(size.height * lattice(board, 0, seed + 2));
+    const int cut = boards == 1 ? 0 : static_cast<int>(size.height * lattice_noise(board, 0, seed + 2));
     const int y = (at.y + cut) % size.height;
     const double ring = glm::fract(rings * at.uv.x + 2.5 * bend.at(at.x, y));
     const double late_wood = ring * ring * (1.0 - glm::smoothstep(0.9, 1.0, ring));
     const double grain = std::clamp(strength * (0.75 * late_wood + 0.55 * fibre.at(at.x, y)), 0.0, 1.0);
-    const double shade = boards == 1 ? 1.0 : 0.86 + 0.28 * lattice(board, 1, seed + 2);
+    const double shade = boards == 1 ? 1.0 : 0.86 + 0.28 * lattice_noise(board, 1, seed + 2);
     return shade * glm::mix(color, dark, grain);
   });
 }
@@ -170,60 +162,6 @@ const std::array<ParameterInfo, 8> wood_parameters{{
 }};
 
 }  // namespace
-
-namespace {
-
-// Where a texel's centre lies among an octave's cells: the two neighbours and the smooth weight of the
-// second.
-struct Between {
-  std::size_t first, second;
-  float weight;
-};
-
-std::vector<Between> place(int texels, int cells) {
-  std::vector<Between> out;
-  for (int i = 0; i < texels; ++i) {
-    const double p = (i + 0.5) * cells / texels, f = p - std::floor(p);
-    const auto cell = static_cast<std::size_t>(p);
-    out.push_back(
-        {cell, (cell + 1) % static_cast<std::size_t>(cells), static_cast<float>(f * f * (3.0 - 2.0 * f))});
-  }
-  return out;
-}
-
-void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::uint64_t seed) {
-  std::vector<float> values;
-  for (int y = 0; y < cells.y; ++y) {
-    for (int x = 0; x < cells.x; ++x) values.push_back(weight * static_cast<float>(lattice(x, y, seed)));
-  }
-  const std::vector<Between> across = place(sum.size.width, cells.x), down = place(sum.size.height, cells.y);
-  const auto stride = static_cast<std::size_t>(cells.x);
-  for (std::size_t y = 0; y < down.size(); ++y) {
-    const float *above = &values[down[y].first * stride], *below = &values[down[y].second * stride];
-    float* row = &sum.data[y * across.size()];
-    for (std::size_t x = 0; x < across.size(); ++x) {
-      const auto [a, b, s] = across[x];
-      const float top = above[a] + s * (above[b] - above[a]), bottom = below[a] + s * (below[b] - below[a]);
-      row[x] += top + down[y].weight * (bottom - top);
-    }
-  }
-}
-
-}  // namespace
-
-Image<float> periodic_fractal(ImageSize size, const glm::ivec2& cells, int octaves, std::uint64_t seed,
-                              double persistence) {
-  int used = 1;
-  while (used < octaves && cells.x << used <= size.width && cells.y << used <= size.height) ++used;
-  double total = 0.0;
-  for (int i = 0; i < used; ++i) total += std::pow(persistence, i);
-  Image<float> sum(size);
-  for (int i = 0; i < used; ++i) {
-    const auto weight = static_cast<float>(std::pow(persistence, i) / total);
-    add_octave(sum, cells * (1 << i), weight, seed + 101u * static_cast<std::uint64_t>(i));
-  }
-  return sum;
-}
 
 std::span<const TextureGenerator> all_texture_generators() {
   static const std::array<TextureGenerator, 4> list{{
