@@ -217,6 +217,9 @@ TEST(Sheets, ParallelQuadsAreTwoSheets) {
     ASSERT_LE(sheets[upper].nearest, -1.0);
     ASSERT_GE(sheets[lower].farthest, 0.0);
   }
+  // Primitives beside the column, given all the same, make no sheet of their own.
+  const std::vector<std::uint32_t> all{0, 1, 2, 3};
+  EXPECT_EQ(find_sheets(w.world(), columns.topology, columns.view, TexelKey::pack(0, 0, 0), all).size(), 2U);
   EXPECT_EQ(sheet_of(columns.sheets(columns.lists.keys[0]), 99, true), 2U);
 }
 
