@@ -104,6 +104,7 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                            .add(p.normal_offset, "NORMAL_OFFSET")
                            .add(p.receiver_plane, "RECEIVER_PLANE")
                            .add(features.textures, "TEXTURES")
+                           .add(features.alpha_mask, "ALPHA_MASK")
                            .add(features.specular, "SPECULAR")
                            .add(features.emission, "EMISSION")
                            .add(features.smooth_normals, "SMOOTH_NORMALS");

@@ -1,10 +1,11 @@
 // The surface point of a pixel, from the primitive that the rasterizer found visible there: the exact meeting of
 // the pixel's ray with the primitive's plane or sphere, rather than an interpolated position (Burns and Hunt 2013, "The Visibility
-// Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals) and TEXTURES.
+// Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals), TEXTURES and ALPHA_MASK.
 
 #include "camera.glsl"
 #include "world.glsl"
 #include "sphere.glsl"
+#include "material.glsl"
 
 struct TriangleData {
   uint a, b, c;
@@ -100,8 +101,11 @@ Receiver shape_receiver(ShapeData shape, vec3 direction) {
     vec3 center = shape.center_and_radius.xyz;
     float t_near, t_far;
     sphere_crossings(camera.eye_and_near.xyz, direction, center, shape.center_and_radius.w, t_near, t_far);
-    vec3 p = camera.eye_and_near.xyz + (t_near > 0.0 ? t_near : t_far) * direction;
-    vec3 outward = normalize(p - center);
+    float t = t_near > 0.0 ? t_near : t_far;
+#ifdef ALPHA_MASK
+    if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) t = t_far;
+#endif
+    vec3 outward = normalize(camera.eye_and_near.xyz + t * direction - center);
     r.position = center + shape.center_and_radius.w * outward;  // put back onto the sphere, as in meet_plane
     r.normal = face_forward(outward, direction);
   }

@@ -8,7 +8,6 @@
 const float infinite = uintBitsToFloat(0x7f800000u);
 #endif
 #include "receiver.glsl"
-#include "material.glsl"
 #include "blinn_phong.glsl"
 
 layout(binding = visibility_unit) uniform usampler2D visible_primitive;
@@ -52,7 +51,7 @@ void main() {
                                                                 r.shading, at.to_light, r.to_eye);
 #ifdef RECORDS
   record = vec4(test.own.uv, test.own.distance, test.gap);
-  flags = uint((lit ? flag_lit : 0) | (test.outside ? flag_outside_map : 0) | flag_surface) |
+  flags = uint((lit ? flag_lit : 0) | (test.outside ? flag_outside_map : 0)) |
           uint(test.own.face << flag_face_shift);
 #endif
 #endif

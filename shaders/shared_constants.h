@@ -1,5 +1,6 @@
-// Constants that GLSL and C++ share: binding points, attribute and output locations, codes and flags. Included by both
-// languages (GLSL's `const int` is C++'s); raster_constants_gl_test.cpp holds the two readings together.
+// Constants that GLSL and C++ share: binding points, attribute and output locations, codes and flags.
+// Included by both languages (GLSL's `const int` is C++'s); raster_constants_gl_test.cpp holds the two
+// readings together.
 #ifndef GNOMON_SHARED_CONSTANTS_H
 #define GNOMON_SHARED_CONSTANTS_H
 #ifdef __cplusplus
@@ -45,11 +46,10 @@ const int radiance_output = 0;
 const int record_output = 1;
 const int flags_output = 2;
 
-// Bits of the flags output: visibility, lookup outside the map, a surface is there, and the cube face above them
+// Bits of the flags output: visibility, lookup outside the map, and the cube face above them
 const int flag_lit = 1;
 const int flag_outside_map = 2;
-const int flag_surface = 4;
-const int flag_face_shift = 3;
+const int flag_face_shift = 2;
 
 // Shapes
 const int shape_sphere = 0;
@@ -59,11 +59,6 @@ const int shape_plane = 1;
 const int cull_none = 0;
 const int cull_front = 1;
 const int cull_back = 2;
-
-// Lights
-const int light_directional = 0;
-const int light_point = 1;
-const int light_spot = 2;
 
 // Texture flags
 const int texture_srgb = 1;

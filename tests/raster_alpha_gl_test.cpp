@@ -115,6 +115,50 @@ TEST_P(AlphaMask, HasHolesInTheLightsMap) {
 
 INSTANTIATE_TEST_SUITE_P(TrianglesAndPlane, AlphaMask, testing::Bool());
 
+// Through a hole in a ball one sees its inside: the receiver is the far crossing.
+TEST(AlphaMaskedSphere, ShowsItsInsideThroughItsHoles) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.textures = {holes()};
+  scene.materials[0].alpha_mode = AlphaMode::mask;
+  scene.materials[0].diffuse_texture = 0;
+  scene.shapes.push_back({"ball", Sphere{Vec3(0.2, 0.1, -0.3), 1.0}, 0});
+  scene.camera.eye = Vec3(0.5, 0.6, 3.0);
+  scene.lights = {sun({-0.2, -1.0, -0.1})};
+  const Drawn drawn = draw(scene);
+  const View view = drawn.view();
+  const auto& ball = std::get<Sphere>(drawn.scene->shapes[0].geometry);
+  const auto opaque_at = [&](const Vec3& p, bool& sure) {
+    const Vec3 n = glm::normalize(p - ball.center);
+    const double turn = std::atan2(n.z, n.x) / (2.0 * pi);
+    const Vec2 uv(turn - std::floor(turn), std::acos(n.y) / pi);
+    for (const double x : {4.0 * uv.x, 4.0 * uv.y}) sure = sure && std::abs(x - std::round(x)) > 0.01;
+    return sample_texture(drawn.scene->textures[0], uv).a > 0.5f;
+  };
+  int fronts = 0, backs = 0;
+  for (int y = 0; y < view.size.height; ++y) {
+    for (int x = 0; x < view.size.width; ++x) {
+      Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+      const double near = hit_shape(ray, drawn.scene->shapes[0]);
+      if (!(near < infinity)) continue;
+      ray.t.min = near + 1e-3;
+      const double far = hit_shape(ray, drawn.scene->shapes[0]);
+      bool sure = far - near > 0.1;
+      const bool front = opaque_at(ray.at(near), sure);
+      const bool back = opaque_at(ray.at(far), sure);
+      if (!sure) continue;
+      const std::size_t pixel = drawn.frame.primitive.index(x, y);
+      ASSERT_EQ(drawn.frame.primitive.data[pixel], front || back ? 0u : no_id) << x << ", " << y;
+      if (!front && !back) continue;
+      const TexelCoordinate at = project_to_texel(drawn.light().map.view, ray.at(front ? near : far));
+      ASSERT_NEAR(drawn.light().distance.data[pixel], at.distance, 1e-5);
+      (front ? fronts : backs) += 1;
+    }
+  }
+  EXPECT_GT(fronts, 500);
+  EXPECT_GT(backs, 300);
+}
+
 // Bilinear and nearest, repeated and clamped, sRGB and linear; 8-bit values through float weights.
 TEST(Textures, LookLikeTheSharedFormula) {
   for (int kind = 0; kind < 8; ++kind) {

@@ -122,6 +122,22 @@ TEST(Picture, DoesNotDependOnWhichRecordsAreAskedFor) {
   EXPECT_EQ(frame->lights[0].gap.data, drawn.frame.lights[1].gap.data);
 }
 
+// A viewer moves the camera and the light between calls.
+TEST(Picture, FollowsTheScenesCameraAndLights) {
+  Drawn moved = draw(three_lights());
+  Scene scene = three_lights();
+  for (Scene* s : {moved.scene.get(), &scene}) {
+    s->camera.eye += Vec3(-2.0, 0.5, 1.0);
+    s->lights[0].direction = glm::normalize(Vec3(0.4, -1.0, 0.2));
+    s->lights[1].position += Vec3(0.3, 0.4, -0.2);
+    s->lights[2].type = LightType::directional;
+  }
+  moved.render(moved.frame.options);
+  const Drawn fresh = draw(scene);
+  EXPECT_EQ(moved.frame.color.data, fresh.frame.color.data);
+  EXPECT_EQ(moved.frame.primitive.data, fresh.frame.primitive.data);
+}
+
 TEST(Picture, OfASceneWithoutLightsIsAmbientAndEmission) {
   Scene scene = three_lights();
   scene.lights.clear();
