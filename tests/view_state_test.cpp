@@ -93,6 +93,17 @@ TEST(ViewState, BiasStepsStopAtZeroOnce) {
   EXPECT_EQ(after(state, {StepNormalOffset{-1.0}}).setup.map.bias.normal_offset_texels, 0.0);
 }
 
+TEST(ViewState, StepsLeaveNumbersThatCanBeTyped) {
+  ViewState state = two_light_state();
+  state.given.lights[0] = posed_light(state.given.lights[0], Vec3(0.0), {-69.0, 18.5});
+  carry_out(state, TurnLightBy{6.0, 0.0});
+  EXPECT_EQ(state.setup.lights[0], (LightPose{-63.0, 18.5}));
+  state.setup.map.bias = {0.1, raster::BiasUnit::world};
+  state.texel_world = 0.2;
+  carry_out(state, StepBias{1.0});
+  EXPECT_EQ(state.setup.map.bias.constant, 0.3);  // not 0.30000000000000004
+}
+
 TEST(ViewState, MapSizeStaysWithinTheContext) {
   ViewState state = two_light_state();
   state.max_map_size = 3000;

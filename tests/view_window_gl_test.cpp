@@ -144,8 +144,8 @@ TEST_F(ViewWindow, EveryScreenshotHasTheWindowsSizeAndShowsSomething) {
 }
 
 // Pixels that the difference shows in grey have the same shadow in both; there the two pictures come from one
-// formula, in float here and in double there, so that they differ by a rounding of the 8-bit value. At
-// silhouettes the two see different surfaces: measured 0.2 % of the pixels of this scene.
+// formula, in float here and in double there, so that 8-bit values may round differently. At silhouettes the
+// two may see different surfaces: measured 3 of 107,026 pixels, and no other pixel differs at all.
 TEST_F(ViewWindow, RasterAndRayTracedAgreeWhereTheShadowIsRight) {
   const Rgb8Image drawn = picture("raster.png"), traced = picture("raytrace.png"),
                   difference = picture("difference.png");
@@ -156,11 +156,11 @@ TEST_F(ViewWindow, RasterAndRayTracedAgreeWhereTheShadowIsRight) {
       continue;
     }
     ++right;
-    off += channel_difference(drawn.data[i], traced.data[i]) > 2;
+    off += channel_difference(drawn.data[i], traced.data[i]) > 1;
   }
   EXPECT_GT(wrong, 100u);
   EXPECT_GT(right, drawn.data.size() / 2);
-  EXPECT_LT(double(off), 0.01 * double(right)) << off << " of " << right;
+  EXPECT_LT(double(off), 0.001 * double(right)) << off << " of " << right;
 }
 
 TEST_F(ViewWindow, AnotherBiasChangesTheDifference) {

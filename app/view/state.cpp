@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cassert>
+#include <charconv>
 
 #include "app/suggest.h"
 #include "app/view/map_option.h"
@@ -22,6 +23,14 @@ CameraPose current_camera(const ViewState& s) {
 LightPose current_light(const ViewState& s) {
   const std::uint32_t i = s.setup.light;
   return s.setup.lights[i].value_or(light_pose(s.given.lights[i], s.given.centre));
+}
+
+/// Steps and drags leave numbers that a person can read and type again: nine digits, finer than anything on
+/// screen.
+double tidy(double value) {
+  const std::string text = fmt::format("{:.9g}", value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 double clamped(double value, double limit) {
@@ -56,17 +65,17 @@ struct SetupChange {
 
   void operator()(const OrbitBy& c) const {
     const CameraPose pose = current_camera(s);
-    turn_camera(pose.azimuth_degrees + c.azimuth, pose.elevation_degrees + c.elevation);
+    turn_camera(tidy(pose.azimuth_degrees + c.azimuth), tidy(pose.elevation_degrees + c.elevation));
   }
   void operator()(const OrbitTo& c) const { turn_camera(c.azimuth, c.elevation); }
   void operator()(const ZoomBy& c) const {
     const double own = camera_pose(s.given.camera).distance;
-    move_camera(std::clamp(current_camera(s).distance * c.factor, own / max_zoom, own * max_zoom));
+    move_camera(tidy(std::clamp(current_camera(s).distance * c.factor, own / max_zoom, own * max_zoom)));
   }
   void operator()(const DistanceTo& c) const { move_camera(c.distance); }
   void operator()(const TurnLightBy& c) const {
     const LightPose pose = current_light(s);
-    turn_light(pose.azimuth_degrees + c.azimuth, pose.elevation_degrees + c.elevation);
+    turn_light(tidy(pose.azimuth_degrees + c.azimuth), tidy(pose.elevation_degrees + c.elevation));
   }
   void operator()(const LightAzimuthTo& c) const {
     turn_light(c.azimuth, current_light(s).elevation_degrees);
@@ -83,7 +92,7 @@ struct SetupChange {
   void operator()(const StepBias& c) const {
     raster::Bias& bias = s.setup.map.bias;
     const double unit = bias.unit == raster::BiasUnit::texel ? 1.0 : s.texel_world;
-    const double next = bias.constant + c.texels * unit;
+    const double next = tidy(bias.constant + c.texels * unit);
     bias.constant = next * bias.constant < 0.0 ? 0.0 : next;
   }
   void operator()(const StepSlopeBias& c) const {
