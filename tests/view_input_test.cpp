@@ -78,7 +78,7 @@ TEST(ViewInput, WheelUpComesNearer) {
   carry_out(state, zoom_for_scroll(2.0));
   EXPECT_LT(state.setup.camera->distance, 5.0);
   carry_out(state, zoom_for_scroll(-2.0));
-  EXPECT_NEAR(state.setup.camera->distance, 5.0, 1e-12);
+  EXPECT_NEAR(state.setup.camera->distance, 5.0, 1e-7);  // steps keep nine digits
 }
 
 TEST(ViewInput, DragsTurnOnlyWhileAButtonIsDown) {
