@@ -27,7 +27,8 @@ Rgb8Image raytraced_picture(const Comparison& comparison);
 /// The picture in grey with false shadow and missed shadow in two fixed colours.
 Rgb8Image difference_picture(const Comparison& comparison, const LightComparison& light);
 Rgb8Image label_picture(const Comparison& comparison, const LightComparison& light);
-/// Stored depths, near = bright, on one fixed scale over the map's depth range; cube faces side by side.
+/// Stored depths, near = bright, on one fixed scale over the map's depth range (logarithmic for a
+/// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);
 
 /// The EXR channels of DESIGN.md section 6; with several lights the light's name goes before ".exr".

@@ -29,10 +29,13 @@ glm::u8vec3 backdrop(const glm::u8vec3& c) {
   return glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
 }
 
-// Linear depth of a stored value as a share of the map's range: 0 at its near end, 1 at its far end.
+// How far a stored depth lies through the map's range: 0 at its near end, 1 at its far end. Even in depth for
+// an orthographic map; in its logarithm for a perspective one, whose range may span several powers of ten.
 double depth_share(const LightView& view, float stored) {
-  return (depth_from_stored(view, static_cast<double>(stored)) - view.near_depth) /
-         (view.far_depth - view.near_depth);
+  const double depth = depth_from_stored(view, static_cast<double>(stored));
+  if (view.projection == LightProjection::perspective)
+    return std::log(depth / view.near_depth) / std::log(view.far_depth / view.near_depth);
+  return (depth - view.near_depth) / (view.far_depth - view.near_depth);
 }
 
 }  // namespace

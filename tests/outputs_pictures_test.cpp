@@ -81,6 +81,10 @@ TEST(Pictures, DepthMapIsUpsideUpNearIsBrightAndFacesStandApart) {
   const Rgb8Image cube = depth_map_picture(made->comparison.raster.lights[1].map);
   EXPECT_EQ(cube.size, (ImageSize{3 * 64 + 2, 2 * 64 + 1}));
   EXPECT_EQ(packed(cube.at(64, 0)), packed(nothing_stored_colour));  // the gap between the faces
+  // The ball on face -x: stored 0.25 between depths 1 and 11 is depth 11 / (11 - 0.25 * 10), on a logarithmic
+  // scale.
+  const double share = std::log(11.0 / (11.0 - 2.5)) / std::log(11.0);
+  EXPECT_EQ(packed(cube.at(64 + 1 + 30, 63 - 34)), packed(viridis(1.0 - share)));
 }
 
 TEST(Pictures, ReducedMapKeepsTheNearestDepth) {

@@ -142,12 +142,13 @@ std::string depth_map_block(const LightBlock& b) {
   return fmt::format(
       R"(<h3>The depth map</h3>
 <figure class="depth">{}<figcaption><span class="scale-row"><span>far {}</span>{}<span>near {}</span></span>
-Depth from the light in world units; dark grey where nothing is stored.{}{}</figcaption></figure>
+Depth from the light in world units{}; dark grey where nothing is stored.{}{}</figcaption></figure>
 )",
       picture(pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
               ""),
       plain_number(view.far_depth), depth_scale(fmt::format("depth-scale-{}", b.index)),
       plain_number(view.near_depth),
+      view.projection == LightProjection::perspective ? ", on a logarithmic scale" : "",
       view.face_count > 1 ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z." : "",
       step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "");
 }
