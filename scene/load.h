@@ -19,6 +19,7 @@ struct LoadOptions {
 /// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one
 /// light and a camera. What the loader had to make up (camera, light, ground) or could not use is in
 /// Scene::notes. Errors are ErrorKind::bad_input with file, line and column, or the path inside the file.
+/// ErrorKind::graphics (resources) when there is not enough memory.
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options = {});
 
 struct BuiltinScene {
