@@ -37,7 +37,9 @@ Expected<void> write_aov(const Comparison& comparison, const std::string& path);
 /// The whole report page: one file, offline, readable without scripts.
 Expected<std::string> report_html(const Comparison& comparison);
 
-/// Writes report.html, result.json, result.csv and the PNG pictures into a folder; returns the paths.
+/// Writes report.html, result.json, result.csv and the PNG pictures into a folder; returns the paths. The
+/// times "report" and "total" in these files are the comparison's own plus the time spent here until their
+/// text is fixed.
 Expected<std::vector<std::string>> write_outputs(const Comparison& comparison, const std::string& folder);
 
 }  // namespace gnomon::compare

@@ -59,6 +59,11 @@ std::string spoken(std::string_view name) {
   return text;
 }
 
+// "1 shape", "1,024 triangles".
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
 std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
@@ -146,9 +151,9 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
 std::string summary_table(const Comparison& c, bool colour) {
   Page page(colour);
   const ImageSize size = c.raster.options.size;
-  page.heading(fmt::format("{}: {} x {} pixels, {} triangles, {} shapes", safe_name(c.world->scene->name),
-                           size.width, size.height, grouped(c.world->triangle_count()),
-                           c.world->shapes.size()));
+  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", safe_name(c.world->scene->name), size.width,
+                           size.height, counted(c.world->triangle_count(), "triangle"),
+                           counted(c.world->shapes.size(), "shape")));
   for (const LightComparison& light : c.lights) add_light(page, c, light);
   page.blank();
   page.field("whole", fmt::format("{} on {} thread{}; primary rays {}; peak memory {}",
