@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "scene/files/write_file.h"
+
 namespace gnomon::app {
 
 namespace {
@@ -52,6 +54,11 @@ Expected<void> check_output_file(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return cannot_write(path, "it is a folder");
   return check_folder(fs::path(path).lexically_normal().parent_path());
+}
+
+Expected<void> make_folder_for(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? Expected<void>{} : make_output_folder(folder);
 }
 
 Expected<void> check_extension(std::string_view option, const std::string& path,

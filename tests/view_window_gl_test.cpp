@@ -215,9 +215,9 @@ TEST_F(ViewWindow, ScreenshotShowsWhatWasSetJustBefore) {
 
 TEST_F(ViewWindow, WindowFollowsTheSizeAsked) {
   const ProcessResult result =
-      run_script("wait 1\nset size 200x120\nset view labels\nwait done\nscreenshot small.png\n");
+      run_script("wait 1\nset size 200x120\nset view labels\nwait done\nscreenshot new/small.png\n");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(picture("small.png").size, (ImageSize{200, 120}));
+  EXPECT_EQ(picture("new/small.png").size, (ImageSize{200, 120}));
 }
 
 TEST_F(ViewWindow, WhatCannotBeDrawnEndsTheScriptWithItsLine) {
@@ -227,18 +227,19 @@ TEST_F(ViewWindow, WhatCannotBeDrawnEndsTheScriptWithItsLine) {
   EXPECT_FALSE(exists("never.png"));
 }
 
-TEST_F(ViewWindow, ScreenshotThatCannotBeWrittenSaysSo) {
-  const ProcessResult result = run_script("wait 1\nscreenshot nowhere/a.png\n");
-  EXPECT_EQ(result.exit_code, 4) << result.err;
-  EXPECT_NE(result.err.find("nowhere/a.png"), std::string::npos) << result.err;
-}
-
 // Without a display, so that a window cannot have been opened before the script was read.
 TEST_F(ViewWindow, ScriptIsCheckedBeforeTheWindowOpens) {
   const ProcessResult result = run_script("wait done\nset bios 1\n", false);
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err.substr(0, 13), "script.txt:2:") << result.err;
   EXPECT_EQ(run({"view", "floating-box", "--script", "missing.txt"}, false).exit_code, 3);
+}
+
+TEST_F(ViewWindow, ScreenshotThatCannotBeWrittenIsSaidBeforeTheWindowOpens) {
+  const ProcessResult result = run_script("wait done\nscreenshot tour.txt/a.png\n", false);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_EQ(result.err.substr(0, 13), "script.txt:2:") << result.err;
+  EXPECT_NE(result.err.find("tour.txt"), std::string::npos) << result.err;
 }
 
 TEST_F(ViewWindow, NoDisplayIsOneClearLine) {

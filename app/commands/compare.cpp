@@ -77,9 +77,12 @@ Expected<void> write_json(const CompareCommand& command) {
   if (command.json.empty()) return {};
   const Expected<std::string> json = read_back(command.folder + "/result.json");
   if (!json) return fail(json.error());
-  if (command.json != "-") return write_file(command.json, *json);
-  print_data(*json);
-  return {};
+  if (command.json == "-") {
+    print_data(*json);
+    return {};
+  }
+  if (const auto made = make_folder_for(command.json); !made) return made;
+  return write_file(command.json, *json);
 }
 
 Expected<void> write_all(const CompareCommand& command, const compare::Comparison& comparison) {
@@ -87,6 +90,7 @@ Expected<void> write_all(const CompareCommand& command, const compare::Compariso
   if (const auto written = compare::write_outputs(comparison, command.folder); !written)
     return fail(written.error());
   if (!command.aov.empty()) {
+    if (const auto made = make_folder_for(command.aov); !made) return made;
     if (const auto written = compare::write_aov(comparison, command.aov); !written) return written;
   }
   return write_json(command);

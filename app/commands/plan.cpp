@@ -52,6 +52,7 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   const auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
   if (!command.json.empty() && command.json != "-") {
+    if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
     if (const auto written = write_file(command.json, plan_json(loaded->plan)); !written)
       return fail(written.error());
   }

@@ -49,6 +49,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!frame) return fail(frame.error());
 
   const OutputGuard whole_outputs;
+  if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
   const double exposure = choose_exposure(command.exposure, *loaded->scene, frame->color);
   if (const auto written = write_picture(command.image, *loaded->world, *frame, exposure); !written) {
     return fail(written.error());

@@ -46,6 +46,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
       raytrace::trace_frame(tracer, loaded->plan, loaded->scene->camera, *lights, command.options);
 
   const OutputGuard whole_outputs;
+  if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
   const double exposure = choose_exposure(command.exposure, *loaded->scene, frame.color);
   if (const auto written = write_picture(command.image, *loaded->world, frame, exposure); !written) {
     return fail(written.error());

@@ -40,6 +40,7 @@ std::string scenes_table() {
 Expected<ExitCode> run_scenes(const std::string& json) {
   if (const auto writable = check_output_file(json); !writable) return fail(writable.error());
   if (!json.empty() && json != "-") {
+    if (const auto made = make_folder_for(json); !made) return fail(made.error());
     if (const auto written = write_file(json, scenes_json()); !written) return fail(written.error());
     return ExitCode::done;
   }

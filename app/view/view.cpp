@@ -1,5 +1,6 @@
 #include "app/view/view.h"
 
+#include "app/output_path.h"
 #include "app/session.h"
 #include "app/view/viewer.h"
 #include "scene/files/read_file.h"
@@ -8,11 +9,29 @@ namespace gnomon::app {
 
 namespace {
 
+/// A screenshot's file can be written; nobody wants to learn that at the end of a long script.
+Expected<void> check_step_output(const ScriptStep& step, const std::string& script) {
+  const auto* shot = std::get_if<Screenshot>(&step.what);
+  if (shot == nullptr) return {};
+  const Expected<void> writable = check_output_file(shot->path);
+  if (writable) return {};
+  Error error = writable.error();
+  error.reason = error.message();
+  error.file = script;
+  error.line = step.line;
+  return fail(std::move(error));
+}
+
 Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene) {
   if (path.empty()) return std::vector<ScriptStep>{};
   const Expected<std::string> text = read_file(path);
   if (!text) return fail(text.error());
-  return parse_script(*text, path, scene.lights);
+  auto steps = parse_script(*text, path, scene.lights);
+  if (!steps) return steps;
+  for (const ScriptStep& step : *steps) {
+    if (const auto writable = check_step_output(step, path); !writable) return fail(writable.error());
+  }
+  return steps;
 }
 
 /// The state that the command line asks for.

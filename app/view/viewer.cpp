@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/interrupt.h"
+#include "app/output_path.h"
 #include "app/view/status.h"
 #include "scene/files/image_io.h"
 
@@ -163,6 +164,7 @@ Expected<void> Viewer::save_screenshot(const std::string& path) {
   const auto picture = presenter_->read({0, 0, size.width, size.height});
   if (!picture) return fail(picture.error());
   const OutputGuard whole_output;
+  if (auto made = make_folder_for(path); !made) return made;
   if (auto written = write_png(path, *picture); !written) return written;
   console_.message("screenshot: " + path);
   return {};
