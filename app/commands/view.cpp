@@ -14,22 +14,26 @@ void add_view(CLI::App& program, Invocation& invocation) {
       "view",
       "Turn the camera and the light, change bias and map, and watch the shadows and their differences.");
   app->footer(
-      "gnomon view fence                                     H prints the keys\n"
+      "gnomon view fence                      H prints the keys\n"
       "gnomon view model.glb --size 1600x900 --bias 0.5texel\n"
-      "gnomon view floating-box --script tour.txt            drives the window; see the manual");
+      "gnomon view floating-box --script tour.txt");
   const auto options = std::make_shared<ViewOptions>();
   add_scene(*app, options->scene);
   add_size(*app, options->compare.raster.size);
   add_map_options(*app, options->compare.raster.map);
-  add_light(*app, options->compare.light, "begin with this light");
+  app->add_option("--light", options->compare.light,
+                  "begin with this light [a light's name; default the first]")
+      ->type_name("NAME");
   add_pose_options(*app, options->poses);
   add_tracer_options(*app, options->compare.accel);
   add_min_contribution(*app, options->compare.raytrace.min_contribution);
   add_exposure(*app, options->exposure);
   app->add_option(
          "--script", options->script,
-         "drive the window by a file of lines set KEY VALUE, wait N or wait done, screenshot FILE.png, quit "
-         "[default off]")
+         "drive the window by a file with one step a line: set KEY VALUE, wait N (frames), wait done (until "
+         "the comparison is shown), screenshot FILE.png, quit; # starts a comment. Keys: view (raster, raytrace, "
+         "difference, labels, depth), size, light, light-azimuth, light-elevation, camera-orbit (two "
+         "values), camera-distance, and the options of the shadow map, such as bias and map-size [default off]")
       ->type_name("FILE");
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);
