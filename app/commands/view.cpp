@@ -9,6 +9,17 @@
 
 namespace gnomon::app {
 
+namespace {
+
+constexpr const char* script_help =
+    "drive the window by a file with one step a line: set KEY VALUE, wait N (frames), wait done "
+    "(until the comparison is shown), screenshot FILE.png, quit; # starts a comment. Keys: view "
+    "(raster, raytrace, difference, labels, depth), size, light, light-azimuth, light-elevation, "
+    "camera-orbit (two values), camera-distance, and the options of the shadow map, such as bias and "
+    "map-size [default off]";
+
+}  // namespace
+
 void add_view(CLI::App& program, Invocation& invocation) {
   CLI::App* app = program.add_subcommand(
       "view",
@@ -28,13 +39,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_tracer_options(*app, options->compare.accel);
   add_min_contribution(*app, options->compare.raytrace.min_contribution);
   add_exposure(*app, options->exposure);
-  app->add_option(
-         "--script", options->script,
-         "drive the window by a file with one step a line: set KEY VALUE, wait N (frames), wait done (until "
-         "the comparison is shown), screenshot FILE.png, quit; # starts a comment. Keys: view (raster, raytrace, "
-         "difference, labels, depth), size, light, light-azimuth, light-elevation, camera-orbit (two "
-         "values), camera-distance, and the options of the shadow map, such as bias and map-size [default off]")
-      ->type_name("FILE");
+  app->add_option("--script", options->script, script_help)->type_name("FILE");
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);
   app->callback([options, &invocation] { invocation.action = [options] { return run_view(*options); }; });
