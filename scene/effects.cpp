@@ -19,15 +19,20 @@ std::set<std::uint32_t> used_materials(const Scene& scene) {
   return used;
 }
 
+struct Remark {
+  bool supported;
+  std::string_view text;  ///< added to the reason of an effect that is called for
+};
+constexpr Remark simulated{true, ""}, not_simulated{false, "; this version does not simulate it"};
+
 // The first used material for which `needs` holds is the reason.
-EffectEntry from_materials(const Scene& scene, Effect effect, bool supported, std::string_view property,
+EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& remark, std::string_view property,
                            const std::function<bool(const Material&)>& needs) {
   for (const std::uint32_t id : used_materials(scene)) {
     const Material& material = scene.materials[id];
     if (!needs(material)) continue;
-    std::string reason = fmt::format("material '{}' has {}", material.name, property);
-    if (!supported) reason += "; this version does not simulate it";
-    return {effect, true, supported, reason};
+    return {effect, true, remark.supported,
+            fmt::format("material '{}' has {}{}", material.name, property, remark.text)};
   }
   return {effect, false, false, fmt::format("no material has {}", property)};
 }
@@ -50,26 +55,30 @@ std::string_view effect_name(Effect effect) {
 
 EffectPlan plan_effects(const Scene& scene) {
   const auto any = [](const Vec3f& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; };
-  const auto material = [&](Effect e, bool supported, std::string_view property, auto needs) {
-    return from_materials(scene, e, supported, property, needs);
+  const auto material = [&](Effect e, const Remark& remark, std::string_view property, auto needs) {
+    return from_materials(scene, e, remark, property, needs);
   };
   using M = const Material&;
   return {{
       hard_shadow(scene),
       EffectEntry{Effect::soft_shadow, false, false, "no light has a size"},
-      material(Effect::reflection, true, "mirror or transmission > 0",
-               [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
-      material(Effect::refraction, true, "transmission > 0", [](M m) { return m.transmission > 0.0f; }),
-      material(Effect::absorption, true, "transmission > 0 and absorption > 0",
+      material(Effect::reflection, Remark{true, "; only the ray tracer shows it"},
+               "mirror or transmission > 0", [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
+      material(Effect::refraction,
+               Remark{true,
+                      "; the ray tracer's picture lets light through it, the rasterizer and the comparison "
+                      "count it as opaque"},
+               "transmission > 0", [](M m) { return m.transmission > 0.0f; }),
+      material(Effect::absorption, simulated, "transmission > 0 and absorption > 0",
                [&](M m) { return m.transmission > 0.0f && any(m.absorption); }),
-      material(Effect::glossy, false, "roughness > 0 on a mirror or transmissive surface",
+      material(Effect::glossy, not_simulated, "roughness > 0 on a mirror or transmissive surface",
                [](M m) { return m.roughness > 0.0f && (m.mirror > 0.0f || m.transmission > 0.0f); }),
       EffectEntry{Effect::indirect_light, false, false, "the scene does not ask for it"},
-      material(Effect::textures, true, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
-      material(Effect::alpha_mask, true, "an alpha mask",
+      material(Effect::textures, simulated, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
+      material(Effect::alpha_mask, simulated, "an alpha mask",
                [](M m) { return m.alpha_mode == AlphaMode::mask; }),
-      material(Effect::emission, true, "emission > 0", [&](M m) { return any(m.emission); }),
-      material(Effect::specular, true, "specular > 0", [&](M m) { return any(m.specular); }),
+      material(Effect::emission, simulated, "emission > 0", [&](M m) { return any(m.emission); }),
+      material(Effect::specular, simulated, "specular > 0", [&](M m) { return any(m.specular); }),
   }};
 }
 

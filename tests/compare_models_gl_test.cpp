@@ -181,7 +181,7 @@ void expect_embree_agrees(const Scene& scene) {
     std::printf("  %-24s %-8s compared %llu differ %llu\n", scene.name.c_str(), source.name.c_str(),
                 static_cast<unsigned long long>(light.pixels.compared),
                 static_cast<unsigned long long>(differs));
-    EXPECT_LE(double(differs), 1e-5 * double(light.pixels.compared) + 1.0);
+    EXPECT_LE(double(differs), 1e-5 * double(light.pixels.compared));
   }
 }
 
