@@ -8,6 +8,7 @@ find_package(TinyGLTF REQUIRED)
 find_package(tinyobjloader REQUIRED)
 find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(hwy REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "raytrace/packet/passes.h"
 #include "raytrace/shade.h"
 #include "raytrace/tiles.h"
 
@@ -21,6 +22,13 @@ void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions
                    RayTracedFrame& frame) {
   frame.receiver = Image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(options.runs, [&] {
+    if (packets_apply(tracer.structures())) {
+      const Seen eye = seen_from(tracer.structures(), view.eye, false);
+      for_each_tile({options.size}, [&](std::size_t, int x0, int y0, int x1, int y1) {
+        primary_tile(tracer, view, eye, {x0, y0, x1, y1}, frame.receiver);
+      });
+      return;
+    }
     for_each_pixel({options.size}, [&](int x, int y, std::size_t) {
       const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
       const std::optional<Hit> hit = tracer.closest_hit(ray);
@@ -43,6 +51,13 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(options.runs, [&] {
     std::fill(rays.begin(), rays.end(), 0);
+    if (packets_apply(tracer.structures())) {
+      const Seen seen = seen_from(tracer.structures(), light);
+      for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
+        rays[tile] = shadow_tile(tracer, light, seen, {x0, y0, x1, y1}, receivers, truth.verdict);
+      });
+      return;
+    }
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;

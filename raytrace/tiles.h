@@ -20,20 +20,27 @@ struct TileGrid {
   std::size_t count() const { return columns() * rows(); }
 };
 
+/// tile(tile index, x0, y0, x1, y1) for every tile.
+template <class Tile>
+void for_each_tile(const TileGrid& grid, const Tile& tile) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.count(), 1),
+                    [&](const tbb::blocked_range<std::size_t>& r) {
+                      for (std::size_t i = r.begin(); i != r.end(); ++i) {
+                        const int x0 = static_cast<int>(i % grid.columns()) * tile_pixels;
+                        const int y0 = static_cast<int>(i / grid.columns()) * tile_pixels;
+                        tile(i, x0, y0, std::min(x0 + tile_pixels, grid.size.width),
+                             std::min(y0 + tile_pixels, grid.size.height));
+                      }
+                    });
+}
+
 /// pixel(x, y, tile index) for every pixel.
 template <class Pixel>
 void for_each_pixel(const TileGrid& grid, const Pixel& pixel) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.count(), 1),
-                    [&](const tbb::blocked_range<std::size_t>& r) {
-                      for (std::size_t tile = r.begin(); tile != r.end(); ++tile) {
-                        const int x0 = static_cast<int>(tile % grid.columns()) * tile_pixels;
-                        const int y0 = static_cast<int>(tile / grid.columns()) * tile_pixels;
-                        const int x1 = std::min(x0 + tile_pixels, grid.size.width),
-                                  y1 = std::min(y0 + tile_pixels, grid.size.height);
-                        for (int y = y0; y < y1; ++y)
-                          for (int x = x0; x < x1; ++x) pixel(x, y, tile);
-                      }
-                    });
+  for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) pixel(x, y, tile);
+  });
 }
 
 }  // namespace gnomon::raytrace

@@ -1,0 +1,31 @@
+// The primary and hard-shadow passes of a frame by tiles. What they store is what the double kernels give,
+// bit for bit: the floats only say which primitive is hit, and which rays must be asked again in double.
+#pragma once
+
+#include "raytrace/packet/seen.h"
+#include "raytrace/tracer.h"
+#include "scene/camera.h"
+#include "scene/image.h"
+
+namespace gnomon::raytrace {
+
+/// A tile's rectangle of pixels: at most 16 x 16.
+struct TileRect {
+  int x0, y0, x1, y1;
+};
+
+/// Whether the world has a tree to walk and lengths that floats can hold.
+bool packets_apply(const Structures& structures);
+
+void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
+                  Image<SurfacePoint>& receivers);
+
+/// Fills the verdicts of the tile's receivers as Tracer::light_verdict does, `shadowed` where the light
+/// cannot reach, and returns the number of rays.
+std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
+                          const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts);
+
+/// The light as a common origin or direction.
+Seen seen_from(const Structures& structures, const Light& light);
+
+}  // namespace gnomon::raytrace

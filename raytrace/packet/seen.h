@@ -1,0 +1,52 @@
+// The world as seen from one point (the eye, a light) or along one direction (a sun): for every leaf
+// primitive the float numbers that let 16 rays at once be told *surely hit*, *surely missed* or *unsure* with
+// a handful of fused operations. Rays through a common origin are points d = (u, v, 1) of a projective plane
+// (the axis of depth is chosen per tile), rays along a common direction are points (u, v, 1) of the plane
+// across it: in both cases a triangle is three edge functions n_k·d and one depth function m·d. Every error,
+// of the floats and of the double kernels alike, enters the bounds, so that what is sure here is what the
+// double kernels say.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raytrace/kernels.h"
+
+namespace gnomon::raytrace {
+
+/// nearness(d) = m·d grows towards the common origin: 1/depth for a point, the height towards a direction's
+/// light.
+struct alignas(64) SeenPrimitive {
+  float edge[3][3];   ///< n_k: all three are >= 0 inside; unit length across the ray
+  float nearness[3];  ///< m
+  float edge_error;   ///< all edge functions above it: surely inside; one below minus it: surely outside
+  float depth_error;  ///< of the nearness, the double kernels' own error included
+  float depth_floor;  ///< a nearness at or below it says nothing; -infinity: all do
+  std::uint32_t id;   ///< of the primitive
+};
+static_assert(sizeof(SeenPrimitive) == 64);
+
+/// The primitives' float numbers are void: its rays go to the double kernels (spheres, alpha masks, ...).
+inline constexpr std::uint32_t never_sure = 0x80000000u;
+
+struct Seen {
+  std::vector<SeenPrimitive> primitives;  ///< in leaf order
+  std::vector<SeenPrimitive> planes;      ///< of Structures::planes; their edge functions are not used
+  bool directional = false;
+  Vec3 origin{0.0};      ///< the common origin; of a direction: the middle of the world
+  Vec3 axes[3];          ///< of u, v and depth; a point's are the world's
+  double reach = 0.0;    ///< receivers with a coordinate beyond it are left to the double kernels
+  double lateral = 0.0;  ///< of a direction: so are those with |u| or |v| beyond it
+  double slack = 0.0;    ///< world units by which boxes are widened against rounding
+};
+
+/// Point receivers may lie anywhere within Seen::reach of the coordinates' origin; `receivers`: whether there
+/// are any (shadow rays) or the rays start at the point itself (primary rays).
+Seen seen_from(const Structures& structures, const Vec3& origin, bool receivers);
+/// `to_light`: any length above zero.
+Seen seen_along(const Structures& structures, const Vec3& to_light);
+
+/// The instruction set in use, as Highway names it.
+const char* packet_target();
+
+}  // namespace gnomon::raytrace

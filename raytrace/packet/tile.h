@@ -1,0 +1,46 @@
+// 16 x 16 pixels' rays at once, as 16 packets of 16 (4 x 4 pixels each), against the world as seen from their
+// common origin or along their common direction. The answers are certain or withheld: whoever asks sends the
+// withheld rays to the double kernels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raytrace/packet/seen.h"
+
+namespace gnomon::raytrace {
+
+inline constexpr std::size_t packet_rays = 16, tile_packets = 16, tile_rays = packet_rays * tile_packets;
+
+/// The place of a ray in its tile: packets are 4 x 4 pixels, so that they stay narrow both ways.
+constexpr std::size_t tile_lane(int x, int y) {
+  return static_cast<std::size_t>(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
+}
+
+struct alignas(64) TileRays {
+  float u[tile_rays], v[tile_rays];
+  /// Shadow rays: the receiver's nearness. Primary rays: unused.
+  float far[tile_rays];
+  std::uint32_t own[tile_rays];                   ///< shadow rays: the primitive that they leave
+  std::array<std::uint16_t, tile_packets> alive;  ///< bit i: ray i of the packet is asked for
+  int axis = 2;  ///< a point's: the world axis of depth, and the sign that makes depth positive
+  float sign = 1.0f;
+};
+
+/// Of each ray the leaf position of its nearest hit; or first_plane and the place in Structures::planes; or:
+inline constexpr std::uint32_t nothing_hit = 0xffffffffu, unsure_hit = 0xfffffffeu, first_plane = 0x80000000u;
+
+struct alignas(64) TileHits {
+  std::uint32_t leaf[tile_rays];
+};
+
+/// Bits per packet; neither: surely lit. Both never.
+struct TileShadows {
+  std::array<std::uint16_t, tile_packets> shadowed, unsure;
+};
+
+/// The world's tree must have nodes.
+void closest_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileHits& hits);
+void shadows_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileShadows& shadows);
+
+}  // namespace gnomon::raytrace

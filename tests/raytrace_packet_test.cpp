@@ -1,0 +1,233 @@
+// Packets of floats against the double kernels: what trace_frame stores must be theirs bit for bit, for every
+// instruction set that this machine has. The reference is made here, one ray at a time.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/global_control.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "raytrace/frame.h"
+#include "raytrace/packet/seen.h"
+#include "raytrace_support.h"
+#include "scene/light.h"
+#include "scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using raytrace::Accel;
+using raytrace::SurfacePoint;
+using raytrace::Tracer;
+using raytrace::Verdict;
+using test::TestWorld;
+
+struct Reference {
+  std::vector<SurfacePoint> receivers;
+  std::vector<std::vector<Verdict>> verdicts;
+};
+
+Verdict verdict_of(const Tracer& tracer, const Light& light, const SurfacePoint& point) {
+  if (point.primitive == no_id) return Verdict::lit;
+  if (light_cannot_reach(light, point.position, point.normal)) return Verdict::shadowed;
+  return tracer.light_verdict(point, light);
+}
+
+Reference reference_of(const Tracer& tracer, const Scene& scene, ImageSize size) {
+  const View view = make_view(scene.camera, size);
+  Reference r;
+  r.verdicts.resize(scene.lights.size());
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+      const auto hit = tracer.closest_hit(ray);
+      r.receivers.push_back(hit ? tracer.surface_point(ray, *hit) : SurfacePoint{});
+      for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        r.verdicts[i].push_back(verdict_of(tracer, scene.lights[i], r.receivers.back()));
+    }
+  return r;
+}
+
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool same_point(const SurfacePoint& a, const SurfacePoint& b) {
+  if (a.primitive != b.primitive) return false;
+  return a.primitive == no_id ||
+         (same_bits(a.position, b.position) && same_bits(a.position_error, b.position_error) &&
+          same_bits(a.normal, b.normal) &&
+          std::memcmp(&a.barycentric, &b.barycentric, sizeof a.barycentric) == 0);
+}
+
+void expect_same(const Scene& scene, const Tracer& tracer, const Reference& reference, ImageSize size) {
+  std::vector<std::uint32_t> lights(scene.lights.size());
+  for (std::uint32_t i = 0; i < lights.size(); ++i) lights[i] = i;
+  raytrace::RaytraceOptions options;
+  options.size = size, options.picture = false;
+  const auto frame = trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < reference.receivers.size(); ++i)
+    points += same_point(frame.receiver.data[i], reference.receivers[i]) ? 0 : 1;
+  EXPECT_EQ(points, 0U) << "receivers differ, " << raytrace::packet_target();
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < reference.receivers.size(); ++i)
+      wrong += frame.lights[l].verdict.data[i] == reference.verdicts[l][i] ? 0 : 1;
+    EXPECT_EQ(wrong, 0U) << "verdicts of light " << l << " differ, " << raytrace::packet_target();
+  }
+}
+
+/// Every instruction set in turn.
+void check(const Scene& scene, ImageSize size) {
+  const TestWorld w(scene);
+  const Tracer tracer(w.world(), Accel::bvh);
+  const Reference reference = reference_of(tracer, w.scene(), size);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_same(w.scene(), tracer, reference, size);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+void look(Scene& scene, const Vec3& eye, const Vec3& target, double fov = 0.8) {
+  scene.camera.eye = eye, scene.camera.target = target, scene.camera.vertical_fov = fov;
+  scene.camera.up = {0.1, 1, 0.05};
+}
+
+std::vector<Light> lights_around(const Vec3& center, double distance) {
+  return {test::point_light(center + distance * Vec3(1.5, 2.0, 0.7)), test::sun({-0.3, -1.0, -0.2}),
+          test::sun({0, -1, 0}), test::point_light(center + distance * Vec3(0.0, 0.3, 0.0))};
+}
+
+TEST(Packets, RandomTriangles) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const double size : {0.02, 0.2, 1.5}) {
+      Scene scene = test::scene_of({test::triangle_soup(2000, 1.0, size, seed)});
+      look(scene, {0.3, 0.4, 3.0}, {0, 0, 0});
+      scene.lights = lights_around(Vec3(0.0), 2.0);
+      check(scene, {101, 67});
+    }
+  }
+}
+
+TEST(Packets, FromWithinAndWideOpen) {
+  Scene scene = test::scene_of({test::triangle_soup(3000, 1.0, 0.1, 7)});
+  look(scene, {0.01, 0.02, -0.03}, {1, 0.2, 0.1}, 2.6);
+  scene.lights = lights_around(Vec3(0.05), 0.1);
+  check(scene, {96, 64});
+}
+
+TEST(Packets, RaysThroughVerticesAndEdges) {
+  // A regular grid seen so that pixel centres fall on its vertices, edges and diagonals.
+  std::vector<Mesh> meshes;
+  for (int x = -8; x < 8; ++x)
+    for (int y = -8; y < 8; ++y)
+      meshes.push_back(test::quad({x / 8.0, y / 8.0, 0}, {0.125, 0, 0}, {0, 0.125, 0}));
+  meshes.push_back(test::quad({-1, -1, -0.5}, {2, 0, 0}, {0, 2, 0}));
+  meshes.push_back(test::box({-0.25, -0.25, 0.25}, {0.25, 0.25, 0.5}));
+  Scene scene = test::scene_of(meshes);
+  scene.camera.eye = {0, 0, 2}, scene.camera.target = {0, 0, 0}, scene.camera.up = {0, 1, 0};
+  scene.camera.vertical_fov = 2.0 * std::atan(0.5);
+  scene.lights = {test::point_light({0, 0, 4}), test::sun({0, 0, -1}), test::sun({0.5, 0, -1}),
+                  test::point_light({0.25, 0.25, 1.0})};
+  for (const ImageSize size : {ImageSize{65, 65}, ImageSize{64, 64}}) check(scene, size);
+}
+
+TEST(Packets, EdgeOnWallsAndLightsInTheirPlanes) {
+  Scene scene = test::scene_of({test::box({-1, 0, -1}, {1, 1, 1}), test::box({-0.5, 1, -0.5}, {0.5, 2, 0.5}),
+                                test::quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0})});
+  look(scene, {4, 3, 5}, {0, 1, 0});
+  scene.camera.up = {0, 1, 0};
+  scene.lights = {test::sun({0, -1, 0}),        test::sun({-1, -1, 0}),       test::point_light({1, 4, 0}),
+                  test::point_light({1, 1, 3}), test::point_light({1, 1, 1}), test::point_light({0, 2, 0})};
+  check(scene, {120, 90});
+}
+
+TEST(Packets, FarFromTheOrigin) {
+  for (const double far : {1e3, 1e6}) {
+    Mesh mesh = test::uv_sphere({0, 1, 0}, 1.0, 24, 48, 0.05, 3);
+    Mesh floor = test::quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    const Vec3 shift(far, -far, 2.0 * far);
+    for (Mesh* m : {&mesh, &floor})
+      for (Vec3& p : m->positions) p += shift;
+    Scene scene = test::scene_of({mesh, floor});
+    look(scene, shift + Vec3(3, 3, 4), shift + Vec3(0, 0.7, 0));
+    scene.lights = lights_around(shift + Vec3(0, 1, 0), 2.0);
+    check(scene, {96, 64});
+  }
+}
+
+TEST(Packets, SlimTrianglesAndGlancingLights) {
+  Mesh mesh;
+  test::Random random(11);
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    const Vec3 p = random.in_box(1.0), along = 2.0 * random.direction();
+    mesh.positions.insert(mesh.positions.end(), {p, p + along, p + 0.5 * along + 1e-7 * random.direction()});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  Scene scene = test::scene_of({mesh, test::quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0})});
+  look(scene, {3, 2, 3}, {0, 0, 0});
+  scene.lights = {test::sun({-1, -0.001, 0}), test::point_light({2.9, -0.999, 0}),
+                  test::point_light({0, 2, 0})};
+  check(scene, {96, 64});
+}
+
+TEST(Packets, SheetsNearerThanFloatsCanTell) {
+  // Every triangle twice, the copy's corners moved by less than a float's rounding: which one is in front,
+  // and whether the one shadows the other, only double knows.
+  Mesh mesh = test::triangle_soup(500, 1.0, 0.4, 13);
+  test::Random random(17);
+  const auto corners = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::size_t triangles = mesh.triangles.size();
+  for (std::uint32_t i = 0; i < corners; ++i)
+    mesh.positions.push_back(mesh.positions[i] + random.in_box(1e-8));
+  for (std::size_t i = 0; i < triangles; ++i) {
+    auto t = mesh.triangles[i];
+    for (std::uint32_t& corner : t) corner += corners;
+    mesh.triangles.push_back(t);
+  }
+  Scene scene = test::scene_of({mesh});
+  look(scene, {0.3, 0.4, 3.0}, {0, 0, 0});
+  scene.lights = lights_around(Vec3(0.0), 2.0);
+  check(scene, {101, 67});
+}
+
+TEST(Packets, ShapesMasksAndBuiltInScenes) {
+  for (const char* name :
+       {"fence", "courtyard", "whitted", "teapot", "sphere-plane", "acne-floor", "thin-wall"}) {
+    SCOPED_TRACE(name);
+    const Expected<Scene> scene = load_scene(name);
+    ASSERT_TRUE(scene.has_value());
+    check(*scene, {112, 63});
+  }
+}
+
+TEST(Packets, Bunny) {
+  const std::string path = std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the bunny is not here";
+  const Expected<Scene> loaded = load_scene(path);
+  ASSERT_TRUE(loaded.has_value());
+  Scene scene = *loaded;
+  scene.lights.push_back(test::sun({-0.4, -1.0, -0.3}));
+  scene.lights.push_back(test::point_light(scene.camera.eye + Vec3(0.1, 0.5, 0.05)));
+  check(scene, {320, 180});
+}
+
+TEST(Packets, SameForAnyNumberOfThreads) {
+  Scene scene = test::scene_of({test::triangle_soup(4000, 1.0, 0.1, 5)});
+  look(scene, {0.3, 0.4, 3.0}, {0, 0, 0});
+  scene.lights = lights_around(Vec3(0.0), 2.0);
+  const TestWorld w(scene);
+  const Tracer tracer(w.world(), Accel::bvh);
+  const Reference reference = reference_of(tracer, w.scene(), {101, 67});
+  for (const std::size_t threads : {1, 2, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    expect_same(w.scene(), tracer, reference, {101, 67});
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
