@@ -18,6 +18,7 @@
 #include "app/help.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
+#include "app/man_page.h"
 #include "app/shell.h"
 #include "app/suggest.h"
 #include "scene/load.h"
@@ -104,6 +105,12 @@ void add_completion(CLI::App& program) {
       ->type_name("SHELL");
 }
 
+void add_man_page(CLI::App& program) {
+  program.add_flag_callback(
+      "--man-page", [&program] { throw CLI::CallForVersion(man_page(program, GNOMON_VERSION), 0); },
+      "print the manual page (roff) and exit");
+}
+
 std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   auto program = std::make_unique<CLI::App>(
       "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
@@ -118,6 +125,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   program->set_help_flag("--help,-h", "print this help and exit");
   program->set_version_flag("--version", "gnomon " GNOMON_VERSION "\n", "print the version and exit");
   add_completion(*program);
+  add_man_page(*program);
   program->require_subcommand(1);
   add_compare(*program, invocation);
   add_raster(*program, invocation);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -149,6 +150,22 @@ TEST(Help, UnitsAreNamed) {
 TEST(Help, Version) {
   EXPECT_EQ(run_gnomon({"--version"}).out.substr(0, 7), "gnomon ");
   EXPECT_EQ(run_gnomon({"--help"}).exit_code, 0);
+}
+
+TEST(Help, CompletionAndManualNameEveryOption) {
+  const std::string manual = run_gnomon({"--man-page"}).out;
+  EXPECT_TRUE(manual.starts_with(".TH GNOMON 1"));
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const ProcessResult script = run_gnomon({"--completion", shell});
+    EXPECT_EQ(script.exit_code, 0);
+    for (const char* name : {"compare", "map-size", "receiver-plane", "fence"}) {
+      EXPECT_NE(script.out.find(name), std::string::npos) << shell << " " << name;
+    }
+  }
+  for (const char* name : {"map\\-size", "receiver\\-plane", "gnomon compare fence"}) {
+    EXPECT_NE(manual.find(name), std::string::npos) << name;
+  }
+  expect_one_line(run_gnomon({"--completion", "ksh"}), 2, "(got ksh, allowed bash, zsh, fish)");
 }
 
 // --- Data on stdout
@@ -323,6 +340,21 @@ TEST(ExitCodes, AMapBeyondTheContextsLimit) {
   const ProcessResult result = run_gnomon(
       {"compare", "acne-floor", "--size", "64x36", "--map-size", "65536", "-q"}, {.folder = folder.path()});
   expect_one_line(result, 5, "65536");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(ExitCodes, APictureBeyondTheMachinesMemory) {
+  const double needed = 317.0 * 16384.0 * 16384.0;  // bytes, as compare.cpp has them for one light
+  std::ifstream meminfo("/proc/meminfo");
+  const std::string text{std::istreambuf_iterator<char>(meminfo), {}};
+  const std::size_t at = text.find("MemAvailable:");
+  if (at == std::string::npos || 1024.0 * std::stod(text.substr(at + 13)) > needed) {
+    GTEST_SKIP() << "this machine has memory enough";
+  }
+  const TemporaryFolder folder;
+  const ProcessResult result =
+      run_gnomon({"compare", "acne-floor", "--size", "16384x16384", "-q"}, {.folder = folder.path()});
+  expect_one_line(result, 5, "not enough memory (got 16384x16384, which needs about 85 GB");
   EXPECT_TRUE(folder.entries().empty());
 }
 

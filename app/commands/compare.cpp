@@ -46,10 +46,16 @@ Expected<void> check_outputs(const CompareCommand& command) {
   return check_output_folder(command.folder);
 }
 
+// Measured: what the peak grows by from 320x180 to 2560x1440, with one light and with four.
+constexpr double bytes_per_pixel = 260.0;
+constexpr double bytes_per_pixel_and_light = 57.0;
+
 Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
                                                  Console& console) {
-  if (const auto lights = choose_lights(*loaded.scene, command.options.light); !lights)
-    return fail(lights.error());
+  const auto lights = choose_lights(*loaded.scene, command.options.light);
+  if (!lights) return fail(lights.error());
+  const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
+  if (const auto fits = check_memory(command.options.raster.size, bytes); !fits) return fail(fits.error());
   const auto renderer = make_renderer(command.backend, loaded);
   if (!renderer) return fail(renderer.error());
   auto comparison =
