@@ -132,6 +132,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_raytrace(*program, invocation);
   add_plan(*program, invocation);
   add_scenes(*program, invocation);
+  add_verify(*program, invocation);
   add_view(*program, invocation);
   return program;
 }

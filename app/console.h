@@ -29,9 +29,9 @@ class Console {
   void note(const std::string& text) { message("note: " + text); }
   /// Redraws the progress line when its text would change; done is in [0, 1].
   void progress(std::string_view stage, double done);
+  void clear_progress();
 
  private:
-  void clear_progress();
   bool quiet_;
   bool shows_progress_;
   std::string line_;  ///< the progress line as it stands on the terminal

@@ -215,11 +215,22 @@ void add_exposure(CLI::App& command, std::optional<std::optional<double>>& expos
       });
 }
 
-void add_seed(CLI::App& command, std::uint64_t& seed) {
-  add_value(command, "--seed", "N",
-            describe("recorded in the result; nothing is random yet", "0 to 18446744073709551615",
-                     std::to_string(seed)),
+void add_seed(CLI::App& command, std::uint64_t& seed, const char* what) {
+  add_value(command, "--seed", "N", describe(what, "0 to 18446744073709551615", std::to_string(seed)),
             [&seed](const std::string& value) { return assign(seed, parse_seed(value)); });
+}
+
+void add_ray_count(CLI::App& command, std::uint64_t& rays) {
+  constexpr NumberRange range{1e3, 1e12};
+  add_value(command, "--rays", "N",
+            describe("rays of each row of the table; costly rows take a fixed share of it", range_text(range),
+                     number_text(static_cast<double>(rays))),
+            [&rays, range](const std::string& value) { return assign(rays, parse_number(value, range)); });
+}
+
+void add_checked(CLI::App& command, const std::string& name, const char* type, const std::string& text,
+                 const std::function<Expected<void>(const std::string&)>& store) {
+  add_value(command, name, type, text, store);
 }
 
 void add_fail_above(CLI::App& command, std::optional<double>& share) {

@@ -3,12 +3,14 @@
 // same fields that it fills, so that neither can drift.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "compare/compare.h"
 #include "raster/options.h"
 #include "raytrace/frame.h"
+#include "scene/expected.h"
 
 namespace CLI {
 class App;
@@ -28,7 +30,12 @@ void add_light(CLI::App& command, std::string& light, const char* what);
 void add_threads(CLI::App& command, int& threads, const char* of_what);
 void add_runs(CLI::App& command, std::optional<int>& runs, const char* fallback);
 void add_exposure(CLI::App& command, std::optional<std::optional<double>>& exposure);
-void add_seed(CLI::App& command, std::uint64_t& seed);
+void add_seed(CLI::App& command, std::uint64_t& seed, const char* what);
+/// --rays, which also takes 1e8.
+void add_ray_count(CLI::App& command, std::uint64_t& rays);
+/// An option of one command only: `store` parses the value and may fail.
+void add_checked(CLI::App& command, const std::string& name, const char* type, const std::string& text,
+                 const std::function<Expected<void>(const std::string&)>& store);
 void add_fail_above(CLI::App& command, std::optional<double>& share);
 /// A file to be written; `what` says which, with its extensions.
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,

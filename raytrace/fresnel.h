@@ -26,7 +26,9 @@ inline Refraction refract(const Vec3& incoming, const Vec3& normal, double eta) 
   if (!(across > 0.0) || !(along > 0.0)) return {1.0, Vec3(0.0), true};  // grazing: everything is reflected
   const double s = (eta * cos_in - cos_out) / across;
   const double p = (cos_in - eta * cos_out) / along;
-  return {0.5 * (s * s + p * p), glm::normalize(eta * incoming + (eta * cos_in - cos_out) * normal), false};
+  // Along the boundary, then through it: near the critical angle cos_out keeps all its places.
+  const Vec3 direction = glm::normalize(eta * (incoming + cos_in * normal) - cos_out * normal);
+  return {0.5 * (s * s + p * p), direction, false};
 }
 
 inline Vec3 reflect(const Vec3& incoming, const Vec3& normal) {

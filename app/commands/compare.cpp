@@ -162,7 +162,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
                        command.options.raytrace.runs)
                .c_str());
   add_exposure(app, command.exposure);
-  add_seed(app, command.seed);
+  add_seed(app, command.seed, "recorded in the result; nothing is random yet");
   add_fail_above(app, command.fail_above);
   add_output(app, "--aov", command.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");

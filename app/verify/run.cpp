@@ -1,0 +1,72 @@
+#include "app/verify/run.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace gnomon::verify {
+
+namespace {
+
+constexpr std::uint64_t block_trials = 1024;
+constexpr std::uint64_t blocks_between_reports = 512;
+
+std::uint64_t block_seed(std::uint64_t seed, int number, std::size_t row, std::uint64_t block) {
+  Random mix(seed);
+  for (const std::uint64_t part : {static_cast<std::uint64_t>(number), std::uint64_t{row}, block})
+    mix = Random(mix.next() ^ part);
+  return mix.next();
+}
+
+}  // namespace
+
+Vec3 Random::direction() {
+  for (;;) {
+    const Vec3 d = in_box(1.0);
+    const double length = glm::length(d);
+    if (length > 0.1 && length <= 1.0) return d / length;
+  }
+}
+
+Vec3 Random::nudged(const Vec3& p, int steps) {
+  Vec3 moved = p;
+  for (int a = 0; a < 3; ++a) {
+    const int n = integer(-steps, steps);
+    for (int i = 0; i < std::abs(n); ++i) moved[a] = std::nextafter(moved[a], n < 0 ? -infinity : infinity);
+  }
+  return moved;
+}
+
+std::uint64_t Run::rays(double share, std::uint64_t most) const {
+  const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(options_.rays));
+  return std::clamp(wanted, std::uint64_t{256}, most);
+}
+
+void Run::blocks(Row row, std::uint64_t trials, const Block& block) {
+  const std::uint64_t count = (trials + block_trials - 1) / block_trials;
+  std::vector<Tally> tallies(blocks_between_reports);
+  for (std::uint64_t first = 0; first < count; first += blocks_between_reports) {
+    if (progress_) progress_(row.name, static_cast<double>(first) / static_cast<double>(count));
+    const std::uint64_t end = std::min(count, first + blocks_between_reports);
+    tbb::parallel_for(first, end, [&](std::uint64_t b) {
+      Random random(block_seed(options_.seed, number_, rows_.size(), b));
+      Tally tally;
+      block(random, std::min(block_trials, trials - b * block_trials), tally);
+      tallies[b - first] = tally;
+    });
+    for (std::uint64_t b = first; b < end; ++b) {
+      const Tally& tally = tallies[b - first];
+      row.outcome.tried += tally.tried;
+      row.outcome.wrong += tally.wrong;
+      row.outcome.worst = std::max(row.outcome.worst, tally.worst);
+    }
+  }
+  rows_.push_back(std::move(row));
+}
+
+std::vector<Row> run_case(const Case& which, const Options& options, const Progress& progress) {
+  Run run(which.number, options, progress);
+  which.run(run);
+  return run.take_rows();
+}
+
+}  // namespace gnomon::verify

@@ -1,0 +1,14 @@
+# One test for each hard case that `gnomon verify` runs, with fewer rays.
+set(hard_cases
+  01_shared_edges 02_sliver 03_degenerate_triangles 04_coplanar_ray 05_distant_sphere 06_tangent_ray 07_inside_sphere
+  08_direction_length 09_steep_plane 10_slab_faces 11_slab_corners 12_invalid_rays 13_equal_centroids 14_few_primitives
+  15_bad_vertices 16_stadium 17_split_plane 18_cell_corners 19_self_hits 20_nested_spheres 21_instances
+  22_light_in_plane 23_light_at_vertex 24_occluder_at_end 25_light_inside 26_coplanar_duplicates 27_contact_gap
+  28_smooth_normals 29_critical_angle 30_invisible_glass 37_far_from_origin)
+
+add_executable(hard_case_test hard_case_test.cpp)
+target_link_libraries(hard_case_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt)
+foreach(case ${hard_cases})
+  add_test(NAME hard_case_${case} COMMAND hard_case_test ${case})
+endforeach()
+add_test(NAME hard_case_list COMMAND hard_case_test --complete ${hard_cases})
