@@ -128,8 +128,9 @@ Rect visible_plane_part(const World& world, const LightFace& face, const Vec3& r
     if (plane == nullptr) continue;
     const double height = std::abs(glm::dot(plane->normal, view.eye - plane->point));
     for (int i = 0; i <= steps * steps + 2 * steps; ++i) {
-      const Ray ray = pixel_ray(view, view.size.width * double(i % (steps + 1)) / steps,
-                                view.size.height * double(i / (steps + 1)) / steps);
+      const int column = i % (steps + 1), row = i / (steps + 1);
+      const Ray ray =
+          pixel_ray(view, view.size.width * double(column) / steps, view.size.height * double(row) / steps);
       const double t =
           glm::dot(plane->normal, plane->point - ray.origin) / glm::dot(plane->normal, ray.direction);
       if (t > 0.0 && t <= 50.0 * height) rect.grow(Vec2(to_light_space(face, ray.at(t) - reference)));

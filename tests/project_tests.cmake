@@ -1,5 +1,11 @@
-# Checks of the project as a whole: its arrows, its formatting.
+# Checks of the project as a whole: its arrows, its formatting, and clang-tidy on the shared ground (scene/*.cpp) that
+# both renderers stand on. Everything else is ./gnomon tidy's, which takes tens of minutes.
 gnomon_test(project_arrows_test SOURCES project_arrows_test.cpp)
 
 add_test(NAME project_format_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_format_test.sh")
 set_tests_properties(project_format_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+
+add_test(NAME project_tidy_test
+  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_tidy_test.sh" "/scene/[a-z_]+[.]cpp$")
+set_tests_properties(project_tidy_test PROPERTIES
+  SKIP_RETURN_CODE 77 TIMEOUT 900 ENVIRONMENT "GNOMON_BUILD_DIR=${PROJECT_BINARY_DIR}")
