@@ -133,7 +133,7 @@ async function checkViewer() {
   const transform = () => stage.locator("img").first().evaluate((e) => e.style.transform);
   await stage.focus();
   await page.keyboard.press("ArrowRight");
-  assert.equal(await viewer.locator("input[type=range]").inputValue(), "52");
+  assert.equal(await viewer.locator(".slider input").inputValue(), "52");
   await page.keyboard.press("f");
   assert.equal(await stage.getAttribute("data-mode"), "flip");
   const front = () => stage.locator(".pane:not(.away) .tag").textContent();

@@ -98,6 +98,9 @@ inline raster::ShadowMap make_map(const Light& light) {
   map.view.face_count = point ? 6 : 1;
   map.view.near_depth = 1.0;
   map.view.far_depth = 11.0;
+  map.view.faces.fill({Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0, -1, 0)});  // looking down
+  map.view.origin = Vec3(160, 5.5, 90);
+  map.view.half_extent = point ? Vec2(1.0) : Vec2(160.0);
   const auto texels = static_cast<std::size_t>(map.view.face_count * map_size * map_size);
   map.depth.assign(texels, 1.0f);
   map.primitive.assign(texels, no_id);
@@ -211,6 +214,8 @@ inline void make_records(Comparison& c, const Scene& scene) {
     drawn.bias_constant_world = 0.052;
     drawn.visibility = c.lights[i].rungs[6];
     drawn.texel_uv = Image<Vec2f>(image_size, Vec2f(3.25f, 7.5f));
+    drawn.face = Image<std::uint8_t>(image_size, 0);
+    drawn.distance = Image<float>(image_size, 5.0f);
     drawn.gap = Image<float>(image_size, 0.125f);
     drawn.gap.at(5, 60) = -std::numeric_limits<float>::infinity();
     drawn.map_pass.runs = {12.5, 11.0, 12.0};

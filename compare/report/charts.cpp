@@ -158,9 +158,11 @@ std::string bias_chart(const LightComparison& light, double used_bias, std::stri
                     std::max(1.05 * highest, 1e-9)};
   if (!(scale.max_x > scale.min_x)) return "";
   std::string svg = fmt::format(
-      R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-labelledby="{}-title {}-desc"><title
+      R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-labelledby="{}-title {}-desc"
+data-left="{}" data-right="{}" data-top="{}" data-bottom="{}" data-from="{}" data-to="{}"><title
 id="{}-title">Wrong pixels at every constant bias</title><desc id="{}-desc">{}</desc>)",
-      width, height, id, id, id, id, escaped(description(light, used_bias)));
+      width, height, id, id, left, width - right, top, height - bottom, scale.min_x, scale.max_x, id, id,
+      escaped(description(light, used_bias)));
   svg += feasible_interval(light.best_bias, scale) + axes(scale, light.texel_world[1]);
   svg += curve(light, scale, "total", [&](const BiasCurvePoint& p) { return total(p) / compared; });
   svg += curve(light, scale, "false",

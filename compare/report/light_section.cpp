@@ -40,17 +40,20 @@ class="pick">{0}</select></label>
 data-mode="swipe">Swipe</button><button type="button" data-mode="side">Side by side</button><button
 type="button" data-mode="flip">Flip</button></span>
 <span class="modes" role="group" aria-label="Zoom"><button type="button" data-zoom="out"
-aria-label="Zoom out">−</button><output>1×</output><button type="button" data-zoom="in"
+aria-label="Zoom out">−</button><output class="zoom-value">1×</output><button type="button" data-zoom="in"
 aria-label="Zoom in">+</button><button type="button" data-zoom="fit">Fit</button></span>
+<label class="exposure">Exposure <input type="range" min="-6" max="6" step="0.25" value="0"></label>
 </div>
 <div class="stage" tabindex="0" role="group" aria-label="Two pictures of the scene"
 aria-describedby="hint-{1}"><div class="pane"><img alt=""><span class="tag"></span></div><div
 class="pane"><img alt=""><span class="tag"></span></div><div class="divider"></div></div>
 <label class="slider">Divider <input type="range" min="0" max="100" value="50"></label>
 <p class="probe" role="status">Point at a pixel to read it.</p>
-<p class="hint" id="hint-{1}">Drag to move the divider, or the picture once it is enlarged;
-double-click enlarges. Keys: <kbd>F</kbd> flips, <kbd>+</kbd> <kbd>−</kbd> <kbd>0</kbd> zoom,
-arrows move, <kbd>Shift</kbd> with arrows reads pixels.</p>
+<p class="hint" id="hint-{1}">Point at a pixel to read it, click to pin it; its story is below. Drag to
+move the divider, or the picture once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips,
+<kbd>+</kbd> <kbd>−</kbd> <kbd>0</kbd> zoom, arrows move, <kbd>Shift</kbd> with arrows steps from pixel to
+pixel, <kbd>Esc</kbd> lets go. Exposure is in stops and works on the 8-bit pictures: what is clipped stays
+white. Gap: light blue nearer than stored, orange beyond, full colour at 4 texels.</p>
 </div>
 )",
       options, b.index);

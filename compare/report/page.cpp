@@ -7,11 +7,34 @@
 #include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "compare/report/html.h"
+#include "compare/report/page_data.h"
 #include "compare/report/sections.h"
 #include "scene/files/sha256.h"
 
 namespace gnomon::compare {
 namespace {
+
+// The built page (page/dist/page.html): style and script inline, with two places left for what is written
+// here.
+struct Template {
+  std::string_view before_head, after_head, after_body, style, script;
+};
+
+// Text between the end of the tag that `opening` starts and `closing`.
+std::string_view inline_block(std::string_view html, std::string_view opening, std::string_view closing) {
+  const std::size_t tag = html.find(opening), start = html.find('>', tag) + 1;
+  return html.substr(start, html.find(closing, start) - start);
+}
+
+Template page_template() {
+  constexpr std::string_view head_mark = "<!--gnomon:head-->", body_mark = "<!--gnomon:body-->";
+  const std::string_view html = embedded::report("page.html");
+  const std::size_t head = html.find(head_mark), body = html.find(body_mark);
+  const std::size_t after_head = head + head_mark.size();
+  return {html.substr(0, head), html.substr(after_head, body - after_head),
+          html.substr(body + body_mark.size()), inline_block(html, "<style", "</style>"),
+          inline_block(html, "<script", "</script>")};
+}
 
 // A content-security-policy source for one inline block: the base64 of its SHA-256.
 std::string hash_source(std::string_view block) {
@@ -23,10 +46,10 @@ std::string hash_source(std::string_view block) {
 }
 
 // Nothing may be loaded, sent or run but the page's own images, style and script.
-std::string security_policy() {
+std::string security_policy(const Template& page) {
   return fmt::format(
       "default-src 'none'; img-src data:; style-src {}; script-src {}; base-uri 'none'; form-action 'none'",
-      hash_source(embedded::report("report.css")), hash_source(embedded::report("report.js")));
+      hash_source(page.style), hash_source(page.script));
 }
 
 std::string title(const Comparison& c) {
@@ -36,21 +59,14 @@ std::string title(const Comparison& c) {
   return text + " \u2013 Gnomon";
 }
 
-std::string head(const Comparison& c) {
+std::string head(const Comparison& c, const Template& page) {
   return fmt::format(
-      R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{}">
+      R"(<meta http-equiv="Content-Security-Policy" content="{}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>{}</title>
-<link rel="icon" href="data:,">
-<style>{}</style>
-</head>
-)",
-      security_policy(), escaped(title(c)), embedded::report("report.css"));
+<link rel="icon" href="data:,">)",
+      security_policy(page), escaped(title(c)));
 }
 
 std::string navigation(const Comparison& c) {
@@ -69,15 +85,17 @@ href="#provenance">Provenance</a></li>)";
 
 std::string report_page(const PageInput& in) {
   const Comparison& c = in.comparison;
-  std::string page = head(c) + R"(<body>
-<a class="skip" href="#overview">Skip to the report</a>
+  const Template built = page_template();
+  std::string page(built.before_head);
+  page.append(head(c, built)).append(built.after_head);
+  page += R"(<a class="skip" href="#overview">Skip to the report</a>
 )" + navigation(c);
   page += "<main>\n" + overview_section(in);
   for (std::size_t i = 0; i < c.lights.size(); ++i) page += light_section(in, i);
   page += cost_section(in) + effects_section(in) + provenance_section(in) + "</main>\n";
   page += R"(<script type="application/json" id="result">)" + script_safe(in.json) + "</script>\n";
-  page.append("<script>").append(embedded::report("report.js")).append("</script>\n</body>\n</html>\n");
-  return page;
+  page += R"(<script type="application/json" id="page-data">)" + script_safe(page_data(in)) + "</script>\n";
+  return page.append(built.after_body);
 }
 
 Expected<std::string> report_html(const Comparison& comparison) {

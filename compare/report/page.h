@@ -1,6 +1,6 @@
-// The report page: one HTML file that needs nothing but itself. The pieces are written in C++ (sections,
-// charts) around report.css and report.js, which are embedded; every number on the page carries its key in
-// result.json
+// The report page: one HTML file that needs nothing but itself. What can be read without scripts is written
+// in C++ (sections, charts) into page/dist/page.html, the built and embedded style and script (TypeScript in
+// page/); page_data.h adds what the scripts read. Every number on the page carries its key in result.json
 // (<data data-key="lights.0.error.wrong">), which the browser test compares.
 #pragma once
 

@@ -1,0 +1,109 @@
+// Every constant bias from one render: a hard test shadows a pixel exactly when its gap exceeds the bias, so moving the
+// slider (or the line in the chart) recolours the picture and counts again without rendering.
+import { page, type Light } from "./data";
+import { backdropOf, byId, recolour } from "./pictures";
+import { grouped, html, number, percent, svg } from "./svg";
+
+interface Chart {
+  drawing: SVGSVGElement;
+  left: number;
+  right: number;
+  from: number;
+  to: number;
+  line: SVGElement;
+}
+
+export class BiasPanel {
+  private readonly range = html("input", { type: "range", min: "0", max: "1000", step: "1" });
+  private readonly exact = html("input", { type: "number", step: "any", inputmode: "decimal" });
+  private readonly said = html("p", { class: "bias-counts", role: "status" });
+  private readonly canvas = html("canvas", { role: "img", tabindex: "-1" });
+  private readonly chart: Chart;
+  private readonly image: ImageData;
+  private readonly backdrop: Uint8Array;
+  private readonly compared: number;
+
+  private constructor(private readonly light: Light, chart: SVGSVGElement, host: Element, best: number,
+                      private readonly chosen: (bias: number) => void, pin: (x: number, y: number) => void) {
+    const number_ = (key: string) => Number(chart.dataset[key]);
+    const line = svg("line", { class: "chosen", y1: number_("top"), y2: number_("bottom") });
+    chart.append(line);
+    this.chart = { drawing: chart, left: number_("left"), right: number_("right"), from: number_("from"), to: number_("to"), line };
+    this.canvas.width = page.width;
+    this.canvas.height = page.height;
+    this.image = new ImageData(page.width, page.height);
+    this.backdrop = backdropOf(byId("picture-raytraced"));
+    this.compared = light.label.reduce((sum, label) => sum + (label >= 0 ? 1 : 0), 0);
+    const button = (name: string, bias: number) => {
+      const b = html("button", { type: "button" }, name);
+      b.addEventListener("click", () => chosen(bias));
+      return b;
+    };
+    host.append(html("div", { class: "bias-live" },
+      html("div", { class: "bias-bar" },
+        html("label", {}, "Bias ", this.range), html("label", {}, "world units ", this.exact),
+        button("as rendered", light.json.bias.constant), button("best", best)),
+      this.said,
+      html("figure", {}, this.canvas, html("figcaption", {},
+        "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow."))));
+    this.listen(pin);
+  }
+
+  static make(light: Light, index: number, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
+    const chart = document.getElementById(`bias-${index}-title`)?.closest("svg");
+    if (!chart) return null;
+    return new BiasPanel(light, chart, hostAfter(chart), best, chosen, pin);
+  }
+
+  show(bias: number): void {
+    const { from, to, left, right, line } = this.chart;
+    const share = Math.min(Math.max((bias - from) / (to - from), 0), 1), x = left + share * (right - left);
+    line.setAttribute("x1", String(x));
+    line.setAttribute("x2", String(x));
+    this.range.value = String(Math.round(1000 * share));
+    this.range.setAttribute("aria-valuetext", `${number(bias)} world units`);
+    if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(bias);
+    const counts = recolour(this.light, bias, this.backdrop, this.image.data);
+    this.canvas.getContext("2d")!.putImageData(this.image, 0, 0);
+    const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
+    this.said.dataset.falseShadow = String(counts.falseShadow);
+    this.said.dataset.missedShadow = String(counts.missedShadow);
+    this.said.textContent = `At a bias of ${number(bias)} (${number(texels, 2)} texels) ${percent(wrong / Math.max(1, this.compared))} ` +
+      `of the compared pixels are wrong: ${grouped(counts.falseShadow)} false shadow, ${grouped(counts.missedShadow)} missed shadow.`;
+    this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
+  }
+
+  private biasAt(share: number): number {
+    const { from, to } = this.chart;
+    return from + Math.min(Math.max(share, 0), 1) * (to - from);
+  }
+
+  private listen(pin: (x: number, y: number) => void): void {
+    this.range.addEventListener("input", () => this.chosen(this.biasAt(Number(this.range.value) / 1000)));
+    this.exact.addEventListener("change", () => {
+      const bias = Number(this.exact.value);
+      if (this.exact.value !== "" && isFinite(bias)) this.chosen(bias);
+    });
+    const { drawing, left, right } = this.chart;
+    const drag = (event: PointerEvent) => {
+      const box = drawing.getBoundingClientRect(), x = ((event.clientX - box.left) / box.width) * drawing.viewBox.baseVal.width;
+      this.chosen(this.biasAt((x - left) / (right - left)));
+    };
+    let dragging = false;
+    drawing.classList.add("live");
+    drawing.addEventListener("pointerdown", (event) => { dragging = true; drawing.setPointerCapture(event.pointerId); drag(event); });
+    drawing.addEventListener("pointermove", (event) => { if (dragging) drag(event); });
+    for (const end of ["pointerup", "pointercancel"]) drawing.addEventListener(end, () => { dragging = false; });
+    this.canvas.addEventListener("click", (event) => {
+      const box = this.canvas.getBoundingClientRect();
+      pin(Math.floor(((event.clientX - box.left) / box.width) * page.width), Math.floor(((event.clientY - box.top) / box.height) * page.height));
+    });
+  }
+}
+
+// A place right after the chart's scrolling block.
+function hostAfter(chart: Element): Element {
+  const host = html("div");
+  chart.closest(".scroll")!.after(host);
+  return host;
+}

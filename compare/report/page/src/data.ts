@@ -1,0 +1,160 @@
+// What the page knows: words, and each light's pixels, map and geometry (../../page_data.cpp), unpacked on first use.
+import { alongRay, texelRay, add, type LightView, type MapPoint, type Vec3 } from "./light_view";
+import { unpack, type Packed } from "./packed";
+
+export interface LabelWords {
+  value: number;
+  name: string;
+  what: string;
+  cause: string;
+  cure: string;
+  colour: string;
+}
+
+export interface RungWords {
+  name: string;
+  what: string;
+  step?: string;
+}
+
+type Shape = { name: string } & ({ center: Vec3; radius: number } | { point: Vec3; normal: Vec3 });
+
+export interface LightJson {
+  name: string;
+  view: LightView;
+  bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean };
+  texel_world: number;
+  depth_step: number;
+  channels: Record<string, Packed>;
+  map: Packed & { step: number };
+}
+
+interface PageJson {
+  labels: LabelWords[];
+  rungs: RungWords[];
+  width: number;
+  height: number;
+  position_steps: number;
+  visibility_steps: number;
+  channels: Record<string, Packed>;
+  geometry: {
+    shapes: Shape[];
+    triangle_count: number;
+    triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
+  };
+  lights: LightJson[];
+}
+
+export const page: PageJson = JSON.parse(document.getElementById("page-data")!.textContent!);
+const labelWords = new Map(page.labels.map((label) => [label.value, label]));
+export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
+
+type Numbers = Int8Array | Int16Array | Int32Array;
+async function unpackAll(channels: Record<string, Packed>): Promise<Record<string, Numbers>> {
+  const names = Object.keys(channels);
+  const arrays = await Promise.all(names.map((name) => unpack(channels[name]!)));
+  return Object.fromEntries(names.map((name, i) => [name, arrays[i]!]));
+}
+
+const receivers = unpackAll(page.channels);
+
+export interface Geometry {
+  shapes: Shape[];
+  positions: Float64Array;  // three per vertex
+  corners: Int32Array;      // three per triangle
+  complete: boolean;        // false: the scene has more triangles than the page carries
+}
+
+async function loadGeometry(): Promise<Geometry> {
+  const { shapes, triangles, triangle_count } = page.geometry;
+  if (!triangles)
+    return { shapes, positions: new Float64Array(), corners: new Int32Array(), complete: triangle_count === 0 };
+  const { x, y, z, corner } = await unpackAll(triangles.channels);
+  const positions = new Float64Array(3 * x!.length);
+  [x!, y!, z!].forEach((axis, k) =>
+    axis.forEach((value, i) => { positions[3 * i + k] = triangles.low[k]! + value * triangles.step; }));
+  return { shapes, positions, corners: corner as Int32Array, complete: true };
+}
+export const geometry = loadGeometry();
+
+/** One pixel as one light sees it. */
+export interface Pixel {
+  x: number;
+  y: number;
+  index: number;
+  label: number;
+  seen: boolean;  // a surface that both renderers see: the fields below mean something
+  rungs: number[];
+  face: number;
+  at: MapPoint;
+  distance: number;
+  gap: number;
+  position: Vec3;
+  normal: Vec3;
+  primitive: number;
+}
+
+/** The stored map; depths in world units, infinity where nothing is stored. */
+export class DepthMap {
+  readonly size: number;
+  constructor(private readonly light: LightJson, readonly step: number, private readonly numbers: Numbers) {
+    this.size = Math.ceil(light.view.size / step);
+  }
+  depth(face: number, column: number, row: number): number {
+    if (column < 0 || row < 0 || column >= this.light.view.size || row >= this.light.view.size) return Infinity;
+    const i = (face * this.size + Math.floor(row / this.step)) * this.size + Math.floor(column / this.step);
+    const number = this.numbers[i]!;
+    return number === -1 ? Infinity : this.light.view.near + number * this.light.depth_step;
+  }
+}
+
+export class Light {
+  readonly gap: Float32Array;
+  readonly label: Int8Array;
+  readonly truth: Int16Array;
+  private readonly us: Numbers;
+  private readonly vs: Numbers;
+  private readonly faces: Numbers;
+  private constructor(readonly json: LightJson, private readonly channels: Record<string, Numbers>,
+                      private readonly seenBy: Record<string, Numbers>, readonly map: DepthMap) {
+    this.gap = new Float32Array((channels.gap as Int32Array).buffer);
+    this.label = channels.label as Int8Array;
+    this.truth = channels.V0 as Int16Array;
+    this.us = channels.u!;
+    this.vs = channels.v!;
+    this.faces = channels.face!;
+  }
+  static async load(json: LightJson): Promise<Light> {
+    const [channels, seenBy, map] = await Promise.all([unpackAll(json.channels), receivers, unpack(json.map)]);
+    return new Light(json, channels, seenBy, new DepthMap(json, json.map.step, map));
+  }
+
+  lit(index: number): boolean { return this.truth[index]! > 0.5 * page.visibility_steps; }
+  u(index: number): number { return this.us[index]! / page.position_steps; }
+  v(index: number): number { return this.vs[index]! / page.position_steps; }
+  face(index: number): number { return this.faces[index]!; }
+  primitive(index: number): number { return this.seenBy.primitive![index]!; }
+  /** Depth along the face's forward axis. */
+  depth(index: number): number {
+    const distance = this.channels.distance![index]! * this.json.depth_step;
+    return distance / alongRay(this.json.view, this.face(index), this.u(index), this.v(index));
+  }
+  /** Whether a hard test draws the pixel lit at a constant bias; the test is on 32-bit floats, as in the shader. */
+  litAt(index: number, bias: number): boolean { return !(this.gap[index]! > Math.fround(bias)); }
+
+  pixel(x: number, y: number): Pixel {
+    const index = y * page.width + x, label = this.label[index]!, view = this.json.view;
+    const face = this.face(index), at = { u: this.u(index), v: this.v(index), depth: this.depth(index) };
+    const distance = this.channels.distance![index]! * this.json.depth_step;
+    const ray = texelRay(view, face, at.u, at.v);
+    return {
+      x, y, index, label, face, at, distance,
+      seen: label === -4 || label === -2 || label >= 0,
+      rungs: page.rungs.map((_, k) => this.channels[`V${k}`]![index]! / page.visibility_steps),
+      gap: this.gap[index]!,
+      position: add(ray.origin, ray.direction, distance),
+      normal: ["nx", "ny", "nz"].map((n) => this.seenBy[n]![index]! / 32767) as unknown as Vec3,
+      primitive: this.primitive(index),
+    };
+  }
+}

@@ -1,0 +1,114 @@
+// One light's section brought to life: viewer, probe, label table and bias act on one state, which the URL keeps.
+import { BiasPanel } from "./bias";
+import { page, wordsOf, type Light, type Pixel } from "./data";
+import { LabelTable } from "./labels";
+import { byId, colourAt, dataUrl, gapPicture, truthPicture } from "./pictures";
+import { Probe } from "./probe";
+import { initial, saveHash, type ViewState } from "./state";
+import { html } from "./svg";
+import { Viewer } from "./viewer";
+
+export class LightPanel {
+  private readonly state: ViewState = { ...initial };
+  private readonly made = new Map<string, string>();
+  private readonly viewer: Viewer;
+  private readonly probe: Probe;
+  private readonly labels: LabelTable;
+  private readonly bias: BiasPanel | null;
+  private readonly line: HTMLElement;
+  private frame = 0;
+  private shown: Pixel;
+
+  constructor(private readonly light: Light, private readonly index: number, section: HTMLElement, best: number) {
+    const root = section.querySelector<HTMLElement>(".viewer")!;
+    this.line = root.querySelector(".probe")!;
+    for (const pick of root.querySelectorAll("select"))
+      for (const name of ["truth", "gap"]) pick.append(html("option", { value: name }, name));
+    const host = html("div", { class: "pixel-probe" });
+    root.after(host);
+    this.probe = new Probe(light, index, host, (texels) => { this.state.texels = texels; this.redraw(); });
+    this.labels = new LabelTable(section, (label) => this.choose(label));
+    this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
+    this.shown = this.example();
+    this.viewer = new Viewer(root, this.state, {
+      hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
+      unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveHash(this.index, this.state),
+    });
+    this.probe.show(this.shown, light.json.bias.constant, this.state.texels);
+    this.bias?.show(light.json.bias.constant);
+  }
+
+  restore(state: ViewState): void {
+    Object.assign(this.state, state);
+    for (const slope of document.querySelectorAll("#exposure [slope]")) slope.setAttribute("slope", String(2 ** state.exposure));
+    if (state.pixel) this.read(Math.min(state.pixel[0], page.width - 1), Math.min(state.pixel[1], page.height - 1));
+    this.labels.show(state.label);
+    this.update();
+  }
+
+  // A pixel in the middle of the commonest label's, to begin with something to see.
+  private example(label?: number): Pixel {
+    const counts = new Map<number, number>();
+    if (label === undefined) for (const l of this.light.label) counts.set(l, (counts.get(l) ?? 0) + 1);
+    const rank = (l: number) => (l > 0 ? 2e9 : l === 0 ? 1e9 : 0) + counts.get(l)!;
+    const wanted = label ?? [...counts.keys()].sort((a, b) => rank(b) - rank(a))[0]!;
+    const all: number[] = [];
+    this.light.label.forEach((l, i) => { if (l === wanted) all.push(i); });
+    const i = all[all.length >> 1] ?? 0;
+    return this.light.pixel(i % page.width, Math.floor(i / page.width));
+  }
+
+  private choose(label: string | null): void {
+    this.state.label = label;
+    this.labels.show(label);
+    const value = page.labels.find((words) => words.name === label)?.value;
+    if (value !== undefined) {
+      const pixel = this.example(value);
+      this.state.pixel = [pixel.x, pixel.y];
+      this.read(pixel.x, pixel.y);
+    }
+    this.redraw();
+  }
+
+  private source(name: string): string | null {
+    if (name !== "truth" && name !== "gap") return Viewer.onPage(name);
+    if (!this.made.has(name)) this.made.set(name, dataUrl(name === "truth" ? truthPicture(this.light) : gapPicture(this.light)));
+    return this.made.get(name)!;
+  }
+
+  private read(x: number, y: number): void {
+    this.shown = this.light.pixel(x, y);
+    this.line.textContent = `Pixel ${x}, ${y}: ${wordsOf(this.shown.label).name}; rasterized ${colourAt(byId("picture-raster"), x, y)}, ` +
+      `ray traced ${colourAt(byId("picture-raytraced"), x, y)}`;
+  }
+
+  private hover(x: number, y: number): void {
+    const pinned = this.shown;
+    this.read(x, y);
+    if (this.state.pixel) this.shown = pinned;  // the line follows the pointer, the drawings stay
+    else this.later();
+  }
+
+  private pin(x: number, y: number): void {
+    this.state.pixel = [x, y];
+    this.read(x, y);
+    this.redraw();
+  }
+
+  private redraw(): void {
+    saveHash(this.index, this.state);
+    this.later();
+  }
+
+  // Many events become one drawing.
+  private later(): void {
+    this.frame ||= requestAnimationFrame(() => { this.frame = 0; this.update(); });
+  }
+
+  private update(): void {
+    const bias = this.state.bias ?? this.light.json.bias.constant;
+    this.viewer.show();
+    this.probe.show(this.shown, bias, this.state.texels);
+    this.bias?.show(bias);
+  }
+}

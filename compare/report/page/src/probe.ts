@@ -1,0 +1,78 @@
+// The probe: one pixel's ladder with its numbers, the light-space drawing and the cross-section.
+import { page, wordsOf, geometry, type Geometry, type Light, type Pixel } from "./data";
+import { html, number } from "./svg";
+import { sectionDrawing } from "./section_drawing";
+import { texelDrawing } from "./texel_drawing";
+import { decidingStep, story } from "./words";
+
+function ladder(pixel: Pixel): HTMLElement {
+  const deciding = pixel.label > 0 ? decidingStep(pixel.rungs) : 0, body = html("tbody");
+  page.rungs.forEach((rung, k) => {
+    const step = k === 0 ? 0 : pixel.rungs[k]! - pixel.rungs[k - 1]!;
+    const row = html("tr", { class: k > 0 && k === deciding ? "deciding" : "" },
+      html("th", { scope: "row" }, html("i", {}, "V"), html("sub", {}, String(k)), ` ${rung.name}`),
+      html("td", { class: "n" }, number(pixel.rungs[k]!)),
+      html("td", { class: "n" }, k === 0 ? "" : step === 0 ? "0" : (step > 0 ? "+" : "") + number(step)),
+      html("td", {}, k === 0 ? "" : (rung.step ?? "") + (k === deciding ? " ← here" : "")));
+    body.append(row);
+  });
+  return html("table", { class: "pixel-ladder" },
+    html("caption", {}, "Its ladder: 1 is lit, 0 in shadow"),
+    html("thead", {}, html("tr", {}, ...["visibility", "value", "step", "charged to"].map((name, i) =>
+      html("th", { scope: "col", class: i === 1 || i === 2 ? "n" : "" }, name)))), body);
+}
+
+function facts(light: Light, pixel: Pixel): HTMLElement {
+  const rows: [string, string, string][] = [
+    ["gap", number(pixel.gap, 6), "world units"],
+    ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length > 1 ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : "u, v"],
+    ["distance", number(pixel.distance, 6), light.json.view.perspective ? "from the light" : "along the light, from the map's origin"],
+    ["primitive", String(pixel.primitive), ""],
+  ];
+  const list = html("dl", { class: "pixel-facts" });
+  for (const [name, value, unit] of rows)
+    list.append(html("div", {}, html("dt", {}, name), html("dd", { "data-fact": name }, value, ...(unit ? [" ", html("span", {}, unit)] : []))));
+  return list;
+}
+
+export class Probe {
+  private readonly body = html("div", { class: "probe-body" });
+  private readonly below = html("div", { class: "probe-section" });
+  private scene: Geometry | null = null;
+  private shown: { pixel: Pixel; bias: number; texels: number } | null = null;
+
+  constructor(private readonly light: Light, private readonly index: number, host: Element, onTexels: (texels: number) => void) {
+    const widths = html("div", { class: "modes", role: "group", "aria-label": "Width of the cross-section" });
+    const size = light.json.view.size;
+    for (const texels of [8, 32, 128, size].filter((t, i, all) => t <= size && all.indexOf(t) === i)) {
+      const button = html("button", { type: "button", "data-texels": String(texels) }, texels === size ? "whole row" : `± ${texels}`);
+      button.addEventListener("click", () => onTexels(texels));
+      widths.append(button);
+    }
+    this.widths = widths;
+    host.append(html("h3", {}, "One pixel, in light space"), this.body, html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), widths), this.below);
+    void geometry.then((scene) => { this.scene = scene; this.redraw(); });
+  }
+  private readonly widths: HTMLElement;
+
+  show(pixel: Pixel, bias: number, texels: number): void {
+    this.shown = { pixel, bias, texels };
+    this.redraw();
+  }
+
+  private redraw(): void {
+    if (!this.shown) return;
+    const { pixel, bias, texels } = this.shown, words = wordsOf(pixel.label), id = `probe-${this.index}`;
+    const drawable = pixel.seen && isFinite(pixel.at.depth);
+    for (const button of this.widths.querySelectorAll("button"))
+      button.setAttribute("aria-pressed", String(Number(button.dataset.texels) === texels));
+    const swatch = html("span", { class: "dot-swatch" });
+    swatch.style.background = words.colour;
+    const head = html("div", {}, html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
+      html("p", { class: "story" }, story(this.light, pixel, bias)));
+    if (pixel.seen) head.append(ladder(pixel), facts(this.light, pixel));
+    this.body.replaceChildren(head, ...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
+    if (drawable && this.scene) this.below.replaceChildren(sectionDrawing(this.light, pixel, this.scene, texels, bias, `${id}-cut`));
+    else this.below.replaceChildren(html("p", {}, "No surface here to cut through."));
+  }
+}

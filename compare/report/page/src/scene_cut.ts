@@ -1,0 +1,80 @@
+// The scene cut by the plane of light rays through one row of the map: exact for spheres and planes, and for triangles
+// up to the rounding of the corners that the page carries (2^-24 of the scene's size).
+import type { Geometry } from "./data";
+import { add, cross, dot, length, project, scaled, sub, texelRay, unit, type LightView, type MapPoint, type Vec3 } from "./light_view";
+
+/** A curve in the plane, as map positions with depths; behind a perspective light there is none. */
+export type Curve = MapPoint[];
+
+interface Cut {
+  normal: Vec3;
+  offset: number;  // dot(normal, p - origin) = offset on the plane
+}
+
+function cutAt(view: LightView, face: number, v: number): Cut {
+  const f = view.faces[face]!, y = ((2 * v) / view.size - 1) * view.half_extent[1];
+  if (!view.perspective) return { normal: f.up, offset: y };
+  return { normal: unit(add(f.up, f.forward, -y)), offset: 0 };
+}
+
+const ahead = (view: LightView, point: MapPoint): boolean => !view.perspective || point.depth > 1e-3 * view.near;
+
+function circle(view: LightView, face: number, cut: Cut, center: Vec3, radius: number): Curve[] {
+  const away = dot(cut.normal, sub(center, view.origin)) - cut.offset;
+  if (Math.abs(away) >= radius) return [];
+  const middle = add(center, cut.normal, -away), r = Math.sqrt(radius * radius - away * away);
+  const a = view.faces[face]!.right, b = cross(cut.normal, a), bu = scaled(b, 1 / length(b)), curve: Curve = [];
+  for (let i = 0; i <= 180; ++i) {
+    const t = (i * Math.PI) / 90, p = project(view, face, add(add(middle, a, r * Math.cos(t)), bu, r * Math.sin(t)));
+    if (ahead(view, p)) curve.push(p);
+  }
+  return [curve];
+}
+
+function planeCurve(view: LightView, face: number, v: number, point: Vec3, normal: Vec3, from: number, to: number): Curve[] {
+  const curve: Curve = [];
+  for (let i = 0; i <= 64; ++i) {
+    const u = from + ((to - from) * i) / 64, ray = texelRay(view, face, u, v), facing = dot(normal, ray.direction);
+    if (facing === 0) continue;
+    const t = dot(normal, sub(point, ray.origin)) / facing;
+    const p = project(view, face, add(ray.origin, ray.direction, t));
+    if (ahead(view, p)) curve.push({ ...p, u });
+  }
+  return [curve];
+}
+
+function triangleCurves(view: LightView, face: number, cut: Cut, scene: Geometry): Curve[] {
+  const { positions, corners } = scene, heights = new Float64Array(positions.length / 3), curves: Curve[] = [];
+  for (let i = 0; i < heights.length; ++i)
+    heights[i] = cut.normal[0] * (positions[3 * i]! - view.origin[0]) + cut.normal[1] * (positions[3 * i + 1]! - view.origin[1]) +
+      cut.normal[2] * (positions[3 * i + 2]! - view.origin[2]) - cut.offset;
+  const at = (i: number): Vec3 => [positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!];
+  for (let t = 0; t < corners.length; t += 3) {
+    const ends: Vec3[] = [];
+    for (let k = 0; k < 3; ++k) {
+      const i = corners[t + k]!, j = corners[t + ((k + 1) % 3)]!, a = heights[i]!, b = heights[j]!;
+      if (a < 0 !== b < 0) ends.push(add(at(i), sub(at(j), at(i)), a / (a - b)));
+    }
+    if (ends.length === 2) curves.push(segment(view, face, ends[0]!, ends[1]!));
+  }
+  return curves;
+}
+
+// A straight line in the world is curved in a perspective map: eight pieces.
+function segment(view: LightView, face: number, a: Vec3, b: Vec3): Curve {
+  const pieces = view.perspective ? 8 : 1, curve: Curve = [];
+  for (let i = 0; i <= pieces; ++i) {
+    const p = project(view, face, add(a, sub(b, a), i / pieces));
+    if (ahead(view, p)) curve.push(p);
+  }
+  return curve;
+}
+
+/** Every curve of the scene in the plane of row position v, planes between the map positions `from` and `to`. */
+export function sceneCut(view: LightView, face: number, v: number, scene: Geometry, from: number, to: number): Curve[] {
+  const cut = cutAt(view, face, v), curves = triangleCurves(view, face, cut, scene);
+  for (const shape of scene.shapes)
+    curves.push(...("radius" in shape ? circle(view, face, cut, shape.center, shape.radius)
+                                      : planeCurve(view, face, v, shape.point, shape.normal, from, to)));
+  return curves;
+}

@@ -1,0 +1,37 @@
+// One pixel's story in words: what the map stores, what the test makes of it, and which step made it wrong.
+import { page, wordsOf, type Light, type Pixel } from "./data";
+import { number } from "./svg";
+
+/** The step at which the visibility last became wrong (DESIGN.md, section 3), or 0 when it never did. */
+export function decidingStep(rungs: number[]): number {
+  let step = 0;
+  for (let k = 1; k < rungs.length; ++k) {
+    const wrong = (i: number) => Math.abs(rungs[i]! - rungs[0]!) > 0.5;
+    if (wrong(k) && !wrong(k - 1)) step = k;
+  }
+  return step;
+}
+
+const brightness = (v: number): string => (v > 0.5 ? "lit" : "in shadow");
+
+function mapTest(light: Light, pixel: Pixel, bias: number): string {
+  const texels = (d: number) => `${number(d / light.json.texel_world, 2)} texels`;
+  if (pixel.gap === -Infinity) return "The map stores nothing where this pixel looks, so the test lets it be lit.";
+  const texel = `${Math.floor(pixel.at.u)}, ${Math.floor(pixel.at.v)}`;
+  if (pixel.gap <= 0)
+    return `Texel ${texel} stores a depth ${number(-pixel.gap, 3)} behind this point, so the test draws it ${pixel.gap > Math.fround(bias) ? "in shadow" : "lit"} at the bias of ${number(bias, 3)}.`;
+  return `Texel ${texel} stores something ${number(pixel.gap, 3)} (${texels(pixel.gap)}) nearer the light. ` +
+    (pixel.gap > Math.fround(bias) ? `That is more than the bias of ${number(bias, 3)}: the test draws it in shadow.`
+                                   : `That is no more than the bias of ${number(bias, 3)}: the test draws it lit.`);
+}
+
+export function story(light: Light, pixel: Pixel, bias: number): string {
+  const words = wordsOf(pixel.label);
+  if (pixel.label < 0) return `Not compared: ${words.what}.`;
+  const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
+  const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel.rungs[0]!)}.`;
+  if (bias !== light.json.bias.constant) return `${test} With this bias it is drawn ${lit === drawn ? "right" : "wrong"}.`;
+  if (pixel.label === 0) return `${test} So it is right.`;
+  const step = decidingStep(pixel.rungs);
+  return `${test} It went wrong on the step V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+}

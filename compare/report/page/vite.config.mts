@@ -1,0 +1,11 @@
+// Builds page.html with its style and script inline: the one file that the C++ writer fills in (../page.cpp).
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vite";
+import { viteSingleFile } from "vite-plugin-singlefile";
+
+export default defineConfig({
+  root: fileURLToPath(new URL(".", import.meta.url)),
+  logLevel: "warn",
+  plugins: [viteSingleFile({ removeViteModuleLoader: true })],
+  build: { target: "es2022", emptyOutDir: true, rollupOptions: { input: "page.html" }, modulePreload: false },
+});

@@ -1,0 +1,262 @@
+// Numbers are exact (gap: the bits of the 32-bit float that the shader tested; labels; ids) or rounded to a
+// step that is written beside them: map positions to 1/256 texel downwards, so that the texel stays the same,
+// visibilities to 1/25200 (exact for filters of up to 7 x 7 samples), distances and depths to a power of two
+// of about 2^-22 of the map's depth range, normals to 1/32767.
+#include "compare/report/page_data.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/report/explanations.h"
+#include "compare/report/html.h"
+#include "compare/report/packing.h"
+#include "compare/report/sections.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double position_steps = 256.0, visibility_steps = 25200.0, normal_steps = 32767.0;
+constexpr std::size_t most_map_texels = std::size_t{1} << 21;  // larger maps are reduced
+
+std::uint32_t integer(double value) {
+  constexpr double limit = 2147483647.0;
+  return std::isnan(value)
+             ? 0u
+             : static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(value, -limit, limit)));
+}
+
+Json vector3(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+// --- words ---
+
+Json labels_json() {
+  Json list = Json::array();
+  for (int k = static_cast<int>(Label::uncertain); k <= static_cast<int>(class_count); ++k) {
+    const auto label = static_cast<Label>(k);
+    const LabelText& text = label_text(label);
+    const glm::u8vec3 c = label_colour(label);
+    list.push_back({{"value", k},
+                    {"name", text.name},
+                    {"what", text.what},
+                    {"cause", text.cause},
+                    {"cure", text.cure},
+                    {"colour", hex_colour(c.r, c.g, c.b)}});
+  }
+  return list;
+}
+
+Json rungs_json() {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < rung_count; ++k) {
+    const RungText& rung = rung_text(static_cast<Rung>(k));
+    Json json{{"name", rung.name}, {"what", rung.what}};
+    if (k > 0) json["step"] = step_text(static_cast<Cause>(k - 1)).name;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+// --- one light's numbers ---
+
+// The arrays of a light, packed side by side on all cores.
+class Channels {
+ public:
+  template <class Value>
+  void add(std::string name, std::size_t count, PackOptions options, const Value& value) {
+    jobs_.push_back({std::move(name), options, [count, value] {
+                       std::vector<std::uint32_t> numbers(count);
+                       for (std::size_t i = 0; i < count; ++i) numbers[i] = value(i);
+                       return numbers;
+                     }});
+  }
+  Json json() const {
+    std::vector<std::string> texts(jobs_.size());
+    tbb::parallel_for(std::size_t{0}, jobs_.size(),
+                      [&](std::size_t i) { texts[i] = packed(jobs_[i].numbers(), jobs_[i].options); });
+    Json out = Json::object();
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      out[jobs_[i].name] = {{"bytes", jobs_[i].options.bytes},
+                            {"difference", jobs_[i].options.difference},
+                            {"data", std::move(texts[i])}};
+    return out;
+  }
+
+ private:
+  struct Job {
+    std::string name;
+    PackOptions options;
+    std::function<std::vector<std::uint32_t>()> numbers;
+  };
+  std::vector<Job> jobs_;
+};
+
+double depth_step(const LightView& view) {
+  return std::exp2(std::ceil(std::log2(view.far_depth - view.near_depth)) - 22.0);
+}
+
+void add_ladder(Channels& channels, const LightComparison& light) {
+  const std::size_t n = light.labels.data.size();
+  channels.add("label", n, {1, false},
+               [&light](std::size_t i) { return static_cast<std::uint32_t>(light.labels.data[i]); });
+  for (std::size_t k = 0; k < rung_count; ++k)
+    channels.add(fmt::format("V{}", k), n, {2, false}, [&light, k](std::size_t i) {
+      return integer(std::round(visibility_steps * double{light.rungs[k].data[i]}));
+    });
+}
+
+void add_lookup(Channels& channels, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const std::size_t n = light.labels.data.size();
+  const double step = depth_step(record.map.view);
+  channels.add("u", n, {4, true}, [&record](std::size_t i) {
+    return integer(std::floor(position_steps * double{record.texel_uv.data[i].x}));
+  });
+  channels.add("v", n, {4, true}, [&record](std::size_t i) {
+    return integer(std::floor(position_steps * double{record.texel_uv.data[i].y}));
+  });
+  channels.add("face", n, {1, false},
+               [&record](std::size_t i) { return std::uint32_t{record.face.data[i]}; });
+  channels.add("distance", n, {4, true}, [&record, step](std::size_t i) {
+    return integer(std::round(double{record.distance.data[i]} / step));
+  });
+  channels.add("gap", n, {4, false},
+               [&record](std::size_t i) { return std::bit_cast<std::uint32_t>(record.gap.data[i]); });
+}
+
+void add_receiver(Channels& channels, const Comparison& c) {
+  const auto& points = c.raytraced.receiver.data;
+  channels.add("primitive", points.size(), {4, true},
+               [&points](std::size_t i) { return points[i].primitive; });
+  for (int k = 0; k < 3; ++k)
+    channels.add(fmt::format("n{}", "xyz"[k]), points.size(), {2, true}, [&points, k](std::size_t i) {
+      return points[i].primitive == no_id ? 0u : integer(std::round(normal_steps * points[i].normal[k]));
+    });
+}
+
+Json view_json(const LightView& view) {
+  Json faces = Json::array();
+  for (int i = 0; i < view.face_count; ++i) {
+    const LightFace& face = view.faces[static_cast<std::size_t>(i)];
+    faces.push_back(
+        {{"right", vector3(face.right)}, {"up", vector3(face.up)}, {"forward", vector3(face.forward)}});
+  }
+  return {{"perspective", view.projection == LightProjection::perspective},
+          {"size", view.size},
+          {"faces", std::move(faces)},
+          {"origin", vector3(view.origin)},
+          {"half_extent", Json::array({view.half_extent.x, view.half_extent.y})},
+          {"near", view.near_depth},
+          {"far", view.far_depth}};
+}
+
+// Depths in world units, in steps; -1 where nothing is stored. A reduced map keeps the nearest depth of each
+// block.
+Json map_json(const raster::ShadowMap& map) {
+  int step = 1;
+  const auto texels = [&map](int s) {
+    const auto side = static_cast<std::size_t>((map.view.size + s - 1) / s);
+    return static_cast<std::size_t>(map.view.face_count) * side * side;
+  };
+  while (texels(step) > most_map_texels) ++step;
+  const raster::ShadowMap small = step == 1 ? raster::ShadowMap{} : reduced_map(map, step);
+  const std::vector<float>& depth = step == 1 ? map.depth : small.depth;
+  const double unit = depth_step(map.view);
+  std::vector<std::uint32_t> numbers(depth.size());
+  tbb::parallel_for(std::size_t{0}, depth.size(), [&](std::size_t i) {
+    const double stored = depth[i];
+    numbers[i] = stored < 1.0
+                     ? integer(std::round((depth_from_stored(map.view, stored) - map.view.near_depth) / unit))
+                     : 0xffffffffu;
+  });
+  return {
+      {"step", step}, {"bytes", 4}, {"difference", true}, {"data", packed(std::move(numbers), {4, true})}};
+}
+
+Json light_data(const PageInput& in, std::size_t index) {
+  const Comparison& c = in.comparison;
+  const LightComparison& light = c.lights[index];
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::Bias& bias = c.raster.options.map.bias;
+  Channels channels;
+  add_ladder(channels, light);
+  add_lookup(channels, c, light);
+  return {{"name", shown_light_name(c, index)},
+          {"view", view_json(record.map.view)},
+          {"bias",
+           {{"constant", record.bias_constant_world},
+            {"slope", bias.slope},
+            {"normal_offset", bias.normal_offset_texels},
+            {"receiver_plane", bias.receiver_plane}}},
+          {"texel_world", light.texel_world[1]},
+          {"depth_step", depth_step(record.map.view)},
+          {"channels", channels.json()},
+          {"map", map_json(record.map)}};
+}
+
+// --- geometry ---
+
+constexpr std::size_t most_triangles = 200000;  // of scenes whose cross-section is drawn from the triangles
+
+Json triangles_json(const World& world) {
+  const Vec3 low = world.finite_bounds.min, extent = world.finite_bounds.max - low;
+  const double step =
+      std::exp2(std::ceil(std::log2(std::max({extent.x, extent.y, extent.z, 1e-300}))) - 24.0);
+  Channels channels;
+  for (int k = 0; k < 3; ++k)
+    channels.add(fmt::format("{}", "xyz"[k]), world.positions.size(), {4, true},
+                 [&world, low, step, k](std::size_t i) {
+                   return integer(std::round((world.positions[i][k] - low[k]) / step));
+                 });
+  channels.add("corner", 3 * world.triangles.size(), {4, true},
+               [&world](std::size_t i) { return world.triangles[i / 3][i % 3]; });
+  return {{"low", vector3(low)}, {"step", step}, {"channels", channels.json()}};
+}
+
+Json geometry_json(const World& world) {
+  Json shapes = Json::array();
+  for (const Shape& shape : world.shapes) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+      shapes.push_back(
+          {{"name", shape.name}, {"center", vector3(sphere->center)}, {"radius", sphere->radius}});
+    else if (const auto* plane = std::get_if<Plane>(&shape.geometry))
+      shapes.push_back(
+          {{"name", shape.name}, {"point", vector3(plane->point)}, {"normal", vector3(plane->normal)}});
+  }
+  Json json{{"shapes", std::move(shapes)}, {"triangle_count", world.triangle_count()}};
+  if (world.triangle_count() > 0 && world.triangle_count() <= most_triangles)
+    json["triangles"] = triangles_json(world);
+  return json;
+}
+
+}  // namespace
+
+std::string page_data(const PageInput& in) {
+  const Comparison& c = in.comparison;
+  Channels receivers;
+  add_receiver(receivers, c);
+  Json lights = Json::array();
+  for (std::size_t i = 0; i < c.lights.size(); ++i) lights.push_back(light_data(in, i));
+  return Json{{"labels", labels_json()},
+              {"rungs", rungs_json()},
+              {"width", c.raytraced.receiver.size.width},
+              {"height", c.raytraced.receiver.size.height},
+              {"position_steps", position_steps},
+              {"visibility_steps", visibility_steps},
+              {"channels", receivers.json()},
+              {"geometry", geometry_json(*c.world)},
+              {"lights", std::move(lights)}}
+      .dump();
+}
+
+}  // namespace gnomon::compare
