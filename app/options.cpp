@@ -103,8 +103,16 @@ constexpr std::pair<std::string_view, raster::Cull> culls[] = {
     {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
 constexpr std::pair<std::string_view, raster::Backend> backends[] = {
     {"auto", raster::Backend::automatic}, {"osmesa", raster::Backend::osmesa}, {"egl", raster::Backend::egl}};
-constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {{"bvh", raytrace::Accel::bvh},
-                                                                   {"brute", raytrace::Accel::brute}};
+constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {
+    {"bvh", raytrace::Accel::bvh},
+    {"bvh-median", raytrace::Accel::bvh_median},
+    {"kdtree", raytrace::Accel::kdtree},
+    {"kdtree-cyclic", raytrace::Accel::kdtree_cyclic},
+    {"octree", raytrace::Accel::octree},
+    {"grid", raytrace::Accel::grid},
+    {"grid-textbook", raytrace::Accel::grid_textbook},
+    {"bsp", raytrace::Accel::bsp},
+    {"brute", raytrace::Accel::brute}};
 enum class Precision : std::uint8_t { robust };
 constexpr std::pair<std::string_view, Precision> precisions[] = {{"robust", Precision::robust}};
 

@@ -1,6 +1,7 @@
 // The two verbs, specialised by whether the world has alpha masks and whether work is counted.
 #pragma once
 
+#include "raytrace/accel/structure.h"
 #include "raytrace/surface_uv.h"
 #include "raytrace/tracer.h"
 #include "raytrace/traverse.h"
@@ -10,7 +11,8 @@ namespace gnomon::raytrace {
 /// What the kernels read. Infinite planes stand apart: they have no box.
 struct Structures {
   const World* world = nullptr;
-  Bvh bvh;
+  Bvh bvh;              ///< the default hierarchy; else the primitives alone, in ascending order of ids
+  Structure structure;  ///< when it is neither that nor brute force
   std::vector<std::uint32_t> planes;  ///< primitive ids, ascending
   bool has_masks = false;
   bool has_shapes = false;  ///< spheres among the leaves
@@ -21,6 +23,14 @@ struct CountWork {
   void boxes(int n) { counts.boxes += static_cast<std::uint64_t>(n); }
   void primitive() { ++counts.primitives; }
 };
+
+/// walk() through whichever structure there is.
+template <class Stats, class Visit>
+bool walk(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
+  if (s.structure.index() != 0) [[unlikely]]
+    return walk_structure(s.structure, ray, stats, visit);
+  return walk(s.bvh, ray, stats, visit);
+}
 
 /// One candidate against the ray: fills `hit` (t in kernel units) if the ray meets it inside ray.t.
 inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
@@ -87,7 +97,7 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   for (const std::uint32_t plane : s.planes)
     if (plane != skip && intersect_plane(s, ray, plane, hit)) keep(hit);
   BoxRay boxes(ray, s.bvh.center);
-  walk(s.bvh, boxes, stats, [&](std::uint32_t i) {
+  walk(s, boxes, stats, [&](std::uint32_t i) {
     if (intersect_leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
       boxes.t_max = float_above(best.t);
     return false;
@@ -107,8 +117,7 @@ bool any(const Structures& s, const RayFrame& ray, Stats stats) {
   for (const std::uint32_t plane : s.planes)
     if (intersect_plane(s, ray, plane, hit) && blocks()) return true;
   BoxRay boxes(ray, s.bvh.center);
-  return walk(s.bvh, boxes, stats,
-              [&](std::uint32_t i) { return intersect_leaf(s, ray, i, hit) && blocks(); });
+  return walk(s, boxes, stats, [&](std::uint32_t i) { return intersect_leaf(s, ray, i, hit) && blocks(); });
 }
 
 }  // namespace gnomon::raytrace

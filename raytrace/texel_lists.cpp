@@ -86,11 +86,10 @@ bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey 
 /// Collects the lists of a run of keys; one per task, for it keeps its buffers.
 class Collector {
  public:
-  Collector(const Structures& s, const LightView& view) : s_(s), view_(view) {
+  Collector(const Structures& s, const Bvh& bvh, const LightView& view) : s_(s), bvh_(bvh), view_(view) {
     const Aabb& b = s.world->finite_bounds;
-    reach_ = b.empty()
-                 ? 0.0
-                 : max_component(glm::max(glm::abs(b.min - s.bvh.center), glm::abs(b.max - s.bvh.center)));
+    reach_ =
+        b.empty() ? 0.0 : max_component(glm::max(glm::abs(b.min - bvh.center), glm::abs(b.max - bvh.center)));
   }
 
   /// The lists one after the other in `out`; ends[i] is where the i-th ends.
@@ -117,18 +116,18 @@ class Collector {
   // The primitives that may meet the strip, ascending.
   void gather(const Strip& strip) {
     found_.clear();
-    if (s_.bvh.nodes.empty())
-      for (std::uint32_t i = 0; i < s_.bvh.ids.size(); ++i) found_.push_back(i);
+    if (bvh_.nodes.empty())
+      for (std::uint32_t i = 0; i < bvh_.ids.size(); ++i) found_.push_back(i);
     else
-      descend(BoxColumn(view_, strip, s_.bvh, reach_));
-    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return s_.bvh.ids[a] < s_.bvh.ids[b]; });
+      descend(BoxColumn(view_, strip, bvh_, reach_));
+    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.ids[a] < bvh_.ids[b]; });
     const Column column(view_, strip.face, strip.first, strip.row);
     candidates_.resize(found_.size());
     for (std::size_t i = 0; i < found_.size(); ++i) {
       Candidate& c = candidates_[i];
-      c.id = s_.bvh.ids[found_[i]];
+      c.id = bvh_.ids[found_[i]];
       if (!s_.world->is_triangle(c.id)) continue;
-      const auto& v = s_.bvh.primitives[found_[i]].v;
+      const auto& v = bvh_.primitives[found_[i]].v;
       for (std::size_t k = 0; k < 3; ++k)
         c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
     }
@@ -144,7 +143,7 @@ class Collector {
         for (std::uint32_t i = child.first(); i < child.first() + child.count(); ++i) found_.push_back(i);
         continue;
       }
-      const BvhNode& node = s_.bvh.nodes[child.index()];
+      const BvhNode& node = bvh_.nodes[child.index()];
       for (auto mask = static_cast<unsigned>(boxes.meet(node)); mask != 0; mask &= mask - 1)
         stack[size++] = node.child[std::countr_zero(mask)];
     }
@@ -166,6 +165,7 @@ class Collector {
   }
 
   const Structures& s_;
+  const Bvh& bvh_;
   const LightView& view_;
   double reach_;
   std::vector<std::uint32_t> found_;  // places in leaf order
@@ -181,6 +181,10 @@ std::size_t TexelLists::find(TexelKey key) const {
 
 TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::vector<TexelKey> keys) {
   constexpr std::size_t block = 256;  // keys per task
+  const Structures& s = tracer.structures();
+  std::optional<Bvh> own;  // the other structures answer rays, not columns
+  if (s.structure.index() != 0) own = build_bvh(*s.world);
+  const Bvh& bvh = own ? *own : s.bvh;
   TexelLists lists;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -190,7 +194,7 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
   lists.offsets.assign(count + 1, 0);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t begin = b * block, size = std::min(count, begin + block) - begin;
-    Collector(tracer.structures(), view)
+    Collector(s, bvh, view)
         .collect(std::span(lists.keys).subspan(begin, size),
                  std::span(lists.offsets).subspan(begin + 1, size), found[b]);
   });

@@ -12,6 +12,7 @@ Structures make_structures(const World& world, Accel accel) {
   Structures s;
   s.world = &world;
   s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
+  s.structure = build_structure(world, accel);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
     if (plane == nullptr)
@@ -52,11 +53,12 @@ Tracer::Tracer(const World& world, Accel accel) : impl_(std::make_unique<Impl>()
   const Stopwatch watch;
   impl_->structures = make_structures(world, accel);
   const Bvh& bvh = impl_->structures.bvh;
+  const StructureSize size = size_of(impl_->structures.structure);
   impl_->stats = {.build_ms = watch.elapsed_ms(),
                   .bytes = bvh.nodes.size() * sizeof(BvhNode) +
                            bvh.primitives.size() * sizeof(LeafPrimitive) +
-                           bvh.ids.size() * sizeof(std::uint32_t),
-                  .nodes = bvh.nodes.size(),
+                           bvh.ids.size() * sizeof(std::uint32_t) + size.bytes,
+                  .nodes = bvh.nodes.size() + size.nodes,
                   .dropped = bvh.dropped};
 }
 Tracer::~Tracer() = default;

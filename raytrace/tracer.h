@@ -31,7 +31,19 @@ struct SurfacePoint {
   Vec2 barycentric{0.0};
 };
 
-enum class Accel : std::uint8_t { bvh, brute };
+/// Which structure finds the primitives; all give the same answers. bvh is the fastest on most scenes;
+/// bvh_median, kdtree_cyclic and grid_textbook are the textbooks' plain versions (raytrace/accel/).
+enum class Accel : std::uint8_t {
+  bvh,
+  bvh_median,
+  kdtree,
+  kdtree_cyclic,
+  octree,
+  grid,
+  grid_textbook,
+  bsp,
+  brute
+};
 
 /// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either
 /// answer.

@@ -40,7 +40,7 @@ class Query {
         return Verdict::shadowed;
     BoxRay boxes(ray_, s_.bvh.center, error_);
     NoStats stats;
-    const bool sure = walk(s_.bvh, boxes, stats, [&](std::uint32_t i) { return visit<masks>(i); });
+    const bool sure = walk(s_, boxes, stats, [&](std::uint32_t i) { return visit<masks>(i); });
     if (sure || (doubts_ > 0 && neighbours_cover())) return Verdict::shadowed;
     return doubts_ > 0 ? Verdict::uncertain : Verdict::lit;
   }
@@ -78,6 +78,9 @@ class Query {
       if (!solid_here(id)) return false;
     }
     if (meets == Meets::surely) return true;
+    // A structure may offer a primitive twice.
+    for (std::size_t i = 0; i < std::min(doubts_, remembered_doubts); ++i)
+      if (doubt_[i].triangle == id) return false;
     if (doubts_ < remembered_doubts) doubt_[doubts_] = {id, edge, positive};
     ++doubts_;
     return false;
