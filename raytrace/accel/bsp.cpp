@@ -10,9 +10,10 @@
 namespace gnomon::raytrace {
 namespace {
 
-constexpr double traversal_cost = 2.0, intersection_cost = 4.0;  // of a plane and of a primitive's test
+constexpr double traversal_cost = 3.0, intersection_cost = 4.0;  // of a plane and of a primitive's test
 constexpr std::size_t scored_items = 1024;  // larger nodes judge a plane by so many, evenly picked
-constexpr int walls_per_axis = 8;
+constexpr std::size_t leaf_size = 3;
+constexpr int walls_per_axis = 6;
 constexpr std::size_t triangles_tried = 4;
 constexpr std::size_t parallel_threshold = 1024;
 constexpr int height_operations = 8;  // roundings of a corner's height over a plane
@@ -23,8 +24,14 @@ struct BuildNode {
   std::vector<std::uint32_t> items;
 };
 
-struct Heights {
-  double min, max;
+/// A triangle's corners, or a box as its middle, three times, with what it reaches around it.
+struct Extent {
+  std::array<Vec3, 3> points;
+  Vec3 half;
+};
+
+struct Sides {
+  bool below, above;
 };
 
 Vec3 corner_of(const std::array<float, 3>& p) {
@@ -87,13 +94,14 @@ class Builder {
 
   /// A zero normal: better a leaf.
   Choice choose(std::span<const std::uint32_t> items, const Polytope& cell) const {
-    std::vector<std::uint32_t> sample;
+    if (items.size() <= leaf_size) return {.cost = infinity};
+    std::vector<Extent> sample;
     const std::size_t step = (items.size() + scored_items - 1) / scored_items;
-    for (std::size_t i = 0; i < items.size(); i += std::max<std::size_t>(1, step)) sample.push_back(items[i]);
+    for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(extent(items[i]));
     Choice best{.cost = intersection_cost * static_cast<double>(sample.size())};
-    if (sample.size() < 2) return best;
+    CutBuffers buffers;
     const auto offer = [&](const CutPlane& plane) {
-      const double cost = cost_of(plane, sample, cell);
+      const double cost = cost_of(plane, sample, cell, best.cost, buffers);
       if (cost < best.cost) best = {plane, cost};
     };
     offer_walls(sample, offer);
@@ -103,10 +111,10 @@ class Builder {
   }
 
   template <class Offer>
-  void offer_walls(std::span<const std::uint32_t> sample, const Offer& offer) const {
+  static void offer_walls(std::span<const Extent> sample, const Offer& offer) {
     Vec3 lo(infinity), hi(-infinity);
-    for (const std::uint32_t i : sample)
-      lo = glm::min(lo, corner_of(items_.box(i).min)), hi = glm::max(hi, corner_of(items_.box(i).max));
+    for (const Extent& e : sample)
+      for (const Vec3& p : e.points) lo = glm::min(lo, p - e.half), hi = glm::max(hi, p + e.half);
     for (int a = 0; a < 3; ++a) {
       Vec3 normal(0.0);
       normal[a] = 1.0;
@@ -115,13 +123,11 @@ class Builder {
   }
 
   template <class Offer>
-  void offer_triangle(std::uint32_t item, const Offer& offer) const {
-    if (!items_.is_triangle(item)) return;
-    const auto corners = items_.corners(item);
-    const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    offer_plane(normal, corners[0], offer);
-    for (std::size_t k = 0; k < 3; ++k)
-      offer_plane(glm::cross(normal, corners[(k + 1) % 3] - corners[k]), corners[k], offer);
+  static void offer_triangle(const Extent& triangle, const Offer& offer) {
+    const auto& p = triangle.points;
+    const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);  // zero for the point of another shape
+    offer_plane(normal, p[0], offer);
+    for (std::size_t k = 0; k < 3; ++k) offer_plane(glm::cross(normal, p[(k + 1) % 3] - p[k]), p[k], offer);
   }
 
   template <class Offer>
@@ -131,36 +137,41 @@ class Builder {
     offer(CutPlane{normal / length, glm::dot(normal / length, point)});
   }
 
-  double cost_of(const CutPlane& plane, std::span<const std::uint32_t> sample, const Polytope& cell) const {
+  /// Infinite where a glance shows that it cannot be below `best`: the parts' areas add up to more than the
+  /// cell's.
+  double cost_of(const CutPlane& plane, std::span<const Extent> sample, const Polytope& cell, double best,
+                 CutBuffers& buffers) const {
     double below = 0.0, above = 0.0;
-    for (const std::uint32_t i : sample) {
-      const Heights h = heights(i, plane);
-      if (h.max > slack_) ++above;
-      if (h.min < -slack_ || h.max <= slack_) ++below;
+    for (const Extent& e : sample) {
+      const Sides sides = sides_of(e, plane);
+      below += sides.below ? 1.0 : 0.0, above += sides.above ? 1.0 : 0.0;
     }
-    const auto [area_below, area_above] = cell.areas_of_parts(plane);
+    if (traversal_cost + intersection_cost * std::min(below, above) >= best) return infinity;
+    const auto [area_below, area_above] = cell.areas_of_parts(plane, buffers);
     return traversal_cost + intersection_cost * (below * area_below + above * area_above) / cell.area();
   }
 
   void partition(std::span<const std::uint32_t> items, const CutPlane& plane,
                  std::vector<std::uint32_t>& below, std::vector<std::uint32_t>& above) const {
     for (const std::uint32_t i : items) {
-      const Heights h = heights(i, plane);
-      if (h.max > slack_) above.push_back(i);
-      if (h.min < -slack_ || h.max <= slack_) below.push_back(i);
+      const Sides sides = sides_of(extent(i), plane);
+      if (sides.below) below.push_back(i);
+      if (sides.above) above.push_back(i);
     }
   }
 
-  Heights heights(std::uint32_t item, const CutPlane& plane) const {
-    if (items_.is_triangle(item)) {
-      const auto corners = items_.corners(item);
-      const double a = plane.height(corners[0]), b = plane.height(corners[1]), c = plane.height(corners[2]);
-      return {std::min({a, b, c}), std::max({a, b, c})};
-    }
+  Extent extent(std::uint32_t item) const {
+    if (items_.is_triangle(item)) return {items_.corners(item), Vec3(0.0)};
     const Vec3 lo = corner_of(items_.box(item).min), hi = corner_of(items_.box(item).max);
-    const double middle = plane.height(0.5 * (lo + hi)),
-                 half = glm::dot(glm::abs(plane.normal), 0.5 * (hi - lo));
-    return {middle - half, middle + half};
+    const Vec3 middle = 0.5 * (lo + hi);
+    return {{middle, middle, middle}, 0.5 * (hi - lo)};
+  }
+
+  Sides sides_of(const Extent& e, const CutPlane& plane) const {
+    const double a = plane.height(e.points[0]), b = plane.height(e.points[1]), c = plane.height(e.points[2]);
+    const double half = glm::dot(glm::abs(plane.normal), e.half);
+    const bool above = std::max({a, b, c}) + half > slack_;
+    return {std::min({a, b, c}) - half < -slack_ || !above, above};
   }
 
   const CellItems& items_;

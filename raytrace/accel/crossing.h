@@ -59,7 +59,7 @@ class Mailbox {
   }
 
  private:
-  static constexpr std::uint32_t size = 16;
+  static constexpr std::uint32_t size = 64;
   std::array<std::uint32_t, size> recent_;
 };
 

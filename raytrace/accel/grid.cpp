@@ -89,6 +89,16 @@ void for_each_cell(const Grid& grid, const CellItems& items, std::uint32_t item,
   }
 }
 
+/// What a sample of the items promises for all of them.
+std::uint64_t estimate_references(const Grid& grid, const CellItems& items) {
+  constexpr std::uint32_t sample = 256;
+  const std::uint32_t step = (items.count() + sample - 1) / sample;
+  std::uint64_t found = 0;
+  for (std::uint32_t item = 0; item < items.count(); item += step)
+    for_each_cell(grid, items, item, [&](std::uint32_t) { return ++found != 0; });
+  return found * step;
+}
+
 /// By blocks of items; false when there are more than `limit`, and then the blocks are incomplete.
 bool find_references(const Grid& grid, const CellItems& items, std::uint64_t limit,
                      std::vector<std::vector<CellReference>>& blocks) {
@@ -131,7 +141,7 @@ Grid build_grid(const CellItems& items, const GridOptions& options) {
   for (;;) {
     for (std::size_t a = 0; a < 3; ++a)
       grid.walls[a] = walls_along(grid.bounds.min[a], grid.bounds.max[a], grid.cells[a]);
-    if (find_references(grid, items, limit, blocks)) break;
+    if (estimate_references(grid, items) <= 2 * limit && find_references(grid, items, limit, blocks)) break;
     for (int& n : grid.cells) n = std::max(1, n / 2);
   }
   fill(grid, blocks);

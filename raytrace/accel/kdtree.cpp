@@ -13,6 +13,8 @@ constexpr double empty_side_bonus = 0.8;                         // Wald and Hav
 constexpr std::size_t swept_exactly = 1024;  // larger nodes try `bin_count` evenly spaced walls
 constexpr std::size_t bin_count = 64;
 constexpr std::size_t textbook_leaf = 5;
+constexpr std::size_t textbook_growth =
+    3;  // halves: a median that makes more than 3/2 of its items tells too little apart
 constexpr std::size_t parallel_threshold = 4096;
 
 struct Reference {
@@ -107,7 +109,8 @@ class Builder {
     std::vector<Reference> left, right;
     partition(refs, axis, below, above, left, right);
     const std::uint64_t parent = refs.size(), children = left.size() + right.size();
-    const bool useless = left.size() == parent && right.size() == parent;
+    const bool useless = rule_ == KdSplit::surface_area ? left.size() == parent && right.size() == parent
+                                                        : 2 * children > textbook_growth * parent;
     if (useless || !budget.affords(parent, children)) return leaf(std::move(node), refs);
     node->axis = split.axis, node->split = split.at;
     refs = {};

@@ -13,9 +13,9 @@ double polygon_area(const std::vector<Vec3>& polygon) {
 }
 
 /// Sutherland and Hodgman 1974; the points where edges cross the plane are added to `crossings`.
-std::vector<Vec3> polygon_below(const std::vector<Vec3>& polygon, const CutPlane& plane,
-                                std::vector<Vec3>& crossings) {
-  std::vector<Vec3> out;
+void polygon_below(const std::vector<Vec3>& polygon, const CutPlane& plane, std::vector<Vec3>& out,
+                   std::vector<Vec3>& crossings) {
+  out.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double ha = plane.height(a), hb = plane.height(b);
@@ -25,7 +25,17 @@ std::vector<Vec3> polygon_below(const std::vector<Vec3>& polygon, const CutPlane
     out.push_back(crossing);
     crossings.push_back(crossing);
   }
-  return out;
+}
+
+/// Of the new face, from its edges in any order: each face that was cut gave one edge, two crossings in a
+/// row.
+double lid_area(const std::vector<Vec3>& crossings) {
+  Vec3 middle(0.0);
+  for (const Vec3& p : crossings) middle = middle + p / static_cast<double>(crossings.size());
+  double area = 0.0;
+  for (std::size_t i = 1; i < crossings.size(); i += 2)
+    area += 0.5 * glm::length(glm::cross(crossings[i - 1] - middle, crossings[i] - middle));
+  return area;
 }
 
 /// The crossings of a convex cell lie on a convex polygon: in order around its middle.
@@ -63,20 +73,25 @@ Polytope::Polytope(const CellBox& box) {
     }
 }
 
-std::array<double, 2> Polytope::areas_of_parts(const CutPlane& plane) const {
-  std::vector<Vec3> crossings;
+std::array<double, 2> Polytope::areas_of_parts(const CutPlane& plane, CutBuffers& buffers) const {
+  buffers.crossings.clear();
   double below = 0.0;
-  for (const Face& face : faces_) below += polygon_area(polygon_below(face, plane, crossings));
-  const double cut = polygon_area(in_order(std::move(crossings), plane.normal));
+  for (const Face& face : faces_) {
+    polygon_below(face, plane, buffers.polygon, buffers.crossings);
+    below += polygon_area(buffers.polygon);
+  }
+  const double cut = lid_area(buffers.crossings);
   return {below + cut, std::max(0.0, area_ - below) + cut};
 }
 
 Polytope Polytope::cut(const CutPlane& plane) const {
   std::vector<Vec3> crossings;
   Polytope out;
-  for (const Face& face : faces_)
-    if (Face part = polygon_below(face, plane, crossings); part.size() >= 3)
-      out.faces_.push_back(std::move(part));
+  for (const Face& face : faces_) {
+    Face part;
+    polygon_below(face, plane, part, crossings);
+    if (part.size() >= 3) out.faces_.push_back(std::move(part));
+  }
   if (Face lid = in_order(std::move(crossings), plane.normal); !lid.empty())
     out.faces_.push_back(std::move(lid));
   for (const Face& face : out.faces_) out.area_ += polygon_area(face);

@@ -16,13 +16,18 @@ struct CutPlane {
   double height(const Vec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
+/// Room for areas_of_parts() to work in.
+struct CutBuffers {
+  std::vector<Vec3> polygon, crossings;
+};
+
 class Polytope {
  public:
   explicit Polytope(const CellBox& box);
 
   double area() const { return area_; }
   /// The areas of the parts below and above, both with their new face.
-  std::array<double, 2> areas_of_parts(const CutPlane& plane) const;
+  std::array<double, 2> areas_of_parts(const CutPlane& plane, CutBuffers& buffers) const;
   /// The part below.
   Polytope cut(const CutPlane& plane) const;
 
