@@ -7,13 +7,17 @@ gnomon_test(outputs_test
 add_executable(outputs_sample "${CMAKE_CURRENT_LIST_DIR}/outputs_sample_main.cpp")
 target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::compare)
 
+# A test in JavaScript; skipped visibly where node, or what the test needs besides, is not there.
 find_program(GNOMON_NODE node)
-if(GNOMON_NODE)
-  add_test(NAME report_browser_test
-    COMMAND ${GNOMON_NODE} "${CMAKE_CURRENT_LIST_DIR}/report_browser_test.mjs" $<TARGET_FILE:outputs_sample>
-      "${CMAKE_CURRENT_BINARY_DIR}/report_browser")
-else()
-  add_test(NAME report_browser_test COMMAND ${CMAKE_COMMAND} -E echo "skipped: node is not installed")
-  set_tests_properties(report_browser_test PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: node")
-endif()
-set_tests_properties(report_browser_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+function(gnomon_node_test name)
+  if(GNOMON_NODE)
+    add_test(NAME ${name} COMMAND ${GNOMON_NODE} "${CMAKE_CURRENT_SOURCE_DIR}/${name}.mjs" ${ARGN})
+  else()
+    add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo "skipped: node is not installed")
+    set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: node")
+  endif()
+  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+endfunction()
+gnomon_node_test(report_browser_test $<TARGET_FILE:outputs_sample> "${CMAKE_CURRENT_BINARY_DIR}/report_browser")
+gnomon_node_test(report_probe_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_probe")
+gnomon_node_test(report_built_page_test "${CMAKE_CURRENT_BINARY_DIR}/report_built_page")

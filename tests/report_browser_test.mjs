@@ -5,50 +5,13 @@
 // result.json, readable without scripts, no sideways scrolling on a phone; then the viewer by keyboard and by mouse.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-
-function skip(reason) {
-  console.log(`skipped: ${reason}`);
-  process.exit(77);
-}
-
-const require = createRequire(new URL("browser/package.json", import.meta.url));
-function load(name) {
-  try { return require(name); } catch { return skip(`${name} is not installed: npm ci --prefix tests/browser`); }
-}
-const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
-  || skip("no chromium-headless-shell or chromium in /usr/bin");
-const { chromium } = load("playwright-core");
-const axeSource = load("axe-core").source;
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { browser, checkAccessibility, checkPhone, close, open as openFolder } from "./browser/open_page.mjs";
 
 const [sampleProgram, folder] = process.argv.slice(2);
 execFileSync(sampleProgram, [folder], { stdio: "inherit" });
-const browser = await chromium.launch({ executablePath: browserPath });
-
-// Opens a page and collects everything that it must not do.
-async function open(name, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
-  const page = await context.newPage();
-  const url = pathToFileURL(resolve(folder, name, "report.html")).href;
-  page.offences = [];
-  page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
-  page.on("request", (request) => {
-    if (request.url() !== url && !request.url().startsWith("data:")) page.offences.push(`request: ${request.url()}`);
-  });
-  await page.goto(url);
-  if (options.javaScriptEnabled !== false)
-    await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
-  return page;
-}
-
-async function close(page) {
-  assert.deepEqual(page.offences, []);
-  await page.context().close();
-}
+const open = (name, options) => openFolder(join(folder, name), options);
 
 const byKey = (json, key) => key.split(".").reduce((value, part) => value?.[part], json);
 
@@ -79,16 +42,6 @@ async function checkNumbers(page, name) {
   return shown.length;
 }
 
-async function checkAccessibility(name) {
-  for (const colorScheme of ["light", "dark"]) {
-    const page = await open(name, { colorScheme });
-    await page.evaluate(axeSource);
-    const { violations } = await page.evaluate(() => window.axe.run());
-    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${name}, ${colorScheme}`);
-    await close(page);
-  }
-}
-
 async function checkSaving(page, name) {
   for (const file of ["result.json", "result.csv"]) {
     const href = await page.locator(`a[download="${file}"]`).getAttribute("href");
@@ -106,13 +59,6 @@ async function checkWithoutScripts(name) {
     assert.ok((await image.boundingBox()).width > 0);
     assert.notEqual(await image.getAttribute("alt"), "");
   }
-  await close(page);
-}
-
-async function checkPhone(name) {
-  const page = await open(name, { viewport: { width: 390, height: 844 } });
-  const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
-  assert.ok(width <= 390, `${name} is ${width} pixels wide on a phone`);
   await close(page);
 }
 
@@ -170,8 +116,8 @@ try {
     if (name === "one") await checkPolicy(page);
     await close(page);
     await checkWithoutScripts(name);
-    await checkPhone(name);
-    await checkAccessibility(name);
+    await checkPhone(join(folder, name));
+    await checkAccessibility(join(folder, name));
     console.log(`${name}: ${numbers} numbers equal to result.json, no violation, no request`);
   }
   await checkViewer();

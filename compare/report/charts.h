@@ -1,5 +1,5 @@
 // The page's drawings as inline SVG: sharp in slides and print, coloured by the page's style sheet
-// (report.css).
+// (page/src/report.css).
 #pragma once
 
 #include <string>

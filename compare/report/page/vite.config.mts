@@ -3,9 +3,11 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { viteSingleFile } from "vite-plugin-singlefile";
 
+const folder = fileURLToPath(new URL(".", import.meta.url));
+
 export default defineConfig({
-  root: fileURLToPath(new URL(".", import.meta.url)),
+  root: folder,
   logLevel: "warn",
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
-  build: { target: "es2022", emptyOutDir: true, rollupOptions: { input: "page.html" }, modulePreload: false },
+  build: { target: "es2022", emptyOutDir: true, rollupOptions: { input: `${folder}page.html` }, modulePreload: false },
 });

@@ -64,7 +64,7 @@ export class BiasPanel {
     this.range.setAttribute("aria-valuetext", `${number(bias)} world units`);
     if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(bias);
     const counts = recolour(this.light, bias, this.backdrop, this.image.data);
-    this.canvas.getContext("2d")!.putImageData(this.image, 0, 0);
+    this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);

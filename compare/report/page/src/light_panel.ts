@@ -26,7 +26,7 @@ export class LightPanel {
       for (const name of ["truth", "gap"]) pick.append(html("option", { value: name }, name));
     const host = html("div", { class: "pixel-probe" });
     root.after(host);
-    this.probe = new Probe(light, index, host, (texels) => { this.state.texels = texels; this.redraw(); });
+    this.probe = new Probe(light, index, host, this.state, () => this.redraw());
     this.labels = new LabelTable(section, (label) => this.choose(label));
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
     this.shown = this.example();
@@ -34,7 +34,7 @@ export class LightPanel {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveHash(this.index, this.state),
     });
-    this.probe.show(this.shown, light.json.bias.constant, this.state.texels);
+    this.probe.show(this.shown, light.json.bias.constant);
     this.bias?.show(light.json.bias.constant);
   }
 
@@ -46,16 +46,18 @@ export class LightPanel {
     this.update();
   }
 
-  // A pixel in the middle of the commonest label's, to begin with something to see.
+  // The commonest label's pixel nearest to the picture's middle, to begin with something to see.
   private example(label?: number): Pixel {
     const counts = new Map<number, number>();
     if (label === undefined) for (const l of this.light.label) counts.set(l, (counts.get(l) ?? 0) + 1);
     const rank = (l: number) => (l > 0 ? 2e9 : l === 0 ? 1e9 : 0) + counts.get(l)!;
     const wanted = label ?? [...counts.keys()].sort((a, b) => rank(b) - rank(a))[0]!;
-    const all: number[] = [];
-    this.light.label.forEach((l, i) => { if (l === wanted) all.push(i); });
-    const i = all[all.length >> 1] ?? 0;
-    return this.light.pixel(i % page.width, Math.floor(i / page.width));
+    let best = 0, least = Infinity;
+    this.light.label.forEach((l, i) => {
+      const away = Math.hypot((i % page.width) - page.width / 2, Math.floor(i / page.width) - page.height / 2);
+      if (l === wanted && away < least) [best, least] = [i, away];
+    });
+    return this.light.pixel(best % page.width, Math.floor(best / page.width));
   }
 
   private choose(label: string | null): void {
@@ -108,7 +110,7 @@ export class LightPanel {
   private update(): void {
     const bias = this.state.bias ?? this.light.json.bias.constant;
     this.viewer.show();
-    this.probe.show(this.shown, bias, this.state.texels);
+    this.probe.show(this.shown, bias);
     this.bias?.show(bias);
   }
 }

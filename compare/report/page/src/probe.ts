@@ -1,7 +1,8 @@
 // The probe: one pixel's ladder with its numbers, the light-space drawing and the cross-section.
 import { page, wordsOf, geometry, type Geometry, type Light, type Pixel } from "./data";
 import { html, number } from "./svg";
-import { sectionDrawing } from "./section_drawing";
+import { sectionAxis, sectionDrawing } from "./section_drawing";
+import type { ViewState } from "./state";
 import { texelDrawing } from "./texel_drawing";
 import { decidingStep, story } from "./words";
 
@@ -35,44 +36,61 @@ function facts(light: Light, pixel: Pixel): HTMLElement {
   return list;
 }
 
+// A row of buttons of which one is pressed.
+function choice(name: string, key: string, entries: [string, string][], chosen: (value: string) => void): HTMLElement {
+  const group = html("div", { class: "modes", role: "group", "aria-label": name });
+  for (const [value, text] of entries) {
+    const button = html("button", { type: "button", [`data-${key}`]: value }, text);
+    button.addEventListener("click", () => chosen(value));
+    group.append(button);
+  }
+  return group;
+}
+
+function press(group: HTMLElement, key: string, value: string): void {
+  for (const button of group.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.dataset[key] === value));
+}
+
 export class Probe {
   private readonly body = html("div", { class: "probe-body" });
   private readonly below = html("div", { class: "probe-section" });
+  private readonly widths: HTMLElement;
+  private readonly ways: HTMLElement;
   private scene: Geometry | null = null;
-  private shown: { pixel: Pixel; bias: number; texels: number } | null = null;
+  private shown: { pixel: Pixel; bias: number } | null = null;
 
-  constructor(private readonly light: Light, private readonly index: number, host: Element, onTexels: (texels: number) => void) {
-    const widths = html("div", { class: "modes", role: "group", "aria-label": "Width of the cross-section" });
+  constructor(private readonly light: Light, private readonly index: number, host: Element,
+              private readonly state: ViewState, changed: () => void) {
     const size = light.json.view.size;
-    for (const texels of [8, 32, 128, size].filter((t, i, all) => t <= size && all.indexOf(t) === i)) {
-      const button = html("button", { type: "button", "data-texels": String(texels) }, texels === size ? "whole row" : `± ${texels}`);
-      button.addEventListener("click", () => onTexels(texels));
-      widths.append(button);
-    }
-    this.widths = widths;
-    host.append(html("h3", {}, "One pixel, in light space"), this.body, html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), widths), this.below);
+    const widths = [8, 16, 64, 256, size].filter((t, i, all) => t <= size && all.indexOf(t) === i);
+    this.widths = choice("Width of the cross-section", "texels", widths.map((t) => [String(t), t === size ? "all" : `± ${t}`]),
+      (value) => { state.texels = Number(value); changed(); });
+    this.ways = choice("Way across the map", "cut", [["row", "row"], ["column", "column"]], (value) => { state.cut = value; changed(); });
+    host.append(html("h3", {}, "One pixel, in light space"), this.body,
+      html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths), this.below);
     void geometry.then((scene) => { this.scene = scene; this.redraw(); });
   }
-  private readonly widths: HTMLElement;
 
-  show(pixel: Pixel, bias: number, texels: number): void {
-    this.shown = { pixel, bias, texels };
+  show(pixel: Pixel, bias: number): void {
+    this.shown = { pixel, bias };
     this.redraw();
   }
 
   private redraw(): void {
     if (!this.shown) return;
-    const { pixel, bias, texels } = this.shown, words = wordsOf(pixel.label), id = `probe-${this.index}`;
+    const { pixel, bias } = this.shown, words = wordsOf(pixel.label), id = `probe-${this.index}`;
     const drawable = pixel.seen && isFinite(pixel.at.depth);
-    for (const button of this.widths.querySelectorAll("button"))
-      button.setAttribute("aria-pressed", String(Number(button.dataset.texels) === texels));
+    const axis = drawable ? sectionAxis(this.light, pixel, this.state.cut) : 0;
+    press(this.widths, "texels", String(this.state.texels));
+    press(this.ways, "cut", axis === 0 ? "row" : "column");
     const swatch = html("span", { class: "dot-swatch" });
     swatch.style.background = words.colour;
     const head = html("div", {}, html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
       html("p", { class: "story" }, story(this.light, pixel, bias)));
     if (pixel.seen) head.append(ladder(pixel), facts(this.light, pixel));
     this.body.replaceChildren(head, ...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
-    if (drawable && this.scene) this.below.replaceChildren(sectionDrawing(this.light, pixel, this.scene, texels, bias, `${id}-cut`));
+    if (drawable && this.scene)
+      this.below.replaceChildren(sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`));
     else this.below.replaceChildren(html("p", {}, "No surface here to cut through."));
   }
 }

@@ -1,4 +1,4 @@
-// The scene cut by the plane of light rays through one row of the map: exact for spheres and planes, and for triangles
+// The scene cut by the plane of light rays through one row or column of the map: exact for spheres and planes, and for triangles
 // up to the rounding of the corners that the page carries (2^-24 of the scene's size).
 import type { Geometry } from "./data";
 import { add, cross, dot, length, project, scaled, sub, texelRay, unit, type LightView, type MapPoint, type Vec3 } from "./light_view";
@@ -11,19 +11,26 @@ interface Cut {
   offset: number;  // dot(normal, p - origin) = offset on the plane
 }
 
-function cutAt(view: LightView, face: number, v: number): Cut {
-  const f = view.faces[face]!, y = ((2 * v) / view.size - 1) * view.half_extent[1];
-  if (!view.perspective) return { normal: f.up, offset: y };
-  return { normal: unit(add(f.up, f.forward, -y)), offset: 0 };
+/** A line across the map: along u (axis 0) at a fixed v, or along v (axis 1) at a fixed u. */
+export interface Line {
+  axis: 0 | 1;
+  at: number;  // the fixed coordinate, texels
+}
+
+function cutAt(view: LightView, face: number, line: Line): Cut {
+  const f = view.faces[face]!, fixed = line.axis === 0 ? f.up : f.right;
+  const y = ((2 * line.at) / view.size - 1) * view.half_extent[1 - line.axis]!;
+  if (!view.perspective) return { normal: fixed, offset: y };
+  return { normal: unit(add(fixed, f.forward, -y)), offset: 0 };
 }
 
 const ahead = (view: LightView, point: MapPoint): boolean => !view.perspective || point.depth > 1e-3 * view.near;
 
-function circle(view: LightView, face: number, cut: Cut, center: Vec3, radius: number): Curve[] {
+function circle(view: LightView, face: number, axis: 0 | 1, cut: Cut, center: Vec3, radius: number): Curve[] {
   const away = dot(cut.normal, sub(center, view.origin)) - cut.offset;
   if (Math.abs(away) >= radius) return [];
   const middle = add(center, cut.normal, -away), r = Math.sqrt(radius * radius - away * away);
-  const a = view.faces[face]!.right, b = cross(cut.normal, a), bu = scaled(b, 1 / length(b)), curve: Curve = [];
+  const f = view.faces[face]!, a = axis === 0 ? f.right : f.up, b = cross(cut.normal, a), bu = scaled(b, 1 / length(b)), curve: Curve = [];
   for (let i = 0; i <= 180; ++i) {
     const t = (i * Math.PI) / 90, p = project(view, face, add(add(middle, a, r * Math.cos(t)), bu, r * Math.sin(t)));
     if (ahead(view, p)) curve.push(p);
@@ -31,14 +38,15 @@ function circle(view: LightView, face: number, cut: Cut, center: Vec3, radius: n
   return [curve];
 }
 
-function planeCurve(view: LightView, face: number, v: number, point: Vec3, normal: Vec3, from: number, to: number): Curve[] {
+function planeCurve(view: LightView, face: number, line: Line, point: Vec3, normal: Vec3, from: number, to: number): Curve[] {
   const curve: Curve = [];
   for (let i = 0; i <= 64; ++i) {
-    const u = from + ((to - from) * i) / 64, ray = texelRay(view, face, u, v), facing = dot(normal, ray.direction);
+    const t0 = from + ((to - from) * i) / 64, [u, v] = line.axis === 0 ? [t0, line.at] : [line.at, t0];
+    const ray = texelRay(view, face, u, v), facing = dot(normal, ray.direction);
     if (facing === 0) continue;
     const t = dot(normal, sub(point, ray.origin)) / facing;
     const p = project(view, face, add(ray.origin, ray.direction, t));
-    if (ahead(view, p)) curve.push({ ...p, u });
+    if (ahead(view, p)) curve.push({ ...p, u, v });
   }
   return [curve];
 }
@@ -70,11 +78,11 @@ function segment(view: LightView, face: number, a: Vec3, b: Vec3): Curve {
   return curve;
 }
 
-/** Every curve of the scene in the plane of row position v, planes between the map positions `from` and `to`. */
-export function sceneCut(view: LightView, face: number, v: number, scene: Geometry, from: number, to: number): Curve[] {
-  const cut = cutAt(view, face, v), curves = triangleCurves(view, face, cut, scene);
+/** Every curve of the scene in the plane of a line across the map; planes between the positions `from` and `to` on it. */
+export function sceneCut(view: LightView, face: number, line: Line, scene: Geometry, from: number, to: number): Curve[] {
+  const cut = cutAt(view, face, line), curves = triangleCurves(view, face, cut, scene);
   for (const shape of scene.shapes)
-    curves.push(...("radius" in shape ? circle(view, face, cut, shape.center, shape.radius)
-                                      : planeCurve(view, face, v, shape.point, shape.normal, from, to)));
+    curves.push(...("radius" in shape ? circle(view, face, line.axis, cut, shape.center, shape.radius)
+                                      : planeCurve(view, face, line, shape.point, shape.normal, from, to)));
   return curves;
 }

@@ -14,12 +14,13 @@ export interface ViewState {
   pixel: readonly [number, number] | null;  // pinned
   bias: number | null;  // constant, world units; null: as rendered
   label: string | null;  // shown alone
+  cut: string;  // the cross-section's way across the map: auto, row, column
   texels: number;  // half the width of the cross-section
 }
 
 export const initial: ViewState = {
   left: "rasterized", right: "ray traced", mode: "swipe", split: 0.5, zoom: 1, x: 0, y: 0, front: 0, exposure: 0,
-  pixel: null, bias: null, label: null, texels: 32,
+  pixel: null, bias: null, label: null, cut: "auto", texels: 16,
 };
 
 export function hashOf(light: number, state: ViewState): string {
@@ -38,6 +39,7 @@ const readers: { [K in keyof ViewState]: (text: string) => ViewState[K] | undefi
   left: (t) => t, right: (t) => t, label: (t) => t,
   mode: (t) => (["swipe", "side", "flip"].includes(t) ? t : undefined),
   split: (t) => inRange(t, 0, 1), zoom: (t) => inRange(t, 1, 64), x: (t) => inRange(t, -63, 0), y: (t) => inRange(t, -63, 0),
+  cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined),
   front: (t) => (t === "1" ? 1 : 0), exposure: (t) => inRange(t, -6, 6), texels: (t) => inRange(t, 4, 1e6),
   bias: (t) => inRange(t, -1e30, 1e30),
   pixel: (t) => {

@@ -74,7 +74,7 @@ function steps(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: n
       group.append(svg("line", { class: "tested", x1: x, x2: x + w, y1: frame.y(depth + bias), y2: frame.y(depth + bias) }));
       group.append(svg("line", { class: k === own ? "stored own" : "stored", x1: x, x2: x + w, y1: frame.y(depth), y2: frame.y(depth) }));
     }
-    if (frame.texels <= 9 || k === own)
+    if (k >= 0 && k < light.json.view.size && (frame.texels <= 9 || k === own))
       group.append(svg("text", { class: "middle", x: x + w / 2, y: height - bottom + 17 }, String(k)));
   }
   return group;
@@ -90,10 +90,10 @@ function receiverLine(light: Light, frame: Frame, pixel: Pixel): SVGElement {
   return svg("polyline", { class: "receiver", points: points.join(" ") });
 }
 
-// A distance along the depth axis with its name, at the right of the pixel's texel.
-function bracket(frame: Frame, x: number, from: number, to: number, kind: string, text: string): SVGElement {
+// A distance along the depth axis with its name behind it, or `before` it.
+function bracket(frame: Frame, x: number, from: number, to: number, kind: string, text: string, before = false): SVGElement {
   const a = Math.max(top, Math.min(frame.y(from), height - bottom)), b = Math.max(top, Math.min(frame.y(to), height - bottom));
-  const flip = x > width - 150;
+  const flip = before || x > width - 150;
   return svg("g", { class: kind },
     svg("path", { class: "bracket", d: `M${x - 4},${a}h8M${x},${a}V${b}M${x - 4},${b}h8` }),
     svg("text", { x: flip ? x - 8 : x + 8, y: Math.max(top + 12, Math.min((a + b) / 2 + 4, height - bottom - 4)), class: flip ? "end" : "" }, text));
@@ -109,7 +109,7 @@ function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: n
   if (isFinite(stored)) {
     if (stored < frame.low || stored > frame.high) group.append(offScale(frame, right, stored, pixel));
     else group.append(bracket(frame, right + 8, stored, stored + bias, "bias-mark", `bias ${number(constant, 3)}`));
-    group.append(bracket(frame, frame.x(own) - 8 < 20 ? right + 24 : frame.x(own) - 8, stored, pixel.at.depth, "gap-mark", `gap ${number(pixel.gap, 3)}`));
+    group.append(bracket(frame, frame.x(own) - 8, stored, pixel.at.depth, "gap-mark", `gap ${number(pixel.gap, 3)}`, true));
   } else group.append(svg("text", { class: "note", x: right + 8, y: top + 20 }, "nothing stored here: never in shadow"));
   group.append(svg("circle", { class: "point", cx: x, cy: y, r: 5 }));
   return group;

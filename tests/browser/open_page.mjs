@@ -1,0 +1,62 @@
+// What the tests of the report page share: a browser, and pages that must not do what they must not do. A test that
+// lacks node packages or the browser says so and is skipped (exit 77).
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { createRequire } from "node:module";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+export function skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+
+const require = createRequire(new URL("package.json", import.meta.url));
+function load(name) {
+  try { return require(name); } catch { return skip(`${name} is not installed: npm ci --prefix tests/browser`); }
+}
+const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
+  || skip("no chromium-headless-shell or chromium in /usr/bin");
+const { chromium } = load("playwright-core");
+const axeSource = load("axe-core").source;
+export const browser = await chromium.launch({ executablePath: browserPath });
+
+/** Opens FOLDER/report.html and collects everything that it must not do. `hash` begins with #. */
+export async function open(folder, options = {}, hash = "") {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const page = await context.newPage();
+  const url = pathToFileURL(resolve(folder, "report.html")).href;
+  page.offences = [];
+  page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
+  page.on("request", (request) => {
+    if (request.url().split("#")[0] !== url && !request.url().startsWith("data:")) page.offences.push(`request: ${request.url()}`);
+  });
+  await page.goto(url + hash);
+  if (options.javaScriptEnabled !== false)
+    await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  return page;
+}
+
+export async function close(page) {
+  assert.deepEqual(page.offences, []);
+  await page.context().close();
+}
+
+export async function checkAccessibility(folder) {
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await open(folder, { colorScheme });
+    await page.evaluate(axeSource);
+    const { violations } = await page.evaluate(() => window.axe.run());
+    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${folder}, ${colorScheme}`);
+    await close(page);
+  }
+}
+
+/** Nothing may be wider than a phone. */
+export async function checkPhone(folder) {
+  const page = await open(folder, { viewport: { width: 390, height: 844 } });
+  const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
+  assert.ok(width <= 390, `${folder} is ${width} pixels wide on a phone`);
+  await close(page);
+}

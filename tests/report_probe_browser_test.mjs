@@ -1,0 +1,212 @@
+// The report page's live parts on a real comparison, in a real browser: every pixel's numbers against the EXR file, the
+// probe's words and ladder, the dragged bias against a fresh comparison at that bias, views that the URL restores.
+// Needs what report_browser_test needs, OpenGL in software, and oiiotool. Usage: node report_probe_browser_test.mjs
+// GNOMON_PROGRAM WORK_FOLDER
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { inflateSync } from "node:zlib";
+import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
+
+const [program, folder] = process.argv.slice(2);
+const width = 240, height = 136, biases = ["0.02", "0.3"];
+const folderOf = (bias) => join(folder, `bias-${bias}`);
+mkdirSync(folder, { recursive: true });
+for (const bias of biases)
+  execFileSync(program, ["compare", "sphere-plane", "--size", `${width}x${height}`, "--map-size", "64", "--runs", "1", "--bias", bias,
+    "--quiet", "-o", folderOf(bias), "--aov", join(folder, `bias-${bias}.exr`)], { stdio: "inherit" });
+const resultOf = (bias) => JSON.parse(readFileSync(join(folderOf(bias), "result.json"), "utf8")).lights[0];
+
+// The EXR's channels, read by another program; it prints nine decimals.
+const rungs = ["truth", "point", "texel", "flat", "stored", "biased", "drawn"].map((name) => `${name}.V`);
+const channels = ["class.V", "gap.V", "texel_uv.U", "texel_uv.V", "primitive.V", ...rungs];
+function readAov(bias) {
+  const few = join(folder, "few.exr");
+  execFileSync("oiiotool", [join(folder, `bias-${bias}.exr`), "--ch", channels.join(","), "-o", few]);
+  const text = execFileSync("oiiotool", ["--dumpdata", few], { encoding: "utf8", maxBuffer: 1 << 28 });
+  const order = [...channels].sort(), places = channels.map((name) => order.indexOf(name));  // EXR files sort theirs
+  const pixels = [];
+  for (const [, x, y, values] of text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g))
+    pixels[Number(y) * width + Number(x)] = places.map((place) => Number(values.trim().split(/\s+/)[place]));
+  assert.equal(pixels.length, width * height);
+  return pixels;
+}
+
+// The page's arrays, unpacked apart from the page's own code.
+function unpack({ bytes, difference, data }) {
+  const planes = inflateSync(Buffer.from(data, "base64")), count = planes.length / bytes, out = new Int32Array(count);
+  let before = 0;
+  for (let i = 0; i < count; ++i) {
+    let value = 0;
+    for (let plane = 0; plane < bytes; ++plane) value += planes[plane * count + i] * 256 ** plane;
+    value = difference ? (value + before) % 256 ** bytes : value;
+    before = value;
+    out[i] = value >= 256 ** bytes / 2 ? value - 256 ** bytes : value;
+  }
+  return out;
+}
+
+async function checkData(page, aov) {
+  const data = JSON.parse(await page.locator("#page-data").textContent()), light = data.lights[0];
+  const numbers = Object.fromEntries(Object.entries({ ...light.channels, ...data.channels }).map(([name, packed]) => [name, unpack(packed)]));
+  const gaps = new Float32Array(numbers.gap.buffer);
+  aov.forEach(([label, gap, u, v, primitive, ...ladder], i) => {
+    assert.equal(numbers.label[i], label, `label of pixel ${i}`);
+    assert.ok(gap === gaps[i] || Math.abs(gap - gaps[i]) <= 1e-9 + 1e-7 * Math.abs(gap), `gap of pixel ${i}: ${gaps[i]}, not ${gap}`);
+    if (label === 0 || label > 0) {
+      assert.equal(numbers.u[i], Math.floor(u * data.position_steps), `u of pixel ${i}`);
+      assert.equal(numbers.v[i], Math.floor(v * data.position_steps), `v of pixel ${i}`);
+      assert.equal(numbers.primitive[i], primitive, `primitive of pixel ${i}`);
+    }
+    ladder.forEach((value, k) => assert.equal(numbers[`V${k}`][i] / data.visibility_steps, value, `V${k} of pixel ${i}`));
+  });
+}
+
+const number = (text) => Number(text.replaceAll("\u2212", "-").replaceAll("∞", "Infinity"));
+async function shown(page) {
+  const text = (selector) => page.locator(selector).textContent();
+  const ladder = await page.locator(".pixel-ladder tbody tr td:nth-child(2)").allTextContents();
+  return {
+    title: (await text(".pixel-title")).trim(), story: await text(".story"), ladder: ladder.map(number),
+    gap: number((await text("[data-fact=gap]")).split(" ")[0]), texel: (await text("[data-fact=texel]")).split(" u")[0].split(", ").map(Number),
+    primitive: Number(await text("[data-fact=primitive]")),
+  };
+}
+
+// One pixel of every label that occurs, chosen by the URL.
+async function checkProbe(aov, names) {
+  const examples = new Map();
+  aov.forEach(([label], i) => { if (label >= 0) examples.set(label, i); });
+  assert.ok(examples.size >= 4, `only the labels ${[...examples.keys()]} occur`);
+  for (const [label, i] of examples) {
+    const page = await open(folderOf(biases[0]), {}, `#light-0?pixel=${i % width},${Math.floor(i / width)}`);
+    const [, gap, u, v, primitive, ...ladder] = aov[i], said = await shown(page);
+    assert.equal(said.title, `Pixel ${i % width}, ${Math.floor(i / width)}: ${names.get(label)}`);
+    assert.deepEqual(said.ladder, ladder);
+    assert.ok(said.gap === gap || Math.abs(said.gap - gap) <= 1e-5 * Math.abs(gap) + 1e-9, `gap ${said.gap}, not ${gap}`);
+    assert.ok(Math.abs(said.texel[0] - u) < 0.005 && Math.abs(said.texel[1] - v) < 0.005, `texel ${said.texel}, not ${u}, ${v}`);
+    assert.equal(said.primitive, primitive);
+    assert.match(said.story, ladder[0] === 1 ? /exact ray says: lit/ : /exact ray says: in shadow/);
+    assert.match(said.story, ladder[6] === 1 ? /lit at the bias|draws it lit|lets it be lit/ : /draws it in shadow/);
+    const deciding = await page.locator(".pixel-ladder .deciding").count();
+    assert.equal(deciding, label > 0 ? 1 : 0);
+    assert.equal(await page.locator("svg.light-space").count(), 1);
+    assert.equal(await page.locator("svg.section .profile").count(), 1);
+    await close(page);
+  }
+  return examples.size;
+}
+
+async function checkDrawing(page) {
+  // Texels are as wide as the caption says, in the drawing's one scale for width and depth.
+  const own = page.locator("svg.light-space .column.own"), caption = await page.locator(".probe-body figcaption").textContent();
+  const texel = Number(/a texel is ([\d.e-]+) wide/.exec(caption)[1]), scale = Number(await own.getAttribute("width")) / texel;
+  const [top, bottom] = (await page.locator(".gap-mark .bracket").getAttribute("d")).match(/[\d.]+(?=h8)/g).map(Number);
+  const { gap } = await shown(page), ray = Math.abs(bottom - top) / scale;
+  // The gap is measured along the ray, the drawing's depth along the face's axis: at most sqrt(3) apart on a cube face.
+  assert.ok(ray <= gap * 1.03 && ray >= gap / 1.78, `the gap is drawn ${ray} long, and is ${gap}`);
+}
+
+async function countsAt(page, bias) {
+  await page.locator(".bias-bar input[type=number]").fill(String(bias));
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((b) => document.querySelector(".bias-counts").textContent.startsWith("At a bias of")
+    && Number(document.querySelector(".bias-bar input[type=number]").value) === b, bias);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return page.locator(".bias-live").evaluate((live) => {
+    const { falseShadow, missedShadow } = live.querySelector(".bias-counts").dataset, canvas = live.querySelector("canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let orange = 0, blue = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      orange += data[i] === 213 && data[i + 1] === 94 && data[i + 2] === 0;
+      blue += data[i] === 86 && data[i + 1] === 180 && data[i + 2] === 233;
+    }
+    return { false_shadow: Number(falseShadow), missed_shadow: Number(missedShadow), orange, blue };
+  });
+}
+
+async function checkBias(page) {
+  const [used, other] = biases.map(resultOf), curve = used.bias_curve;
+  const points = [...curve.filter((_, i) => i % 16 === 0), { ...used.error, bias: Number(biases[0]) }, { ...other.error, bias: Number(biases[1]) }];
+  for (const { bias, false_shadow, missed_shadow } of points)
+    assert.deepEqual(await countsAt(page, bias), { false_shadow, missed_shadow, orange: false_shadow, blue: missed_shadow }, `at a bias of ${bias}`);
+  assert.notDeepEqual(used.error.false_shadow, other.error.false_shadow, "the two biases cannot be told apart");
+  await page.locator(".bias-bar input[type=range]").focus();
+  const before = await page.locator(".bias-counts").textContent();
+  for (let i = 0; i < 60; ++i) await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction((text) => document.querySelector(".bias-counts").textContent !== text, before);
+  const chart = page.locator("svg.chart.live"), box = await chart.boundingBox();
+  const dragged = await page.locator(".bias-counts").textContent();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.up();
+  await page.waitForFunction((text) => document.querySelector(".bias-counts").textContent !== text, dragged);
+  await page.getByRole("button", { name: "as rendered" }).click();
+  await page.waitForFunction((b) => Number(document.querySelector(".bias-bar input[type=number]").value) === b, Number(biases[0]));
+  return points.length;
+}
+
+// What a reader sets, another reader of the same link sees.
+async function checkUrl() {
+  const first = await open(folderOf(biases[0])), stage = first.locator(".stage");
+  await stage.focus();
+  for (const key of ["f", "+", "+", "ArrowRight", "Shift+ArrowDown"]) await first.keyboard.press(key);
+  await first.locator(".pick").first().selectOption({ label: "labels" });
+  await first.locator(".pick").last().selectOption({ label: "gap" });
+  await first.locator(".exposure input").fill("1.5");
+  await first.getByRole("button", { name: "column" }).click();
+  await countsAt(first, 0.125);
+  await first.waitForFunction(() => location.hash.includes("bias=0.125"));
+  const view = (page) => page.evaluate(() => ({
+    mode: document.querySelector(".stage").dataset.mode, zoom: document.querySelector(".zoom-value").textContent,
+    moved: [...document.querySelectorAll(".stage img")].map((e) => e.style.transform),
+    pictures: [...document.querySelectorAll(".tag")].map((e) => e.textContent), title: document.querySelector(".pixel-title").textContent,
+    story: document.querySelector(".story").textContent, counts: document.querySelector(".bias-counts").textContent,
+    cut: document.querySelector("[data-cut][aria-pressed=true]").textContent, exposure: document.querySelector(".exposure input").value,
+  }));
+  const second = await open(folderOf(biases[0]), {}, new URL(first.url()).hash);
+  assert.deepEqual(await view(second), await view(first));
+  assert.equal((await view(second)).mode, "flip");
+  await close(first);
+  await close(second);
+  const strange = await open(folderOf(biases[0]), {}, "#light-0?pixel=9999,-3&zoom=x&mode=<b>&bias=");
+  assert.equal((await view(strange)).mode, "swipe");
+  await close(strange);
+}
+
+async function checkControls(page) {
+  const image = page.locator(".stage img").first();
+  assert.equal(await image.evaluate((e) => e.style.filter), "");
+  await page.locator(".exposure input").fill("1");
+  assert.match(await image.evaluate((e) => e.style.filter), /exposure/);
+  await page.locator(".exposure input").fill("0");
+  assert.equal(await image.evaluate((e) => e.style.filter), "");
+  await page.getByRole("button", { name: "Copy the command" }).click();
+  await page.getByRole("button", { name: "Copied" }).waitFor();
+  const stage = page.locator(".stage"), box = await stage.boundingBox();
+  await stage.click({ position: { x: (100.5 / width) * box.width, y: (80.5 / height) * box.height } });
+  await page.waitForFunction(() => document.querySelector(".pixel-title").textContent.trim().startsWith("Pixel 100, 80:"));
+  await page.locator(".stage").focus();
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator(".marker").first().isVisible(), false, "Escape did not let the pixel go");
+}
+
+try {
+  const aov = readAov(biases[0]), page = await open(folderOf(biases[0]));
+  await checkData(page, aov);
+  console.log(`${aov.length} pixels carry the numbers of the EXR file`);
+  const names = new Map(JSON.parse(await page.locator("#page-data").textContent()).labels.map(({ value, name }) => [value, name]));
+  console.log(`${await checkProbe(aov, names)} labels probed`);
+  await checkDrawing(page);
+  console.log(`${await checkBias(page)} biases counted and coloured as by a fresh comparison`);
+  await checkControls(page);
+  await close(page);
+  await checkUrl();
+  await checkPhone(folderOf(biases[0]));
+  await checkAccessibility(folderOf(biases[0]));
+  console.log("the URL restores the view; controls, phone and accessibility are right");
+} finally {
+  await browser.close();
+}
