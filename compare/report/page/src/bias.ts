@@ -2,6 +2,7 @@
 // slider (or the line in the chart) recolours the picture and counts again without rendering.
 import { page, type Light } from "./data";
 import { backdropOf, byId, recolour } from "./pictures";
+import { GapHistogram } from "./histogram";
 import { grouped, html, number, percent, svg } from "./svg";
 
 interface Chart {
@@ -20,8 +21,9 @@ export class BiasPanel {
   private readonly canvas = html("canvas", { role: "img", tabindex: "-1" });
   private readonly chart: Chart;
   private readonly image: ImageData;
-  private readonly backdrop: Uint8Array;
+  private readonly backdrop: Uint32Array;
   private readonly compared: number;
+  private readonly histogram: GapHistogram;
 
   private constructor(private readonly light: Light, chart: SVGSVGElement, host: Element, best: number,
                       private readonly chosen: (bias: number) => void, pin: (x: number, y: number) => void) {
@@ -34,6 +36,7 @@ export class BiasPanel {
     this.image = new ImageData(page.width, page.height);
     this.backdrop = backdropOf(byId("picture-raytraced"));
     this.compared = light.label.reduce((sum, label) => sum + (label >= 0 ? 1 : 0), 0);
+    this.histogram = new GapHistogram(light, Number(chart.dataset.to), light.json.name);
     const button = (name: string, bias: number) => {
       const b = html("button", { type: "button" }, name);
       b.addEventListener("click", () => chosen(bias));
@@ -45,7 +48,8 @@ export class BiasPanel {
         button("as rendered", light.json.bias.constant), button("best", best)),
       this.said,
       html("figure", {}, this.canvas, html("figcaption", {},
-        "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow."))));
+        "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow."))),
+      this.histogram.figure);
     this.listen(pin);
   }
 
@@ -60,10 +64,11 @@ export class BiasPanel {
     const share = Math.min(Math.max((bias - from) / (to - from), 0), 1), x = left + share * (right - left);
     line.setAttribute("x1", String(x));
     line.setAttribute("x2", String(x));
+    this.histogram.show(bias);
     this.range.value = String(Math.round(1000 * share));
     this.range.setAttribute("aria-valuetext", `${number(bias)} world units`);
     if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(bias);
-    const counts = recolour(this.light, bias, this.backdrop, this.image.data);
+    const counts = recolour(this.light, bias, this.backdrop, new Uint32Array(this.image.data.buffer));
     this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
     this.said.dataset.falseShadow = String(counts.falseShadow);

@@ -142,6 +142,17 @@ export class Light {
   /** Whether a hard test draws the pixel lit at a constant bias; the test is on 32-bit floats, as in the shader. */
   litAt(index: number, bias: number): boolean { return !(this.gap[index]! > Math.fround(bias)); }
 
+  /** The compared pixels that look up a row (axis 0) or column (axis 1) of the map, at positions in [from, to) on it. */
+  pixelsOfLine(face: number, axis: 0 | 1, line: number, from: number, to: number): number[] {
+    const [along, across] = axis === 0 ? [this.us, this.vs] : [this.vs, this.us], steps = page.position_steps;
+    const low = line * steps, high = low + steps, first = from * steps, last = to * steps, found: number[] = [];
+    for (let i = 0; i < across.length; ++i) {
+      const a = across[i]!, t = along[i]!;
+      if (a >= low && a < high && t >= first && t < last && this.label[i]! >= 0 && this.faces[i] === face) found.push(i);
+    }
+    return found;
+  }
+
   pixel(x: number, y: number): Pixel {
     const index = y * page.width + x, label = this.label[index]!, view = this.json.view;
     const face = this.face(index), at = { u: this.u(index), v: this.v(index), depth: this.depth(index) };

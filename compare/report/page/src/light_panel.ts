@@ -17,7 +17,9 @@ export class LightPanel {
   private readonly bias: BiasPanel | null;
   private readonly line: HTMLElement;
   private frame = 0;
+  private passing = false;  // the pointer is on its way, nothing is chosen
   private shown: Pixel;
+  private coloured: number;  // the bias that the picture shows
 
   constructor(private readonly light: Light, private readonly index: number, section: HTMLElement, best: number) {
     const root = section.querySelector<HTMLElement>(".viewer")!;
@@ -35,12 +37,14 @@ export class LightPanel {
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveHash(this.index, this.state),
     });
     this.probe.show(this.shown, light.json.bias.constant);
-    this.bias?.show(light.json.bias.constant);
+    this.coloured = light.json.bias.constant;
+    this.bias?.show(this.coloured);
   }
 
   restore(state: ViewState): void {
     Object.assign(this.state, state);
     for (const slope of document.querySelectorAll("#exposure [slope]")) slope.setAttribute("slope", String(2 ** state.exposure));
+    this.passing = false;
     if (state.pixel) this.read(Math.min(state.pixel[0], page.width - 1), Math.min(state.pixel[1], page.height - 1));
     this.labels.show(state.label);
     this.update();
@@ -88,7 +92,7 @@ export class LightPanel {
     const pinned = this.shown;
     this.read(x, y);
     if (this.state.pixel) this.shown = pinned;  // the line follows the pointer, the drawings stay
-    else this.later();
+    else this.later(true);
   }
 
   private pin(x: number, y: number): void {
@@ -103,14 +107,16 @@ export class LightPanel {
   }
 
   // Many events become one drawing.
-  private later(): void {
+  private later(passing = false): void {
+    this.passing = passing;
     this.frame ||= requestAnimationFrame(() => { this.frame = 0; this.update(); });
   }
 
   private update(): void {
     const bias = this.state.bias ?? this.light.json.bias.constant;
     this.viewer.show();
-    this.probe.show(this.shown, bias);
-    this.bias?.show(bias);
+    this.probe.show(this.shown, bias, this.passing);
+    if (bias !== this.coloured) this.bias?.show(bias);
+    this.coloured = bias;
   }
 }

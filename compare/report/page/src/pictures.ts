@@ -76,36 +76,35 @@ export interface Recoloured {
   missedShadow: number;
 }
 
-/** What a constant bias would draw wrong, over the grey backdrop; writes into `out`. */
-export function recolour(light: Light, bias: number, backdrop: Uint8Array, out: Uint8ClampedArray): Recoloured {
+// A colour as one number, red in the lowest byte: ImageData's order on little-endian machines, which browsers run on.
+const pixelOf = ([r, g, b]: Rgb): number => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
+
+/** What a constant bias would draw wrong, over a backdrop; writes into `out`. Arrays of pixels as numbers. */
+export function recolour(light: Light, bias: number, backdrop: Uint32Array, out: Uint32Array): Recoloured {
   const counts = { falseShadow: 0, missedShadow: 0 };
   const threshold = Math.fround(bias), half = 0.5 * page.visibility_steps, { gap, label, truth } = light;
-  for (let i = 0, o = 0; i < gap.length; ++i, o += 4) {
-    const grey = backdrop[i]!;
-    let r = grey, g = grey, b = grey;
-    if (label[i]! >= 0) {
-      const dark = gap[i]! > threshold, lit = truth[i]! > half;
-      if (dark && lit) {
-        ++counts.falseShadow;
-        [r, g, b] = falseShadow;
-      } else if (!dark && !lit) {
-        ++counts.missedShadow;
-        [r, g, b] = missedShadow;
-      }
+  const orange = pixelOf(falseShadow), blue = pixelOf(missedShadow);
+  out.set(backdrop);
+  for (let i = 0; i < gap.length; ++i) {
+    if (label[i]! < 0) continue;
+    const dark = gap[i]! > threshold, lit = truth[i]! > half;
+    if (dark && lit) {
+      ++counts.falseShadow;
+      out[i] = orange;
+    } else if (!dark && !lit) {
+      ++counts.missedShadow;
+      out[i] = blue;
     }
-    out[o] = r;
-    out[o + 1] = g;
-    out[o + 2] = b;
-    out[o + 3] = 255;
   }
   return counts;
 }
 
 /** Grey of a picture, between 64 and 232, so that both error colours stand out from it. */
-export function backdropOf(image: HTMLImageElement): Uint8Array {
-  const { data } = pixelsOf(image);
-  const grey = new Uint8Array(data.length / 4);
-  for (let i = 0, o = 0; i < grey.length; ++i, o += 4)
-    grey[i] = 64.5 + ((0.2126 * data[o]! + 0.7152 * data[o + 1]! + 0.0722 * data[o + 2]!) * 168) / 255;
-  return grey;
+export function backdropOf(image: HTMLImageElement): Uint32Array {
+  const { data } = pixelsOf(image), backdrop = new Uint32Array(data.length / 4);
+  for (let i = 0, o = 0; i < backdrop.length; ++i, o += 4) {
+    const grey = Math.floor(64.5 + ((0.2126 * data[o]! + 0.7152 * data[o + 1]! + 0.0722 * data[o + 2]!) * 168) / 255);
+    backdrop[i] = pixelOf([grey, grey, grey]);
+  }
+  return backdrop;
 }

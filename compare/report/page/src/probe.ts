@@ -57,6 +57,7 @@ export class Probe {
   private readonly widths: HTMLElement;
   private readonly ways: HTMLElement;
   private scene: Geometry | null = null;
+  private resting = 0;
   private shown: { pixel: Pixel; bias: number } | null = null;
 
   constructor(private readonly light: Light, private readonly index: number, host: Element,
@@ -71,12 +72,13 @@ export class Probe {
     void geometry.then((scene) => { this.scene = scene; this.redraw(); });
   }
 
-  show(pixel: Pixel, bias: number): void {
+  /** The cross-section of a pixel only passed over waits until the pointer rests. */
+  show(pixel: Pixel, bias: number, passing = false): void {
     this.shown = { pixel, bias };
-    this.redraw();
+    this.redraw(passing);
   }
 
-  private redraw(): void {
+  private redraw(passing = false): void {
     if (!this.shown) return;
     const { pixel, bias } = this.shown, words = wordsOf(pixel.label), id = `probe-${this.index}`;
     const drawable = pixel.seen && isFinite(pixel.at.depth);
@@ -89,8 +91,11 @@ export class Probe {
       html("p", { class: "story" }, story(this.light, pixel, bias)));
     if (pixel.seen) head.append(ladder(pixel), facts(this.light, pixel));
     this.body.replaceChildren(head, ...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
-    if (drawable && this.scene)
-      this.below.replaceChildren(sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`));
-    else this.below.replaceChildren(html("p", {}, "No surface here to cut through."));
+    window.clearTimeout(this.resting);
+    const section = () => this.below.replaceChildren(drawable && this.scene
+      ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`)
+      : html("p", {}, "No surface here to cut through."));
+    if (passing) this.resting = window.setTimeout(section, 120);
+    else section();
   }
 }

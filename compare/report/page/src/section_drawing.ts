@@ -8,7 +8,7 @@ import { html, niceTicks, number, svg } from "./svg";
 
 const width = 1160, height = 420, left = 62, right = 12, top = 34, bottom = 46;
 
-export type Outcome = "lit" | "dark" | "false" | "missed";
+type Outcome = "lit" | "dark" | "false" | "missed";
 const outcomes: Record<Outcome, string> = {
   lit: "lit, rightly", dark: "in shadow, rightly", false: "false shadow", missed: "missed shadow",
 };
@@ -25,25 +25,37 @@ function depthAt(light: Light, pixel: Pixel, axis: 0 | 1, k: number): number {
   return axis === 0 ? light.map.depth(pixel.face, k, Math.floor(pixel.at.v)) : light.map.depth(pixel.face, Math.floor(pixel.at.u), k);
 }
 
-export interface Dot {
+interface Dot {
   t: number;  // along the line, texels
   depth: number;
   outcome: Outcome;
   index: number;
 }
 
-/** The compared pixels that look up this row or column of the map between two positions on it. */
-function dotsOnLine(light: Light, face: number, axis: 0 | 1, number: number, from: number, to: number, bias: number): Dot[] {
-  const dots: Dot[] = [];
-  for (let i = 0; i < light.label.length; ++i) {
-    const across = axis === 0 ? light.v(i) : light.u(i);
-    if (light.label[i]! < 0 || Math.floor(across) !== number || light.face(i) !== face) continue;
-    const t = axis === 0 ? light.u(i) : light.v(i);
-    if (t < from || t >= to) continue;
-    const lit = light.lit(i), drawn = light.litAt(i, bias);
-    dots.push({ t, depth: light.depth(i), index: i, outcome: lit ? (drawn ? "lit" : "false") : drawn ? "missed" : "dark" });
-  }
-  return dots;
+/** What of a cross-section does not depend on the bias: the last one is kept, so that dragging the bias is quick. */
+interface Line {
+  key: string;
+  pixels: number[];  // compared, of this row or column between two positions
+  curves: Curve[];
+}
+const kept = new WeakMap<Light, Line>();
+
+function lineThrough(light: Light, pixel: Pixel, axis: 0 | 1, scene: Geometry, from: number, to: number): Line {
+  const across = axis === 0 ? pixel.at.v : pixel.at.u, number = Math.floor(across);
+  const key = [pixel.face, axis, across, from, to].join(), before = kept.get(light);
+  if (before?.key === key) return before;
+  const pixels = light.pixelsOfLine(pixel.face, axis, number, from, to);
+  const line = { key, pixels, curves: sceneCut(light.json.view, pixel.face, { axis, at: across }, scene, from, to) };
+  kept.set(light, line);
+  return line;
+}
+
+function dotOf(light: Light, axis: 0 | 1, index: number, bias: number): Dot {
+  const lit = light.lit(index), drawn = light.litAt(index, bias);
+  return {
+    t: axis === 0 ? light.u(index) : light.v(index), depth: light.depth(index), index,
+    outcome: lit ? (drawn ? "lit" : "false") : drawn ? "missed" : "dark",
+  };
 }
 
 interface Frame {
@@ -137,9 +149,9 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
   const [t, across] = axis === 0 ? [pixel.at.u, pixel.at.v] : [pixel.at.v, pixel.at.u];
   const size = light.json.view.size, centre = Math.floor(t), line = `${axis === 0 ? "row" : "column"} ${Math.floor(across)}`;
   const from = Math.max(0, centre - halfWidth), to = Math.min(size, centre + halfWidth + 1);
-  const dots = dotsOnLine(light, pixel.face, axis, Math.floor(across), from, to, bias);
+  const { pixels, curves } = lineThrough(light, pixel, axis, scene, from, to);
+  const dots = pixels.map((i) => dotOf(light, axis, i, bias));
   const frame = frameFor(light, pixel, axis, from, to, dots);
-  const curves = sceneCut(light.json.view, pixel.face, { axis, at: across }, scene, from, to);
   const clip = `${id}-clip`, x = frame.x(t), y = frame.y(pixel.at.depth);
   const dotSize = Math.round(100 * Math.min(1, Math.max(0.5, Math.sqrt(700 / Math.max(1, dots.length))))) / 100;
   const stretch = ((height - top - bottom) / (frame.high - frame.low)) /
