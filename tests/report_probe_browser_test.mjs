@@ -200,6 +200,17 @@ async function checkControls(page) {
   assert.equal(await page.locator(".marker").first().isVisible(), false, "Escape did not let the pixel go");
 }
 
+// A picture too large for the page's pixels: the page says so and shows the rest.
+async function checkLeftOut() {
+  const large = join(folder, "large");
+  execFileSync(program, ["compare", "acne-floor", "--size", "2100x2000", "--map-size", "64", "--runs", "1", "--quiet", "-o", large], { stdio: "inherit" });
+  const page = await open(large);
+  assert.match(await page.locator(".left-out").textContent(), /^The viewer and the pixel probe of this light are left out/);
+  assert.equal(await page.locator(".viewer:visible").count(), 0);
+  assert.equal(await page.locator("#picture-labels-0").isVisible(), true);
+  await close(page);
+}
+
 try {
   const aov = readAov(biases[0]), page = await open(folderOf(biases[0]));
   await checkData(page, aov);
@@ -211,6 +222,7 @@ try {
   await checkControls(page);
   await close(page);
   await checkUrl();
+  await checkLeftOut();
   await checkPhone(folderOf(biases[0]));
   await checkAccessibility(folderOf(biases[0]));
   console.log("the URL restores the view; controls, phone and accessibility are right");

@@ -25,6 +25,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double position_steps = 256.0, visibility_steps = 25200.0, normal_steps = 32767.0;
+// A page carries about 15 bytes for each pixel and light; beyond this many, lights go without.
+constexpr std::size_t most_pixels = std::size_t{1} << 22;
 constexpr std::size_t most_map_texels = std::size_t{1} << 21;  // larger maps are reduced
 
 std::uint32_t integer(double value) {
@@ -243,10 +245,12 @@ Json geometry_json(const World& world) {
 
 std::string page_data(const PageInput& in) {
   const Comparison& c = in.comparison;
+  const std::size_t pixels = c.raytraced.receiver.data.size();
   Channels receivers;
-  add_receiver(receivers, c);
+  if (!c.lights.empty() && pixels <= most_pixels) add_receiver(receivers, c);
   Json lights = Json::array();
-  for (std::size_t i = 0; i < c.lights.size(); ++i) lights.push_back(light_data(in, i));
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    lights.push_back((i + 1) * pixels <= most_pixels ? light_data(in, i) : Json(nullptr));
   return Json{{"labels", labels_json()},
               {"rungs", rungs_json()},
               {"width", c.raytraced.receiver.size.width},

@@ -42,7 +42,7 @@ interface PageJson {
     triangle_count: number;
     triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
   };
-  lights: LightJson[];
+  lights: (LightJson | null)[];  // null: the page would grow too large
 }
 
 export const page: PageJson = JSON.parse(document.getElementById("page-data")!.textContent!);

@@ -37,12 +37,19 @@ function addCopyButtons(): void {
   }
 }
 
-async function startLights(): Promise<LightPanel[]> {
+// A page that would grow too large goes without the pixels' numbers, and says so.
+function sayLeftOut(section: HTMLElement): void {
+  section.querySelector(".viewer")!.after(html("p", { class: "left-out" },
+    "The viewer and the pixel probe of this light are left out, to keep the page small: a smaller picture (--size) or one light at a time (--light) brings them."));
+}
+
+async function startLights(): Promise<(LightPanel | null)[]> {
   const result = JSON.parse(document.getElementById("result")!.textContent!);
-  const panels: LightPanel[] = [];
+  const panels: (LightPanel | null)[] = [];
   for (const [i, json] of page.lights.entries()) {
-    const light = await Light.load(json);
-    panels.push(new LightPanel(light, i, document.getElementById(`light-${i}`)!, result.lights[i].best_bias.constant_world ?? 0));
+    const section = document.getElementById(`light-${i}`)!;
+    if (!json) sayLeftOut(section);
+    panels.push(json && new LightPanel(await Light.load(json), i, section, result.lights[i].best_bias.constant_world ?? 0));
   }
   return panels;
 }
