@@ -1,18 +1,20 @@
 #include "raytrace/packet/passes.h"
 
-#include "raytrace/packet/tile.h"
+#include <bit>
+#include <cstring>
+
+#include "raytrace/packet/prepare.h"
+#include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
 namespace {
-
-constexpr double widest = 1.5;  // |u| and |v| of a point's rays: the bounds of raytrace/packet/seen.cpp
 
 /// `offset` from a common origin, as a point of the tile's projective plane; false: out of its range.
 bool project(const Vec3& offset, TileRays& rays, std::size_t lane, double least_depth) {
   const int k = rays.axis;
   const double depth = rays.sign * offset[k];
   const double inverse = 1.0 / depth, u = offset[(k + 1) % 3] * inverse, v = offset[(k + 2) % 3] * inverse;
-  if (!(depth > least_depth && std::abs(u) < widest && std::abs(v) < widest)) return false;
+  if (!(depth > least_depth && std::abs(u) < widest_slope && std::abs(v) < widest_slope)) return false;
   rays.u[lane] = static_cast<float>(u), rays.v[lane] = static_cast<float>(v);
   rays.far[lane] = static_cast<float>(inverse);
   return true;
@@ -41,6 +43,10 @@ template <class Pixel>
 void for_each_lane(const TileRect& rect, const Pixel& pixel) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) pixel(x, y, tile_lane(x - rect.x0, y - rect.y0));
+}
+
+bool is_whole(const TileRect& rect) {
+  return rect.x1 - rect.x0 == tile_pixels && rect.y1 - rect.y0 == tile_pixels;
 }
 
 std::uint16_t bit_of(std::size_t lane) {
@@ -77,64 +83,134 @@ Seen seen_from(const Structures& structures, const Light& light) {
                                               : seen_from(structures, light.position, true);
 }
 
-void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
-                  Image<SurfacePoint>& receivers) {
+void closest_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
+                  ClosestHits& hits) {
   const Structures& s = tracer.structures();
   TileRays rays;
   clear(rays);
   choose_axis(pixel_ray(view, 0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1)).direction, rays);
-  std::array<std::uint16_t, tile_packets> wide{};
+  if (is_whole(rect)) {
+    prepare_primary(view, rect.x0, rect.y0, rays);
+  } else {
+    for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+      if (project(pixel_ray(view, x + 0.5, y + 0.5).direction, rays, lane, 0.0))
+        rays.alive[lane / packet_rays] |= bit_of(lane);
+    });
+  }
+  TileHits found;
+  closest_in_tile(s.bvh, eye, rays, found);
   for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    const bool fits = project(pixel_ray(view, x + 0.5, y + 0.5).direction, rays, lane, 0.0);
-    (fits ? rays.alive : wide)[lane / packet_rays] |= bit_of(lane);
-  });
-  TileHits hits;
-  closest_in_tile(s.bvh, eye, rays, hits);
-  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    SurfacePoint& out = receivers.at(x, y);
-    const bool fits = (rays.alive[lane / packet_rays] & bit_of(lane)) != 0;
-    const std::uint32_t leaf = fits ? hits.leaf[lane] : unsure_hit;
+    const bool asked = (rays.alive[lane / packet_rays] & bit_of(lane)) != 0;
+    const std::uint32_t leaf = asked ? found.leaf[lane] : unsure_hit;
     if (leaf == nothing_hit) {
-      out = SurfacePoint{};
+      hits[lane] = Hit{};
       return;
     }
     const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
     std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(s, ray, leaf);
     if (!hit) hit = tracer.closest_hit(ray);
-    out = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
+    hits[lane] = hit.value_or(Hit{});
   });
 }
+
+void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
+                  Image<SurfacePoint>& receivers) {
+  ClosestHits hits;
+  closest_hits(tracer, view, eye, rect, hits);
+  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+    const Hit& hit = hits[lane];
+    receivers.at(x, y) = hit.primitive == no_id
+                             ? SurfacePoint{}
+                             : tracer.surface_point(pixel_ray(view, x + 0.5, y + 0.5), hit);
+  });
+}
+
+namespace {
+
+void prepare_partial(const Light& light, const Seen& seen, const TileRect& rect,
+                     const Image<SurfacePoint>& receivers, TileRays& rays, ShadowLanes& lanes) {
+  clear(rays);
+  lanes.apart.fill(0), lanes.unreached.fill(0);
+  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+    const SurfacePoint& point = receivers.at(x, y);
+    if (point.primitive == no_id) return;
+    rays.own[lane] = point.primitive;
+    const bool reached = !light_cannot_reach(light, point.position, point.normal);
+    auto& bits = !reached ? lanes.unreached : start(seen, point, rays, lane) ? rays.alive : lanes.apart;
+    bits[lane / packet_rays] |= bit_of(lane);
+  });
+}
+
+/// The axis of depth is chosen for the tile's middle receiver, or the first one where there is none.
+void choose_axis(const Seen& seen, const TileRect& rect, const Image<SurfacePoint>& receivers,
+                 TileRays& rays) {
+  const SurfacePoint* chosen = &receivers.at((rect.x0 + rect.x1) / 2, (rect.y0 + rect.y1) / 2);
+  for (int y = rect.y0; y < rect.y1 && chosen->primitive == no_id; ++y)
+    for (int x = rect.x0; x < rect.x1 && chosen->primitive == no_id; ++x) chosen = &receivers.at(x, y);
+  choose_axis(chosen->position - seen.origin, rays);
+}
+
+/// The next tile's receivers come from memory while this one is traced.
+void prefetch_right_of(const TileRect& rect, const Image<SurfacePoint>& receivers) {
+  if (rect.x1 + tile_pixels > receivers.size.width) return;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    const char* row = reinterpret_cast<const char*>(&receivers.at(rect.x1, y));
+    for (std::size_t byte = 0; byte < tile_pixels * sizeof(SurfacePoint); byte += 64)
+      __builtin_prefetch(row + byte);
+  }
+}
+
+/// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit.
+void store_lit(unsigned lit, Verdict* out) {
+  static_assert(static_cast<int>(Verdict::shadowed) == 0 && static_cast<int>(Verdict::lit) == 1);
+  const std::uint32_t bytes = (lit * 0x204081u) & 0x01010101u;
+  std::memcpy(out, &bytes, sizeof bytes);
+}
+
+void store_verdicts(const TileRect& rect, const std::array<unsigned, tile_packets>& dark,
+                    Image<Verdict>& verdicts) {
+  if (is_whole(rect)) {
+    for (int y = 0; y < tile_pixels; ++y)
+      for (int x = 0; x < tile_pixels; x += 4) {
+        const std::size_t lane = tile_lane(x, y);
+        const unsigned lit = ~(dark[lane / packet_rays] >> (lane % packet_rays)) & 0xfu;
+        store_lit(lit, &verdicts.at(rect.x0 + x, rect.y0 + y));
+      }
+    return;
+  }
+  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+    verdicts.at(x, y) = (dark[lane / packet_rays] & bit_of(lane)) != 0 ? Verdict::shadowed : Verdict::lit;
+  });
+}
+
+}  // namespace
 
 std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
                           const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts) {
   TileRays rays;
-  clear(rays);
-  bool chosen = false;
-  std::uint64_t count = 0;
-  std::array<std::uint16_t, tile_packets> apart{};
-  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    const SurfacePoint& point = receivers.at(x, y);
-    if (point.primitive == no_id) return;
-    if (light_cannot_reach(light, point.position, point.normal)) {
-      verdicts.at(x, y) = Verdict::shadowed;
-      return;
-    }
-    ++count;
-    if (!chosen) choose_axis(point.position - seen.origin, rays), chosen = true;
-    rays.own[lane] = point.primitive;
-    (start(seen, point, rays, lane) ? rays.alive : apart)[lane / packet_rays] |= bit_of(lane);
-  });
+  ShadowLanes lanes;
+  choose_axis(seen, rect, receivers, rays);
+  if (is_whole(rect) && light.type != LightType::spot)
+    prepare_shadows(light, seen, &receivers.at(rect.x0, rect.y0),
+                    static_cast<std::size_t>(receivers.size.width), rays, lanes);
+  else
+    prepare_partial(light, seen, rect, receivers, rays, lanes);
+  prefetch_right_of(rect, receivers);
   TileShadows shadows;
   shadows_in_tile(tracer.structures().bvh, seen, rays, shadows);
-  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    const std::size_t packet = lane / packet_rays;
-    const std::uint16_t bit = bit_of(lane);
-    if ((rays.alive[packet] & bit) == 0 && (apart[packet] & bit) == 0) return;
-    if ((apart[packet] & bit) != 0 || (shadows.unsure[packet] & bit) != 0)
-      verdicts.at(x, y) = tracer.light_verdict(receivers.at(x, y), light);
-    else
-      verdicts.at(x, y) = (shadows.shadowed[packet] & bit) != 0 ? Verdict::shadowed : Verdict::lit;
-  });
+  std::array<unsigned, tile_packets> dark;
+  std::uint64_t count = 0;
+  for (std::size_t p = 0; p < tile_packets; ++p) {
+    dark[p] = static_cast<unsigned>(shadows.shadowed[p] | lanes.unreached[p]);
+    count += static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(rays.alive[p] | lanes.apart[p])));
+  }
+  store_verdicts(rect, dark, verdicts);
+  for (std::size_t p = 0; p < tile_packets; ++p)
+    for (unsigned open = shadows.unsure[p] | lanes.apart[p]; open != 0; open &= open - 1) {
+      const auto [x, y] = tile_place(p * packet_rays + static_cast<std::size_t>(std::countr_zero(open)));
+      verdicts.at(rect.x0 + x, rect.y0 + y) =
+          tracer.light_verdict(receivers.at(rect.x0 + x, rect.y0 + y), light);
+    }
   return count;
 }
 

@@ -2,7 +2,7 @@
 // bit for bit: the floats only say which primitive is hit, and which rays must be asked again in double.
 #pragma once
 
-#include "raytrace/packet/seen.h"
+#include "raytrace/packet/tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 #include "scene/image.h"
@@ -17,6 +17,12 @@ struct TileRect {
 /// Whether the world has a tree to walk and lengths that floats can hold.
 bool packets_apply(const Structures& structures);
 
+/// The closest hits of the tile's pixels by place in the tile (tile_lane); primitive == no_id: none.
+using ClosestHits = std::array<Hit, tile_rays>;
+void closest_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
+                  ClosestHits& hits);
+
+/// Fills the tile's receivers.
 void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
                   Image<SurfacePoint>& receivers);
 

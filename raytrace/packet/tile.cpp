@@ -72,6 +72,53 @@ struct alignas(64) Packets {
   float far_min[tile_packets];  ///< +infinity: no ray of it asks any more
 };
 
+/// A lower bound u·d_u + v·d_v + constant of shadow rays' `far`: receivers on one plane lie on it exactly,
+/// for nearness is linear there. So a surface's own triangles are told to be behind its receivers.
+struct Floor {
+  float u = 0.0f, v = 0.0f, constant = 0.0f;
+};
+struct alignas(64) Floors {
+  float u[tile_packets], v[tile_packets], constant[tile_packets];
+};
+
+/// The slopes of the plane through three rays' receivers; none when they are too much in a line.
+inline Floor slopes_through(const TileRays& r, std::size_t a, std::size_t b, std::size_t c) {
+  const float du1 = r.u[b] - r.u[a], dv1 = r.v[b] - r.v[a], df1 = r.far[b] - r.far[a];
+  const float du2 = r.u[c] - r.u[a], dv2 = r.v[c] - r.v[a], df2 = r.far[c] - r.far[a];
+  const float det = du1 * dv2 - du2 * dv1;
+  const float size = du1 * du1 + dv1 * dv1 + du2 * du2 + dv2 * dv2;
+  if (!(std::abs(det) > 1e-3f * size)) return {};
+  const Floor floor{(df1 * dv2 - df2 * dv1) / det, (du1 * df2 - du2 * df1) / det, 0.0f};
+  return std::abs(floor.u) < 1e15f && std::abs(floor.v) < 1e15f ? floor : Floor{};
+}
+
+/// The first three corners, of four, that are asked for decide the slopes.
+inline Floor slopes_of(const TileRays& r, const std::array<std::size_t, 4>& corners) {
+  std::array<std::size_t, 4> found{};
+  std::size_t count = 0;
+  for (const std::size_t i : corners)
+    if ((r.alive[i / packet_rays] >> (i % packet_rays) & 1) != 0) found[count++] = i;
+  return count < 3 ? Floor{} : slopes_through(r, found[0], found[1], found[2]);
+}
+
+/// Sets the constant so that rays first … first + count lie above, by more than rounding (far: +infinity for
+/// rays not asked for).
+inline void lower(const TileRays& rays, const float* far, std::size_t first, std::size_t count,
+                  Floor& floor) {
+  V least = all(inf), scale = all(0.0f);
+  const V gu = all(floor.u), gv = all(floor.v);
+  for (std::size_t i = first; i < first + count; i += lanes()) {
+    const V u = hn::Load(f, rays.u + i), v = hn::Load(f, rays.v + i), at = hn::Load(f, far + i);
+    const M asked = hn::Lt(at, all(inf));
+    const V tu = hn::Mul(gu, u), tv = hn::Mul(gv, v);
+    least = hn::Min(least, hn::IfThenElse(asked, hn::Sub(hn::Sub(at, tu), tv), least));
+    const V size = hn::Add(hn::Abs(at), hn::Add(hn::Abs(tu), hn::Abs(tv)));
+    scale = hn::Max(scale, hn::IfThenElseZero(asked, size));
+  }
+  constexpr float rounding = 0x1p-19f;
+  floor.constant = hn::GetLane(hn::MinOfLanes(f, least)) - rounding * hn::GetLane(hn::MaxOfLanes(f, scale));
+}
+
 inline void gather_packets(const TileRays& rays, Packets& packets) {
   for (std::size_t p = 0; p < tile_packets; ++p) {
     V u_min = all(inf), u_max = all(-inf), v_min = all(inf), v_max = all(-inf);
@@ -125,6 +172,22 @@ class Frustum {
     }
   }
 
+  /// Boxes wholly behind the floor are left out as well.
+  void stand_on(const Floor& floor, const Bvh& bvh, const Seen& seen, const Axes& axes) {
+    const Vec3 origin = seen.origin - bvh.center;
+    const Vec3 u = seen.axes[axes.u], v = seen.axes[axes.v],
+               depth = static_cast<double>(axes.sign) * seen.axes[axes.depth];
+    const double gu = floor.u, gv = floor.v, gc = floor.constant;
+    // Of a point: nearness 1 / z > g·(x / z, y / z, 1). Scaled so that the slack is in world units.
+    Vec3 n = -(gu * u + gv * v + gc * depth);
+    double constant = 1.0;
+    if (seen.directional) n = depth - gu * u - gv * v, constant = -gc;
+    const double length = glm::length(n);
+    if (!(length > 1e-30 && length < 1e30)) return;
+    set(5, n / length, (constant - glm::dot(n, origin)) / length, seen);
+    planes_ = 6;
+  }
+
   /// Bit i: child i may be met by a ray of the tile at a priority of at least `limit` (priority: minus the
   /// depth of a point's boxes, the height of a direction's).
   unsigned meets(const BvhNode& node, float limit, float* priority) const {
@@ -132,6 +195,7 @@ class Frustum {
     for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
       auto least = along(node, 0, i);
       for (std::size_t k = 1; k < sides; ++k) least = hn::Min(least, along(node, k, i));
+      if (planes_ == 6) least = hn::Min(least, along(node, 5, i));
       const auto order = along(node, 4, i);
       hn::Store(order, four, priority + i);
       const auto keep = hn::And(hn::Ge(least, hn::Zero(four)), hn::Ge(order, hn::Set(four, limit)));
@@ -157,8 +221,9 @@ class Frustum {
     return sum;
   }
 
-  float n_[5][3], c_[5];
-  std::size_t row_[5][3];
+  float n_[6][3], c_[6];
+  std::size_t row_[6][3];
+  std::size_t planes_ = 5;
 };
 
 /// Visits the leaves that the tile may meet, highest priority first: leaf(first, count) returns false to end
@@ -199,7 +264,9 @@ struct Functions {
 };
 
 /// Bit p: packet p may meet the primitive in front of what it knows already.
-inline unsigned packets_met(const SeenPrimitive& p, const Functions& of, const Packets& packets) {
+template <class Behind>
+unsigned packets_met(const SeenPrimitive& p, const Functions& of, const Packets& packets,
+                     const Behind& behind) {
   const auto most = [&](const Linear& l, std::size_t i) {
     const float* u = l.u > 0.0f ? packets.u_max : packets.u_min;
     const float* v = l.v > 0.0f ? packets.v_max : packets.v_min;
@@ -211,7 +278,11 @@ inline unsigned packets_met(const SeenPrimitive& p, const Functions& of, const P
     const V edges = hn::Min(most(of.edge[0], i), hn::Min(most(of.edge[1], i), most(of.edge[2], i)));
     const V far = hn::Load(f, packets.far_min + i);
     M keep = hn::And(hn::Ge(edges, all(-p.edge_error)), hn::Lt(far, all(inf)));
-    if (by_depth) keep = hn::AndNot(hn::Lt(most(of.nearness, i), hn::Sub(far, all(p.depth_error))), keep);
+    if (by_depth) {
+      const V depth_error = all(p.depth_error);
+      keep = hn::AndNot(hn::Lt(most(of.nearness, i), hn::Sub(far, depth_error)), keep);
+      keep = hn::AndNot(behind(of.nearness, depth_error, i), keep);
+    }
     met |= bits_of(keep) << i;
   }
   return met;
@@ -288,7 +359,8 @@ class Closest {
   bool visit(std::uint32_t i) {
     const SeenPrimitive& primitive = seen_.primitives[i];
     const Functions of(primitive, axes_);
-    unsigned met = packets_met(primitive, of, packets_);
+    unsigned met = packets_met(primitive, of, packets_,
+                               [](const Linear&, V error, std::size_t) { return hn::Lt(error, error); });
     if (met == 0) return false;
     const RayTest rays(of);
     bool taken = false;
@@ -373,6 +445,10 @@ class Shadows {
         hn::Store(hn::IfThenElse(alive, hn::Load(f, rays.far + at), all(inf)), f, far_ + at);
       }
       packets_.far_min[p] = smallest(far_ + p * packet_rays);
+      const std::size_t at = p * packet_rays;
+      Floor floor = slopes_of(rays, {at, at + 3, at + 12, at + 15});
+      lower(rays, far_, at, packet_rays, floor);
+      floors_.u[p] = floor.u, floors_.v[p] = floor.v, floors_.constant[p] = floor.constant;
     }
   }
 
@@ -384,7 +460,11 @@ class Shadows {
     }
     const float far = smallest(packets_.far_min);
     if (far < inf) {
-      const Frustum frustum(bvh_, seen_, axes_, packets_);
+      Frustum frustum(bvh_, seen_, axes_, packets_);
+      Floor floor =
+          slopes_of(rays_, {tile_lane(0, 0), tile_lane(15, 0), tile_lane(0, 15), tile_lane(15, 15)});
+      lower(rays_, far_, 0, tile_rays, floor);
+      frustum.stand_on(floor, bvh_, seen_, axes_);
       const float limit = seen_.directional ? far : far > 0.0f ? -(1.0f / far) * (1.0f + 0x1p-20f) : -inf;
       walk_tile(
           bvh_, frustum, [&] { return limit; },
@@ -404,13 +484,27 @@ class Shadows {
   bool visit(std::uint32_t i) {
     const SeenPrimitive& primitive = seen_.primitives[i];
     const Functions of(primitive, axes_);
-    unsigned met = packets_met(primitive, of, packets_);
+    unsigned met = packets_met(primitive, of, packets_, [&](const Linear& nearness, V error, std::size_t at) {
+      return behind_floor(nearness, error, at);
+    });
     if (met == 0) return false;
     const RayTest rays(of);
     bool taken = false;
     for (; met != 0; met &= met - 1)
       taken |= test_packet<false>(primitive, rays, static_cast<std::size_t>(std::countr_zero(met)));
     return taken;
+  }
+
+  // The most by which the nearness may exceed the packets' floors, over their intervals.
+  M behind_floor(const Linear& nearness, V error, std::size_t i) const {
+    const V u = hn::Sub(all(nearness.u), hn::Load(f, floors_.u + i));
+    const V v = hn::Sub(all(nearness.v), hn::Load(f, floors_.v + i));
+    const V constant = hn::Sub(all(nearness.constant), hn::Load(f, floors_.constant + i));
+    const V by_u =
+        hn::Max(hn::Mul(u, hn::Load(f, packets_.u_min + i)), hn::Mul(u, hn::Load(f, packets_.u_max + i)));
+    const V by_v =
+        hn::Max(hn::Mul(v, hn::Load(f, packets_.v_min + i)), hn::Mul(v, hn::Load(f, packets_.v_max + i)));
+    return hn::Lt(hn::Add(hn::Add(by_u, by_v), constant), hn::Neg(error));
   }
 
   template <bool plane>
@@ -447,6 +541,7 @@ class Shadows {
   const TileRays& rays_;
   Axes axes_;
   Packets packets_;
+  Floors floors_;
   std::array<unsigned, tile_packets> shadowed_, unsure_;
   alignas(64) float far_[tile_rays];
 };

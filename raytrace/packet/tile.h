@@ -17,6 +17,15 @@ constexpr std::size_t tile_lane(int x, int y) {
   return static_cast<std::size_t>(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
 }
 
+/// The pixel of a place.
+struct TilePlace {
+  int x, y;
+};
+constexpr TilePlace tile_place(std::size_t lane) {
+  const int packet = static_cast<int>(lane / packet_rays), i = static_cast<int>(lane % packet_rays);
+  return {4 * (packet % 4) + i % 4, 4 * (packet / 4) + i / 4};
+}
+
 struct alignas(64) TileRays {
   float u[tile_rays], v[tile_rays];
   /// Shadow rays: the receiver's nearness. Primary rays: unused.

@@ -1,0 +1,23 @@
+// The three scenes of the speed figures: a teapot, the bunny, and a million triangles, each over a ground.
+// All positions are floats, so that every tracer sees the same geometry.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace gnomon::bench {
+
+struct BenchScene {
+  std::string name;
+  Scene scene;  ///< light 0 is a point, light 1 a sun
+};
+
+BenchScene teapot_scene();
+/// Nothing where the model is not there.
+std::optional<BenchScene> bunny_scene();
+/// A terrain with seven bunnies; teapots where there is no bunny.
+BenchScene million_scene();
+
+}  // namespace gnomon::bench

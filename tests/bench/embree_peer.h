@@ -1,0 +1,50 @@
+// Embree 3 as the peer: the same rays in the same order (16 x 16 tiles, packets of 4 x 4 pixels), one at a
+// time or 16 coherent ones together, over all threads that oneTBB is allowed. Its rays are floats, made ready
+// beforehand: their making is not in its times.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "raytrace/frame.h"
+
+namespace gnomon::bench {
+
+/// Rays of all pixels in the order of tiles and places in tiles; pixels outside the image have valid 0.
+struct PeerRays {
+  std::size_t tiles = 0;
+  std::vector<float> ox, oy, oz, dx, dy, dz, far;
+  std::vector<int> valid;  ///< -1: to be traced
+  std::size_t count = 0;   ///< valid ones
+};
+
+PeerRays primary_rays(const View& view);
+/// From the receivers that the light can reach, lifted off their surface by 2^-14 of `scale` along the
+/// normal.
+PeerRays shadow_rays(const raytrace::RayTracedFrame& frame, const Light& light, double scale);
+
+struct PeerHits {
+  std::vector<float> t, u, v;
+  std::vector<unsigned> primitive;
+};
+
+class Embree {
+ public:
+  Embree(const World& world, bool low_quality = false);
+  ~Embree();
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+
+  void closest_single(const PeerRays& rays, PeerHits& hits) const;
+  void closest_packets(const PeerRays& rays, PeerHits& hits) const;
+  void occluded_single(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const;
+  void occluded_packets(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const;
+
+ private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+}  // namespace gnomon::bench

@@ -1,0 +1,305 @@
+// gnomon_bench: the tracer against Embree 3 in one process, the two in turn, so that only ratios are to be
+// believed. Both get the same rays; hits and occlusions are counted and compared. Rows: gnomon/bench/1.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "bench_scenes.h"
+#include "embree_peer.h"
+#include "raytrace/packet/passes.h"
+#include "raytrace/tiles.h"
+
+namespace gnomon::bench {
+namespace {
+
+using raytrace::Accel;
+using raytrace::RayTracedFrame;
+using raytrace::Seen;
+using raytrace::Tracer;
+using raytrace::Verdict;
+
+struct Row {
+  std::string name, scene;
+  int threads = 1;
+  double value = 0.0;
+  std::string unit, peer;
+  double peer_value = 0.0, ratio = 0.0;
+  std::optional<double> goal;
+};
+
+struct Settings {
+  ImageSize size{1920, 1080};
+  int runs = 5;
+  std::string json;
+  std::vector<std::string> scenes;
+};
+
+/// Milliseconds of the process's own CPU time: for one thread the wall clock's, but for other programs'
+/// share.
+double cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <class Pass>
+void time_pass(Times& times, int threads, const Pass& pass) {
+  const Stopwatch watch;
+  const double start = cpu_ms();
+  pass();
+  times.runs.push_back(threads == 1 ? cpu_ms() - start : watch.elapsed_ms());
+}
+
+/// Runs both in turn, `runs` times after a warm-up, and gives the median milliseconds of each.
+template <class Ours, class Theirs>
+std::pair<double, double> in_turn(int runs, int threads, const Ours& ours, const Theirs& theirs) {
+  Times a, b;
+  ours(), theirs();
+  for (int i = 0; i < runs; ++i) time_pass(a, threads, ours), time_pass(b, threads, theirs);
+  return {a.median(), b.median()};
+}
+
+class Bench {
+ public:
+  Bench(const BenchScene& scene, const Settings& settings)
+      : scene_(scene),
+        settings_(settings),
+        world_(make_world(scene.scene)),
+        tracer_(world_, Accel::bvh),
+        embree_(world_),
+        view_(make_view(scene.scene.camera, settings.size)),
+        primary_(primary_rays(view_)),
+        grid_{settings.size},
+        hits_(grid_.count()) {
+    frame_ = trace({0, 1});
+    for (const Light& light : scene.scene.lights)
+      shadow_.push_back(shadow_rays(frame_, light, world_.finite_bounds.diagonal()));
+  }
+
+  std::vector<Row> run() {
+    fmt::print("{}: {} triangles, {} x {}\n", scene_.name, world_.triangle_count(), settings_.size.width,
+               settings_.size.height);
+    check_hits();
+    for (std::size_t i = 0; i < 2; ++i) check_shadows(i);
+    for (const int threads : {1, 2}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
+      primary(threads), shadows(0, threads), shadows(1, threads);
+    }
+    whole_frame();
+    return rows_;
+  }
+
+ private:
+  RayTracedFrame trace(const std::vector<std::uint32_t>& lights) const {
+    raytrace::RaytraceOptions options;
+    options.size = settings_.size, options.picture = false;
+    return trace_frame(tracer_, plan_effects(scene_.scene), scene_.scene.camera, lights, options);
+  }
+
+  void add(std::string name, int threads, double rays, std::pair<double, double> ms, std::string peer,
+           std::optional<double> goal) {
+    const double value = rays / ms.first * 1e-3, peer_value = rays / ms.second * 1e-3;
+    rows_.push_back({std::move(name), scene_.name, threads, value, "Mrays/s", std::move(peer), peer_value,
+                     value / peer_value, goal});
+    print(rows_.back());
+  }
+  static void print(const Row& r) {
+    fmt::print(
+        "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", r.name, r.threads, r.value, r.unit,
+        r.peer, r.peer_value, r.ratio,
+        r.goal ? fmt::format("  goal {:.1f} {}", *r.goal, r.ratio >= *r.goal ? "met" : "NOT MET") : "");
+    std::fflush(stdout);
+  }
+
+  void our_hits() {
+    const Seen eye = seen_from(tracer_.structures(), view_.eye, false);
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      closest_hits(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i]);
+    });
+  }
+  void our_receivers() {
+    const Seen eye = seen_from(tracer_.structures(), view_.eye, false);
+    for_each_tile(grid_, [&](std::size_t, int x0, int y0, int x1, int y1) {
+      primary_tile(tracer_, view_, eye, {x0, y0, x1, y1}, frame_.receiver);
+    });
+  }
+  void our_shadows(std::size_t light) {
+    const Light& l = scene_.scene.lights[light];
+    const Seen seen = seen_from(tracer_.structures(), l);
+    for_each_tile(grid_, [&](std::size_t, int x0, int y0, int x1, int y1) {
+      shadow_tile(tracer_, l, seen, {x0, y0, x1, y1}, frame_.receiver, frame_.lights[light].verdict);
+    });
+  }
+
+  void primary(int threads) {
+    const auto rays = static_cast<double>(primary_.count);
+    const auto ours = [&] { our_hits(); };
+    add("primary hits", threads, rays,
+        in_turn(settings_.runs, threads, ours, [&] { embree_.closest_packets(primary_, peer_); }),
+        "Embree 16 coherent", 1.5);
+    if (threads > 1) return;
+    add("primary hits", threads, rays,
+        in_turn(settings_.runs, threads, ours, [&] { embree_.closest_single(primary_, peer_); }),
+        "Embree single", std::nullopt);
+    add("primary receivers", threads, rays,
+        in_turn(
+            settings_.runs, threads, [&] { our_receivers(); },
+            [&] { embree_.closest_packets(primary_, peer_); }),
+        "Embree 16 coherent, hits", std::nullopt);
+  }
+
+  void shadows(std::size_t light, int threads) {
+    const std::string name = light == 0 ? "point shadow" : "sun shadow";
+    const auto rays = static_cast<double>(shadow_[light].count);
+    const auto ours = [&] { our_shadows(light); };
+    add(name, threads, rays,
+        in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_packets(shadow_[light], occluded_); }),
+        "Embree 16 coherent", 2.0);
+    if (threads == 1)
+      add(name, threads, rays,
+          in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
+          "Embree single", std::nullopt);
+  }
+
+  void whole_frame() {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+    double build = 0.0, peer_build = 0.0;
+    const auto ms = in_turn(
+        std::min(settings_.runs, 3), 2,
+        [&] {
+          const Stopwatch watch;
+          tracer_ = Tracer(world_, Accel::bvh);
+          build = watch.elapsed_ms();
+          our_receivers(), our_shadows(0);
+        },
+        [&] {
+          const Stopwatch watch;
+          const Embree embree(world_);
+          peer_build = watch.elapsed_ms();
+          embree.closest_packets(primary_, peer_), embree.occluded_packets(shadow_[0], occluded_);
+        });
+    const auto row = [&](std::string name, double ours, double theirs, std::string peer,
+                         std::optional<double> goal) {
+      rows_.push_back(
+          {std::move(name), scene_.name, 2, ours, "ms", std::move(peer), theirs, theirs / ours, goal});
+      print(rows_.back());
+    };
+    row("build", build, peer_build, "Embree medium", std::nullopt);
+    row("build, primary, point", ms.first, ms.second, "Embree medium, packets", 1.2);
+  }
+
+  void check_hits() {
+    our_hits(), embree_.closest_packets(primary_, peer_);
+    std::size_t ours = 0, theirs = 0, differ = 0;
+    for (std::size_t i = 0; i < peer_.t.size(); ++i) {
+      if (primary_.valid[i] == 0) continue;
+      const auto& hit = hits_[i / raytrace::tile_rays][i % raytrace::tile_rays];
+      const bool a = hit.primitive != no_id, b = peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID;
+      ours += a ? 1 : 0, theirs += b ? 1 : 0;
+      const double doubt = 1e-4 * world_.finite_bounds.diagonal();
+      differ += a != b || (a && std::abs(hit.t - static_cast<double>(peer_.t[i])) > doubt) ? 1 : 0;
+    }
+    fmt::print(
+        "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding)\n",
+        ours, theirs, differ, primary_.count);
+  }
+  void check_shadows(std::size_t light) {
+    embree_.occluded_packets(shadow_[light], occluded_);
+    std::size_t ours = 0, theirs = 0, differ = 0;
+    for (int y = 0; y < settings_.size.height; ++y)
+      for (int x = 0; x < settings_.size.width; ++x) {
+        const std::size_t at =
+            (static_cast<std::size_t>(y / 16) * grid_.columns() + static_cast<std::size_t>(x / 16)) *
+                raytrace::tile_rays +
+            raytrace::tile_lane(x % 16, y % 16);
+        if (shadow_[light].valid[at] == 0) continue;
+        const bool a = frame_.lights[light].verdict.at(x, y) == Verdict::shadowed, b = occluded_[at] != 0;
+        ours += a ? 1 : 0, theirs += b ? 1 : 0, differ += a != b ? 1 : 0;
+      }
+    fmt::print(
+        "  {} occluded: {} here, {} by Embree; {} of {} rays differ (its rays start 2^-14 off the surface)\n",
+        light == 0 ? "point" : "sun", ours, theirs, differ, shadow_[light].count);
+  }
+
+  const BenchScene& scene_;
+  const Settings& settings_;
+  World world_;
+  Tracer tracer_;
+  Embree embree_;
+  View view_;
+  PeerRays primary_;
+  std::vector<PeerRays> shadow_;
+  raytrace::TileGrid grid_;
+  std::vector<raytrace::ClosestHits> hits_;
+  RayTracedFrame frame_;
+  PeerHits peer_;
+  std::vector<std::uint8_t> occluded_;
+  std::vector<Row> rows_;
+};
+
+nlohmann::ordered_json to_json(const std::vector<Row>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& r : rows) {
+    nlohmann::ordered_json row{
+        {"name", r.name},  {"scene", r.scene}, {"threads", r.threads},       {"value", r.value},
+        {"unit", r.unit},  {"peer", r.peer},   {"peer_value", r.peer_value}, {"ratio", r.ratio},
+        {"goal", nullptr}, {"met", nullptr}};
+    if (r.goal) row["goal"] = *r.goal, row["met"] = r.ratio >= *r.goal;
+    list.push_back(row);
+  }
+  return {{"schema", "gnomon/bench/1"}, {"target", raytrace::packet_target()}, {"rows", list}};
+}
+
+int run(const Settings& settings) {
+  const auto wanted = [&](const std::string& name) {
+    return settings.scenes.empty() ||
+           std::find(settings.scenes.begin(), settings.scenes.end(), name) != settings.scenes.end();
+  };
+  std::vector<Row> rows;
+  const auto bench = [&](const BenchScene& scene) {
+    const auto more = Bench(scene, settings).run();
+    rows.insert(rows.end(), more.begin(), more.end());
+  };
+  if (wanted("teapot")) bench(teapot_scene());
+  if (wanted("bunny")) {
+    if (const auto scene = bunny_scene())
+      bench(*scene);
+    else
+      fmt::print("bunny: not here, left out\n");
+  }
+  if (wanted("million")) bench(million_scene());
+  fmt::print("Instruction set in use: {}\n", raytrace::packet_target());
+  if (settings.json.empty()) return 0;
+  std::ofstream out(settings.json);
+  out << to_json(rows).dump(2) << '\n';
+  if (out.flush()) return 0;
+  fmt::print(stderr, "{}: could not be written\n", settings.json);
+  return 4;
+}
+
+}  // namespace
+}  // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  gnomon::bench::Settings settings;
+  CLI::App app("Gnomon's tracer against Embree 3: equal rays, in turn, in one process");
+  app.add_option("--scene", settings.scenes, "teapot, bunny, million (default: all)")
+      ->check(CLI::IsMember({"teapot", "bunny", "million"}));
+  app.add_option("--runs", settings.runs, "timed repetitions, the median counts (default 5)")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--width", settings.size.width, "pixels (default 1920)")->check(CLI::Range(16, 16384));
+  app.add_option("--height", settings.size.height, "pixels (default 1080)")->check(CLI::Range(16, 16384));
+  app.add_option("--json", settings.json, "also write the rows to this file");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return gnomon::bench::run(settings);
+}
