@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "raytrace/packet/prepare.h"
+#include "raytrace/packet/receivers.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
@@ -83,45 +84,47 @@ Seen seen_from(const Structures& structures, const Light& light) {
                                               : seen_from(structures, light.position, true);
 }
 
-void closest_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
-                  ClosestHits& hits) {
-  const Structures& s = tracer.structures();
-  TileRays rays;
-  clear(rays);
+void find_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect, TileRays& rays,
+               TileHits& hits) {
   choose_axis(pixel_ray(view, 0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1)).direction, rays);
   if (is_whole(rect)) {
     prepare_primary(view, rect.x0, rect.y0, rays);
   } else {
+    clear(rays);
     for_each_lane(rect, [&](int x, int y, std::size_t lane) {
       if (project(pixel_ray(view, x + 0.5, y + 0.5).direction, rays, lane, 0.0))
         rays.alive[lane / packet_rays] |= bit_of(lane);
     });
   }
+  closest_in_tile(tracer.structures().bvh, eye, rays, hits);
+  for (std::size_t lane = 0; lane < tile_rays; ++lane)
+    if ((rays.alive[lane / packet_rays] & bit_of(lane)) == 0) hits.leaf[lane] = unsure_hit;
+}
+
+void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
+                  Image<SurfacePoint>& receivers) {
+  const Structures& s = tracer.structures();
+  TileRays rays;
   TileHits found;
-  closest_in_tile(s.bvh, eye, rays, found);
+  find_hits(tracer, view, eye, rect, rays, found);
+  std::array<std::uint16_t, tile_packets> left;
+  left.fill(0xffff);
+  // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
+  if (is_whole(rect))
+    left = store_receivers(s.bvh, view, rect.x0, rect.y0, rays, found, &receivers.at(rect.x0, rect.y0),
+                           static_cast<std::size_t>(receivers.size.width));
   for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    const bool asked = (rays.alive[lane / packet_rays] & bit_of(lane)) != 0;
-    const std::uint32_t leaf = asked ? found.leaf[lane] : unsure_hit;
+    if ((left[lane / packet_rays] & bit_of(lane)) == 0) return;
+    const std::uint32_t leaf = found.leaf[lane];
+    SurfacePoint& out = receivers.at(x, y);
     if (leaf == nothing_hit) {
-      hits[lane] = Hit{};
+      out = SurfacePoint{};
       return;
     }
     const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
     std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(s, ray, leaf);
     if (!hit) hit = tracer.closest_hit(ray);
-    hits[lane] = hit.value_or(Hit{});
-  });
-}
-
-void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
-                  Image<SurfacePoint>& receivers) {
-  ClosestHits hits;
-  closest_hits(tracer, view, eye, rect, hits);
-  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
-    const Hit& hit = hits[lane];
-    receivers.at(x, y) = hit.primitive == no_id
-                             ? SurfacePoint{}
-                             : tracer.surface_point(pixel_ray(view, x + 0.5, y + 0.5), hit);
+    out = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
   });
 }
 

@@ -17,10 +17,9 @@ struct TileRect {
 /// Whether the world has a tree to walk and lengths that floats can hold.
 bool packets_apply(const Structures& structures);
 
-/// The closest hits of the tile's pixels by place in the tile (tile_lane); primitive == no_id: none.
-using ClosestHits = std::array<Hit, tile_rays>;
-void closest_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
-                  ClosestHits& hits);
+/// Which primitive each pixel of the tile sees, where floats can tell (unsure_hit where not).
+void find_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect, TileRays& rays,
+               TileHits& hits);
 
 /// Fills the tile's receivers.
 void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,

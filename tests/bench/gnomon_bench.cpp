@@ -120,7 +120,8 @@ class Bench {
   void our_hits() {
     const Seen eye = seen_from(tracer_.structures(), view_.eye, false);
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      closest_hits(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i]);
+      raytrace::TileRays rays;
+      find_hits(tracer_, view_, eye, {x0, y0, x1, y1}, rays, hits_[i]);
     });
   }
   void our_receivers() {
@@ -140,14 +141,14 @@ class Bench {
   void primary(int threads) {
     const auto rays = static_cast<double>(primary_.count);
     const auto ours = [&] { our_hits(); };
-    add("primary hits", threads, rays,
+    add("primary, which primitive", threads, rays,
         in_turn(settings_.runs, threads, ours, [&] { embree_.closest_packets(primary_, peer_); }),
         "Embree 16 coherent", 1.5);
     if (threads > 1) return;
-    add("primary hits", threads, rays,
+    add("primary, which primitive", threads, rays,
         in_turn(settings_.runs, threads, ours, [&] { embree_.closest_single(primary_, peer_); }),
         "Embree single", std::nullopt);
-    add("primary receivers", threads, rays,
+    add("primary, double receivers", threads, rays,
         in_turn(
             settings_.runs, threads, [&] { our_receivers(); },
             [&] { embree_.closest_packets(primary_, peer_); }),
@@ -194,30 +195,38 @@ class Bench {
     row("build, primary, point", ms.first, ms.second, "Embree medium, packets", 1.2);
   }
 
+  // Receivers against Embree's hits; how many pixels the floats left to double.
   void check_hits() {
-    our_hits(), embree_.closest_packets(primary_, peer_);
-    std::size_t ours = 0, theirs = 0, differ = 0;
-    for (std::size_t i = 0; i < peer_.t.size(); ++i) {
-      if (primary_.valid[i] == 0) continue;
-      const auto& hit = hits_[i / raytrace::tile_rays][i % raytrace::tile_rays];
-      const bool a = hit.primitive != no_id, b = peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID;
-      ours += a ? 1 : 0, theirs += b ? 1 : 0;
-      const double doubt = 1e-4 * world_.finite_bounds.diagonal();
-      differ += a != b || (a && std::abs(hit.t - static_cast<double>(peer_.t[i])) > doubt) ? 1 : 0;
-    }
+    our_hits(), our_receivers(), embree_.closest_packets(primary_, peer_);
+    std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
+    const double doubt = 1e-4 * world_.finite_bounds.diagonal();
+    for (int y = 0; y < settings_.size.height; ++y)
+      for (int x = 0; x < settings_.size.width; ++x) {
+        const std::size_t at = place(x, y);
+        const auto& point = frame_.receiver.at(x, y);
+        const bool a = point.primitive != no_id, b = peer_.primitive[at] != RTC_INVALID_GEOMETRY_ID;
+        ours += a ? 1 : 0, theirs += b ? 1 : 0;
+        const double t = a ? glm::length(point.position - view_.eye) : 0.0;
+        differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > doubt) ? 1 : 0;
+        unsure +=
+            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::unsure_hit ? 1 : 0;
+      }
     fmt::print(
-        "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding)\n",
-        ours, theirs, differ, primary_.count);
+        "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding); "
+        "{} decided in double\n",
+        ours, theirs, differ, primary_.count, unsure);
+  }
+  std::size_t place(int x, int y) const {
+    const std::size_t tile =
+        static_cast<std::size_t>(y / 16) * grid_.columns() + static_cast<std::size_t>(x / 16);
+    return tile * raytrace::tile_rays + raytrace::tile_lane(x % 16, y % 16);
   }
   void check_shadows(std::size_t light) {
     embree_.occluded_packets(shadow_[light], occluded_);
     std::size_t ours = 0, theirs = 0, differ = 0;
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
-        const std::size_t at =
-            (static_cast<std::size_t>(y / 16) * grid_.columns() + static_cast<std::size_t>(x / 16)) *
-                raytrace::tile_rays +
-            raytrace::tile_lane(x % 16, y % 16);
+        const std::size_t at = place(x, y);
         if (shadow_[light].valid[at] == 0) continue;
         const bool a = frame_.lights[light].verdict.at(x, y) == Verdict::shadowed, b = occluded_[at] != 0;
         ours += a ? 1 : 0, theirs += b ? 1 : 0, differ += a != b ? 1 : 0;
@@ -236,7 +245,7 @@ class Bench {
   PeerRays primary_;
   std::vector<PeerRays> shadow_;
   raytrace::TileGrid grid_;
-  std::vector<raytrace::ClosestHits> hits_;
+  std::vector<raytrace::TileHits> hits_;
   RayTracedFrame frame_;
   PeerHits peer_;
   std::vector<std::uint8_t> occluded_;
