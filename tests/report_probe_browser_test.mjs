@@ -75,6 +75,14 @@ async function shown(page) {
   };
 }
 
+// The ring in the depth map's picture: six faces of 64 texels with a gap of one, rows upwards.
+async function checkMarker(page, pixel, u, v) {
+  const face = unpack(JSON.parse(await page.locator("#page-data").textContent()).lights[0].channels.face)[pixel];
+  const [left, top] = await page.locator(".map-marker").evaluate((e) => [e.style.left, e.style.top].map(parseFloat));
+  assert.ok(Math.abs(left - (100 * ((face % 3) * 65 + u)) / 194) < 0.01, `marker at ${left} % from the left, face ${face}, u ${u}`);
+  assert.ok(Math.abs(top - (100 * ((face > 2 ? 65 : 0) + 64 - v)) / 129) < 0.01, `marker at ${top} % from the top, face ${face}, v ${v}`);
+}
+
 // One pixel of every label that occurs, those of pixels not compared among them, chosen by the URL.
 async function checkProbe(aov, names) {
   const examples = new Map();
@@ -96,6 +104,7 @@ async function checkProbe(aov, names) {
     assert.equal(said.primitive, primitive);
     assert.match(said.story, ladder[0] === 1 ? /exact ray says: lit/ : /exact ray says: in shadow/);
     assert.match(said.story, ladder[6] === 1 ? /lit at the bias|draws it lit|lets it be lit/ : /draws it in shadow/);
+    await checkMarker(page, i, u, v);
     const deciding = await page.locator(".pixel-ladder .deciding").count();
     assert.equal(deciding, label > 0 ? 1 : 0);
     assert.equal(await page.locator("svg.light-space").count(), 1);

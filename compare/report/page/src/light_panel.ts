@@ -2,6 +2,7 @@
 import { BiasPanel } from "./bias";
 import { page, wordsOf, type Light, type Pixel } from "./data";
 import { LabelTable } from "./labels";
+import { MapMarker } from "./map_marker";
 import { byId, colourAt, dataUrl, gapPicture, truthPicture } from "./pictures";
 import { Probe } from "./probe";
 import { initial, saveHash, type ViewState } from "./state";
@@ -15,6 +16,7 @@ export class LightPanel {
   private readonly probe: Probe;
   private readonly labels: LabelTable;
   private readonly bias: BiasPanel | null;
+  private readonly map: MapMarker;
   private readonly line: HTMLElement;
   private frame = 0;
   private passing = false;  // the pointer is on its way, nothing is chosen
@@ -31,12 +33,14 @@ export class LightPanel {
     this.probe = new Probe(light, index, host, this.state, () => this.redraw());
     this.labels = new LabelTable(section, (label) => this.choose(label));
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
+    this.map = new MapMarker(light, section.querySelector<HTMLImageElement>(".depth img")!);
     this.shown = this.example();
     this.viewer = new Viewer(root, this.state, {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveHash(this.index, this.state),
     });
     this.probe.show(this.shown, light.json.bias.constant);
+    this.map.show(this.shown);
     this.coloured = light.json.bias.constant;
     this.bias?.show(this.coloured);
   }
@@ -116,6 +120,7 @@ export class LightPanel {
     const bias = this.state.bias ?? this.light.json.bias.constant;
     this.viewer.show();
     this.probe.show(this.shown, bias, this.passing);
+    this.map.show(this.shown);
     if (bias !== this.coloured) this.bias?.show(bias);
     this.coloured = bias;
   }

@@ -56,7 +56,7 @@ async function startLights(): Promise<(LightPanel | null)[]> {
 
 // Pictures must be decoded before their pixels and sizes are read.
 async function start(): Promise<void> {
-  await Promise.all([...document.images].filter((image) => image.id).map((image) => image.decode()));
+  await Promise.all([...document.images].filter((image) => image.src).map((image) => image.decode()));
   addExposureFilter();
   addCopyButtons();
   const panels = await startLights();

@@ -1,0 +1,32 @@
+// Where a pixel looks in the picture of the depth map (compare/pictures.cpp: faces three by three with a gap, rows upwards).
+import type { Light, Pixel } from "./data";
+import { html } from "./svg";
+
+export class MapMarker {
+  private readonly marker = html("div", { class: "map-marker" });
+  private readonly side: number;  // of a face, in pixels of the picture
+  private readonly gap: number;
+  private readonly across: number;
+
+  constructor(private readonly light: Light, private readonly image: HTMLImageElement) {
+    const faces = light.json.view.faces.length;
+    this.across = Math.min(faces, 3);
+    const gapOf = (side: number) => (faces > 1 ? Math.max(1, Math.floor(side / 64)) : 0);
+    let side = Math.floor(image.naturalWidth / this.across);
+    while (side > 1 && this.across * side + (this.across - 1) * gapOf(side) > image.naturalWidth) --side;
+    this.side = side;
+    this.gap = gapOf(side);
+    const frame = html("div", { class: "map-frame" });
+    image.replaceWith(frame);
+    frame.append(image, this.marker);
+  }
+
+  show(pixel: Pixel): void {
+    this.marker.hidden = !pixel.seen;
+    const scale = this.side / this.light.json.view.size, { naturalWidth, naturalHeight } = this.image;
+    const x = (pixel.face % this.across) * (this.side + this.gap) + pixel.at.u * scale;
+    const y = Math.floor(pixel.face / this.across) * (this.side + this.gap) + this.side - pixel.at.v * scale;
+    this.marker.style.left = `${(100 * x) / naturalWidth}%`;
+    this.marker.style.top = `${(100 * y) / naturalHeight}%`;
+  }
+}
