@@ -252,6 +252,22 @@ bool usable_triangle(const World& world, std::uint32_t id) {
   return all_finite(a) && all_finite(b) && all_finite(c) && geometric_normal(world, id, a) != Vec3(0.0);
 }
 
+// In blocks over all threads, joined in the order of ids.
+void append_triangles(const World& world, FinitePrimitives& out) {
+  constexpr std::uint32_t block_size = 8192;
+  std::vector<std::vector<BoxRef>> blocks((world.triangle_count() + block_size - 1) / block_size);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    const auto first = static_cast<std::uint32_t>(block) * block_size;
+    const std::uint32_t end = std::min(first + block_size, world.triangle_count());
+    blocks[block].reserve(end - first);
+    for (std::uint32_t id = first; id < end; ++id)
+      if (usable_triangle(world, id)) blocks[block].push_back(triangle_box(world, id, out.center));
+  });
+  for (const std::vector<BoxRef>& block : blocks)
+    out.boxes.insert(out.boxes.end(), block.begin(), block.end());
+  out.dropped += world.triangle_count() - out.boxes.size();
+}
+
 }  // namespace
 
 FinitePrimitives finite_primitives(const World& world) {
@@ -259,13 +275,7 @@ FinitePrimitives finite_primitives(const World& world) {
   out.boxes.reserve(world.triangle_count());
   const Vec3 middle = world.finite_bounds.center();
   if (all_finite(middle)) out.center = middle;
-  for (std::uint32_t id = 0; id < world.triangle_count(); ++id) {
-    if (!usable_triangle(world, id)) {
-      ++out.dropped;
-      continue;
-    }
-    out.boxes.push_back(triangle_box(world, id, out.center));
-  }
+  append_triangles(world, out);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* sphere = std::get_if<Sphere>(&world.shape(id).geometry);
     if (sphere == nullptr) continue;
