@@ -133,6 +133,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_plan(*program, invocation);
   add_scenes(*program, invocation);
   add_verify(*program, invocation);
+  add_bench(*program, invocation);
   add_view(*program, invocation);
   return program;
 }

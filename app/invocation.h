@@ -25,6 +25,7 @@ void add_raster(CLI::App& program, Invocation& invocation);
 void add_raytrace(CLI::App& program, Invocation& invocation);
 void add_plan(CLI::App& program, Invocation& invocation);
 void add_scenes(CLI::App& program, Invocation& invocation);
+void add_bench(CLI::App& program, Invocation& invocation);
 void add_verify(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program, Invocation& invocation);
 

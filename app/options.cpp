@@ -187,6 +187,51 @@ void add_tracer_options(CLI::App& command, raytrace::Accel& accel) {
             });
 }
 
+void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& chosen) {
+  add_value(command, "--accel", "all|NAME[,NAME]",
+            describe("structures to compare", choice_names<raytrace::Accel>(accels, " or "), "all"),
+            [&chosen](const std::string& text) -> Expected<void> {
+              chosen = all_accels();
+              if (text == "all") return {};
+              chosen.clear();
+              for (std::size_t start = 0; start <= text.size();) {
+                const std::size_t end = std::min(text.find(',', start), text.size());
+                const auto accel = parse_choice<raytrace::Accel>(text.substr(start, end - start), accels);
+                if (!accel) return fail(accel.error());
+                chosen.push_back(*accel);
+                start = end + 1;
+              }
+              return {};
+            });
+}
+
+std::vector<raytrace::Accel> all_accels() {
+  std::vector<raytrace::Accel> all;
+  for (const auto& [name, accel] : accels) all.push_back(accel);
+  return all;
+}
+
+std::string_view accel_name(raytrace::Accel accel) {
+  for (const auto& [name, value] : accels)
+    if (value == accel) return name;
+  return "";
+}
+
+void add_heatmap(CLI::App& command, std::optional<HeatmapOf>& heatmap) {
+  static constexpr std::pair<std::string_view, HeatmapOf> choices[] = {{"nodes", HeatmapOf::nodes},
+                                                                       {"triangles", HeatmapOf::triangles}};
+  add_value(command, "--heatmap", "WHAT",
+            describe("instead of the picture, what its primary rays test: boxes, cells or planes of the "
+                     "structure, or triangles; dark purple is 0, yellow 4095 and more, the scale logarithmic",
+                     choice_names<HeatmapOf>(choices, " or "), "off"),
+            [&heatmap](const std::string& text) {
+              HeatmapOf what{};
+              const Expected<void> stored = assign(what, parse_choice<HeatmapOf>(text, choices));
+              if (stored) heatmap = what;
+              return stored;
+            });
+}
+
 void add_min_contribution(CLI::App& command, double& share) {
   add_number(command, "--min-contribution", share, {0.0, 1.0}, "share of a pixel",
              "reflected and refracted rays that matter less are not followed");

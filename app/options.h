@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/heatmap.h"
 #include "compare/compare.h"
 #include "raster/options.h"
 #include "raytrace/frame.h"
@@ -25,6 +26,12 @@ void add_map_options(CLI::App& command, raster::MapOptions& map);
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// --accel, --precision.
 void add_tracer_options(CLI::App& command, raytrace::Accel& accel);
+/// --accel of several: all, or names with commas between.
+void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& accels);
+std::vector<raytrace::Accel> all_accels();
+std::string_view accel_name(raytrace::Accel accel);
+/// --heatmap.
+void add_heatmap(CLI::App& command, std::optional<HeatmapOf>& heatmap);
 void add_min_contribution(CLI::App& command, double& share);
 void add_light(CLI::App& command, std::string& light, const char* what);
 void add_threads(CLI::App& command, int& threads, const char* of_what);

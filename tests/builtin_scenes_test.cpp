@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 8u);
+  ASSERT_EQ(scenes.size(), 10u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
@@ -23,8 +23,8 @@ TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
     // The list's description is the file's own.
     EXPECT_NE(file->text.find(s.description), std::string_view::npos) << s.name;
   }
-  for (const std::string_view name :
-       {"acne-floor", "floating-box", "fence", "thin-wall", "whitted", "courtyard", "teapot"}) {
+  for (const std::string_view name : {"acne-floor", "floating-box", "fence", "thin-wall", "whitted",
+                                      "courtyard", "teapot", "stadium", "field"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(find_builtin_scene("no-such-scene"));

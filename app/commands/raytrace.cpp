@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/heatmap.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/machine.h"
@@ -22,6 +23,7 @@ struct RaytraceCommand {
   raytrace::RaytraceOptions options;
   raytrace::Accel accel = raytrace::Accel::bvh;
   std::optional<std::optional<double>> exposure;
+  std::optional<HeatmapOf> heatmap;
   PoseOptions poses;
   int threads = 0;
   bool quiet = false;
@@ -50,6 +52,14 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!posed) return fail(posed.error());
   console.progress("ray tracing", 0.2);
   const raytrace::Tracer tracer(*loaded->world, command.accel);
+  if (command.heatmap) {
+    const OutputGuard whole_outputs;
+    const auto work = primary_ray_work(tracer, loaded->scene->camera, command.options.size);
+    if (const auto written = write_heatmap(command.image, work, *command.heatmap); !written)
+      return fail(written.error());
+    console.message(fmt::format("heatmap: {}", command.image));
+    return ExitCode::done;
+  }
   const raytrace::RayTracedFrame frame =
       raytrace::trace_frame(tracer, loaded->plan, loaded->scene->camera, *lights, command.options);
 
@@ -70,7 +80,8 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
       program.add_subcommand("raytrace", "Render with rays only: a PNG, or an EXR with its records.");
   app->footer(
       "gnomon raytrace whitted -o whitted.png\n"
-      "gnomon raytrace model.glb --size 1920x1080 -o model.exr");
+      "gnomon raytrace model.glb --size 1920x1080 -o model.exr\n"
+      "gnomon raytrace stadium --accel grid --heatmap triangles -o heat.png");
   const auto command = std::make_shared<RaytraceCommand>();
   add_scene(*app, command->scene);
   add_output(*app, "-o,--output", command->image, "IMAGE",
@@ -81,6 +92,7 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
             "put this light's visibility only into the .exr; the picture always has all lights");
   add_pose_options(*app, command->poses);
   add_tracer_options(*app, command->accel);
+  add_heatmap(*app, command->heatmap);
   add_min_contribution(*app, command->options.min_contribution);
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_exposure(*app, command->exposure);

@@ -53,6 +53,7 @@ std::span<const MeshGenerator> garden_generators();
 std::span<const MeshGenerator> plant_generators();
 std::span<const MeshGenerator> architecture_generators();
 std::span<const MeshGenerator> stonework_generators();
+std::span<const MeshGenerator> swarm_generators();
 std::span<const MeshGenerator> teapot_generators();
 std::span<const TextureGenerator> all_texture_generators();
 

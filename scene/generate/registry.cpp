@@ -32,7 +32,7 @@ struct Table {
 const Table<MeshGenerator>& mesh_table() {
   static const Table<MeshGenerator> table{
       basic_generators(),        fence_generators(),     garden_generators(), plant_generators(),
-      architecture_generators(), stonework_generators(), teapot_generators()};
+      architecture_generators(), stonework_generators(), swarm_generators(),  teapot_generators()};
   return table;
 }
 

@@ -1,0 +1,41 @@
+#include "app/bench/row.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/machine.h"
+
+namespace gnomon::app {
+
+std::optional<double> BenchRow::ratio() const {
+  if (!peer) return std::nullopt;
+  return more_is_better ? value / peer->value : peer->value / value;
+}
+
+std::string bench_json(std::span<const BenchRow> rows) {
+  const auto or_null = [](const std::optional<double>& v) {
+    return v ? nlohmann::ordered_json(*v) : nullptr;
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const BenchRow& row : rows) {
+    const std::optional<double> ratio = row.ratio();
+    const auto peer_value = row.peer ? std::optional(row.peer->value) : std::nullopt;
+    list.push_back({{"name", row.name},
+                    {"scene", row.scene},
+                    {"threads", row.threads},
+                    {"value", row.value},
+                    {"unit", row.unit},
+                    {"peer", row.peer ? nlohmann::ordered_json(row.peer->name) : nullptr},
+                    {"peer_value", or_null(peer_value)},
+                    {"ratio", or_null(ratio)},
+                    {"goal", or_null(row.goal)},
+                    {"met", row.goal && ratio ? nlohmann::ordered_json(*ratio >= *row.goal) : nullptr}});
+  }
+  const compare::MachineInfo machine = machine_info();
+  const nlohmann::ordered_json document{
+      {"schema", "gnomon/bench/1"},
+      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}},
+      {"rows", list}};
+  return document.dump(2) + "\n";
+}
+
+}  // namespace gnomon::app

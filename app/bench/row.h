@@ -1,0 +1,56 @@
+// What gnomon bench measures, row by row, and how the rows are shown. A producer measures one topic on one
+// scene.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/session.h"
+#include "raytrace/tracer.h"
+#include "scene/image.h"
+
+namespace gnomon::app {
+
+struct BenchPeer {
+  std::string name;
+  double value = 0.0;
+};
+
+struct BenchRow {
+  std::string name, scene;
+  int threads = 0;
+  double value = 0.0;
+  std::string unit;
+  bool more_is_better = true;
+  std::optional<BenchPeer> peer{};
+  std::optional<double> goal{};  ///< of the ratio
+
+  /// Above 1: better than the peer.
+  std::optional<double> ratio() const;
+};
+
+struct BenchInput {
+  const LoadedScene& loaded;
+  std::string scene;
+  ImageSize size{640, 360};
+  int runs = 3;
+  int threads = 0;
+  std::vector<raytrace::Accel> accels;
+  std::function<void(const std::string&, double)> progress;
+};
+
+struct BenchResult {
+  std::string table;  ///< for people
+  std::vector<BenchRow> rows;
+};
+
+std::string bench_json(std::span<const BenchRow> rows);
+
+/// Every structure on the same rays: build time, memory, work per ray, rays per second. An error when two
+/// structures see different things.
+Expected<BenchResult> bench_structures(const BenchInput& input);
+
+}  // namespace gnomon::app
