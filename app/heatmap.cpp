@@ -59,11 +59,11 @@ void draw_legend(Rgb8Image& image, int top) {
   const int width = image.size.width;
   for (int x = 0; x < width; ++x)
     for (int y = 0; y < strip_height; ++y) set(image, x, top + y, viridis((x + 0.5) / width));
-  const bool roomy = width >= 400;
+  const int apart = width >= 640 ? 1 : width >= 320 ? 2 : 6;  // octaves between labels
   for (int octave = 0; octave <= octaves; ++octave) {
     const int x = std::min(width - 1, octave * width / octaves);
     for (int y = 0; y < 3; ++y) set(image, x, top + strip_height + y, ink);
-    if (octave % (roomy ? 1 : 4) == 0) draw_number(image, x, top + strip_height + 4, (1 << octave) - 1);
+    if (octave % apart == 0) draw_number(image, x, top + strip_height + 4, (1 << octave) - 1);
   }
 }
 

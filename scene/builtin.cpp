@@ -25,7 +25,7 @@ constexpr std::array<BuiltinScene, 10> scenes{{
     {"courtyard",
      "A court with arcades, stairs, balustrades and a fountain: tens of thousands of triangles in the sun."},
     {"stadium", "A teapot in a stadium: where uniform grids lose."},
-    {"field", "An even field of small things: where uniform grids win."},
+    {"field", "An even field of small things: where a uniform grid is at its best."},
 }};
 
 }  // namespace

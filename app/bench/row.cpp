@@ -18,14 +18,13 @@ std::string bench_json(std::span<const BenchRow> rows) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const BenchRow& row : rows) {
     const std::optional<double> ratio = row.ratio();
-    const auto peer_value = row.peer ? std::optional(row.peer->value) : std::nullopt;
     list.push_back({{"name", row.name},
                     {"scene", row.scene},
                     {"threads", row.threads},
                     {"value", row.value},
                     {"unit", row.unit},
                     {"peer", row.peer ? nlohmann::ordered_json(row.peer->name) : nullptr},
-                    {"peer_value", or_null(peer_value)},
+                    {"peer_value", row.peer ? nlohmann::ordered_json(row.peer->value) : nullptr},
                     {"ratio", or_null(ratio)},
                     {"goal", or_null(row.goal)},
                     {"met", row.goal && ratio ? nlohmann::ordered_json(*ratio >= *row.goal) : nullptr}});

@@ -61,8 +61,8 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   CLI::App* app = program.add_subcommand(
       "bench", "Build time, memory, work per ray and speed of the acceleration structures on a scene.");
   app->footer(
-      "gnomon bench stadium --accel all       where the grid loses\n"
-      "gnomon bench field --accel bvh,grid    where it wins");
+      "gnomon bench stadium --accel all       where a grid loses\n"
+      "gnomon bench field --accel bvh,grid    where it is at its best");
   const auto command = std::make_shared<BenchCommand>();
   add_scene(*app, command->scene);
   add_accel_list(*app, command->accels);

@@ -141,7 +141,7 @@ Grid build_grid(const CellItems& items, const GridOptions& options) {
   for (;;) {
     for (std::size_t a = 0; a < 3; ++a)
       grid.walls[a] = walls_along(grid.bounds.min[a], grid.bounds.max[a], grid.cells[a]);
-    if (estimate_references(grid, items) <= 2 * limit && find_references(grid, items, limit, blocks)) break;
+    if (estimate_references(grid, items) <= limit && find_references(grid, items, limit, blocks)) break;
     for (int& n : grid.cells) n = std::max(1, n / 2);
   }
   fill(grid, blocks);
