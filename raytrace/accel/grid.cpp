@@ -11,7 +11,7 @@ namespace {
 
 // References per primitive (and a floor for small scenes) before the grid is made coarser: huge primitives
 // among many cells must not cost more memory than the scene.
-constexpr std::uint64_t references_per_item = 16, references_at_least = std::uint64_t{1} << 22;
+constexpr std::uint64_t references_per_item = 16, references_at_least = std::uint64_t{1} << 20;
 
 struct CellReference {
   std::uint32_t cell, item;
