@@ -167,12 +167,25 @@ Out along_direction(const V3& a, const V3& b, const V3& c, double m, double radi
   return out;
 }
 
+// Rounds the errors up, and lets numbers beyond a float's range (and what is not a number) decide nothing.
 void store(const Out& out, SeenRows& rows, std::size_t first) {
+  constexpr hn::Rebind<float, D> half;
+  const auto size = [](const V3& v) { return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z))); };
+  const V sum =
+      hn::Add(hn::Add(size(out.edge[0]), size(out.edge[1])), hn::Add(size(out.edge[2]), size(out.nearness)));
+  const auto sound = hn::And(hn::Lt(sum, all(1e30)),
+                             hn::And(hn::Gt(out.edge_error, all(0.0)), hn::Gt(out.depth_error, all(0.0))));
   std::size_t row = 0;
-  const auto put = [&](V v) { hn::Store(v, d, rows.value[row++] + first); };
-  for (const V3& e : out.edge) put(e.x), put(e.y), put(e.z);
-  put(out.nearness.x), put(out.nearness.y), put(out.nearness.z);
-  put(out.edge_error), put(out.depth_error), put(out.depth_floor);
+  const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.seen[row++] + first); };
+  const auto put_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
+  const auto put_above = [&](V v, double otherwise) {
+    put(hn::IfThenElse(sound, hn::MulAdd(hn::Abs(v), all(0x1p-20), v), all(otherwise)));
+  };
+  for (const V3& e : out.edge) put_number(e.x), put_number(e.y), put_number(e.z);
+  put_number(out.nearness.x), put_number(out.nearness.y), put_number(out.nearness.z);
+  put_above(out.edge_error, infinity), put_above(out.depth_error, infinity);
+  put(hn::IfThenElse(hn::And(sound, hn::Gt(out.depth_floor, all(-1.0))),
+                     hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
 }
 
 // rows: corners in, SeenPrimitive's numbers out, eight triangles.
@@ -180,7 +193,7 @@ void see_eight(SeenRows& rows, const SeenPass& pass) {
   for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
     V3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto in = [&](std::size_t a) { return hn::Load(d, rows.value[3 * k + a] + first); };
+      const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
       const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
       corner[k] = p;
       if (!pass.directional) continue;
@@ -225,20 +238,13 @@ SeenPrimitive unseen(std::uint32_t id) {
           .id = id | never_sure};
 }
 
-// Rounds the errors up, and lets numbers beyond a float's range decide nothing.
-SeenPrimitive narrow(const SeenRows& rows, std::size_t i, std::uint32_t id) {
+SeenPrimitive seen_at(const SeenRows& rows, std::size_t i, std::uint32_t id) {
   SeenPrimitive p;
-  float* number = &p.edge[0][0];
-  bool sound = true;
-  for (std::size_t row = 0; row < 12; ++row) {
-    number[row] = static_cast<float>(rows.value[row][i]);
-    sound = sound && std::abs(number[row]) < 1e30f;
-  }
-  p.edge_error = float_above(rows.value[12][i]);
-  p.depth_error = float_above(rows.value[13][i]);
-  p.depth_floor = float_above(rows.value[14][i]);
+  for (std::size_t k = 0; k < 9; ++k) p.edge[k / 3][k % 3] = rows.seen[k][i];
+  for (std::size_t k = 0; k < 3; ++k) p.nearness[k] = rows.seen[9 + k][i];
+  p.edge_error = rows.seen[12][i], p.depth_error = rows.seen[13][i], p.depth_floor = rows.seen[14][i];
   p.id = id;
-  return sound && p.edge_error > 0.0f && p.depth_error > 0.0f ? p : unseen(id);
+  return p;
 }
 
 bool is_masked(const World& world, std::uint32_t id) {
@@ -276,17 +282,16 @@ void see_range(const Structures& s, const SeenPass& pass, std::size_t begin, std
     const std::size_t count = std::min<std::size_t>(8, end - first);
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t k = 0; k < 9; ++k)
-        rows.value[k][i] = s.bvh.primitives[first + std::min(i, count - 1)].v[k];
+        rows.corner[k][i] = s.bvh.primitives[first + std::min(i, count - 1)].v[k];
     kernel(rows, pass);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t id = s.bvh.ids[first + i];
-      const bool apart = !s.world->is_triangle(id) || (s.has_masks && is_masked(*s.world, id));
-      seen.primitives[first + i] = apart ? unseen(id) : narrow(rows, i, id);
-      // A masked triangle is still surely missed where it is missed.
-      if (apart && s.world->is_triangle(id)) {
-        seen.primitives[first + i] = narrow(rows, i, id);
-        seen.primitives[first + i].id |= never_sure;
-      }
+      // Spheres are beyond this; a masked triangle is still surely missed where it is missed.
+      if (!s.world->is_triangle(id))
+        seen.primitives[first + i] = unseen(id);
+      else
+        seen.primitives[first + i] =
+            seen_at(rows, i, s.has_masks && is_masked(*s.world, id) ? id | never_sure : id);
     }
   }
 }

@@ -5,10 +5,12 @@
 
 namespace gnomon::raytrace {
 
-/// Eight triangles by rows: nine corner coordinates in; edges (9), nearness (3) and the three bounds out.
+/// Eight triangles by rows: nine corner coordinates in; edges (9), nearness (3) and the three bounds out,
+/// those rounded up, in the order of SeenPrimitive.
 struct alignas(64) SeenRows {
   static constexpr std::size_t count = 15;
-  double value[count][8];
+  double corner[9][8];
+  float seen[count][8];
 };
 
 struct SeenPass {
