@@ -297,10 +297,11 @@ void see_range(const Structures& s, const SeenPass& pass, std::size_t begin, std
 }
 
 void see_all(const Structures& s, const SeenPass& pass, Seen& seen) {
-  seen.primitives.resize(s.bvh.primitives.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (seen.primitives.size() + 7) / 8, 256),
+  const std::size_t count = s.bvh.primitives.size();
+  seen.primitives = std::make_unique_for_overwrite<SeenPrimitive[]>(count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (count + 7) / 8, 256),
                     [&](const tbb::blocked_range<std::size_t>& r) {
-                      see_range(s, pass, 8 * r.begin(), std::min(8 * r.end(), seen.primitives.size()), seen);
+                      see_range(s, pass, 8 * r.begin(), std::min(8 * r.end(), count), seen);
                     });
   for (const std::uint32_t id : s.planes) seen.planes.push_back(see_plane(s, seen, pass, id));
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raytrace/kernels.h"
@@ -30,8 +31,8 @@ static_assert(sizeof(SeenPrimitive) == 64);
 inline constexpr std::uint32_t never_sure = 0x80000000u;
 
 struct Seen {
-  std::vector<SeenPrimitive> primitives;  ///< in leaf order
-  std::vector<SeenPrimitive> planes;      ///< of Structures::planes; their edge functions are not used
+  std::unique_ptr<SeenPrimitive[]> primitives;  ///< in leaf order, as many as Bvh::primitives
+  std::vector<SeenPrimitive> planes;            ///< of Structures::planes; their edge functions are not used
   bool directional = false;
   Vec3 origin{0.0};      ///< the common origin; of a direction: the middle of the world
   Vec3 axes[3];          ///< of u, v and depth; a point's are the world's
