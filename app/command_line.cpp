@@ -132,6 +132,9 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_raytrace(*program, invocation);
   add_plan(*program, invocation);
   add_scenes(*program, invocation);
+  add_sweep(*program, invocation);
+  add_merge(*program, invocation);
+  add_tune(*program, invocation);
   add_verify(*program, invocation);
   add_bench(*program, invocation);
   add_view(*program, invocation);

@@ -169,6 +169,12 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
 }
 
+std::vector<std::string> technique_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, technique] : techniques) names.emplace_back(name);
+  return names;
+}
+
 void add_backend(CLI::App& command, raster::Backend& backend) {
   add_choice(command, "--backend", backend, backends, "NAME",
              "where OpenGL comes from; auto tries OSMesa (software), then EGL (a GPU when there is one)");

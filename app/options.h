@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/heatmap.h"
 #include "compare/compare.h"
@@ -23,6 +24,8 @@ void add_scene(CLI::App& command, std::string& scene);
 void add_size(CLI::App& command, ImageSize& size);
 /// --map-size, --technique, the biases, --depth-format, --cull.
 void add_map_options(CLI::App& command, raster::MapOptions& map);
+/// The values of --technique.
+std::vector<std::string> technique_names();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// --accel, --precision.
 void add_tracer_options(CLI::App& command, raytrace::Accel& accel);

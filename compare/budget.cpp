@@ -71,6 +71,16 @@ ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, cons
   return error;
 }
 
+std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
+                                          const Image<Label>& labels) {
+  std::array<double, rung_count> means{};
+  const double count = sum_compared(labels, [](auto) { return 1.0; });
+  if (!(count > 0.0)) return means;
+  for (std::size_t k = 0; k < rung_count; ++k)
+    means[k] = sum_compared(labels, [&](auto i) { return double(rungs[k].data[i]); }) / count;
+  return means;
+}
+
 std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
                                                   const Image<Label>& labels) {
   std::array<BudgetStep, cause_count> budget{};

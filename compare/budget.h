@@ -9,8 +9,12 @@ namespace gnomon::compare {
 PixelCounts count_pixels(const Image<Label>& labels);
 std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels);
 
-/// wrong, false and missed shadow, mean |V6 - V0| and RMS over compared pixels (flip is left 0).
+/// wrong, false and missed shadow, mean |V6 - V0| and RMS over compared pixels (flip and ssim are left NaN).
 ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
+
+/// Mean visibility of each rung over compared pixels; 0 where none is compared.
+std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
+                                          const Image<Label>& labels);
 
 /// Means of the six steps over compared pixels.
 std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,

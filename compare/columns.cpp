@@ -38,13 +38,9 @@ bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
   return glm::dot(glm::cross(b - a, c - a), along) < 0.0;
 }
 
-// Sheets matter where the centre ray's first hit is another primitive than the receiver, or the pixel is
-// drawn wrong.
+// The lower rungs hang on sheets where the centre ray's first hit is another primitive than the receiver.
 bool needs_sheets(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
-  const std::uint32_t receiver = in.traced.receiver.data[pixel].primitive;
-  if (centre.hit && centre.hit->primitive != receiver) return true;
-  const bool truly_lit = in.truth.verdict.data[pixel] == raytrace::Verdict::lit;
-  return truly_lit != (in.record.visibility.data[pixel] > 0.5f);
+  return centre.hit && centre.hit->primitive != in.traced.receiver.data[pixel].primitive;
 }
 
 }  // namespace
@@ -62,25 +58,33 @@ bool Column::same_sheet(std::uint32_t a, std::uint32_t b) const {
 
 ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
                      const std::vector<TexelCentre>& centres)
-    : input_(in), groups_(groups) {
+    : input_(in), groups_(groups), batch_of_group_(groups.keys.size(), no_id) {
   std::vector<char> needed(groups.keys.size(), 0);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     for (const std::uint32_t pixel : groups[g])
       needed[g] |= static_cast<char>(needs_sheets(in, centres[g], pixel));
   });
+  add(needed);
+}
+
+void ColumnSet::add(const std::vector<char>& marked) {
   std::vector<TexelKey> keys;
-  for (std::size_t g = 0; g < needed.size(); ++g)
-    if (needed[g]) keys.push_back(groups.keys[g]);
-  lists_ = raytrace::build_texel_lists(in.tracer, in.record.map.view, std::move(keys));
+  for (std::size_t g = 0; g < marked.size(); ++g) {
+    if (!marked[g] || batch_of_group_[g] != no_id) continue;
+    batch_of_group_[g] = static_cast<std::uint32_t>(lists_.size());
+    keys.push_back(groups_.keys[g]);
+  }
+  if (!keys.empty())
+    lists_.push_back(raytrace::build_texel_lists(input_.tracer, input_.record.map.view, std::move(keys)));
 }
 
 Column ColumnSet::column(std::size_t group) const {
+  if (batch_of_group_[group] == no_id) return Column();
   const TexelKey key = groups_.keys[group];
-  const std::size_t index = lists_.find(key);
-  if (index == lists_.keys.size()) return Column();
-  return Column(
-      input_, key,
-      raytrace::find_sheets(input_.world, input_.topology, input_.record.map.view, key, lists_[index]));
+  const raytrace::TexelLists& lists = lists_[batch_of_group_[group]];
+  return Column(input_, key,
+                raytrace::find_sheets(input_.world, input_.topology, input_.record.map.view, key,
+                                      lists[lists.find(key)]));
 }
 
 }  // namespace gnomon::compare

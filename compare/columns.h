@@ -41,13 +41,18 @@ class Column {
 /// Triangle lists for the groups that need sheets; the sheets themselves are found on demand, per column.
 class ColumnSet {
  public:
+  /// Lists for the groups whose lower rungs hang on sheets. `input` and `groups` must outlive this.
   ColumnSet(const LadderInput& input, const TexelGroups& groups, const std::vector<TexelCentre>& centres);
+  /// Lists for the marked groups too, where they have none yet. Not to be called while others read.
+  void add(const std::vector<char>& marked_groups);
+  /// Empty for a group that was never marked.
   Column column(std::size_t group) const;
 
  private:
   const LadderInput& input_;
   const TexelGroups& groups_;
-  raytrace::TexelLists lists_;
+  std::vector<raytrace::TexelLists> lists_;
+  std::vector<std::uint32_t> batch_of_group_;  ///< index in lists_, or no_id
 };
 
 }  // namespace gnomon::compare

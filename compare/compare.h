@@ -18,6 +18,7 @@ struct CompareOptions {
   raytrace::Accel accel = raytrace::Accel::bvh;
   std::string light;  ///< name of the one light to compare; empty: all
   int bias_curve_points = 129;
+  bool perceptual = true;  ///< FLIP and SSIM; NaN when left out
 };
 
 /// Called as work proceeds with a stage name and the share done in [0, 1].

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,7 +62,9 @@ struct PixelCounts {
 struct ErrorStats {
   std::uint64_t wrong = 0, false_shadow = 0, missed_shadow = 0;
   double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0;  ///< of V6 - V0 over compared pixels
-  double flip = 0.0;  ///< mean FLIP (Andersson et al. 2020) of the drawn against the true visibility picture
+  /// Of the drawn against the true visibility picture; NaN where not computed.
+  double flip = std::numeric_limits<double>::quiet_NaN();  ///< mean FLIP (Andersson et al. 2020)
+  double ssim = std::numeric_limits<double>::quiet_NaN();  ///< mean SSIM (Wang et al. 2004)
 };
 
 struct BudgetStep {
@@ -106,6 +109,19 @@ struct BestBias {
   std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels with gap <= needs_less_than; 0 when feasible
 };
 
+/// Of the finite values over compared pixels.
+struct Distribution {
+  std::uint64_t count = 0;
+  double median = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
+};
+
+/// What closed forms say of the map (theory.h).
+struct TheoryStats {
+  Distribution acne_free_bias;  ///< least constant bias without acne on the tangent plane, world units
+  /// Sides of a texel in pixels on the receiver, predicted as the product of two parts, and measured.
+  Distribution aliasing, perspective, projection, measured_aliasing;
+};
+
 struct LightComparison {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
@@ -117,7 +133,9 @@ struct LightComparison {
   Detachment detachment;
   std::vector<BiasCurvePoint> bias_curve;
   BestBias best_bias;
-  std::array<double, 3> texel_world{};  ///< min, median, max over compared receivers
+  TheoryStats theory;
+  std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
+  std::array<double, 3> texel_world{};         ///< min, median, max over compared receivers
   Times classify;
 
   std::array<Image<float>, rung_count> rungs;  ///< 1 lit, 0 shadowed; 1 where not compared and no receiver

@@ -12,6 +12,29 @@ constexpr double reach = 64.0;  // of the walk, pixels
 struct EdgeSums {
   std::uint64_t edges = 0;
   double texels = 0.0, texels_squared = 0.0, pixels_squared = 0.0;
+
+  void add(double moved_texels, double offset_pixels) {
+    ++edges;
+    texels += moved_texels;
+    texels_squared += moved_texels * moved_texels;
+    pixels_squared += offset_pixels * offset_pixels;
+  }
+  void add(const EdgeSums& other) {
+    edges += other.edges;
+    texels += other.texels;
+    texels_squared += other.texels_squared;
+    pixels_squared += other.pixels_squared;
+  }
+  EdgeStats stats() const {
+    EdgeStats out;
+    out.edges = edges;
+    if (edges == 0) return out;
+    const auto n = static_cast<double>(edges);
+    out.mean_texels = texels / n;
+    out.rms_texels = std::sqrt(texels_squared / n);
+    out.rms_pixels = std::sqrt(pixels_squared / n);
+    return out;
+  }
 };
 
 struct EdgeWalk {
@@ -43,20 +66,42 @@ struct EdgeWalk {
     return length > 0.0 ? sum / length : Vec2(0.0);
   }
 
-  // Walks from the edge into the side that is drawn wrong there, until it is drawn right again; the offset in
-  // pixels, or infinity. `end` is the pixel where the walk ended.
-  double walk(Vec2 from, Vec2 direction, bool expected_lit, std::uint32_t own, std::size_t& end) const {
+  // Walks from the edge into one side of it, as far as that side goes: visit(pixel, offset in pixels) until
+  // it returns true.
+  template <class Visit>
+  void follow(Vec2 from, Vec2 direction, bool truly_lit, std::uint32_t own, const Visit& visit) const {
     for (double s = 0.5 * step; s <= reach; s += step) {
       const Vec2 p = from + s * direction;
       const int x = static_cast<int>(std::floor(p.x));
       const int y = static_cast<int>(std::floor(p.y));
-      if (!usable(x, y)) return infinity;
+      if (!usable(x, y)) return;
       const std::size_t i = labels.index(x, y);
-      if (object(i) != own || lit(truth, i) != expected_lit) return infinity;
-      end = i;
-      if (lit(record.visibility, i) == expected_lit) return s - 0.5 * step;
+      if (object(i) != own || lit(truth, i) != truly_lit) return;
+      if (visit(i, s - 0.5 * step)) return;
     }
-    return infinity;
+  }
+
+  // Into the side that is drawn wrong there, until it is drawn right again; the offset in pixels, or
+  // infinity. `end` is the pixel where the walk ended.
+  double walk(Vec2 from, Vec2 direction, bool expected_lit, std::uint32_t own, std::size_t& end) const {
+    double found = infinity;
+    follow(from, direction, expected_lit, own, [&](std::size_t i, double offset) {
+      end = i;
+      const bool right = lit(record.visibility, i) == expected_lit;
+      if (right) found = offset;
+      return right;
+    });
+    return found;
+  }
+
+  static Vec2 middle_of(int px, int py, int qx, int qy) {
+    return {0.5 * (px + qx) + 0.5, 0.5 * (py + qy) + 0.5};
+  }
+  Vec2 start_uv(int px, int py, int qx, int qy) const {
+    return 0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy)));
+  }
+  double moved_texels(const Vec2& start, std::size_t end) const {
+    return glm::length(Vec2(record.texel_uv.data[end]) - start);
   }
 
   // Offset of the drawn edge at a true edge between pixels p (shadowed) and q (lit).
@@ -65,30 +110,34 @@ struct EdgeWalk {
     const std::uint32_t own = object(p);
     const Vec2 normal = towards_light(px, py);
     if (normal == Vec2(0.0)) return;
-    const Vec2 middle(0.5 * (px + qx) + 0.5, 0.5 * (py + qy) + 0.5);
+    const Vec2 middle = middle_of(px, py, qx, qy);
     std::size_t end = p;
     double offset = walk(middle, normal, true, own, end);
     if (offset == 0.0) offset = -walk(middle, -normal, false, own, end);
     if (!std::isfinite(offset)) return;
-    const Vec2 start_uv = 0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy)));
-    const double moved = offset == 0.0 ? 0.0 : glm::length(Vec2(record.texel_uv.data[end]) - start_uv);
-    const double texels = std::copysign(moved, offset);
-    ++sums.edges;
-    sums.texels += texels;
-    sums.texels_squared += texels * texels;
-    sums.pixels_squared += offset * offset;
+    const double moved = offset == 0.0 ? 0.0 : moved_texels(start_uv(px, py, qx, qy), end);
+    sums.add(std::copysign(moved, offset), offset);
   }
 
-  void measure_pair(int px, int py, int qx, int qy, EdgeSums& sums) const {
+  // act(shadowed pixel, lit pixel) where a true edge runs between two neighbours.
+  template <class Act>
+  void at_edge(int px, int py, int qx, int qy, const Act& act) const {
     if (!usable(px, py) || !usable(qx, qy)) return;
     const std::size_t p = labels.index(px, py);
     const std::size_t q = labels.index(qx, qy);
     if (lit(truth, p) == lit(truth, q) || object(p) != object(q)) return;
     if (record.face.data[p] != record.face.data[q]) return;
     if (lit(truth, p))
-      measure(qx, qy, px, py, sums);
+      act(qx, qy, px, py);
     else
-      measure(px, py, qx, qy, sums);
+      act(px, py, qx, qy);
+  }
+  template <class Act>
+  void at_edges_of_row(int y, const Act& act) const {
+    for (int x = 0; x < labels.size.width; ++x) {
+      at_edge(x, y, x + 1, y, act);
+      at_edge(x, y, x, y + 1, act);
+    }
   }
 };
 
@@ -99,26 +148,82 @@ EdgeStats measure_edges(const raster::RasterFrame& drawn, const raster::LightRec
   const EdgeWalk walk{drawn, record, truth, labels, world};
   std::vector<EdgeSums> rows(static_cast<std::size_t>(labels.size.height));
   tbb::parallel_for(0, labels.size.height, [&](int y) {
-    for (int x = 0; x < labels.size.width; ++x) {
-      walk.measure_pair(x, y, x + 1, y, rows[static_cast<std::size_t>(y)]);
-      walk.measure_pair(x, y, x, y + 1, rows[static_cast<std::size_t>(y)]);
-    }
+    EdgeSums& sums = rows[static_cast<std::size_t>(y)];
+    walk.at_edges_of_row(y, [&](int px, int py, int qx, int qy) { walk.measure(px, py, qx, qy, sums); });
   });
   EdgeSums all;
-  for (const EdgeSums& row : rows) {
-    all.edges += row.edges;
-    all.texels += row.texels;
-    all.texels_squared += row.texels_squared;
-    all.pixels_squared += row.pixels_squared;
+  for (const EdgeSums& row : rows) all.add(row);
+  return all.stats();
+}
+
+EdgePaths::EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord& record,
+                     const Image<float>& truth, const Image<Label>& labels, const World& world) {
+  const EdgeWalk walk{drawn, record, truth, labels, world};
+  const auto count = [&] { return static_cast<std::uint32_t>(stops_.size()); };
+  const auto add_edge = [&](int px, int py, int qx, int qy) {
+    const Vec2 normal = walk.towards_light(px, py);
+    if (normal == Vec2(0.0)) return;
+    const std::uint32_t own = walk.object(labels.index(px, py));
+    const Vec2 middle = EdgeWalk::middle_of(px, py, qx, qy), start = walk.start_uv(px, py, qx, qy);
+    Edge edge{count(), 0, 0};
+    // Only a pixel whose gap undercuts (on the shadowed side: exceeds) all before it can end a walk.
+    float record_gap = std::numeric_limits<float>::infinity();
+    walk.follow(middle, normal, true, own, [&](std::size_t i, double offset) {
+      const float gap = record.gap.data[i];
+      if (gap < record_gap || (std::isnan(gap) && record_gap > -std::numeric_limits<float>::infinity())) {
+        // NaN exceeds no bias: drawn lit at every one.
+        record_gap = std::isnan(gap) ? -std::numeric_limits<float>::infinity() : gap;
+        stops_.push_back({record_gap, offset, walk.moved_texels(start, i)});
+      }
+      return false;
+    });
+    edge.turn = count();
+    record_gap = -std::numeric_limits<float>::infinity();
+    walk.follow(middle, -normal, false, own, [&](std::size_t i, double offset) {
+      const float gap = record.gap.data[i];
+      if (gap > record_gap) stops_.push_back({record_gap = gap, offset, walk.moved_texels(start, i)});
+      return false;
+    });
+    edge.end = count();
+    edges_.push_back(edge);
+  };
+  for (int y = 0; y < labels.size.height; ++y) {
+    walk.at_edges_of_row(y, add_edge);
+    row_ends_.push_back(static_cast<std::uint32_t>(edges_.size()));
   }
-  EdgeStats stats;
-  stats.edges = all.edges;
-  if (all.edges == 0) return stats;
-  const auto n = static_cast<double>(all.edges);
-  stats.mean_texels = all.texels / n;
-  stats.rms_texels = std::sqrt(all.texels_squared / n);
-  stats.rms_pixels = std::sqrt(all.pixels_squared / n);
-  return stats;
+}
+
+EdgeStats EdgePaths::at(float bias) const {
+  EdgeSums all;
+  std::size_t next = 0;
+  for (const std::uint32_t row_end : row_ends_) {
+    EdgeSums row;
+    for (; next < row_end; ++next) {
+      const Edge& edge = edges_[next];
+      const auto begin = stops_.begin();
+      const auto lit = std::find_if(begin + edge.first, begin + edge.turn,
+                                    [bias](const Stop& stop) { return !(stop.gap > bias); });
+      if (lit == begin + edge.turn) continue;
+      if (lit->offset_pixels != 0.0) {
+        row.add(lit->moved_texels, lit->offset_pixels);
+        continue;
+      }
+      const auto dark = std::find_if(begin + edge.turn, begin + edge.end,
+                                     [bias](const Stop& stop) { return stop.gap > bias; });
+      if (dark == begin + edge.end) continue;
+      const bool moved = dark->offset_pixels != 0.0;
+      row.add(moved ? -dark->moved_texels : -0.0, -dark->offset_pixels);
+    }
+    all.add(row);
+  }
+  return all.stats();
+}
+
+std::optional<double> detachment_distance(const raytrace::Tracer& tracer, const Light& light,
+                                          const raytrace::SurfacePoint& x) {
+  const auto occluder = tracer.nearest_occluder(x, light);
+  if (!occluder) return std::nullopt;
+  return occluder->t * glm::length(glm::cross(light_at(light, x.position).to_light, x.normal));
 }
 
 Detachment measure_detachment(const raytrace::Tracer& tracer, const Light& light,
@@ -127,14 +232,11 @@ Detachment measure_detachment(const raytrace::Tracer& tracer, const Light& light
   double sum = 0.0;
   for (std::size_t i = 0; i < labels.data.size(); ++i) {
     if (labels.data[i] != Label::peter_panning) continue;
-    const raytrace::SurfacePoint& x = receivers.data[i];
-    const auto occluder = tracer.nearest_occluder(x, light);
-    if (!occluder) continue;
-    const double sine = glm::length(glm::cross(light_at(light, x.position).to_light, x.normal));
-    const double distance = occluder->t * sine;
+    const auto distance = detachment_distance(tracer, light, receivers.data[i]);
+    if (!distance) continue;
     ++out.pixels;
-    sum += distance;
-    out.max_world = std::max(out.max_world, distance);
+    sum += *distance;
+    out.max_world = std::max(out.max_world, *distance);
   }
   if (out.pixels > 0) out.mean_world = sum / static_cast<double>(out.pixels);
   return out;

@@ -1,6 +1,8 @@
 // How far the drawn shadow's edges lie from the true ones.
 #pragma once
 
+#include <optional>
+
 #include "compare/comparison.h"
 
 namespace gnomon::compare {
@@ -13,10 +15,36 @@ namespace gnomon::compare {
 EdgeStats measure_edges(const raster::RasterFrame& drawn, const raster::LightRecord& record,
                         const Image<float>& truth, const Image<Label>& labels, const World& world);
 
+/// The same for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed
+/// the bias: each walk is made once and keeps the pixels that can end it.
+class EdgePaths {
+ public:
+  /// `labels`: which pixels are compared, and no more.
+  EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord& record, const Image<float>& truth,
+            const Image<Label>& labels, const World& world);
+  EdgeStats at(float bias) const;
+
+ private:
+  struct Stop {
+    float gap;
+    double offset_pixels, moved_texels;
+  };
+  /// Stops [first, turn) on the lit side, gaps falling; [turn, end) on the shadowed side, gaps rising.
+  struct Edge {
+    std::uint32_t first, turn, end;
+  };
+  std::vector<Stop> stops_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> row_ends_;  ///< into edges_
+};
+
 /// Distance along the receiver between each pixel that the bias wrongly lights next to its caster
 /// (peter_panning) and the occluder that should shadow it: t sin(angle between light and normal) for the
 /// nearest occluder at t.
 Detachment measure_detachment(const raytrace::Tracer& tracer, const Light& light,
                               const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+/// Of one pixel; none where nothing occludes it.
+std::optional<double> detachment_distance(const raytrace::Tracer& tracer, const Light& light,
+                                          const raytrace::SurfacePoint& receiver);
 
 }  // namespace gnomon::compare

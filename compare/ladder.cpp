@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <optional>
+
 #include "compare/biased_test.h"
 #include "compare/columns.h"
 #include "compare/labelling.h"
@@ -97,37 +99,44 @@ float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const Tex
   return lit(!(own > depth_from_stored(map.view, stored)));
 }
 
-// V5: the technique's bias, in double precision.
-float biased_rung(const LadderInput& in, const SurfacePoint& receiver, std::size_t pixel,
-                  std::size_t& lookup) {
-  const Vec3 to_light = light_at(in.light, receiver.position).to_light;
-  const double gap = biased_gap(in.record, in.drawn.options.map.bias, to_light, receiver, pixel, lookup);
-  return lit(!(gap > in.record.bias_constant_world));
-}
-
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float truth = out.rungs[0].data[pixel];
   const float drawn = in.record.visibility.data[pixel];
-  out.rungs[1].data[pixel] = truth;
   for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
   if (std::abs(drawn - truth) > 0.5f) out.labels.data[pixel] = Label::outside_map;
 }
 
-void climb_pixel(const LadderInput& in, const Column& column, const TexelCentre& centre, std::size_t texel,
-                 std::size_t pixel, Climb& out) {
+void climb_lower(const Column& column, const TexelCentre& centre, std::size_t texel, std::size_t pixel,
+                 LowerClimb& out) {
+  const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  std::size_t lookup = texel;
-  std::array<float, rung_count> v{};
-  v[0] = lit(in.truth.verdict.data[pixel] == Verdict::lit);
-  v[1] = v[0];
-  v[2] = texel_rung(in, column, receiver, centre);
-  v[3] = flat_rung(in, receiver, centre);
-  v[4] = stored_rung(in, receiver, centre, texel, v[3]);
-  v[5] = biased_rung(in, receiver, pixel, lookup);
-  v[6] = in.record.visibility.data[pixel];
-  for (std::size_t k = 0; k < rung_count; ++k) out.rungs[k].data[pixel] = v[k];
-  if (std::abs(v[6] - v[0]) > 0.5f)
-    out.labels.data[pixel] = label_wrong_pixel(in, column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
+  const float truth = lit(in.truth.verdict.data[pixel] == Verdict::lit);
+  const float flat = flat_rung(in, receiver, centre);
+  out.rungs[0].data[pixel] = truth;
+  out.rungs[1].data[pixel] = truth;
+  out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
+  out.rungs[3].data[pixel] = flat;
+  out.rungs[4].data[pixel] = stored_rung(in, receiver, centre, texel, flat);
+}
+
+bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
+  return std::abs(in.record.visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
+}
+
+// V5 and V6 of one texel's pixels. The column is looked at only where some pixel is wrong.
+void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t group, Climb& out) {
+  std::optional<Column> column;
+  for (const std::uint32_t pixel : lower.groups[group]) {
+    std::size_t lookup = texel_of_group(lower, group);
+    const double gap = gap_with_bias(in, pixel, lookup);
+    out.rungs[5].data[pixel] = lit(!(gap > in.record.bias_constant_world));
+    out.rungs[6].data[pixel] = in.record.visibility.data[pixel];
+    if (!drawn_wrong(in, out, pixel)) continue;
+    std::array<float, rung_count> v{};
+    for (std::size_t k = 0; k < rung_count; ++k) v[k] = out.rungs[k].data[pixel];
+    if (!column) column = lower.columns->column(group);
+    out.labels.data[pixel] = label_wrong_pixel(in, *column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
+  }
 }
 
 std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
@@ -139,27 +148,56 @@ std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
 
 }  // namespace
 
-Climb climb(const LadderInput& in, Image<Label> sorted) {
-  Climb out;
-  for (auto& rung : out.rungs) rung = Image<float>(sorted.size, 1.0f);
-  out.labels = std::move(sorted);
-  const std::vector<std::uint32_t> pixels = compared_pixels(out.labels);
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
-    out.rungs[0].data[pixels[i]] = lit(in.truth.verdict.data[pixels[i]] == Verdict::lit);
-    raytrace::TexelKey key;
-    if (!texel_of_pixel(in.record, pixels[i], key)) climb_outside(in, pixels[i], out);
-  });
+std::size_t texel_of_group(const LowerClimb& lower, std::size_t group) {
+  const raytrace::TexelKey key = lower.groups.keys[group];
+  return lower.input.record.map.texel_index(key.face(), key.column(), key.row());
+}
 
-  const TexelGroups groups = group_by_texel(in.record, pixels);
+double gap_with_bias(const LadderInput& in, std::size_t pixel, std::size_t& lookup) {
+  const SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  const Vec3 to_light = light_at(in.light, receiver.position).to_light;
+  return biased_gap(in.record, in.drawn.options.map.bias, to_light, receiver, pixel, lookup);
+}
+
+LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
+    : input(in), sorted(std::move(to_compare)) {
+  for (auto& rung : rungs) rung = Image<float>(sorted.size, 1.0f);
+  const std::vector<std::uint32_t> pixels = compared_pixels(sorted);
+  for (const std::uint32_t pixel : pixels) {
+    raytrace::TexelKey key;
+    if (texel_of_pixel(in.record, pixel, key)) continue;
+    outside.push_back(pixel);
+    rungs[0].data[pixel] = rungs[1].data[pixel] = lit(in.truth.verdict.data[pixel] == Verdict::lit);
+  }
+  groups = group_by_texel(in.record, pixels);
   const std::vector<TexelCentre> centres = trace_centres(in, groups.keys);
-  const ColumnSet columns(in, groups, centres);
+  columns = std::make_unique<ColumnSet>(input, groups, centres);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
-    const raytrace::TexelKey key = groups.keys[g];
-    const std::size_t texel = in.record.map.texel_index(key.face(), key.column(), key.row());
-    const Column column = columns.column(g);
-    for (const std::uint32_t pixel : groups[g]) climb_pixel(in, column, centres[g], texel, pixel, out);
+    const Column column = columns->column(g);
+    for (const std::uint32_t pixel : groups[g])
+      climb_lower(column, centres[g], texel_of_group(*this, g), pixel, *this);
   });
+}
+
+LowerClimb::~LowerClimb() = default;
+
+Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
+  Climb out{lower.rungs, lower.sorted};
+  tbb::parallel_for(std::size_t{0}, lower.outside.size(),
+                    [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
+  const std::size_t count = lower.groups.keys.size();
+  std::vector<char> wrong(count, 0);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
+    for (const std::uint32_t pixel : lower.groups[g])
+      wrong[g] |= static_cast<char>(drawn_wrong(in, out, pixel));
+  });
+  lower.columns->add(wrong);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) { climb_group(lower, in, g, out); });
   return out;
+}
+
+Climb climb(const LadderInput& in, Image<Label> sorted) {
+  return climb_up(LowerClimb(in, std::move(sorted)), in);
 }
 
 }  // namespace gnomon::compare

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "compare/comparison.h"
@@ -31,8 +32,36 @@ struct Climb {
   Image<Label> labels;
 };
 
+class ColumnSet;
+
+/// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4, and
+/// the columns that they look up. Frames of one light that were drawn with the same map share it.
+struct LowerClimb {
+  /// `sorted`: label `right` on what is to be compared. The parts of `input` must outlive this.
+  LowerClimb(const LadderInput& input, Image<Label> sorted);
+  ~LowerClimb();
+  LowerClimb(const LowerClimb&) = delete;
+  LowerClimb& operator=(const LowerClimb&) = delete;
+
+  LadderInput input;
+  Image<Label> sorted;
+  std::array<Image<float>, rung_count> rungs;  ///< V5 and V6 are 1, and V2 … V4 of pixels outside the map
+  std::vector<std::uint32_t> outside;          ///< compared pixels whose own texel lies outside the map
+  TexelGroups groups;                          ///< the other compared pixels
+  std::unique_ptr<ColumnSet> columns;
+};
+
+/// V5 and V6 of `input`, and the labels of its wrong pixels. `input` may hold another frame than `lower` was
+/// made from, as long as light, truth and map are the same.
+Climb climb_up(const LowerClimb& lower, const LadderInput& input);
+
 /// Climbs the compared pixels (label `right` on entry) and labels the wrong ones.
 Climb climb(const LadderInput& input, Image<Label> sorted);
+
+/// Index in the map of the texel that a group's pixels look up.
+std::size_t texel_of_group(const LowerClimb& lower, std::size_t group);
+/// The gap of rung V5 of one pixel, in double precision (biased_test.h). `lookup`: the texel looked up.
+double gap_with_bias(const LadderInput& input, std::size_t pixel, std::size_t& lookup);
 
 /// The step at which |V - V0| last rose above one half; requires a wrong pixel.
 Cause deciding_step(const std::array<float, rung_count>& rungs);

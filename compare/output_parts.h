@@ -1,9 +1,9 @@
-// What the writers of result.json, CSV, summary and report share: the records of one light, and the mean of
-// each rung.
+// What the writers of result.json, CSV, summary and report share: the records of one light.
 #pragma once
 
-#include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "compare/comparison.h"
 
@@ -19,9 +19,6 @@ inline const Light& light_of(const Comparison& c, const LightComparison& light) 
   return c.world->scene->lights[light.light];
 }
 
-/// Mean visibility of each rung over compared pixels; 0 where none is compared.
-std::array<double, rung_count> rung_means(const LightComparison& light);
-
 /// A light's name as a part of a file name, unique among the lights compared.
 std::string light_file_part(const Comparison& comparison, const LightComparison& light);
 /// Where one light's channels go: `path` itself, or with "-NAME" before the extension when there are several
@@ -31,5 +28,16 @@ std::string aov_path(const Comparison& comparison, const LightComparison& light,
 /// The text of result.json with these times in place of the comparison's own (the writer knows how long
 /// writing took).
 std::string result_json(const Comparison& comparison, double report_ms, double total_ms);
+
+/// Names and values of a sweep's axes.
+using AxisValues = std::vector<std::pair<std::string, std::string>>;
+/// result.json on one line, with "axes" and without times (every one is "not timed"), so that the same
+/// setting gives the same bytes; ends with a line break.
+std::string result_line(const Comparison& comparison, const AxisValues& axes);
+/// The object "axes" of that line, as its JSON text.
+std::string axes_text(const AxisValues& axes);
+/// The times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
+/// these are; `cell_ms`: what making the cell took.
+std::string times_line(const Comparison& comparison, std::size_t cell, bool derived, double cell_ms);
 
 }  // namespace gnomon::compare

@@ -65,6 +65,7 @@ void add_errors(Row& row, const LightComparison& light) {
   row.emplace_back("mean_absolute", number(light.error.mean_absolute));
   row.emplace_back("rms", number(light.error.rms));
   row.emplace_back("flip", number(light.error.flip));
+  row.emplace_back("ssim", number(light.error.ssim));
   for (std::size_t k = 0; k < class_count; ++k)
     count(fmt::format("{}_pixels", label_name(static_cast<Label>(k + 1))), light.classes[k]);
   for (std::size_t k = 0; k < cause_count; ++k) {

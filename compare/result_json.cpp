@@ -2,6 +2,7 @@
 // (compare/report/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
 // not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
 // which the schema allows only where it has a meaning.
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "compare/option_names.h"
@@ -72,7 +73,8 @@ Json error_json(const ErrorStats& e) {
           {"missed_shadow", e.missed_shadow},
           {"mean_absolute", number(e.mean_absolute)},
           {"rms", number(e.rms)},
-          {"flip", number(e.flip)}};
+          {"flip", number(e.flip)},
+          {"ssim", number(e.ssim)}};
 }
 
 Json budget_json(const LightComparison& light) {
@@ -87,7 +89,7 @@ Json budget_json(const LightComparison& light) {
 Json ladder_json(const LightComparison& light) {
   constexpr std::array<const char*, rung_count> names{"truth",  "point",  "texel", "flat",
                                                       "stored", "biased", "drawn"};
-  const auto means = rung_means(light);
+  const auto means = light.rung_mean;
   Json json = Json::array();
   for (std::size_t k = 0; k < rung_count; ++k)
     json.push_back({{"rung", names[k]}, {"mean", number(means[k])}});
@@ -119,6 +121,22 @@ Json best_bias_json(const BestBias& b) {
           {"shadowed_pixels_below", b.shadowed_pixels_below}};
 }
 
+Json distribution_json(const Distribution& d) {
+  return {{"count", d.count},
+          {"median", number(d.median)},
+          {"p90", number(d.p90)},
+          {"p99", number(d.p99)},
+          {"max", number(d.max)}};
+}
+
+Json theory_json(const TheoryStats& t) {
+  return {{"acne_free_bias", distribution_json(t.acne_free_bias)},
+          {"aliasing", distribution_json(t.aliasing)},
+          {"perspective", distribution_json(t.perspective)},
+          {"projection", distribution_json(t.projection)},
+          {"measured_aliasing", distribution_json(t.measured_aliasing)}};
+}
+
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
@@ -140,6 +158,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
             {"max_world", number(light.detachment.max_world)}}},
           {"bias_curve", bias_curve_json(light)},
           {"best_bias", best_bias_json(light.best_bias)},
+          {"theory", theory_json(light.theory)},
           {"shadow_rays", truth.rays},
           {"times_ms",
            {{"map_pass", times(drawn.map_pass)},
@@ -175,51 +194,103 @@ Json costs_json(const Comparison& c) {
           {"reflection_rays", rays.reflection}, {"refraction_rays", rays.refraction}};
 }
 
+Json result_object(const Comparison& c, double report_ms, double total_ms) {
+  Json lights = Json::array();
+  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
+  return {{"schema", "gnomon/result/1"},
+          {"command", c.command},
+          {"version", program_version()},
+          {"seed", c.seed},
+          {"threads", c.threads},
+          {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
+          {"exposure", number(c.exposure)},
+          {"scene", scene_json(*c.world)},
+          {"machine", {{"cpu", c.machine.cpu}, {"cores", c.machine.cores}, {"os", c.machine.os}}},
+          {"gl",
+           {{"backend", c.raster.context.backend},
+            {"version", c.raster.context.version},
+            {"renderer", c.raster.context.renderer}}},
+          {"effects", effects_json(c.plan)},
+          {"costs", costs_json(c)},
+          {"times_ms",
+           {{"load", one_time(c.load_ms)},
+            {"accel_build", one_time(c.accel_build_ms)},
+            {"primary_rays", times(c.raytraced.primary_rays)},
+            {"picture", one_time(c.raytraced.picture_ms)},
+            {"report", one_time(report_ms)},
+            {"total", one_time(total_ms)}}},
+          {"lights", std::move(lights)}};
+}
+
+// Every time inside becomes "not timed".
+void drop_times(Json& json) {
+  for (auto& [key, member] : json.items()) {
+    if (key != "times_ms") {
+      if (member.is_structured()) drop_times(member);
+      continue;
+    }
+    for (auto& time : member) time = times({});
+  }
+}
+
+// A number where the text is one, "on" and "off" as truth values, else the text.
+Json axis_value(const std::string& text) {
+  if (text == "on" || text == "off") return text == "on";
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  if (!whole) return text;
+  const bool integer = value == std::floor(value) && std::abs(value) < 1e15;
+  return integer ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+Json axes_object(const AxisValues& axes) {
+  Json json = Json::object();
+  for (const auto& [name, value] : axes) json[name] = axis_value(value);
+  return json;
+}
+
+// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
+  return dumped(result_object(c, report_ms, total_ms), 2);
+}
+
+std::string result_line(const Comparison& c, const AxisValues& axes) {
+  Json json = result_object(c, 0.0, 0.0);
+  drop_times(json);
+  json["axes"] = axes_object(axes);
+  return dumped(json, -1);
+}
+
+std::string axes_text(const AxisValues& axes) {
+  return axes_object(axes).dump();
+}
+
+std::string times_line(const Comparison& c, std::size_t cell, bool derived, double cell_ms) {
   Json lights = Json::array();
-  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
-  const Json json{
-      {"schema", "gnomon/result/1"},
-      {"command", c.command},
-      {"version", program_version()},
-      {"seed", c.seed},
-      {"threads", c.threads},
-      {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
-      {"exposure", number(c.exposure)},
-      {"scene", scene_json(*c.world)},
-      {"machine", {{"cpu", c.machine.cpu}, {"cores", c.machine.cores}, {"os", c.machine.os}}},
-      {"gl",
-       {{"backend", c.raster.context.backend},
-        {"version", c.raster.context.version},
-        {"renderer", c.raster.context.renderer}}},
-      {"effects", effects_json(c.plan)},
-      {"costs", costs_json(c)},
-      {"times_ms",
-       {{"load", one_time(c.load_ms)},
-        {"accel_build", one_time(c.accel_build_ms)},
-        {"primary_rays", times(c.raytraced.primary_rays)},
-        {"picture", one_time(c.raytraced.picture_ms)},
-        {"report", one_time(report_ms)},
-        {"total", one_time(total_ms)}}},
-      {"lights", std::move(lights)}};
-  // Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const LightComparison& light : c.lights)
+    lights.push_back({{"light", light_of(c, light).name},
+                      {"map_pass", times(drawn_record(c, light).map_pass)},
+                      {"shade_pass", times(drawn_record(c, light).shade_pass)},
+                      {"shadow_rays", times(true_record(c, light).shadow_rays)},
+                      {"classify", times(light.classify)}});
+  return dumped({{"cell", cell},
+                 {"derived", derived},
+                 {"cell_ms", number(cell_ms)},
+                 {"primary_rays", times(c.raytraced.primary_rays)},
+                 {"picture", one_time(c.raytraced.picture_ms)},
+                 {"lights", std::move(lights)}},
+                -1);
 }
 
 std::string result_json(const Comparison& c) {
   return result_json(c, c.report_ms, c.total_ms);
-}
-
-std::array<double, rung_count> rung_means(const LightComparison& light) {
-  std::array<double, rung_count> sums{};
-  for (std::size_t k = 0; k < rung_count; ++k)
-    for (std::size_t i = 0; i < light.labels.data.size(); ++i)
-      if (is_compared(light.labels.data[i])) sums[k] += static_cast<double>(light.rungs[k].data[i]);
-  if (light.pixels.compared > 0)
-    for (double& sum : sums) sum /= static_cast<double>(light.pixels.compared);
-  return sums;
 }
 
 }  // namespace gnomon::compare

@@ -121,6 +121,16 @@ std::string median_text(const Times& t) {
   return milliseconds(t.runs.empty() ? -1.0 : t.median());
 }
 
+// The closed forms beside what was found.
+void add_theory(Page& page, const TheoryStats& t) {
+  page.field("theory",
+             fmt::format("half the pixels need a bias below {} against acne, 99 % below {}",
+                         plain_number(t.acne_free_bias.median), plain_number(t.acne_free_bias.p99)));
+  page.field("", fmt::format("a texel is {} pixels wide in the median ({} measured), {} at 99 %",
+                             plain_number(t.aliasing.median), plain_number(t.measured_aliasing.median),
+                             plain_number(t.aliasing.p99)));
+}
+
 // What the time bought: an approximation by the map, or the exact answer by rays.
 void add_times(Page& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
@@ -142,6 +152,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
     page.field("budget", budget_line(light));
+    add_theory(page, light.theory);
   }
   add_times(page, c, light);
 }

@@ -32,6 +32,7 @@ struct Bias {
   /// between normal and light) (Holbein 2010).
   double normal_offset_texels = 0.0;
   bool receiver_plane = false;  ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
+  bool operator==(const Bias&) const = default;
 };
 
 struct MapOptions {
@@ -40,6 +41,7 @@ struct MapOptions {
   DepthFormat depth_format = DepthFormat::d32f;
   Cull cull = Cull::none;
   Bias bias;
+  bool operator==(const MapOptions&) const = default;
 };
 
 struct RasterOptions {
@@ -48,6 +50,7 @@ struct RasterOptions {
   int runs = 3;  ///< timed repetitions of each pass after one warm-up; 0: render once, untimed
   bool analysis =
       true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
+  bool operator==(const RasterOptions&) const = default;
 };
 
 }  // namespace gnomon::raster

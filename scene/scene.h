@@ -103,6 +103,7 @@ struct Light {
   Vec3f intensity{1.0f};     ///< directional: irradiance at normal incidence; point, spot: radiant intensity
   double inner_angle = 0.0;  ///< spot: half-angle of full intensity
   double outer_angle = pi / 4.0;  ///< spot: half-angle where the light ends; inner < outer < pi/2
+  bool operator==(const Light&) const = default;
 };
 
 /// Pinhole camera.
@@ -111,6 +112,7 @@ struct Camera {
   Vec3 target{0.0};
   Vec3 up{0.0, 1.0, 0.0};
   double vertical_fov = pi / 4.0;  ///< full angle, in (0, pi)
+  bool operator==(const Camera&) const = default;
 };
 
 struct Scene {

@@ -13,8 +13,8 @@
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/output_path.h"
-#include "app/pose_options.h"
 #include "app/session.h"
+#include "app/setting.h"
 #include "compare/outputs.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
@@ -25,12 +25,11 @@ namespace {
 
 struct CompareCommand {
   std::string scene, folder, json, aov;
-  compare::CompareOptions options;
+  SettingOptions setting;
   raster::Backend backend = raster::Backend::automatic;
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
   std::optional<double> fail_above;
-  PoseOptions poses;
   std::uint64_t seed = 0;
   int threads = 0;
   bool quiet = false;
@@ -52,14 +51,15 @@ constexpr double bytes_per_pixel_and_light = 57.0;
 
 Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
                                                  Console& console) {
-  const auto lights = choose_lights(*loaded.scene, command.options.light);
+  const auto lights = choose_lights(*loaded.scene, command.setting.options.light);
   if (!lights) return fail(lights.error());
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
-  if (const auto fits = check_memory(command.options.raster.size, bytes); !fits) return fail(fits.error());
+  if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
+    return fail(fits.error());
   const auto renderer = make_renderer(command.backend, loaded);
   if (!renderer) return fail(renderer.error());
   auto comparison =
-      compare::compare_world(*loaded.world, **renderer, command.options,
+      compare::compare_world(*loaded.world, **renderer, command.setting.options,
                              [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!comparison) return comparison;
   comparison->command = command.command_line;
@@ -121,14 +121,16 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (command.folder.empty()) command.folder = default_output(command.scene);
-  if (command.runs) command.options.raster.runs = command.options.raytrace.runs = *command.runs;
-  command.options.raytrace.size = command.options.raster.size;
+  if (command.runs)
+    command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
+  command.setting.options.raytrace.size = command.setting.options.raster.size;
 
   if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
   const auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
-  const auto posed = apply_poses(command.poses, command.options.light, *loaded->scene, *loaded->world);
+  const auto posed =
+      apply_poses(command.setting.poses, command.setting.options.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
   auto comparison = render_and_compare(command, *loaded, console);
   if (!comparison) return fail(comparison.error());
@@ -149,17 +151,12 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_output(
       app, "-o,--output", command.folder, "DIR",
       "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");
-  add_size(app, command.options.raster.size);
-  add_map_options(app, command.options.raster.map);
-  add_light(app, command.options.light, "compare this light only");
-  add_pose_options(app, command.poses);
-  add_tracer_options(app, command.options.accel);
-  add_min_contribution(app, command.options.raytrace.min_contribution);
+  add_setting_options(app, command.setting);
   add_backend(app, command.backend);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs,
-           fmt::format("{} for shadow maps, {} for rays", command.options.raster.runs,
-                       command.options.raytrace.runs)
+           fmt::format("{} for shadow maps, {} for rays", command.setting.options.raster.runs,
+                       command.setting.options.raytrace.runs)
                .c_str());
   add_exposure(app, command.exposure);
   add_seed(app, command.seed, "recorded in the result; nothing is random yet");

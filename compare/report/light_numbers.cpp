@@ -86,7 +86,7 @@ std::string texel_fact(const LightBlock& b) {
 }  // namespace
 
 std::string ladder_block(const LightBlock& b) {
-  const auto means = rung_means(b.light);
+  const auto means = b.light.rung_mean;
   std::string rows;
   for (std::size_t k = 0; k < rung_count; ++k) {
     const RungText& rung = rung_text(static_cast<Rung>(k));
@@ -129,6 +129,10 @@ std::string facts_block(const LightBlock& b) {
          fact("FLIP", fact_value(b, "error.flip", error.flip),
               "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
               "entirely") +
+         (std::isfinite(error.ssim)
+              ? fact("SSIM", fact_value(b, "error.ssim", error.ssim),
+                     "how alike the structure of the two visibility pictures is: 1 the same")
+              : std::string()) +
          fact("Mean error", fact_value(b, "error.mean_absolute", error.mean_absolute),
               fmt::format("mean |<i>V</i><sub>6</sub> \u2212 <i>V</i><sub>0</sub>|; root mean square {}",
                           fact_value(b, "error.rms", error.rms))) +

@@ -117,7 +117,7 @@ minus true. Left is darker, right lighter.</p>
 }  // namespace
 
 std::string budget_table(const LightComparison& light, std::size_t index) {
-  const auto means = rung_means(light);
+  const auto means = light.rung_mean;
   // The scale spans every running sum, so that each bar starts where the last one ended.
   std::array<double, cause_count + 1> running{};
   for (std::size_t k = 0; k < cause_count; ++k) running[k + 1] = running[k] + light.budget[k].signed_mean;

@@ -45,13 +45,6 @@ std::string hash_source(std::string_view block) {
   return "'sha256-" + base64(digest) + "'";
 }
 
-// Nothing may be loaded, sent or run but the page's own images, style and script.
-std::string security_policy(const Template& page) {
-  return fmt::format(
-      "default-src 'none'; img-src data:; style-src {}; script-src {}; base-uri 'none'; form-action 'none'",
-      hash_source(page.style), hash_source(page.script));
-}
-
 std::string title(const Comparison& c) {
   std::string text = c.world->scene->name;
   if (c.lights.size() == 1 && c.lights[0].pixels.compared > 0)
@@ -66,7 +59,7 @@ std::string head(const Comparison& c, const Template& page) {
 <meta name="color-scheme" content="light dark">
 <title>{}</title>
 <link rel="icon" href="data:,">)",
-      security_policy(page), escaped(title(c)));
+      page_security_policy(page.style, page.script), escaped(title(c)));
 }
 
 std::string navigation(const Comparison& c) {
@@ -82,6 +75,16 @@ href="#provenance">Provenance</a></li>)";
 }
 
 }  // namespace
+
+std::string page_security_policy(std::string_view style, std::string_view script) {
+  return fmt::format(
+      "default-src 'none'; img-src data:; style-src {}; script-src {}; base-uri 'none'; form-action 'none'",
+      hash_source(style), hash_source(script));
+}
+
+std::string_view page_style() {
+  return page_template().style;
+}
 
 std::string report_page(const PageInput& in) {
   const Comparison& c = in.comparison;

@@ -20,6 +20,13 @@ struct PageInput {
   double total_ms = 0.0;
 };
 
+/// The content-security policy of a page with this style and script, each in one inline block: nothing may be
+/// loaded, sent or run but these and the page's own images.
+std::string page_security_policy(std::string_view style, std::string_view script);
+
+/// The style of the built page, for other pages to share.
+std::string_view page_style();
+
 /// The whole page.
 std::string report_page(const PageInput& input);
 

@@ -1,0 +1,48 @@
+// gnomon merge: the shards of a sweep put together, as if it had been made in one go.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "compare/sweep/merge.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct MergeCommand {
+  std::vector<std::string> shards;
+  std::string folder;
+  bool quiet = false;
+};
+
+Expected<ExitCode> run_merge(const MergeCommand& command) {
+  Console console(command.quiet);
+  if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
+  const OutputGuard whole_outputs;
+  const auto cells = compare::merge_sweeps(command.shards, command.folder);
+  if (!cells) return fail(cells.error());
+  console.message(fmt::format("sweep: {}/report.html, {} cells from {} shards", command.folder, *cells,
+                              command.shards.size()));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand("merge", "Put the shards of a sweep together.");
+  app->footer("gnomon merge part1 part2 part3 -o whole");
+  const auto command = std::make_shared<MergeCommand>();
+  app->add_option("SHARD", command->shards, "folders written by gnomon sweep --shard")->required();
+  app->add_option("-o,--output", command->folder, "folder for the whole sweep")->required()->type_name("DIR");
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_merge(*command); }; });
+}
+
+}  // namespace gnomon::app

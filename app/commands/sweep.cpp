@@ -1,0 +1,382 @@
+// gnomon sweep: many settings of compare in one process, what does not change being made once.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/session.h"
+#include "app/shell.h"
+#include "app/sweep/axes.h"
+#include "app/sweep/slurm.h"
+#include "app/values.h"
+#include "compare/output_parts.h"
+#include "compare/sweep/journal.h"
+#include "compare/sweep/merge.h"
+#include "compare/sweep/page.h"
+#include "scene/files/image_io.h"
+#include "scene/files/write_file.h"
+#include "scene/timing.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr int thumbnail_width = 256;  // pixels
+
+struct SweepCommand {
+  std::string scene, folder;
+  SweepOptions options;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<int> runs;
+  std::optional<std::optional<double>> exposure;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  compare::Shard shard;
+  std::optional<int> slurm_tasks;
+  bool zip = false, perceptual = false, restart = false, quiet = false;
+};
+
+/// The cells of a shard, and what the journal must know of each.
+struct Plan {
+  compare::Grid grid;
+  std::vector<std::size_t> cells;
+  std::vector<std::string> axes;
+};
+
+compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell) {
+  compare::AxisValues values;
+  const std::vector<std::size_t> at = grid.position(cell);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    std::string name = grid.axes()[k].name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    values.emplace_back(std::move(name), grid.axes()[k].values[at[k]]);
+  }
+  return values;
+}
+
+/// Cells that differ from the one before in the constant bias alone stay with it: they come from one drawing.
+bool shares_drawing(const compare::Grid& grid, std::size_t cell) {
+  if (cell == 0) return false;
+  const std::vector<std::size_t> a = grid.position(cell - 1), b = grid.position(cell);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (grid.axes()[k].name != "bias" && a[k] != b[k]) return false;
+  return true;
+}
+
+Expected<Plan> make_plan(const SweepCommand& command) {
+  auto grid = command.options.grid(command.zip);
+  if (!grid) return fail(grid.error());
+  Plan plan{std::move(*grid), {}, {}};
+  int drawing = -1;
+  for (std::size_t cell = 0; cell < plan.grid.cells(); ++cell) {
+    if (!shares_drawing(plan.grid, cell)) ++drawing;
+    if (drawing % command.shard.of + 1 != command.shard.part) continue;
+    plan.cells.push_back(cell);
+    plan.axes.push_back(compare::axes_text(axis_values(plan.grid, cell)));
+  }
+  return plan;
+}
+
+/// Everything that the lines hang on.
+std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene) {
+  using Json = nlohmann::ordered_json;
+  Json axes = Json::array(), fixed = Json::object();
+  for (const compare::Axis& axis : plan.grid.axes())
+    axes.push_back({{"name", axis.name}, {"values", axis.values}});
+  for (const auto& [name, value] : command.options.fixed()) fixed[name] = value;
+  Json exposure = nullptr;
+  if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
+  return Json{{"version", GNOMON_VERSION},
+              {"scene", {{"path", command.scene}, {"name", scene.name}, {"sha256", scene.sha256}}},
+              {"axes", axes},
+              {"zip", command.zip},
+              {"options", fixed},
+              {"exposure", exposure},
+              {"perceptual", command.perceptual},
+              {"runs", command.runs.value_or(1)},
+              {"seed", command.seed}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string exposure_argument(const SweepCommand& command) {
+  if (!command.exposure) return {};
+  return *command.exposure ? fmt::format(" --exposure {}", **command.exposure) : " --exposure auto";
+}
+
+std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
+  std::string text =
+      "gnomon compare " + shell_quoted(command.scene) + command.options.cell_arguments(plan.grid, cell);
+  text += exposure_argument(command);
+  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
+  return text;
+}
+
+std::string time_left(double ms, std::size_t done, std::size_t left) {
+  if (done == 0) return "";
+  const double seconds = ms / 1000.0 / double(done) * double(left);
+  if (seconds < 90.0) return fmt::format(", {:.0f} s left", seconds);
+  return seconds < 5400.0 ? fmt::format(", {:.0f} min left", seconds / 60.0)
+                          : fmt::format(", {:.1f} h left", seconds / 3600.0);
+}
+
+/// What stays the same for all cells.
+struct Workshop {
+  const SweepCommand& command;
+  const Plan& plan;
+  const LoadedScene& loaded;
+  Scene given;  ///< camera and lights as loaded
+  compare::MachineInfo machine;
+  compare::Engine& engine;
+  Console& console;
+};
+
+Expected<void> write_thumbnail(const Workshop& shop, std::size_t cell) {
+  const Expected<std::string> png = encode_png(shop.engine.thumbnail(thumbnail_width));
+  if (!png) return fail(png.error());
+  const OutputGuard whole_file;
+  return write_file(compare::thumbnail_path(shop.command.folder, cell), *png);
+}
+
+Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t index) {
+  const Stopwatch watch;
+  const std::size_t cell = shop.plan.cells[index];
+  auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
+  if (!options) return fail(options.error());
+  options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
+  auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
+  if (!setting) return fail(setting.error());
+  const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);
+  if (!compared) return fail(compared.error());
+  compare::Comparison& comparison = **compared;
+  comparison.command = compare_command(shop.command, shop.plan, cell);
+  comparison.seed = shop.command.seed;
+  comparison.machine = shop.machine;
+  const std::string line = compare::result_line(comparison, axis_values(shop.plan.grid, cell));
+  const std::string times =
+      compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
+  if (compare::has_thumbnail(cell, shop.plan.grid.cells())) {
+    if (auto written = write_thumbnail(shop, cell); !written) return written;
+  }
+  const OutputGuard whole_lines;
+  return journal.append(line, times);
+}
+
+Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
+  const Stopwatch watch;
+  const std::size_t all = shop.plan.cells.size(), before = journal.lines().size();
+  for (std::size_t i = before; i < all; ++i) {
+    shop.console.progress(
+        fmt::format("cell {} of {}{}", i + 1, all, time_left(watch.elapsed_ms(), i - before, all - i)),
+        double(i) / double(all));
+    if (auto made = make_cell(shop, journal, i); !made) return made;
+  }
+  return {};
+}
+
+Expected<void> discard(const std::string& folder) {
+  for (const char* name : {"sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "report.html"}) {
+    std::error_code error;
+    std::filesystem::remove(std::filesystem::path(folder) / name, error);
+    if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
+  }
+  std::error_code error;
+  std::filesystem::remove_all(std::filesystem::path(folder) / "thumbnails", error);
+  if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
+  return {};
+}
+
+/// The constant biases that the sweep runs through.
+std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
+  std::vector<raster::Bias> biases;
+  for (const compare::Axis& axis : grid.axes()) {
+    if (axis.name != "bias") continue;
+    for (const std::string& text : axis.values)
+      if (const auto value = parse_bias(text)) biases.push_back({value->constant, value->unit});
+  }
+  return biases;
+}
+
+Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
+                    compare::Journal& journal, Console& console) {
+  const auto renderer = make_renderer(command.backend, loaded);
+  if (!renderer) return fail(renderer.error());
+  compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
+  Workshop shop{command, plan, loaded, {}, machine_info(), engine, console};
+  shop.given.camera = loaded.scene->camera;
+  shop.given.lights = loaded.scene->lights;
+  if (auto made = make_output_folder(command.folder + "/thumbnails"); !made) return made;
+  if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
+  if (auto made = make_cells(shop, journal); !made) return made;
+  const compare::EngineWork& work = engine.work();
+  console.message(fmt::format("{} drawn, {} more from their gaps, {} traced, {} climbed", work.renders,
+                              work.derived, work.truths, work.lower_climbs));
+  return {};
+}
+
+/// The same sweep for a task of the array, without its folder and shard.
+std::string task_arguments(const SweepCommand& command) {
+  namespace fs = std::filesystem;
+  const bool is_file = fs::path(command.scene).has_extension();
+  std::string text = " " + shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene);
+  text += command.options.arguments() + exposure_argument(command);
+  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
+  if (command.runs) text += fmt::format(" --runs {}", *command.runs);
+  if (command.threads != 0) text += fmt::format(" --threads {}", command.threads);
+  if (command.backend != raster::Backend::automatic)
+    text += command.backend == raster::Backend::egl ? " --backend egl" : " --backend osmesa";
+  for (const auto& [given, name] :
+       {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
+        std::pair(command.restart, " --restart")})
+    if (given) text += name;
+  return text;
+}
+
+Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
+  Console console(command.quiet);
+  if (command.shard.of != 1)
+    return fail(ErrorKind::usage, "--slurm: it makes the shards itself; leave out --shard");
+  if (const auto plan = make_plan(command); !plan) return fail(plan.error());
+  if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
+  std::error_code error;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  if (error) return fail(ErrorKind::graphics, "--slurm: cannot find the program itself: " + error.message());
+  const std::string folder = std::filesystem::absolute(command.folder).lexically_normal().string();
+  const std::string script = folder + "/slurm.sh";
+  const int tasks = *command.slurm_tasks;
+  if (const auto written = write_file(script, slurm_script(program, task_arguments(command), folder, tasks));
+      !written)
+    return fail(written.error());
+  console.message(fmt::format("submitting {} tasks, then waiting for them", tasks));
+  if (const auto done = run_slurm_array(script, folder, tasks); !done) return fail(done.error());
+  const OutputGuard whole_outputs;
+  if (command.restart) {
+    if (auto gone = discard(folder); !gone) return fail(gone.error());
+  }
+  const auto cells = compare::merge_sweeps(shard_folders(folder, tasks), folder);
+  if (!cells) return fail(cells.error());
+  console.message(fmt::format("sweep: {}/report.html, {} cells", command.folder, *cells));
+  return ExitCode::done;
+}
+
+Expected<ExitCode> run_sweep(SweepCommand& command) {
+  const Stopwatch total;
+  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then an error of write()
+  if (command.slurm_tasks) {
+    if (command.folder.empty()) command.folder = default_output(command.scene) + "-sweep";
+    return run_on_slurm(command);
+  }
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  if (command.folder.empty()) command.folder = default_output(command.scene) + "-sweep";
+  auto plan = make_plan(command);
+  if (!plan) return fail(plan.error());
+  if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
+  auto loaded = load(command.scene, console);
+  if (!loaded) return fail(loaded.error());
+  if (command.exposure) loaded->scene->exposure = *command.exposure;
+  if (command.restart) {
+    if (auto gone = discard(command.folder); !gone) return fail(gone.error());
+  }
+  const compare::SweepHeader header =
+      compare::make_header(configuration(command, *plan, *loaded->scene), plan->grid.cells(), command.shard);
+  auto journal = compare::Journal::open(command.folder, header, plan->axes, plan->cells);
+  if (!journal) return fail(journal.error());
+  if (journal->was_torn()) console.note("the last line was torn; its cell is made anew");
+  if (!journal->lines().empty())
+    console.message(
+        fmt::format("{} of {} cells are there already", journal->lines().size(), plan->cells.size()));
+  if (journal->lines().size() < plan->cells.size()) {
+    if (auto filled = fill(command, *plan, *loaded, *journal, console); !filled) return fail(filled.error());
+  }
+  {
+    const OutputGuard whole_page;
+    if (auto written = compare::write_sweep_page(command.folder); !written) return fail(written.error());
+  }
+  console.message(fmt::format("sweep: {}/report.html, {} cells, {:.1f} s", command.folder, plan->cells.size(),
+                              total.elapsed_ms() / 1000.0));
+  return ExitCode::done;
+}
+
+Expected<compare::Shard> parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto wrong = [&text] {
+    return fail(ErrorKind::usage, fmt::format("not a shard (got {}, allowed 1/N to N/N)", text));
+  };
+  if (slash == std::string::npos) return wrong();
+  const auto of = parse_integer(text.substr(slash + 1), 1, 10000);
+  if (!of) return wrong();
+  const auto part = parse_integer(text.substr(0, slash), 1, *of);
+  if (!part) return wrong();
+  return compare::Shard{static_cast<int>(*part), static_cast<int>(*of)};
+}
+
+void add_options(CLI::App& app, SweepCommand& command) {
+  add_scene(app, command.scene);
+  add_output(app, "-o,--output", command.folder, "DIR",
+             "folder for report.html, sweep.jsonl, sweep.csv and the times; a sweep that was interrupted "
+             "there goes on "
+             "[default out/NAME-sweep]");
+  command.options.add_to(app);
+  app.add_flag("--zip", command.zip,
+               "take the first values of all lists, then the second ones, … instead of all combinations "
+               "[default off]");
+  app.add_option_function<std::string>(
+         "--shard",
+         [&command](const std::string& text) {
+           const auto shard = parse_shard(text);
+           if (!shard) throw CLI::ValidationError("--shard", shard.error().reason);
+           command.shard = *shard;
+         },
+         "make the K-th of N shares of the cells; gnomon merge puts the folders together [1/N to N/N; "
+         "default "
+         "1/1]")
+      ->type_name("K/N");
+  app.add_option_function<std::string>(
+         "--slurm",
+         [&command](const std::string& text) {
+           const auto tasks = parse_integer(text, 1, 10000);
+           if (!tasks) throw CLI::ValidationError("--slurm", tasks.error().reason);
+           command.slurm_tasks = static_cast<int>(*tasks);
+         },
+         "submit the sweep as a job array of N shards through sbatch, wait, and merge them; DIR must be on a "
+         "file "
+         "system that the nodes share [tasks, 1 to 10000; default none]")
+      ->type_name("N");
+  app.add_flag("--perceptual", command.perceptual,
+               "also FLIP and SSIM for every cell, which cost more than all the rest [default off]");
+  app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
+  add_backend(app, command.backend);
+  add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
+  add_runs(app, command.runs, "1");
+  add_exposure(app, command.exposure);
+  add_seed(app, command.seed, "recorded in the results; nothing is random yet");
+  add_quiet(app, command.quiet);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "sweep",
+      "Compare at many settings. Each option of compare takes a list (128,512), a range of COUNT values "
+      "(START:END:COUNT) or a range by a factor (START:END:xFACTOR); every combination is one cell.");
+  app->footer(
+      "gnomon sweep fence --bias 0:0.1:64                   64 biases from one drawing\n"
+      "gnomon sweep courtyard --map-size 128:8192:x2 --slope-bias 0,1,2 -o sizes\n"
+      "gnomon sweep model.glb --camera-orbit 0,30:330,30:12    a path around it\n"
+      "gnomon sweep model.glb --map-size 256,512 --bias 0.5texel,1texel --zip");
+  const auto command = std::make_shared<SweepCommand>();
+  add_options(*app, *command);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_sweep(*command); }; });
+}
+
+}  // namespace gnomon::app

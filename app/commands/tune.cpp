@@ -1,0 +1,303 @@
+// gnomon tune: the cheapest setting that is good enough, as a command line.
+#include "compare/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/session.h"
+#include "app/shell.h"
+#include "app/sweep/axes.h"
+#include "app/values.h"
+#include "compare/number_text.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
+
+struct TuneCommand {
+  std::string scene, json;
+  SweepOptions options;
+  compare::TuneGoal goal;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<int> runs;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// A family and the options that make it.
+struct Family {
+  compare::TuneFamily tuned;
+  Values values;
+};
+
+bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
+  const auto named = [&](const auto& entry) { return entry.first == name; };
+  return std::any_of(fixed.begin(), fixed.end(), named) ||
+         std::any_of(grid.axes().begin(), grid.axes().end(),
+                     [&](const auto& axis) { return axis.name == name; });
+}
+
+/// What is tried of the options that nothing was said about.
+std::vector<Values> default_kinds() {
+  return {
+      {}, {{"slope-bias", "1"}}, {{"normal-offset", "1"}}, {{"receiver-plane", "on"}}, {{"cull", "front"}}};
+}
+
+std::string family_name(const Values& values) {
+  std::string name;
+  bool kind = false;
+  for (const auto& [option, value] : values) {
+    kind = kind || option != "technique";
+    name +=
+        (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
+  }
+  return kind ? name : name + ", constant bias alone";
+}
+
+/// Everything fixed, with the values of one family.
+Expected<Family> make_family(Values values, const Values& fixed) {
+  Values all = fixed;
+  all.insert(all.end(), values.begin(), values.end());
+  const auto parsed = parse_setting(all);
+  if (!parsed) return fail(parsed.error());
+  return Family{{family_name(values), parsed->options.raster.map}, std::move(values)};
+}
+
+/// The combinations of what was given as lists, and of the defaults where nothing was given.
+Expected<std::vector<Family>> make_families(const TuneCommand& command) {
+  const auto grid = command.options.grid(false);
+  if (!grid) return fail(grid.error());
+  const Values fixed = command.options.fixed();
+  std::vector<compare::Axis> axes;
+  for (const compare::Axis& axis : grid->axes())
+    if (axis.name != "map-size") axes.push_back(axis);
+  if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", technique_names()});
+  std::vector<Values> kinds = default_kinds();
+  for (const char* name : {"slope-bias", "normal-offset", "receiver-plane", "cull"})
+    if (is_given(fixed, *grid, name)) kinds = {{}};
+  const auto product = compare::Grid::make(axes, false);
+  if (!product) return fail(product.error());
+  std::vector<Family> families;
+  for (std::size_t cell = 0; cell < product->cells(); ++cell)
+    for (const Values& kind : kinds) {
+      Values values;
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        values.emplace_back(axes[k].name, product->value(k, cell));
+      values.insert(values.end(), kind.begin(), kind.end());
+      auto family = make_family(std::move(values), fixed);
+      if (!family) return fail(family.error());
+      families.push_back(std::move(*family));
+    }
+  return families;
+}
+
+/// --map-size as a list, or the powers of two from 64 to what the context allows.
+Expected<std::vector<int>> choose_sizes(const TuneCommand& command, int limit) {
+  const auto grid = command.options.grid(false);
+  if (!grid) return fail(grid.error());
+  std::vector<std::string> texts;
+  for (const compare::Axis& axis : grid->axes())
+    if (axis.name == "map-size") texts = axis.values;
+  for (const auto& [name, value] : command.options.fixed())
+    if (name == "map-size") texts = {value};
+  if (texts.empty())
+    for (int size = 64; size <= std::min(limit, 8192); size *= 2) texts.push_back(std::to_string(size));
+  std::vector<int> sizes;
+  for (const std::string& text : texts) sizes.push_back(std::stoi(text));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
+/// Only options of the map may have several values.
+Expected<void> check_lists(const TuneCommand& command) {
+  const auto grid = command.options.grid(false);
+  if (!grid) return fail(grid.error());
+  const std::vector<std::string> allowed = map_setting_names();
+  for (const compare::Axis& axis : grid->axes())
+    if (std::find(allowed.begin(), allowed.end(), axis.name) == allowed.end() || axis.name == "bias")
+      return fail(ErrorKind::usage,
+                  fmt::format("--{}: one value only; the tuner varies the map's options", axis.name));
+  if (is_given(command.options.fixed(), *grid, "bias"))
+    return fail(ErrorKind::usage, "--bias: the tuner finds the constant bias itself");
+  if (command.goal.max_error.has_value() == command.goal.max_time_ms.has_value())
+    return fail(ErrorKind::usage, "one goal is needed: --max-error SHARE or --max-time MS");
+  return {};
+}
+
+/// The options of an answer, in the order that compare takes them.
+Values answer_values(const TuneCommand& command, const Family& family, const compare::Attempt& attempt) {
+  Values values;
+  for (const auto& entry : command.options.fixed())
+    if (entry.first != "map-size") values.push_back(entry);
+  values.insert(values.end(), family.values.begin(), family.values.end());
+  values.emplace_back("map-size", std::to_string(attempt.size));
+  values.emplace_back("bias", number_text(attempt.bias_world));
+  return values;
+}
+
+const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+
+struct Answer {
+  const TuneCommand& command;
+  const std::vector<Family>& families;
+  const compare::TuneResult& result;
+
+  std::string line(std::size_t family) const {
+    return "gnomon compare " + shell_quoted(command.scene) +
+           setting_arguments(answer_values(command, families[family], attempt_of(result.families[family])));
+  }
+  /// The other families: of each technique the best first.
+  std::vector<std::size_t> others() const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < result.families.size(); ++i)
+      if (i != result.winner) order.push_back(i);
+    const auto rank = [&](std::size_t i) {
+      const compare::FamilyResult& f = result.families[i];
+      const compare::Attempt& a = attempt_of(f);
+      const bool by_time = command.goal.max_error.has_value() == f.answer.has_value();
+      return std::pair(!f.answer.has_value(), by_time ? a.time_ms : a.error);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
+    return order;
+  }
+};
+
+std::string text_answer(const Answer& answer) {
+  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
+  std::string text = answer.line(answer.result.winner) + "\n\n" +
+                     (answer.result.feasible ? "" : "The goal cannot be met. ") +
+                     fmt::format("{}: {}\n", winner.family.name, winner.why);
+  text += fmt::format("{} drawings were made.\n", answer.result.renders);
+  const std::vector<std::size_t> others = answer.others();
+  if (!others.empty()) text += "\nThe others:\n";
+  for (const std::size_t i : others)
+    text += fmt::format("  {}: {}\n", answer.result.families[i].family.name, answer.result.families[i].why);
+  return text;
+}
+
+std::string json_answer(const Answer& answer) {
+  using Json = nlohmann::ordered_json;
+  const auto block = [&answer](std::size_t i) {
+    const compare::FamilyResult& family = answer.result.families[i];
+    const compare::Attempt& attempt = attempt_of(family);
+    Json options = Json::object();
+    for (const auto& [name, value] : answer_values(answer.command, answer.families[i], attempt))
+      options[name] = value;
+    return Json{{"command", answer.line(i)},  {"technique", options.value("technique", std::string("hard"))},
+                {"options", options},         {"error", attempt.error},
+                {"time_ms", attempt.time_ms}, {"feasible", family.answer.has_value()},
+                {"why", family.why}};
+  };
+  Json json = block(answer.result.winner);
+  json["feasible"] = answer.result.feasible;
+  json["renders"] = answer.result.renders;
+  json["others"] = Json::array();
+  for (const std::size_t i : answer.others()) json["others"].push_back(block(i));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Expected<void> hand_out(const TuneCommand& command, const Answer& answer) {
+  if (command.json == "-") {
+    print_data(json_answer(answer));
+    return {};
+  }
+  if (!command.quiet) print_data(text_answer(answer));
+  if (command.json.empty()) return {};
+  const OutputGuard whole_file;
+  return write_file(command.json, json_answer(answer));
+}
+
+Expected<ExitCode> run_tune(TuneCommand& command) {
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  if (const auto checked = check_lists(command); !checked) return fail(checked.error());
+  const auto families = make_families(command);
+  if (!families) return fail(families.error());
+  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
+  auto loaded = load(command.scene, console);
+  if (!loaded) return fail(loaded.error());
+  const auto parsed = parse_setting(command.options.fixed());
+  if (!parsed) return fail(parsed.error());
+  auto setting = resolve_setting(*parsed, *loaded->scene, *loaded->world);
+  if (!setting) return fail(setting.error());
+  setting->raster.runs = command.runs.value_or(setting->raster.runs);
+  setting->raytrace.picture = false;
+  const auto renderer = make_renderer(command.backend, *loaded);
+  if (!renderer) return fail(renderer.error());
+  const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
+  if (!sizes) return fail(sizes.error());
+  compare::TuneOptions options{command.goal, {}, *sizes};
+  for (const Family& family : *families) options.families.push_back(family.tuned);
+  compare::Engine engine(*loaded->scene, *loaded->world, **renderer, false);
+  const auto result = compare::tune(
+      engine, *setting, options, [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
+        const double share = double(renders) / double(3 * options.families.size() + 1);
+        console.progress(fmt::format("{}, {} texels", family.name, size), share);
+      });
+  if (!result) return fail(result.error());
+  if (const auto out = hand_out(command, {command, *families, *result}); !out) return fail(out.error());
+  return result->feasible ? ExitCode::done : ExitCode::threshold_exceeded;
+}
+
+template <class Value, class Parse>
+void add_goal(CLI::App& app, const std::string& name, const char* type, const std::string& text,
+              std::optional<Value>& goal, const Parse& parse) {
+  app.add_option_function<std::string>(
+         name,
+         [&goal, name, parse](const std::string& value) {
+           const Expected<Value> parsed = parse(value);
+           if (!parsed) throw CLI::ValidationError(name, parsed.error().reason);
+           goal = *parsed;
+         },
+         text)
+      ->type_name(type);
+}
+
+}  // namespace
+
+void add_tune(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand("tune",
+                                         "Find the cheapest shadow map that is good enough, or the best that "
+                                         "is cheap enough, and say why the others "
+                                         "are not. The map's options take lists, as in sweep: what is given "
+                                         "restricts the search. Exit code 1 when the "
+                                         "goal cannot be met.");
+  app->footer(
+      "gnomon tune fence --max-error 0.5%\n"
+      "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2\n"
+      "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
+  const auto command = std::make_shared<TuneCommand>();
+  add_scene(*app, command->scene);
+  add_goal(
+      *app, "--max-error", "SHARE",
+      "the largest share of wrong pixels that is good enough [0% to 100%, or 0 to 1; this or --max-time]",
+      command->goal.max_error, [](const std::string& text) { return parse_share(text); });
+  add_goal(*app, "--max-time", "MS",
+           fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",
+                       range_text(time_range)),
+           command->goal.max_time_ms, [](const std::string& text) { return parse_number(text, time_range); });
+  command->options.add_to(*app);
+  add_backend(*app, command->backend);
+  add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
+  add_runs(*app, command->runs, std::to_string(raster::RasterOptions{}.runs).c_str());
+  add_json(*app, command->json, "the answer");
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_tune(*command); }; });
+}
+
+}  // namespace gnomon::app

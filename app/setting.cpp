@@ -1,0 +1,51 @@
+#include "app/setting.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/options.h"
+#include "app/session.h"
+
+namespace gnomon::app {
+
+void add_setting_options(CLI::App& command, SettingOptions& setting) {
+  compare::CompareOptions& options = setting.options;
+  add_size(command, options.raster.size);
+  add_map_options(command, options.raster.map);
+  add_light(command, options.light, "compare this light only");
+  add_pose_options(command, setting.poses);
+  add_tracer_options(command, options.accel);
+  add_min_contribution(command, options.raytrace.min_contribution);
+}
+
+std::vector<std::string> map_setting_names() {
+  CLI::App command;
+  command.set_help_flag();
+  raster::MapOptions map;
+  add_map_options(command, map);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) names.push_back(option->get_lnames().front());
+  return names;
+}
+
+Expected<compare::Setting> resolve_setting(const SettingOptions& from, const Scene& given,
+                                           const World& world) {
+  compare::Setting setting;
+  setting.raster = from.options.raster;
+  setting.raytrace = from.options.raytrace;
+  setting.raytrace.size = setting.raster.size;
+  setting.accel = from.options.accel;
+  const auto compared = choose_lights(given, from.options.light);
+  if (!compared) return fail(compared.error());
+  setting.compared = *compared;
+  // Poses need the scene's camera and lights alone.
+  Scene posed;
+  posed.camera = given.camera;
+  posed.lights = given.lights;
+  const auto applied = apply_poses(from.poses, from.options.light, posed, world);
+  if (!applied) return fail(applied.error());
+  setting.camera = posed.camera;
+  setting.lights = std::move(posed.lights);
+  return setting;
+}
+
+}  // namespace gnomon::app

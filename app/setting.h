@@ -1,0 +1,28 @@
+// The options that say what is compared: those that `compare` takes once and `sweep` and `tune` vary.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pose_options.h"
+#include "compare/sweep/engine.h"
+
+namespace gnomon::app {
+
+struct SettingOptions {
+  compare::CompareOptions options;
+  PoseOptions poses;
+};
+
+/// --size, the map's options, --light, the poses, the ray tracer's options.
+void add_setting_options(CLI::App& command, SettingOptions& setting);
+
+/// The names (without "--") of the options that choose what is drawn with the map alone: a sweep varies them
+/// faster than those that change the truth.
+std::vector<std::string> map_setting_names();
+
+/// What a comparison needs to know. `given` is the scene as it was loaded.
+Expected<compare::Setting> resolve_setting(const SettingOptions& setting, const Scene& given,
+                                           const World& world);
+
+}  // namespace gnomon::app

@@ -1,0 +1,155 @@
+// CLI11 throws; what is thrown here is caught in command_line.cpp and never leaves this room.
+#include "app/sweep/axes.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/shell.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+/// compare's own parser for one setting.
+struct Parser {
+  CLI::App app;
+  SettingOptions setting;
+  Parser() {
+    app.set_help_flag();
+    add_setting_options(app, setting);
+  }
+};
+
+bool is_flag(const CLI::Option& option) {
+  return option.get_items_expected_max() == 0;
+}
+
+compare::ValueKind value_kind(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  if (is_flag(option) || type == "NAME" || type == "SIDE") return compare::ValueKind::word;
+  return type.find(',') == std::string::npos ? compare::ValueKind::number : compare::ValueKind::numbers;
+}
+
+Expected<bool> parse_switch(const std::string& name, const std::string& value) {
+  if (value == "on" || value == "off") return value == "on";
+  return fail(ErrorKind::usage, fmt::format("--{}: unknown value (got {}, allowed on, off)", name, value));
+}
+
+/// Truth first, map second, constant bias last.
+int speed(const std::string& name, const std::vector<std::string>& map_names) {
+  if (name == "bias") return 2;
+  return std::find(map_names.begin(), map_names.end(), name) != map_names.end() ? 1 : 0;
+}
+
+std::string sweep_text(const CLI::Option& option) {
+  std::string text = option.get_description();
+  return is_flag(option) ? text + "; off or on" : text;
+}
+
+}  // namespace
+
+Expected<SettingOptions> parse_setting(const Values& values) {
+  Parser parser;
+  std::vector<std::string> arguments;  // CLI11 wants them last first
+  for (const auto& [name, value] : values) {
+    if (!is_flag(*parser.app.get_option("--" + name))) {
+      arguments.push_back("--" + name + "=" + value);
+      continue;
+    }
+    const Expected<bool> on = parse_switch(name, value);
+    if (!on) return fail(on.error());
+    if (*on) arguments.push_back("--" + name);
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    parser.app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    return fail(ErrorKind::usage, error.what());
+  }
+  return parser.setting;
+}
+
+std::string setting_arguments(const Values& values) {
+  std::string text;
+  for (const auto& [name, value] : values) {
+    if (value == "on" || value == "off")
+      text += value == "on" ? " --" + name : "";
+    else if (value.starts_with('-'))
+      text += fmt::format(" --{}={}", name, shell_quoted(value));
+    else
+      text += fmt::format(" --{} {}", name, shell_quoted(value));
+  }
+  return text;
+}
+
+void SweepOptions::add_to(CLI::App& command) {
+  const Parser model;
+  for (const CLI::Option* option : model.app.get_options()) {
+    Given& given = *given_.emplace_back(std::make_unique<Given>());
+    given.name = option->get_lnames().front();
+    given.flag = is_flag(*option);
+    given.kind = value_kind(*option);
+    const auto store = [&given](const std::string& text) {
+      const std::string name = "--" + given.name;
+      auto values = compare::expand_values(text, given.kind);
+      if (!values) throw CLI::ValidationError(name, values.error().reason);
+      for (const std::string& value : *values) {
+        const auto parsed = parse_setting({{given.name, value}});
+        if (!parsed) throw CLI::ValidationError(parsed.error().reason, CLI::ExitCodes::ValidationError);
+      }
+      given.values = std::move(*values);
+      given.text = text;
+    };
+    command.add_option_function<std::string>("--" + given.name, store, sweep_text(*option))
+        ->type_name(given.flag ? "off|on"
+                               : option->get_type_name() +
+                                     (given.kind == compare::ValueKind::numbers ? "/…" : ",…"));
+  }
+  const std::vector<std::string> map_names = map_setting_names();
+  std::stable_sort(given_.begin(), given_.end(), [&](const auto& a, const auto& b) {
+    return speed(a->name, map_names) < speed(b->name, map_names);
+  });
+}
+
+Expected<compare::Grid> SweepOptions::grid(bool zip) const {
+  std::vector<compare::Axis> axes;
+  for (const auto& given : given_)
+    if (given->values.size() > 1) axes.push_back({given->name, given->values});
+  return compare::Grid::make(std::move(axes), zip);
+}
+
+Values SweepOptions::fixed() const {
+  Values values;
+  for (const auto& given : given_)
+    if (given->values.size() == 1) values.emplace_back(given->name, given->values.front());
+  return values;
+}
+
+std::string SweepOptions::arguments() const {
+  std::string text;
+  for (const auto& given : given_)
+    if (!given->values.empty()) text += fmt::format(" --{}={}", given->name, shell_quoted(given->text));
+  return text;
+}
+
+Values SweepOptions::cell_values(const compare::Grid& grid, std::size_t cell) const {
+  Values values = fixed();
+  const std::vector<std::size_t> at = grid.position(cell);
+  for (std::size_t k = 0; k < at.size(); ++k)
+    values.emplace_back(grid.axes()[k].name, grid.axes()[k].values[at[k]]);
+  return values;
+}
+
+Expected<SettingOptions> SweepOptions::parse_cell(const compare::Grid& grid, std::size_t cell) const {
+  return parse_setting(cell_values(grid, cell));
+}
+
+std::string SweepOptions::cell_arguments(const compare::Grid& grid, std::size_t cell) const {
+  return setting_arguments(cell_values(grid, cell));
+}
+
+}  // namespace gnomon::app

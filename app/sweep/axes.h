@@ -1,0 +1,58 @@
+// The options of a sweep: those of `compare`, by the same names, each taking lists and ranges
+// (compare/sweep/axis.h). They are read off compare's own parser and every value is checked by it, so that
+// units, ranges and messages are the same and a new option is an axis by itself.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/setting.h"
+#include "compare/sweep/axis.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+/// What was given for each option, in the canonical order: what changes the truth first, then what changes
+/// the map, the constant bias last, so that cells which share work are neighbours.
+class SweepOptions {
+ public:
+  /// Registers every option of add_setting_options.
+  void add_to(CLI::App& command);
+
+  /// The options that were given several values.
+  Expected<compare::Grid> grid(bool zip) const;
+  /// The options that were given one value: name and value.
+  std::vector<std::pair<std::string, std::string>> fixed() const;
+
+  /// What was given, as it was given: " --bias 0:0.1:64", quoted for a shell.
+  std::string arguments() const;
+
+  /// The setting with the grid's values of one cell.
+  Expected<SettingOptions> parse_cell(const compare::Grid& grid, std::size_t cell) const;
+  /// " --map-size 512 --bias 0.01": what compare would be given for that cell.
+  std::string cell_arguments(const compare::Grid& grid, std::size_t cell) const;
+
+ private:
+  struct Given {
+    std::string name;  ///< without "--"
+    bool flag = false;
+    compare::ValueKind kind = compare::ValueKind::number;
+    std::string text;  ///< as it was given
+    std::vector<std::string> values;
+  };
+  std::vector<std::pair<std::string, std::string>> cell_values(const compare::Grid& grid,
+                                                               std::size_t cell) const;
+  std::vector<std::unique_ptr<Given>> given_;
+};
+
+/// Parses settings by compare's parser; the values are those of options by name. Errors are ErrorKind::usage.
+Expected<SettingOptions> parse_setting(const std::vector<std::pair<std::string, std::string>>& values);
+/// The same as arguments, quoted for a shell, with a blank before each.
+std::string setting_arguments(const std::vector<std::pair<std::string, std::string>>& values);
+
+}  // namespace gnomon::app

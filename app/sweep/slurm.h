@@ -1,0 +1,22 @@
+// A sweep as a Slurm job array: one shard per task, all in one folder that the nodes share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/expected.h"
+
+namespace gnomon::app {
+
+/// The batch script: task K of N writes DIR/shard-K. `arguments`: of gnomon sweep, quoted for a shell,
+/// without the folder. Paths are absolute.
+std::string slurm_script(const std::string& program, const std::string& arguments, const std::string& folder,
+                         int tasks);
+/// DIR/shard-1 … DIR/shard-N.
+std::vector<std::string> shard_folders(const std::string& folder, int tasks);
+
+/// Submits the script through sbatch and waits for all tasks. Errors are ErrorKind::graphics (resources): no
+/// sbatch, or a task that failed; its log is DIR/slurm-K.log.
+Expected<void> run_slurm_array(const std::string& script_path, const std::string& folder, int tasks);
+
+}  // namespace gnomon::app

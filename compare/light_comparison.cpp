@@ -1,0 +1,81 @@
+#include "compare/light_comparison.h"
+
+#include "compare/bias_curve.h"
+#include "compare/budget.h"
+#include "compare/edges.h"
+#include "compare/flip.h"
+#include "compare/ssim.h"
+#include "compare/theory.h"
+
+namespace gnomon::compare {
+namespace {
+
+// White lit, black shadowed, white where nothing is compared.
+Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels) {
+  Image<float> picture(visibility.size, 1.0f);
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    if (is_compared(labels.data[i])) picture.data[i] = visibility.data[i];
+  return picture;
+}
+
+ColorImage grey(const Image<float>& picture) {
+  ColorImage out(picture.size);
+  for (std::size_t i = 0; i < picture.data.size(); ++i) out.data[i] = Vec3f(picture.data[i]);
+  return out;
+}
+
+std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& labels) {
+  const LightView& view = in.record.map.view;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    if (!is_compared(labels.data[i])) continue;
+    const Vec3& x = in.traced.receiver.data[i].position;
+    sizes.push_back(texel_world_size(view, project_to_face(view, in.record.face.data[i], x).depth));
+    if (view.projection == LightProjection::orthographic) break;  // one size for all
+  }
+  if (sizes.empty()) return {};
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const auto [low, high] = std::minmax_element(sizes.begin(), sizes.end());
+  return {*low, *middle, *high};
+}
+
+}  // namespace
+
+void measure_pixels(LightComparison& light) {
+  light.pixels = count_pixels(light.labels);
+  light.classes = count_classes(light.labels);
+  light.error = measure_error(light.rungs, light.labels);
+  light.budget = add_up_budget(light.rungs, light.labels);
+  light.rung_mean = mean_rungs(light.rungs, light.labels);
+}
+
+void measure_perceptual(LightComparison& light) {
+  const Image<float> truth = visibility_picture(light.rungs[0], light.labels);
+  const Image<float> drawn = visibility_picture(light.rungs[6], light.labels);
+  light.error.flip = mean_flip(grey(truth), grey(drawn));
+  light.error.ssim = mean_ssim(truth, drawn);
+}
+
+LightComparison measure_light(const LadderInput& in, std::size_t record, Climb climbed,
+                              const MeasureOptions& options) {
+  LightComparison out;
+  out.light = in.record.light;
+  out.record = record;
+  out.rungs = std::move(climbed.rungs);
+  out.labels = std::move(climbed.labels);
+  measure_pixels(out);
+  if (options.perceptual) measure_perceptual(out);
+  const Image<float>& truth = out.rungs[0];
+  out.edges = measure_edges(in.drawn, in.record, truth, out.labels, in.world);
+  out.detachment = measure_detachment(in.tracer, in.light, in.traced.receiver, out.labels);
+  out.texel_world = texel_sizes(in, out.labels);
+  out.theory = predict(in, out.labels);
+  const GapLists gaps = sort_gaps(in.record, truth, out.labels);
+  out.best_bias = find_best_bias(gaps);
+  out.bias_curve = draw_bias_curve(gaps, out.texel_world[1], in.record.bias_constant_world,
+                                   out.best_bias.constant_world, options.bias_curve_points);
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,78 @@
+// The window separates, so each of the five local means is taken along rows and then along columns; rows run
+// in parallel and are added up in order, so that the result does not depend on the number of threads.
+#include "compare/ssim.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double sigma = 1.5;                         // pixels
+constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;  // (K1 L)^2 and (K2 L)^2 with L = 1
+constexpr std::size_t window = ssim_window;
+
+std::array<double, window> gaussian() {
+  std::array<double, window> weights{};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < window; ++i) {
+    const double x = static_cast<double>(i) - static_cast<double>(window / 2);
+    weights[i] = std::exp(-x * x / (2.0 * sigma * sigma));
+    sum += weights[i];
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+// Weighted means over a window: of x, y, x^2, y^2 and xy.
+using Moments = std::array<double, 5>;
+
+void add(Moments& sum, double weight, const Moments& value) {
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * value[k];
+}
+
+// Equation 13 of the paper.
+double similarity(const Moments& m) {
+  const double mean_product = m[0] * m[1], squares = m[0] * m[0] + m[1] * m[1];
+  const double variances = m[2] + m[3] - squares, covariance = m[4] - mean_product;
+  return (2.0 * mean_product + c1) * (2.0 * covariance + c2) / ((squares + c1) * (variances + c2));
+}
+
+}  // namespace
+
+Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
+  const ImageSize size = reference.size;
+  if (size.width < ssim_window || size.height < ssim_window) return {};
+  const auto weights = gaussian();
+  const ImageSize out_size{size.width - ssim_window + 1, size.height - ssim_window + 1};
+  Image<Moments> rows({out_size.width, size.height});
+  tbb::parallel_for(0, size.height, [&](int y) {
+    for (int x = 0; x < out_size.width; ++x)
+      for (std::size_t k = 0; k < window; ++k) {
+        const double a = reference.at(x + static_cast<int>(k), y), b = test.at(x + static_cast<int>(k), y);
+        add(rows.at(x, y), weights[k], {a, b, a * a, b * b, a * b});
+      }
+  });
+  Image<float> map(out_size);
+  tbb::parallel_for(0, out_size.height, [&](int y) {
+    for (int x = 0; x < out_size.width; ++x) {
+      Moments sum{};
+      for (std::size_t k = 0; k < window; ++k) add(sum, weights[k], rows.at(x, y + static_cast<int>(k)));
+      map.at(x, y) = static_cast<float>(similarity(sum));
+    }
+  });
+  return map;
+}
+
+double mean_ssim(const Image<float>& reference, const Image<float>& test) {
+  const Image<float> map = ssim_map(reference, test);
+  if (map.data.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0.0;
+  for (const float value : map.data) sum += static_cast<double>(value);
+  return sum / static_cast<double>(map.data.size());
+}
+
+}  // namespace gnomon::compare

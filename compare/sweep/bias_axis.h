@@ -1,0 +1,24 @@
+// Every constant bias of one drawing at once. A pixel is drawn lit from the bias on that reaches its gap, and
+// so is rung V5 from the double-precision gap on: along ascending biases a pixel passes through at most three
+// states, each with its own label. Adding up where states begin and end gives every number of every bias in
+// one pass over the pixels, to the last bit those of a comparison of its own.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/ladder.h"
+
+namespace gnomon::compare {
+
+/// All rungs below V5 are 0 or 1, so that every sum over pixels is exact in any order: false for lights with
+/// a size.
+bool biases_add_up(const LowerClimb& lower);
+
+/// What is said of the light at each bias (world units, in any order), without images. `drawn` is the
+/// comparison of the drawing as it was made; `input` holds that drawing.
+std::vector<LightComparison> compare_biases(const LowerClimb& lower, const LadderInput& input,
+                                            const LightComparison& drawn, std::span<const double> biases,
+                                            int bias_curve_points);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,158 @@
+#include "compare/sweep/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "compare/number_text.h"
+#include "compare/report/html.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double width = 760.0, height = 380.0;  // SVG units
+constexpr double left = 84.0, right = 24.0, top = 24.0, bottom = 52.0;
+
+// A logarithmic plot.
+struct Plot {
+  double min_x, max_x, min_y, max_y;
+
+  double x(double v) const {
+    return left + std::log(v / min_x) / std::log(max_x / min_x) * (width - left - right);
+  }
+  double y(double v) const {
+    const double inside = std::max(v, min_y);
+    return height - bottom - std::log(inside / min_y) / std::log(max_y / min_y) * (height - top - bottom);
+  }
+};
+
+// 1, 2 and 5 times the powers of ten inside; powers alone when the range is long.
+std::vector<double> log_ticks(double min, double max) {
+  const bool powers_only = max / min > 300.0;
+  std::vector<double> ticks;
+  for (double power = std::pow(10.0, std::floor(std::log10(min))); power <= max; power *= 10.0)
+    for (const double digit : {1.0, 2.0, 5.0})
+      if ((digit == 1.0 || !powers_only) && power * digit >= min && power * digit <= max)
+        ticks.push_back(power * digit);
+  return ticks;
+}
+
+std::string text(double x, double y, std::string_view kind, std::string_view content) {
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", kind, x, y, escaped(content));
+}
+
+std::string frame(const Plot& plot, const std::vector<double>& ticks_x, std::string_view unit_x) {
+  std::string out;
+  for (const double v : log_ticks(plot.min_y * 1.001, plot.max_y)) {
+    out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
+                       width - right, plot.y(v), plot.y(v));
+    out += text(left - 8, plot.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
+  }
+  out += text(left - 8, plot.y(plot.min_y) + 4, "tick end", "none");
+  for (const double v : ticks_x) {
+    out += fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>",
+                       plot.x(v), height - bottom + 4, height - bottom + 9);
+    out += text(plot.x(v), height - bottom + 24, "tick middle", fmt::format("{:.4g}", v));
+  }
+  return out + text(width - right, height - 8, "tick end", unit_x);
+}
+
+std::string svg(std::string_view title, const std::string& content) {
+  return fmt::format(
+      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}</svg>\n", width,
+      height, escaped(title), content);
+}
+
+// Half a pixel of all: what a logarithmic scale takes for none.
+double least_error(const std::vector<CellSummary>& cells) {
+  double least = 1.0;
+  for (const CellSummary& cell : cells)
+    least = std::min(least, 0.5 / static_cast<double>(std::max<std::uint64_t>(cell.compared, 1)));
+  return least;
+}
+
+double largest_error(const std::vector<CellSummary>& cells) {
+  double largest = 0.0;
+  for (const CellSummary& cell : cells) largest = std::max(largest, cell.wrong_fraction);
+  return largest;
+}
+
+std::string axes_text(const CellSummary& cell) {
+  std::string out;
+  for (const auto& [name, value] : cell.axes)
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
+  return out.empty() ? "the only cell" : out;
+}
+
+}  // namespace
+
+std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
+  if (front.empty()) return {};
+  const double rays = cells.front().rays_ms;
+  double low = rays, high = rays;
+  for (const CellSummary& cell : cells)
+    if (std::isfinite(cell.raster_ms))
+      low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
+  const double least = least_error(cells);
+  const Plot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(cells))};
+  std::string out = frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
+  std::string line;
+  for (const std::size_t i : front)
+    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(cells[i].raster_ms),
+                   plot.y(cells[i].wrong_fraction));
+  out += fmt::format("<polyline class=\"curve front\" points=\"{}\"/>", line);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const CellSummary& cell = cells[i];
+    if (!std::isfinite(cell.raster_ms)) continue;
+    const bool best = std::find(front.begin(), front.end(), i) != front.end();
+    out += fmt::format(
+        "<a href=\"#cell-{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {} wrong, "
+        "{}</title></circle></a>",
+        cell.cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.wrong_fraction),
+        best ? 5 : 3.5, escaped(axes_text(cell)), percent(cell.wrong_fraction), milliseconds(cell.raster_ms));
+  }
+  if (rays > 0.0) {
+    const double x = plot.x(rays), y = plot.y(least);
+    out += fmt::format(
+        "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>ray tracing: none wrong, "
+        "{2}</title></path>",
+        x, y - 7, milliseconds(rays));
+    out += text(std::min(x, width - right - 30), y - 12, "note middle", "ray tracing");
+  }
+  return svg("Wrong pixels against time, each cell a point, the best of them joined", out);
+}
+
+std::string size_chart(const std::vector<CellSummary>& cells) {
+  std::map<double, double> best;  // size -> least wrong fraction
+  for (const CellSummary& cell : cells) {
+    const auto [entry, first] = best.emplace(cell.map_size, cell.wrong_fraction);
+    if (!first) entry->second = std::min(entry->second, cell.wrong_fraction);
+  }
+  if (best.size() < 3) return {};
+  const double least = least_error(cells);
+  const Plot plot{best.begin()->first / 1.1, best.rbegin()->first * 1.1, least,
+                  std::max(4.0 * least, 1.5 * largest_error(cells))};
+  std::vector<double> sizes;
+  std::string line, dots;
+  for (const auto& [size, error] : best) {
+    sizes.push_back(size);
+    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(size), plot.y(error));
+    dots += fmt::format(
+        "<circle class=\"dot best-dot\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{:g} texels: {} "
+        "wrong</title></circle>",
+        plot.x(size), plot.y(error), size, percent(error));
+  }
+  std::string out = frame(plot, sizes, "texels on a side");
+  const double start = std::max(best.begin()->second, least), last = best.rbegin()->first;
+  const double end = start * best.begin()->first / last;
+  out += fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
+                     plot.x(best.begin()->first), plot.y(start), plot.x(last), plot.y(std::max(end, least)));
+  out += text(plot.x(last) - 6, plot.y(std::max(end, least)) + 18, "note end", "slope \u22121");
+  out += fmt::format("<polyline class=\"curve front\" points=\"{}\"/>", line) + dots;
+  return svg("Least share of wrong pixels against map size", out);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,20 @@
+// The sweep page's drawings as inline SVG, styled by report.css and sweep.css.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/sweep/summary.h"
+
+namespace gnomon::compare {
+
+/// Wrong pixels against milliseconds, both on logarithmic scales: every timed cell, the front, and the ray
+/// tracer. Errors of less than half a pixel in all that were compared stand on the lowest line, named "none".
+/// Empty when nothing is timed.
+std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front);
+
+/// Wrong pixels against map size, log-log, the best cell of each size, beside the slope -1 of a pure sampling
+/// error. Empty with fewer than three sizes.
+std::string size_chart(const std::vector<CellSummary>& cells);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,88 @@
+// One comparison after another at different settings, each from what the last one left: scene, hierarchy,
+// camera rays and truth as long as camera and lights stay; the lower rungs and their columns as long as the
+// depth maps stay; and a frame of another constant bias without drawing it at all (DESIGN.md section 3).
+#pragma once
+
+#include <memory>
+
+#include "compare/bias_curve.h"
+#include "compare/compare.h"
+
+namespace gnomon::compare {
+
+/// Everything that a cell of a sweep may change.
+struct Setting {
+  raster::RasterOptions raster;
+  raytrace::RaytraceOptions raytrace;
+  raytrace::Accel accel = raytrace::Accel::bvh;
+  Camera camera;
+  std::vector<Light> lights;            ///< as many as the scene has, of the same types
+  std::vector<std::uint32_t> compared;  ///< indices in `lights`
+};
+
+enum class Detail : std::uint8_t { numbers, images };
+
+/// What a sweep's cells cost in all.
+struct EngineWork {
+  std::uint64_t truths = 0;        ///< times that camera and shadow rays were traced
+  std::uint64_t renders = 0;       ///< frames drawn
+  std::uint64_t lower_climbs = 0;  ///< lights whose lower rungs were climbed
+  std::uint64_t derived = 0;       ///< frames of another constant bias made without drawing
+};
+
+/// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
+struct Probe {
+  std::uint64_t compared = 0, wrong = 0;  ///< pixels, all lights together
+  GapLists gaps;            ///< of all lights together; empty where biases do not follow from gaps
+  double bias_world = 0.0;  ///< the constant bias drawn with, of the first light
+  double raster_ms = 0.0;   ///< median times of the map and the shading passes, all lights
+};
+
+class Engine {
+ public:
+  /// `world` was made from `scene`, and `renderer` for both; all outlive the engine. The scene's camera and
+  /// lights are changed by compare(). `perceptual`: FLIP and SSIM too.
+  Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// The constant biases that the coming settings differ in, so that the numbers of all of them are made
+  /// together (bias_axis.h). Empty: none.
+  void expect_biases(std::vector<raster::Bias> biases);
+
+  /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
+  /// the caller's to complete (command, seed, machine). A frame that differs from the last drawn one in its
+  /// constant bias alone is not drawn: what it would show follows from the gaps. Its times and its picture
+  /// (RasterFrame::color) are those of the frame that it was made from. With Detail::numbers the images of
+  /// such a frame (visibility, rungs, labels) may be left out.
+  Expected<Comparison*> compare(const Setting& setting, Detail detail = Detail::images);
+
+  /// Draws at a setting and counts. A comparison that stood before is no longer valid.
+  Expected<Probe> probe(const Setting& setting);
+
+  /// The last comparison in small, `width` pixels wide (or as wide as the picture, if that is less): the
+  /// ray-traced picture in grey with false shadow and missed shadow of any light compared in their two
+  /// colours.
+  Rgb8Image thumbnail(int width) const;
+
+  /// The last comparison was derived.
+  bool last_was_derived() const;
+  const EngineWork& work() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
+/// constant bias follows from it.
+bool biases_follow_from_gaps(const raster::MapOptions& map);
+
+/// The constant bias in world units: `bias` itself, or its texels at the width that the rasterizer takes.
+double bias_in_world_units(const raster::Bias& bias, const LightView& view, const World& world);
+
+/// Turns a record into that of another constant bias. `primitive`: what each pixel shows.
+void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,109 @@
+// The grid of thumbnails. A thumbnail shows the ray-traced picture in grey with false shadow and missed
+// shadow in their two colours; under it stands the share of wrong pixels, so that colour never speaks alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/number_text.h"
+#include "compare/report/html.h"
+#include "compare/sweep/page.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::size_t max_grids = 24;
+
+using Values = std::vector<std::string>;
+
+struct Layout {
+  std::size_t row_axis = 0, column_axis = 0;
+  Values rows, columns;
+};
+
+Values values_of(const std::vector<CellSummary>& cells, std::size_t axis) {
+  Values values;
+  for (const CellSummary& cell : cells)
+    if (std::find(values.begin(), values.end(), cell.axes[axis].second) == values.end())
+      values.push_back(cell.axes[axis].second);
+  return values;
+}
+
+// "technique pcf, cull none": the axes that are neither rows nor columns.
+std::string rest_of(const CellSummary& cell, const Layout& layout) {
+  std::string text;
+  for (std::size_t k = 0; k < cell.axes.size(); ++k)
+    if (k != layout.row_axis && k != layout.column_axis)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", cell.axes[k].first, cell.axes[k].second);
+  return text;
+}
+
+std::string cell_html(const CellSummary& cell, const Thumbnails& thumbnails) {
+  const auto thumbnail = thumbnails.find(cell.cell);
+  const std::string share = percent(cell.wrong_fraction);
+  std::string picture;
+  if (thumbnail != thumbnails.end())
+    picture = fmt::format("<img loading=\"lazy\" alt=\"{} wrong\" src=\"{}\">", escaped(share),
+                          data_uri("image/png", thumbnail->second));
+  return fmt::format("<td><a href=\"#cell-{}\">{}<span>{}</span></a></td>", cell.cell, picture,
+                     escaped(share));
+}
+
+std::string grid_html(const std::vector<const CellSummary*>& cells, const Layout& layout,
+                      const std::string& rest, const Thumbnails& thumbnails) {
+  const std::string row_name = cells.front()->axes[layout.row_axis].first;
+  const std::string column_name = cells.front()->axes[layout.column_axis].first;
+  const bool one_axis = layout.row_axis == layout.column_axis;
+  std::string out =
+      fmt::format("<div class=\"scroll\"><table class=\"grid\"><caption>{}</caption><thead><tr>",
+                  escaped(rest.empty() ? (one_axis ? column_name : row_name + " by " + column_name) : rest));
+  if (!one_axis) out += fmt::format("<td>{} \\ {}</td>", escaped(row_name), escaped(column_name));
+  for (const std::string& value : layout.columns)
+    out += fmt::format("<th scope=\"col\">{}</th>", escaped(value));
+  out += "</tr></thead><tbody>";
+  for (const std::string& row : one_axis ? Values{""} : layout.rows) {
+    out += one_axis ? "<tr>" : fmt::format("<tr><th scope=\"row\">{}</th>", escaped(row));
+    for (const std::string& column : layout.columns) {
+      const auto found = std::find_if(cells.begin(), cells.end(), [&](const CellSummary* cell) {
+        return cell->axes[layout.column_axis].second == column &&
+               (one_axis || cell->axes[layout.row_axis].second == row);
+      });
+      out += found == cells.end() ? "<td></td>" : cell_html(**found, thumbnails);
+    }
+    out += "</tr>";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string thumbnail_grids(const std::vector<CellSummary>& all, const Thumbnails& thumbnails) {
+  // Of a long axis only the cells with a thumbnail are shown.
+  std::vector<CellSummary> cells;
+  for (const CellSummary& cell : all)
+    if (thumbnails.empty() || thumbnails.contains(cell.cell)) cells.push_back(cell);
+  if (cells.empty() || cells.front().axes.empty()) return {};
+  Layout layout;
+  layout.column_axis = cells.front().axes.size() - 1;
+  layout.rows = values_of(cells, layout.row_axis);
+  layout.columns = values_of(cells, layout.column_axis);
+  Values rests;
+  std::vector<std::vector<const CellSummary*>> groups;
+  for (const CellSummary& cell : cells) {
+    const std::string rest = rest_of(cell, layout);
+    const auto index = static_cast<std::size_t>(std::find(rests.begin(), rests.end(), rest) - rests.begin());
+    if (index == rests.size()) {
+      rests.push_back(rest);
+      groups.emplace_back();
+    }
+    groups[index].push_back(&cell);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < groups.size() && i < max_grids; ++i)
+    out += grid_html(groups[i], layout, rests[i], thumbnails);
+  if (groups.size() > max_grids)
+    out += fmt::format("<p class=\"hint\">{} more combinations are in the table.</p>\n",
+                       groups.size() - max_grids);
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,258 @@
+#include "compare/sweep/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "scene/files/sha256.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string path_in(const std::string& folder, std::string_view name) {
+  return fmt::format("{}{}{}", folder, folder.ends_with('/') ? "" : "/", name);
+}
+
+tl::unexpected<Error> cannot_write(const std::string& path, std::string_view step, int error_number) {
+  return fail(Error{ErrorKind::cannot_write, fmt::format("{}: {}", step, std::strerror(error_number)), path});
+}
+
+tl::unexpected<Error> bad_line(const std::string& path, std::size_t line, std::string reason) {
+  return fail(Error{ErrorKind::bad_input, std::move(reason), path, static_cast<int>(line)});
+}
+
+std::string read_all(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Lines with their breaks; what follows the last break is dropped.
+std::vector<std::string> whole_lines(const std::string& bytes) {
+  std::vector<std::string> lines;
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::size_t end = bytes.find('\n', start);
+    if (end == std::string::npos) break;
+    lines.push_back(bytes.substr(start, end + 1 - start));
+    start = end + 1;
+  }
+  return lines;
+}
+
+std::size_t byte_count(const std::vector<std::string>& lines) {
+  std::size_t count = 0;
+  for (const std::string& line : lines) count += line.size();
+  return count;
+}
+
+}  // namespace
+
+// A file that grows by whole lines. A line that could not be written whole is taken back.
+struct Journal::File {
+  std::string path;
+  int descriptor = -1;
+  std::size_t size = 0;
+  ~File() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  static Expected<std::unique_ptr<File>> open(std::string path) {
+    auto file = std::make_unique<File>();
+    file->path = std::move(path);
+    file->descriptor = ::open(file->path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file->descriptor < 0) return cannot_write(file->path, "cannot open", errno);
+    return file;
+  }
+  Expected<void> cut(std::size_t length) {
+    size = length;
+    if (::ftruncate(descriptor, static_cast<off_t>(length)) != 0)
+      return cannot_write(path, "cannot cut", errno);
+    return {};
+  }
+  Expected<void> append(const std::string& text) {
+    std::size_t done = 0;
+    while (done < text.size()) {
+      const ssize_t count =
+          ::pwrite(descriptor, text.data() + done, text.size() - done, static_cast<off_t>(size + done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) {
+        const int error_number = count < 0 ? errno : ENOSPC;
+        if (auto cut_back = cut(size); !cut_back) return cut_back;
+        return cannot_write(path, "cannot write", error_number);
+      }
+      done += static_cast<std::size_t>(count);
+    }
+    size += text.size();
+    return {};
+  }
+};
+
+SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard) {
+  SweepHeader header;
+  header.hash = sha256_hex(configuration);
+  header.configuration = std::move(configuration);
+  header.cells = cells;
+  header.shard = shard;
+  return header;
+}
+
+std::string header_json(const SweepHeader& header) {
+  const Json json{{"schema", "gnomon/sweep/1"},
+                  {"configuration_sha256", header.hash},
+                  {"cells", header.cells},
+                  {"shard", {{"part", header.shard.part}, {"of", header.shard.of}}},
+                  {"configuration", Json::parse(header.configuration)}};
+  return json.dump(2) + "\n";
+}
+
+Expected<SweepHeader> read_header(const std::string& folder) {
+  const std::string path = path_in(folder, "sweep.json");
+  const Json json = Json::parse(read_all(path), nullptr, false);
+  const auto bad = [&path](std::string reason) {
+    return fail(Error{ErrorKind::bad_input, std::move(reason), path});
+  };
+  if (!json.is_object()) return bad("not the configuration of a sweep");
+  try {
+    if (json.at("schema") != "gnomon/sweep/1") return bad("schema: unknown (allowed gnomon/sweep/1)");
+    Shard shard{json.at("shard").at("part").get<int>(), json.at("shard").at("of").get<int>()};
+    SweepHeader header =
+        make_header(json.at("configuration").dump(), json.at("cells").get<std::size_t>(), shard);
+    if (header.hash != json.at("configuration_sha256")) return bad("the configuration was changed by hand");
+    return header;
+  } catch (const Json::exception& error) {
+    return bad(error.what());
+  }
+}
+
+std::string axes_of_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("lights")) return {};
+  return json.value("axes", Json::object()).dump();
+}
+
+namespace {
+
+// Names the options in which two configurations differ.
+std::string differences(const std::string& a, const std::string& b) {
+  const Json x = Json::parse(a).flatten(), y = Json::parse(b).flatten();
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : x.items())
+    if (!y.contains(key) || y[key] != value) keys.push_back(key);
+  for (const auto& [key, value] : y.items())
+    if (!x.contains(key)) keys.push_back(key);
+  std::string text;
+  for (std::size_t i = 0; i < keys.size() && i < 3; ++i) text += (i == 0 ? "" : ", ") + keys[i].substr(1);
+  return keys.size() > 3 ? text + ", …" : text;
+}
+
+Expected<void> check_header(const std::string& folder, const SweepHeader& header) {
+  const std::string path = path_in(folder, "sweep.json");
+  if (!std::filesystem::exists(path)) return write_file(path, header_json(header));
+  const auto there = read_header(folder);
+  if (!there) return fail(there.error());
+  if (there->hash != header.hash)
+    return fail(ErrorKind::usage,
+                fmt::format("{} holds another sweep (it differs in {}); give another folder, or --restart",
+                            folder, differences(there->configuration, header.configuration)));
+  if (there->shard.part != header.shard.part || there->shard.of != header.shard.of)
+    return fail(ErrorKind::usage, fmt::format("{} holds shard {}/{} of this sweep; give another folder",
+                                              folder, there->shard.part, there->shard.of));
+  return {};
+}
+
+// How many of the lines are this sweep's; an error for one in the middle that is not.
+Expected<std::size_t> count_good(const std::string& path, const std::vector<std::string>& lines,
+                                 const std::vector<std::string>& axes) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (i < axes.size() && axes_of_line(lines[i]) == axes[i]) continue;
+    if (i + 1 == lines.size()) return i;
+    return bad_line(path, i + 1, "not the line of this sweep that belongs here");
+  }
+  return lines.size();
+}
+
+}  // namespace
+
+Journal::Journal(Journal&&) noexcept = default;
+Journal& Journal::operator=(Journal&&) noexcept = default;
+Journal::~Journal() = default;
+
+Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& header,
+                                const std::vector<std::string>& axes, std::vector<std::size_t> cells) {
+  if (auto made = make_output_folder(folder); !made) return fail(made.error());
+  Journal journal;
+  auto lines = File::open(path_in(folder, "sweep.jsonl"));
+  if (!lines) return fail(lines.error());
+  if (::flock((*lines)->descriptor, LOCK_EX | LOCK_NB) != 0)
+    return fail(ErrorKind::usage, folder + ": another process is at work in this folder");
+  if (auto same = check_header(folder, header); !same) return fail(same.error());
+  auto times = File::open(path_in(folder, "sweep_times.jsonl"));
+  if (!times) return fail(times.error());
+  auto table = File::open(path_in(folder, "sweep.csv"));
+  if (!table) return fail(table.error());
+
+  const std::string bytes = read_all((*lines)->path);
+  journal.lines_ = whole_lines(bytes);
+  journal.times_ = whole_lines(read_all((*times)->path));
+  const auto good = count_good((*lines)->path, journal.lines_, axes);
+  if (!good) return fail(good.error());
+  // Times are written first: a line without times cannot be, but a surplus of times can.
+  const std::size_t keep = std::min(*good, journal.times_.size());
+  journal.lines_.resize(keep);
+  journal.times_.resize(keep);
+  journal.torn_ = byte_count(journal.lines_) != bytes.size();
+  if (auto cut = (*lines)->cut(byte_count(journal.lines_)); !cut) return fail(cut.error());
+  if (auto cut = (*times)->cut(byte_count(journal.times_)); !cut) return fail(cut.error());
+  journal.line_file_ = std::move(*lines);
+  journal.time_file_ = std::move(*times);
+  journal.table_file_ = std::move(*table);
+  journal.cells_ = std::move(cells);
+  for (std::size_t i = 0; i < keep; ++i) journal.table_.add(journal.cells_[i], journal.lines_[i]);
+  if (auto written = journal.write_table(); !written) return fail(written.error());
+  return journal;
+}
+
+// The table follows from the lines, so it is simply made anew.
+Expected<void> Journal::write_table() {
+  if (auto cut = table_file_->cut(0); !cut) return cut;
+  return table_file_->append(table_.text());
+}
+
+Expected<void> Journal::append(const std::string& line, const std::string& times) {
+  if (auto written = time_file_->append(times); !written) return written;
+  if (auto written = line_file_->append(line); !written) return written;
+  const std::string rows = table_.add(cells_[lines_.size()], line);
+  lines_.push_back(line);
+  times_.push_back(times);
+  return rows.empty() ? write_table() : table_file_->append(rows);
+}
+
+Expected<SweepLines> read_sweep(const std::string& folder) {
+  SweepLines sweep;
+  auto header = read_header(folder);
+  if (!header) return fail(header.error());
+  sweep.header = std::move(*header);
+  sweep.lines = whole_lines(read_all(path_in(folder, "sweep.jsonl")));
+  sweep.times = whole_lines(read_all(path_in(folder, "sweep_times.jsonl")));
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i)
+    if (axes_of_line(sweep.lines[i]).empty())
+      return bad_line(path_in(folder, "sweep.jsonl"), i + 1, "not a line of a sweep");
+  if (sweep.times.size() < sweep.lines.size())
+    return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
+  sweep.times.resize(sweep.lines.size());
+  return sweep;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,85 @@
+// The folder of a sweep: what was asked for, and one line per finished cell, in the order of the cells.
+// Files:
+//   sweep.json         the configuration; a folder takes one configuration only
+//   sweep.jsonl        one result per line (result.schema.json with `axes`), without times: the same sweep
+//   gives the
+//                      same bytes, however often it was interrupted
+//   sweep.csv          the same numbers as a table (table.h)
+//   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
+// A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
+// of a torn last line is cut off when the folder is opened again, and its cell is made anew.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/sweep/table.h"
+#include "scene/expected.h"
+
+namespace gnomon::compare {
+
+struct Shard {
+  int part = 1, of = 1;  ///< 1 <= part <= of
+};
+
+/// What identifies a sweep, as JSON text.
+struct SweepHeader {
+  std::string configuration;  ///< JSON object: everything that the lines hang on, the shard apart
+  std::string hash;           ///< SHA-256 of the configuration
+  std::size_t cells = 0;      ///< of the whole sweep
+  Shard shard;
+};
+SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard);
+std::string header_json(const SweepHeader& header);
+/// Reads DIR/sweep.json. Errors are ErrorKind::bad_input.
+Expected<SweepHeader> read_header(const std::string& folder);
+
+/// The line that a cell must have: its values by axis, as JSON text of the object "axes".
+using ExpectedAxes = std::vector<std::string>;
+
+/// Lines already there, and where new ones go.
+class Journal {
+ public:
+  /// Makes the folder, or takes up the sweep that it holds. `axes`: of every line that this shard will have,
+  /// in order, as the text of their "axes" object. Errors: ErrorKind::usage when the folder holds another
+  /// configuration or another process is at work in it, bad_input for a line that is not this sweep's.
+  /// `cells`: the index of each line's cell in the whole sweep.
+  static Expected<Journal> open(const std::string& folder, const SweepHeader& header,
+                                const std::vector<std::string>& axes, std::vector<std::size_t> cells);
+  Journal(Journal&&) noexcept;
+  Journal& operator=(Journal&&) noexcept;
+  ~Journal();
+
+  /// Whole lines found or appended so far, with their line breaks.
+  const std::vector<std::string>& lines() const { return lines_; }
+  const std::vector<std::string>& times() const { return times_; }
+  /// A torn or surplus line was cut off on opening.
+  bool was_torn() const { return torn_; }
+
+  /// Appends a cell. Both texts end with a line break.
+  Expected<void> append(const std::string& line, const std::string& times);
+
+ private:
+  Journal() = default;
+  struct File;
+  Expected<void> write_table();
+  std::unique_ptr<File> line_file_, time_file_, table_file_;
+  SweepTable table_;
+  std::vector<std::size_t> cells_;
+  std::vector<std::string> lines_, times_;
+  bool torn_ = false;
+};
+
+/// The whole lines of a shard's or a finished sweep's folder. Errors are ErrorKind::bad_input.
+struct SweepLines {
+  SweepHeader header;
+  std::vector<std::string> lines, times;
+};
+Expected<SweepLines> read_sweep(const std::string& folder);
+
+/// "axes" of a line, as JSON text; empty when the line is not JSON or has none.
+std::string axes_of_line(std::string_view line);
+
+}  // namespace gnomon::compare

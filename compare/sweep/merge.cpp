@@ -1,0 +1,85 @@
+#include "compare/sweep/merge.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "compare/sweep/journal.h"
+#include "compare/sweep/page.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Cell {
+  std::string line, times, folder;
+};
+using Cells = std::map<std::size_t, Cell>;
+
+Expected<void> add_shard(const std::string& folder, const SweepLines& shard, Cells& cells) {
+  const auto summaries = summarise(shard);
+  if (!summaries) return fail(summaries.error());
+  for (std::size_t i = 0; i < shard.lines.size(); ++i) {
+    const std::size_t cell = (*summaries)[i].cell;
+    if (!cells.emplace(cell, Cell{shard.lines[i], shard.times[i], folder}).second)
+      return fail(ErrorKind::usage, fmt::format("{}: cell {} is in another shard too", folder, cell));
+  }
+  return {};
+}
+
+Expected<void> copy_thumbnail(const Cell& cell, std::size_t index, const std::string& target) {
+  const std::string from = thumbnail_path(cell.folder, index);
+  std::error_code error;
+  if (!fs::exists(from, error)) return {};
+  fs::copy_file(from, thumbnail_path(target, index), fs::copy_options::overwrite_existing, error);
+  if (error)
+    return fail(Error{ErrorKind::cannot_write, "cannot copy a thumbnail: " + error.message(), target});
+  return {};
+}
+
+Expected<void> write_whole(const Cells& cells, const SweepHeader& header, const std::string& target) {
+  std::vector<std::string> axes;
+  std::vector<std::size_t> indices;
+  for (const auto& [index, cell] : cells) {
+    axes.push_back(axes_of_line(cell.line));
+    indices.push_back(index);
+  }
+  auto journal =
+      Journal::open(target, make_header(header.configuration, header.cells, {}), axes, std::move(indices));
+  if (!journal) return fail(journal.error());
+  if (auto made = make_output_folder(target + "/thumbnails"); !made) return made;
+  std::size_t next = 0;
+  for (const auto& [index, cell] : cells) {
+    if (auto copied = copy_thumbnail(cell, index, target); !copied) return copied;
+    if (next++ < journal->lines().size()) continue;
+    if (auto appended = journal->append(cell.line, cell.times); !appended) return appended;
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::size_t> merge_sweeps(const std::vector<std::string>& folders, const std::string& target) {
+  Cells cells;
+  std::optional<SweepHeader> header;
+  for (const std::string& folder : folders) {
+    auto shard = read_sweep(folder);
+    if (!shard) return fail(shard.error());
+    if (!header) header = shard->header;
+    if (shard->header.hash != header->hash)
+      return fail(ErrorKind::usage, folder + ": a shard of another sweep than " + folders.front());
+    if (auto added = add_shard(folder, *shard, cells); !added) return fail(added.error());
+  }
+  if (!header) return fail(ErrorKind::usage, "no shard is given");
+  if (cells.size() != header->cells)
+    return fail(ErrorKind::usage, fmt::format("{} of {} cells are there: a shard is missing or not finished",
+                                              cells.size(), header->cells));
+  if (auto written = write_whole(cells, *header, target); !written) return fail(written.error());
+  if (auto page = write_sweep_page(target); !page) return fail(page.error());
+  return cells.size();
+}
+
+}  // namespace gnomon::compare

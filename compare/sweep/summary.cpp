@@ -1,0 +1,123 @@
+#include "compare/sweep/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : not_known;
+}
+
+std::string value_text(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// Sums over lights: counts, and means weighted by compared pixels.
+void add_light(const Json& light, CellSummary& sum, Json& classes) {
+  const Json& error = light.at("error");
+  const auto compared = light.at("pixels").at("compared").get<std::uint64_t>();
+  const auto weight = static_cast<double>(compared);
+  sum.compared += compared;
+  sum.wrong += error.at("wrong").get<std::uint64_t>();
+  sum.false_shadow += error.at("false_shadow").get<std::uint64_t>();
+  sum.missed_shadow += error.at("missed_shadow").get<std::uint64_t>();
+  sum.mean_absolute += weight * number(error.at("mean_absolute"));
+  sum.rms += weight * number(error.at("rms")) * number(error.at("rms"));
+  sum.flip += weight * number(error.at("flip"));
+  sum.ssim += weight * number(error.at("ssim"));
+  sum.edge_rms_texels += weight * number(light.at("edges").at("rms_texels"));
+  sum.shadow_rays += light.at("shadow_rays").get<std::uint64_t>();
+  for (const auto& [name, count] : light.at("classes").items())
+    classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
+}
+
+void finish_means(CellSummary& sum, const Json& classes) {
+  const auto weight = static_cast<double>(std::max<std::uint64_t>(sum.compared, 1));
+  sum.wrong_fraction = static_cast<double>(sum.wrong) / weight;
+  sum.mean_absolute /= weight;
+  sum.rms = std::sqrt(sum.rms / weight);
+  sum.flip /= weight;
+  sum.ssim /= weight;
+  sum.edge_rms_texels /= weight;
+  std::uint64_t most = 0;
+  for (const auto& [name, count] : classes.items())
+    if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), sum.main_label = name;
+}
+
+void add_times(const Json& times, CellSummary& sum) {
+  sum.cell = times.at("cell").get<std::size_t>();
+  sum.derived = times.at("derived").get<bool>();
+  sum.rays_ms = number(times.at("primary_rays").at("median"));
+  double fastest = 0.0, slowest = 0.0;
+  for (const Json& light : times.at("lights")) {
+    sum.rays_ms += number(light.at("shadow_rays").at("median"));
+    for (const char* pass : {"map_pass", "shade_pass"}) {
+      sum.raster_ms += number(light.at(pass).at("median"));
+      const auto runs = light.at(pass).at("runs").get<std::vector<double>>();
+      if (runs.empty()) continue;
+      const auto [low, high] = std::minmax_element(runs.begin(), runs.end());
+      fastest += *low;
+      slowest += *high;
+    }
+  }
+  sum.spread_ms = slowest - fastest;
+}
+
+}  // namespace
+
+Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
+  try {
+    const Json json = Json::parse(line);
+    CellSummary sum;
+    for (const auto& [name, value] : json.at("axes").items()) sum.axes.emplace_back(name, value_text(value));
+    sum.command = json.at("command").get<std::string>();
+    Json classes = Json::object();
+    for (const Json& light : json.at("lights")) {
+      add_light(light, sum, classes);
+      sum.technique = light.at("map").at("technique").get<std::string>();
+      sum.map_size = number(light.at("map").at("size"));
+    }
+    finish_means(sum, classes);
+    sum.map_texels = json.at("costs").at("map_texels").get<std::uint64_t>();
+    sum.map_bytes = json.at("costs").at("map_bytes").get<std::uint64_t>();
+    add_times(Json::parse(times), sum);
+    return sum;
+  } catch (const Json::exception& error) {
+    return fail(ErrorKind::bad_input, std::string("not a line of a sweep: ") + error.what());
+  }
+}
+
+Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
+  std::vector<CellSummary> cells;
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
+    auto cell = summarise(sweep.lines[i], sweep.times[i]);
+    if (!cell) return fail(cell.error());
+    cells.push_back(std::move(*cell));
+  }
+  return cells;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (std::isfinite(cells[i].raster_ms)) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const CellSummary &x = cells[a], &y = cells[b];
+    return x.raster_ms != y.raster_ms ? x.raster_ms < y.raster_ms : x.wrong_fraction < y.wrong_fraction;
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t i : order)
+    if (front.empty() || cells[i].wrong_fraction < cells[front.back()].wrong_fraction) front.push_back(i);
+  return front;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,122 @@
+#include "compare/theory.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "compare/biased_test.h"
+#include "scene/camera.h"
+
+namespace gnomon::compare {
+namespace {
+
+using raytrace::SurfacePoint;
+
+// The median, the 90th and 99th percentile and the largest of the finite values.
+Distribution distribution(std::vector<double>& values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  Distribution out;
+  out.count = values.size();
+  if (values.empty()) return out;
+  const auto at = [&values](double share) {
+    const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + index, values.end());
+    return values[static_cast<std::size_t>(index)];
+  };
+  out.median = at(0.5);
+  out.p90 = at(0.9);
+  out.p99 = at(0.99);
+  out.max = *std::max_element(values.begin(), values.end());
+  return out;
+}
+
+struct PixelTheory {
+  double acne_free_bias = infinity, perspective = infinity, projection = infinity, measured = infinity;
+};
+
+// Area of a pixel, square to its ray, at a distance along it, over the squared distance.
+double pixel_solid_angle(const Camera& camera, ImageSize size, double cos_axis) {
+  const double side = 2.0 * std::tan(0.5 * camera.vertical_fov) / size.height;
+  return side * side * cos_axis * cos_axis * cos_axis;
+}
+
+// Area of a texel square to the light ray at the receiver.
+double texel_area(const LightView& view, const TexelCoordinate& at) {
+  const double across = 2.0 * view.half_extent.x / view.size, up = 2.0 * view.half_extent.y / view.size;
+  if (view.projection == LightProjection::orthographic) return across * up;
+  const double cosine = at.depth / at.distance;  // between the ray and the face's axis
+  return across * up * at.depth * at.depth * cosine;
+}
+
+class Predictor {
+ public:
+  Predictor(const LadderInput& in, const Image<Label>& labels)
+      : in_(in),
+        labels_(labels),
+        camera_(in.world.scene->camera),
+        forward_(glm::normalize(camera_.target - camera_.eye)) {}
+
+  PixelTheory at(int x, int y) const {
+    const std::size_t pixel = labels_.index(x, y);
+    const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
+    const LightView& view = in_.record.map.view;
+    const TexelCoordinate texel = project_to_face(view, in_.record.face.data[pixel], receiver.position);
+    PixelTheory out;
+    out.acne_free_bias = texel_depth_slope(view, texel, receiver.position, receiver.normal);
+    const Vec3 from_eye = receiver.position - camera_.eye;
+    const double distance = glm::length(from_eye), cos_axis = glm::dot(from_eye, forward_) / distance;
+    const double pixel_area = distance * distance * pixel_solid_angle(camera_, labels_.size, cos_axis);
+    const double cos_eye = -glm::dot(from_eye, receiver.normal) / distance;
+    const double cos_light = glm::dot(light_at(in_.light, receiver.position).to_light, receiver.normal);
+    out.perspective = std::sqrt(texel_area(view, texel) / pixel_area);
+    out.projection = std::sqrt(cos_eye / cos_light);
+    out.measured = measured(x, y);
+    return out;
+  }
+
+ private:
+  // From the neighbours to the right and below, where they show the same primitive on the same face.
+  double measured(int x, int y) const {
+    if (x + 1 >= labels_.size.width || y + 1 >= labels_.size.height) return infinity;
+    const std::size_t here = labels_.index(x, y), right = labels_.index(x + 1, y),
+                      below = labels_.index(x, y + 1);
+    for (const std::size_t other : {right, below})
+      if (in_.drawn.primitive.data[other] != in_.drawn.primitive.data[here] ||
+          in_.record.face.data[other] != in_.record.face.data[here])
+        return infinity;
+    const Vec2 a = texel(right) - texel(here), b = texel(below) - texel(here);
+    return 1.0 / std::sqrt(std::abs(a.x * b.y - a.y * b.x));
+  }
+  Vec2 texel(std::size_t pixel) const { return Vec2(in_.record.texel_uv.data[pixel]); }
+
+  const LadderInput& in_;
+  const Image<Label>& labels_;
+  const Camera& camera_;
+  Vec3 forward_;
+};
+
+}  // namespace
+
+TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
+  std::vector<PixelTheory> pixels(labels.data.size());
+  const Predictor predictor(in, labels);
+  tbb::parallel_for(0, labels.size.height, [&](int y) {
+    for (int x = 0; x < labels.size.width; ++x)
+      if (is_compared(labels.at(x, y))) pixels[labels.index(x, y)] = predictor.at(x, y);
+  });
+  std::vector<double> values(pixels.size());
+  const auto collect = [&](const auto& value) {
+    values.resize(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = value(pixels[i]);
+    return distribution(values);
+  };
+  TheoryStats stats;
+  stats.acne_free_bias = collect([](const PixelTheory& p) { return p.acne_free_bias; });
+  stats.perspective = collect([](const PixelTheory& p) { return p.perspective; });
+  stats.projection = collect([](const PixelTheory& p) { return p.projection; });
+  stats.aliasing = collect([](const PixelTheory& p) { return p.perspective * p.projection; });
+  stats.measured_aliasing = collect([](const PixelTheory& p) { return p.measured; });
+  return stats;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,65 @@
+// The cheapest setting that is good enough, or the best one that is cheap enough, from far fewer drawings
+// than a grid.
+//
+// Each family (a technique with its kind of bias) is searched over map sizes: larger maps cost more and are
+// wrong less, so that the least size good enough, or the largest one cheap enough, is found by bisection. At
+// each size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one;
+// where a technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need
+// there are tried. The family that wins is drawn once more at its own bias: what is printed was measured.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/sweep/engine.h"
+
+namespace gnomon::compare {
+
+struct TuneGoal {
+  std::optional<double> max_error;    ///< share of wrong pixels
+  std::optional<double> max_time_ms;  ///< map and shading; exactly one of the two is given
+};
+
+/// A technique with everything but map size and constant bias.
+struct TuneFamily {
+  std::string name;  ///< as people say it: "slope bias 1"
+  raster::MapOptions map;
+};
+
+struct TuneOptions {
+  TuneGoal goal;
+  std::vector<TuneFamily> families;
+  std::vector<int> sizes;  ///< ascending, texels
+};
+
+/// One drawing, at its best constant bias.
+struct Attempt {
+  int size = 0;
+  double bias_world = 0.0, error = 0.0, time_ms = 0.0;
+  BestBias best;  ///< with the proof, where no constant bias is right everywhere
+};
+
+struct FamilyResult {
+  TuneFamily family;
+  std::optional<Attempt> answer;  ///< the cheapest (or best) that meets the goal
+  Attempt closest;                ///< otherwise the one that comes nearest to it
+  std::string why;                ///< why it lost, or won
+};
+
+struct TuneResult {
+  bool feasible = false;
+  std::size_t winner = 0;  ///< index in families; the one that comes nearest when nothing is feasible
+  std::vector<FamilyResult> families;
+  std::uint64_t renders = 0;
+};
+
+/// Called before each drawing with the family and the size.
+using TuneProgress = std::function<void(const TuneFamily& family, int size, std::uint64_t renders)>;
+
+/// `base` gives everything but the map's options; its runs say how often each pass is timed.
+Expected<TuneResult> tune(Engine& engine, const Setting& base, const TuneOptions& options,
+                          const TuneProgress& progress = {});
+
+}  // namespace gnomon::compare

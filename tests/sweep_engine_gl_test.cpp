@@ -1,0 +1,157 @@
+// The engine's short cuts against single comparisons: every number of every cell is the same, to the last
+// bit.
+#include <random>
+
+#include "compare/output_parts.h"
+#include "compare/sweep/engine.h"
+#include "support/one_world.h"
+#include "support/small_scenes.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Engine;
+using compare::Setting;
+
+constexpr ImageSize size{240, 135};
+
+// A sun, a spot and a point light; a sphere and a plane beside triangles.
+Scene boxes_and_ball() {
+  Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-0.5, 0.0, -0.5}, {0.5, 0.8, 0.5}),
+                              box_mesh({0.9, 0.3, -0.2}, {1.4, 0.7, 0.6})},
+                             {0.7, -1.0, 0.3});
+  scene.shapes.push_back({"ball", Sphere{{-1.2, 0.5, 0.6}, 0.5}, 0});
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.type = LightType::spot;
+  lamp.position = {-2, 3, 2};
+  lamp.direction = glm::normalize(Vec3(2, -3, -2));
+  lamp.inner_angle = 0.4;
+  lamp.outer_angle = 0.7;
+  scene.lights.push_back(lamp);
+  lamp.name = "bulb";
+  lamp.type = LightType::point;
+  lamp.position = {1.5, 2.0, 1.5};
+  scene.lights.push_back(lamp);
+  scene.camera = {{2.5, 3.0, 4.0}, {0.2, 0.2, 0}, {0, 1, 0}, 0.7};
+  return scene;
+}
+
+/// A world with an engine at work in it, and single comparisons beside it.
+struct Workshop {
+  OneWorld swept_world, single_world;
+  Engine engine;
+  Setting first;
+
+  explicit Workshop(const Scene& scene, bool perceptual = false)
+      : swept_world(scene),
+        single_world(scene),
+        engine(swept_world.scene, swept_world.world, *swept_world.renderer, perceptual) {
+    first.raster.size = first.raytrace.size = size;
+    first.raster.runs = 0;
+    first.raster.map.size = 128;
+    first.raster.map.bias = {0.01, raster::BiasUnit::world};
+    first.raytrace.picture = false;
+    first.camera = scene.camera;
+    first.lights = scene.lights;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) first.compared.push_back(i);
+  }
+
+  std::string swept(const Setting& setting, compare::Detail detail = compare::Detail::images) {
+    const auto result = engine.compare(setting, detail);
+    if (!result) return result.error().message();
+    return compare::result_line(**result, {});
+  }
+  std::string alone(const Setting& setting, bool perceptual = false) {
+    compare::CompareOptions options;
+    options.raster = setting.raster;
+    options.raytrace = setting.raytrace;
+    options.perceptual = perceptual;
+    single_world.scene.camera = setting.camera;
+    single_world.scene.lights = setting.lights;
+    return compare::result_line(single_world.compare(options), {});
+  }
+};
+
+// 20 constant biases at random: none is drawn, each equals its own drawing.
+TEST(Engine, DerivedFramesEqualDrawnOnes) {
+  Workshop shop(boxes_and_ball());
+  ASSERT_EQ(shop.swept(shop.first), shop.alone(shop.first));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> exponent(-4.0, 0.0);
+  for (int i = 0; i < 20; ++i) {
+    Setting setting = shop.first;
+    setting.raster.map.bias.constant = std::pow(10.0, exponent(random)) * (i % 7 == 3 ? -1.0 : 1.0);
+    setting.raster.map.bias.unit = i % 5 == 4 ? raster::BiasUnit::texel : raster::BiasUnit::world;
+    EXPECT_EQ(shop.swept(setting), shop.alone(setting)) << "bias " << setting.raster.map.bias.constant;
+    EXPECT_TRUE(shop.engine.last_was_derived());
+  }
+  EXPECT_EQ(shop.engine.work().renders, 1u);
+  EXPECT_EQ(shop.engine.work().derived, 20u);
+  EXPECT_EQ(shop.engine.work().truths, 1u);
+}
+
+// The same when the numbers of all biases are made together, without images.
+TEST(Engine, BiasAxisEqualsDrawnFrames) {
+  Workshop shop(boxes_and_ball());
+  for (const bool offset : {false, true}) {  // with an offset, receivers look up other texels than their own
+    Setting setting = shop.first;
+    setting.raster.map.bias.normal_offset_texels = offset ? 1.5 : 0.0;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> exponent(-4.0, 0.0);
+    std::vector<raster::Bias> biases;
+    for (int i = 0; i < 20; ++i) {
+      biases.push_back(setting.raster.map.bias);
+      biases.back().constant = i == 0 ? 0.0 : std::pow(10.0, exponent(random)) * (i % 7 == 3 ? -1.0 : 1.0);
+      biases.back().unit = i % 5 == 4 ? raster::BiasUnit::texel : raster::BiasUnit::world;
+    }
+    ASSERT_TRUE(shop.engine.compare(setting));
+    shop.engine.expect_biases(biases);
+    for (const raster::Bias& bias : biases) {
+      setting.raster.map.bias = bias;
+      EXPECT_EQ(shop.swept(setting, compare::Detail::numbers), shop.alone(setting))
+          << "bias " << bias.constant;
+      EXPECT_TRUE(shop.engine.last_was_derived());
+    }
+  }
+  EXPECT_EQ(shop.engine.work().renders, 2u);
+}
+
+// Other options share the truth, and the lower rungs where the map is the same; the numbers do not know.
+TEST(Engine, CellsEqualSingleComparisons) {
+  Workshop shop(boxes_and_ball());
+  std::mt19937 random(2);
+  const auto pick = [&](auto... choices) {
+    const auto list = {choices...};
+    return *(list.begin() + random() % list.size());
+  };
+  Setting setting = shop.first;
+  for (int i = 0; i < 12; ++i) {
+    raster::MapOptions& map = setting.raster.map;
+    if (i % 3 == 0) {
+      map.size = pick(64, 100, 128);
+      map.depth_format = pick(raster::DepthFormat::d16, raster::DepthFormat::d32f);
+      map.cull = pick(raster::Cull::none, raster::Cull::front, raster::Cull::back);
+    }
+    // One kind of bias at a time: each needs shaders of its own, which take longer than all the rest.
+    map.bias = {pick(0.0, 0.02), raster::BiasUnit::world};
+    const int kind = i % 4;
+    map.bias.slope = kind == 1 ? 1.5 : 0.0;
+    map.bias.normal_offset_texels = kind == 2 ? 1.0 : 0.0;
+    map.bias.receiver_plane = kind == 3;
+    if (i % 5 == 4) setting.camera.eye += Vec3(0.2, 0.1, 0.0);
+    if (i % 7 == 6) setting.lights[0].direction = glm::normalize(Vec3(-0.5, -1.0, 0.1 * i));
+    EXPECT_EQ(shop.swept(setting), shop.alone(setting)) << "cell " << i;
+  }
+  EXPECT_LT(shop.engine.work().truths, 7u);
+  EXPECT_LT(shop.engine.work().lower_climbs, 3 * shop.engine.work().renders);
+}
+
+TEST(Engine, PerceptualMetricsOnlyWhenAsked) {
+  Workshop shop(boxes_and_ball(), true);
+  EXPECT_EQ(shop.swept(shop.first), shop.alone(shop.first, true));
+  EXPECT_NE(shop.alone(shop.first, true), shop.alone(shop.first, false));
+}
+
+}  // namespace
+}  // namespace gnomon::test

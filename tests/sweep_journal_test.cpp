@@ -1,0 +1,136 @@
+// The folder of a sweep: resumed byte for byte, torn lines cut off, foreign folders refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "compare/sweep/journal.h"
+
+namespace gnomon::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string line(int cell) {
+  return R"({"lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
+         std::to_string(cell) +
+         R"(},"budget":[],"ladder":[]}],"size":{"width":2,"height":1},"costs":{},"axes":{"bias":)" +
+         std::to_string(cell) + "}}\n";
+}
+std::string axes(int cell) {
+  return "{\"bias\":" + std::to_string(cell) + "}";
+}
+
+class JournalTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder = (fs::temp_directory_path() / ("gnomon-journal-" + std::to_string(::getpid()))).string();
+    fs::remove_all(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  Expected<Journal> open(const std::string& configuration = R"({"axes":[1]})") {
+    return Journal::open(folder, make_header(configuration, 3, {}), {axes(0), axes(1), axes(2)}, {0, 1, 2});
+  }
+  std::string bytes(const std::string& name) const {
+    std::ifstream file(folder + "/" + name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+  }
+  std::string folder;
+};
+
+TEST_F(JournalTest, GoesOnWhereItStopped) {
+  {
+    auto journal = open();
+    ASSERT_TRUE(journal) << journal.error().message();
+    ASSERT_TRUE(journal->append(line(0), "{}\n"));
+  }
+  auto journal = open();
+  ASSERT_TRUE(journal) << journal.error().message();
+  EXPECT_FALSE(journal->was_torn());
+  ASSERT_EQ(journal->lines().size(), 1u);
+  ASSERT_TRUE(journal->append(line(1), "{}\n"));
+  EXPECT_EQ(bytes("sweep.jsonl"), line(0) + line(1));
+  EXPECT_EQ(bytes("sweep.csv"),
+            "cell,axes_bias,light,light_type,size_width,size_height,error_wrong\r\n"
+            "0,0,sun,directional,2,1,0\r\n1,1,sun,directional,2,1,1\r\n");
+}
+
+// Every length that a crash can leave.
+TEST_F(JournalTest, TornLastLineIsCutOff) {
+  const std::string whole = line(0) + line(1);
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    {
+      auto journal = open();
+      ASSERT_TRUE(journal);
+    }
+    write("sweep.jsonl", whole.substr(0, length));
+    write("sweep_times.jsonl", "{}\n{}\n{\"cel");
+    auto journal = open();
+    ASSERT_TRUE(journal) << journal.error().message();
+    const std::size_t kept = length == whole.size() ? 2 : (length >= line(0).size() ? 1 : 0);
+    EXPECT_EQ(journal->lines().size(), kept) << length;
+    EXPECT_EQ(journal->was_torn(), length != 0 && length != line(0).size() && length != whole.size())
+        << length;
+    for (int cell = static_cast<int>(kept); cell < 3; ++cell)
+      ASSERT_TRUE(journal->append(line(cell), "{}\n"));
+    EXPECT_EQ(bytes("sweep.jsonl"), whole + line(2));
+    EXPECT_EQ(bytes("sweep_times.jsonl"), "{}\n{}\n{}\n");
+  }
+}
+
+TEST_F(JournalTest, ALineWithoutItsTimesIsMadeAgain) {
+  ASSERT_TRUE(open());
+  write("sweep.jsonl", line(0) + line(1));
+  write("sweep_times.jsonl", "{}\n");
+  auto journal = open();
+  ASSERT_TRUE(journal);
+  EXPECT_EQ(journal->lines().size(), 1u);
+}
+
+TEST_F(JournalTest, RefusesAnotherConfiguration) {
+  ASSERT_TRUE(open());
+  const auto other = open(R"({"axes":[2]})");
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().kind, ErrorKind::usage);
+  EXPECT_NE(other.error().message().find("axes/0"), std::string::npos) << other.error().message();
+  const auto shard = Journal::open(folder, make_header(R"({"axes":[1]})", 3, {1, 2}), {}, {});
+  EXPECT_FALSE(shard);
+}
+
+TEST_F(JournalTest, RefusesAForeignLine) {
+  ASSERT_TRUE(open());
+  write("sweep.jsonl", line(1) + line(0));
+  write("sweep_times.jsonl", "{}\n{}\n");
+  const auto journal = open();
+  ASSERT_FALSE(journal);
+  EXPECT_EQ(journal.error().kind, ErrorKind::bad_input);
+  EXPECT_EQ(journal.error().line, 1);
+}
+
+TEST_F(JournalTest, OneProcessAtATime) {
+  const auto first = open();
+  ASSERT_TRUE(first);
+  const auto second = open();
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().kind, ErrorKind::usage);
+}
+
+TEST_F(JournalTest, ReadsBackWhatItWrote) {
+  {
+    auto journal = open();
+    ASSERT_TRUE(journal->append(line(0), "{}\n"));
+  }
+  const auto sweep = read_sweep(folder);
+  ASSERT_TRUE(sweep) << sweep.error().message();
+  EXPECT_EQ(sweep->lines, std::vector<std::string>{line(0)});
+  EXPECT_EQ(sweep->header.cells, 3u);
+  write("sweep.json", "{}");
+  EXPECT_FALSE(read_sweep(folder));
+}
+
+}  // namespace
+}  // namespace gnomon::compare

@@ -1,0 +1,262 @@
+// gnomon sweep as a process: killed at any moment it goes on to the same bytes; shards merge to the same
+// bytes; another configuration is refused; an interrupt leaves whole lines.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "json_schema_check.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Starts the program; stdout and stderr go to `log`.
+pid_t start(const Words& words, const std::string& log) {
+  Words all{GNOMON_PROGRAM};
+  all.insert(all.end(), words.begin(), words.end());
+  const pid_t child = fork();
+  if (child != 0) return child;
+  std::freopen(log.c_str(), "w", stdout);
+  std::freopen(log.c_str(), "a", stderr);
+  std::vector<char*> argv;
+  for (std::string& word : all) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+/// The exit code, or 128 + signal.
+int finish(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class SweepProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root = fs::temp_directory_path() / ("gnomon-sweep-" + std::to_string(getpid()));
+    fs::remove_all(root);
+    fs::create_directories(root);
+  }
+  void TearDown() override { fs::remove_all(root); }
+
+  // Three drawings with four biases each.
+  Words words(const std::string& folder, const Words& more = {}) const {
+    Words all{"sweep",  "floating-box", "--size",    "96x54", "--map-size", "32,64,128",
+              "--bias", "0:0.1:4",      "--threads", "2",     "-o",         (root / folder).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  int run(const Words& words) const { return finish(start(words, log())); }
+  std::string log() const { return (root / "log").string(); }
+  std::string said() const { return bytes(log()); }
+  std::string lines(const std::string& folder) const { return bytes(root / folder / "sweep.jsonl"); }
+
+  void expect_same(const std::string& a, const std::string& b) const {
+    for (const char* name : {"sweep.jsonl", "sweep.csv"})
+      EXPECT_TRUE(bytes(root / a / name) == bytes(root / b / name))
+          << a << " and " << b << " differ in " << name;
+  }
+
+  fs::path root;
+};
+
+TEST_F(SweepProgram, WritesResultsWithAxes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  std::ifstream schema_file(std::string(GNOMON_SOURCE_DIR) + "/compare/report/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("whole"));
+  std::vector<nlohmann::json> results;
+  for (std::string line; std::getline(stream, line);) {
+    results.push_back(nlohmann::json::parse(line));
+    for (const std::string& problem : schema.violations(results.back())) ADD_FAILURE() << problem;
+  }
+  ASSERT_EQ(results.size(), 12u);
+  EXPECT_EQ(results[5]["axes"].dump(), R"({"bias":0.0333333333333,"map_size":64})");
+  EXPECT_EQ(results[5]["command"],
+            "gnomon compare floating-box --size 96x54 --map-size 64 --bias 0.0333333333333");
+  EXPECT_TRUE(results[5]["times_ms"]["total"]["median"].is_null());
+
+  // A cell's command gives the cell's numbers.
+  ASSERT_EQ(run({"compare", "floating-box", "--size", "96x54", "--map-size", "64", "--bias",
+                 "0.0333333333333", "--threads", "2", "-o", (root / "one").string()}),
+            0)
+      << said();
+  nlohmann::json one = nlohmann::json::parse(bytes(root / "one/result.json"));
+  nlohmann::json cell = results[5];
+  for (nlohmann::json* json : {&one, &cell}) {
+    (*json)["lights"][0].erase("times_ms");
+    (*json)["lights"][0]["error"].erase("flip");
+    (*json)["lights"][0]["error"].erase("ssim");
+  }
+  EXPECT_EQ(one["lights"], cell["lights"]);
+  EXPECT_EQ(one["costs"], cell["costs"]);
+}
+
+TEST_F(SweepProgram, KilledAnywhereItEndsInTheSameBytes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const auto begin = std::chrono::steady_clock::now();  // with warm caches
+  ASSERT_EQ(run(words("timed")), 0) << said();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // GNOMON_SWEEP_KILLS=200 for the thorough run.
+  const char* asked = std::getenv("GNOMON_SWEEP_KILLS");
+  const int kills = asked != nullptr ? std::atoi(asked) : 5;
+  int died = 0;
+  for (int i = 0; i < kills; ++i) {
+    const std::string folder = "killed" + std::to_string(i);
+    const pid_t child = start(words(folder), log());
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds * (i + 0.5) / kills));
+    kill(child, SIGKILL);
+    died += finish(child) == 128 + SIGKILL;
+    ASSERT_EQ(run(words(folder)), 0) << said();
+    expect_same("whole", folder);
+    fs::remove_all(root / folder);
+  }
+  EXPECT_GT(died, 0);
+}
+
+TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  ASSERT_EQ(run(words("part1", {"--shard", "1/2"})), 0) << said();
+  const auto merge = [&](const Words& folders) {
+    Words all{"merge"};
+    for (const std::string& folder : folders) all.push_back((root / folder).string());
+    all.insert(all.end(), {"-o", (root / "merged").string()});
+    return run(all);
+  };
+  EXPECT_EQ(merge({"part1"}), 2);
+  EXPECT_NE(said().find("8 of 12 cells are there"), std::string::npos) << said();
+  ASSERT_EQ(run(words("part2", {"--shard", "2/2"})), 0) << said();
+  ASSERT_EQ(merge({"part2", "part1"}), 0) << said();
+  expect_same("whole", "merged");
+  EXPECT_EQ(bytes(root / "whole/sweep.json"), bytes(root / "merged/sweep.json"));
+  for (const auto& entry : fs::directory_iterator(root / "whole/thumbnails"))
+    EXPECT_TRUE(bytes(entry.path()) == bytes(root / "merged/thumbnails" / entry.path().filename()));
+  EXPECT_FALSE(bytes(root / "merged/report.html").empty());
+}
+
+// A stand-in for sbatch that runs the array's tasks one after another shows what the script does; whether
+// Slurm itself takes it is the next test.
+TEST_F(SweepProgram, SlurmScriptMakesTheShards) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  fs::create_directories(root / "bin");
+  std::ofstream(root / "bin/sbatch")
+      << "#!/bin/sh\nset -e\nfor word in \"$@\"; do case $word in --array=1-*) "
+         "n=${word#--array=1-};; --*) ;; *) script=$word;; esac; done\n"
+         "for i in $(seq $n); do SLURM_ARRAY_TASK_ID=$i sh \"$script\"; done\n";
+  fs::permissions(root / "bin/sbatch", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((root / "bin").string() + ":" + path).c_str(), 1);
+  const int code = run(words("array", {"--slurm", "2"}));
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(code, 0) << said();
+  expect_same("whole", "array");
+}
+
+TEST_F(SweepProgram, SlurmTakesTheArray) {
+  if (std::system("sinfo -h -o %a 2>/dev/null | grep -q up") != 0) GTEST_SKIP() << "no Slurm is running here";
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  ASSERT_EQ(run(words("array", {"--slurm", "2"})), 0) << said();
+  expect_same("whole", "array");
+}
+
+TEST_F(SweepProgram, TornLastLineIsMadeAnew) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  fs::copy(root / "whole", root / "torn", fs::copy_options::recursive);
+  fs::resize_file(root / "torn/sweep.jsonl", lines("whole").size() - 100);
+  ASSERT_EQ(run(words("torn")), 0);
+  EXPECT_NE(said().find("torn"), std::string::npos);
+  expect_same("whole", "torn");
+}
+
+TEST_F(SweepProgram, RefusesAnotherConfiguration) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const std::string before = lines("whole");
+  EXPECT_EQ(run(words("whole", {"--slope-bias", "1"})), 2);
+  EXPECT_NE(said().find("holds another sweep"), std::string::npos) << said();
+  EXPECT_EQ(lines("whole"), before);
+  EXPECT_EQ(run(words("whole", {"--slope-bias", "1", "--restart"})), 0) << said();
+  EXPECT_NE(lines("whole"), before);
+}
+
+TEST_F(SweepProgram, InterruptLeavesWholeLines) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const pid_t child = start(words("stopped"), log());
+  while (lines("stopped").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(child, SIGINT);
+  const int code = finish(child);
+  EXPECT_TRUE(code == 130 || code == 0) << code;  // 0: it was done before the signal came
+  const std::string part = lines("stopped");
+  EXPECT_TRUE(lines("whole").starts_with(part) && part.ends_with('\n'));
+  ASSERT_EQ(run(words("stopped")), 0);
+  expect_same("whole", "stopped");
+}
+
+TEST_F(SweepProgram, TuneAnswersWithACommandThatKeepsItsPromise) {
+  const std::string json = (root / "answer.json").string();
+  ASSERT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "2%", "--map-size", "32:512:x2",
+                 "--runs", "1", "--json", json}),
+            0)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_TRUE(answer["feasible"]);
+  EXPECT_LE(answer["error"].get<double>(), 0.02);
+  EXPECT_GE(answer["others"].size(), 4u);
+  EXPECT_LE(answer["renders"].get<int>(), 3 * 5 + 1);  // a grid: 5 sizes, 5 kinds of bias, every bias
+
+  // The same figures from compare itself.
+  Words words{"compare", "floating-box", "-o", (root / "tuned").string()};
+  for (const auto& [name, value] : answer["options"].items()) {
+    if (value == "off") continue;
+    words.push_back("--" + name);
+    if (value != "on") words.push_back(value);
+  }
+  ASSERT_EQ(run(words), 0) << said();
+  const nlohmann::json result = nlohmann::json::parse(bytes(root / "tuned/result.json"));
+  EXPECT_EQ(result["lights"][0]["error"]["wrong_fraction"], answer["error"]);
+  EXPECT_NE(answer["command"].get<std::string>().find("gnomon compare floating-box"), std::string::npos);
+}
+
+TEST_F(SweepProgram, TuneSaysWhyNothingCanWork) {
+  const std::string json = (root / "answer.json").string();
+  EXPECT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "0", "--map-size", "16,32",
+                 "--runs", "1", "--technique", "hard", "--slope-bias", "0", "--json", json}),
+            1)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_FALSE(answer["feasible"]);
+  EXPECT_NE(answer["why"].get<std::string>().find("no constant bias is right everywhere"), std::string::npos)
+      << answer["why"];
+  EXPECT_EQ(run({"tune", "floating-box"}), 2);
+  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--max-time", "5"}), 2);
+  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--bias", "0"}), 2);
+}
+
+TEST_F(SweepProgram, UsageErrors) {
+  EXPECT_EQ(run({"sweep", "floating-box", "--bias", "0:1"}), 2);
+  EXPECT_NE(said().find("--bias: not a range (got 0:1, allowed START:END:COUNT"), std::string::npos)
+      << said();
+  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "128,0"}), 2);
+  EXPECT_NE(said().find("(got 0, allowed 1 to 65536)"), std::string::npos) << said();
+  EXPECT_EQ(run({"sweep", "floating-box", "--shard", "3/2"}), 2);
+  EXPECT_EQ(run({"sweep", "floating-box", "--receiver-plane", "maybe"}), 2);
+  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "1,2", "--bias", "0,1,2", "--zip"}), 2);
+  EXPECT_NE(said().find("one length"), std::string::npos) << said();
+}
+
+}  // namespace
