@@ -39,10 +39,11 @@ Expected<bool> parse_switch(const std::string& name, const std::string& value) {
   return fail(ErrorKind::usage, fmt::format("--{}: unknown value (got {}, allowed on, off)", name, value));
 }
 
-/// Truth first, map second, constant bias last.
+/// Truth first, then what changes the depth map, then what only looks it up, the constant bias last.
 int speed(const std::string& name, const std::vector<std::string>& map_names) {
-  if (name == "bias") return 2;
-  return std::find(map_names.begin(), map_names.end(), name) != map_names.end() ? 1 : 0;
+  if (name == "bias") return 3;
+  if (name == "map-size" || name == "depth-format" || name == "cull") return 1;
+  return std::find(map_names.begin(), map_names.end(), name) != map_names.end() ? 2 : 0;
 }
 
 std::string sweep_text(const CLI::Option& option) {
