@@ -56,8 +56,8 @@ TEST(Usage, ValuesOutOfRange) {
                                     {"--size", "2147483648x1"}, {"--map-size", "0"},
                                     {"--map-size", "-5"},       {"--map-size", "2147483648"},
                                     {"--threads", "-1"},        {"--runs", "0"},
-                                    {"--technique", "soft"},    {"--precision", "exact"},
-                                    {"--accel", "octree"},      {"--cull", "both"},
+                                    {"--technique", "soft"},    {"--precision", "half"},
+                                    {"--accel", "quadtree"},    {"--cull", "both"},
                                     {"--backend", "vulkan"},    {"--exposure", "0"},
                                     {"--seed", "-1"},           {"--fail-above", "101%"},
                                     {"--min-contribution", "2"}};
