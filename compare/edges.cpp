@@ -100,8 +100,13 @@ struct EdgeWalk {
   Vec2 start_uv(int px, int py, int qx, int qy) const {
     return 0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy)));
   }
-  double moved_texels(const Vec2& start, std::size_t end) const {
-    return glm::length(Vec2(record.texel_uv.data[end]) - start);
+  // Map positions are those of pixel centres, while a walk ends where it enters a pixel: the way on the map
+  // to the pixel's centre, scaled to the way that was walked.
+  double moved_texels(const Vec2& middle, const Vec2& start, std::size_t end, double offset) const {
+    const auto width = static_cast<std::size_t>(labels.size.width);
+    const Vec2 centre(double(end % width) + 0.5, double(end / width) + 0.5);
+    const double way = glm::length(Vec2(record.texel_uv.data[end]) - start);
+    return way * offset / glm::length(centre - middle);
   }
 
   // Offset of the drawn edge at a true edge between pixels p (shadowed) and q (lit).
@@ -115,7 +120,7 @@ struct EdgeWalk {
     double offset = walk(middle, normal, true, own, end);
     if (offset == 0.0) offset = -walk(middle, -normal, false, own, end);
     if (!std::isfinite(offset)) return;
-    const double moved = offset == 0.0 ? 0.0 : moved_texels(start_uv(px, py, qx, qy), end);
+    const double moved = moved_texels(middle, start_uv(px, py, qx, qy), end, std::abs(offset));
     sums.add(std::copysign(moved, offset), offset);
   }
 
@@ -173,7 +178,7 @@ EdgePaths::EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord
       if (gap < record_gap || (std::isnan(gap) && record_gap > -std::numeric_limits<float>::infinity())) {
         // NaN exceeds no bias: drawn lit at every one.
         record_gap = std::isnan(gap) ? -std::numeric_limits<float>::infinity() : gap;
-        stops_.push_back({record_gap, offset, walk.moved_texels(start, i)});
+        stops_.push_back({record_gap, offset, walk.moved_texels(middle, start, i, offset)});
       }
       return false;
     });
@@ -181,7 +186,8 @@ EdgePaths::EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord
     record_gap = -std::numeric_limits<float>::infinity();
     walk.follow(middle, -normal, false, own, [&](std::size_t i, double offset) {
       const float gap = record.gap.data[i];
-      if (gap > record_gap) stops_.push_back({record_gap = gap, offset, walk.moved_texels(start, i)});
+      if (gap > record_gap)
+        stops_.push_back({record_gap = gap, offset, walk.moved_texels(middle, start, i, offset)});
       return false;
     });
     edge.end = count();

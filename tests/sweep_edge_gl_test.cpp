@@ -110,6 +110,22 @@ TEST(StraightEdge, AreaIsTheClosedForm) {
   EXPECT_NEAR(diagonal.area_texels, 1 / (3 * std::sqrt(2.0)), 0.05 * 0.236);
 }
 
+// Texels of 5 to 10 pixels, so that the pixels' own steps add less than two percent to the offsets.
+TEST(StraightEdge, OffsetOfTheEdgeIsUniformOverATexel) {
+  OneWorld world(plates_over_floor(0.0));
+  double squares = 0.0;
+  std::uint64_t edges = 0;
+  for (int map_size = 40; map_size < 80; ++map_size) {
+    const compare::Comparison run = world.compare(test_options(size, map_size, 0.01));
+    const compare::EdgeStats& stats = run.lights[0].edges;
+    squares += stats.rms_texels * stats.rms_texels * double(stats.edges);
+    edges += stats.edges;
+  }
+  const double rms = std::sqrt(squares / double(edges));
+  std::printf("  edge offset: RMS %.4f texel (1/sqrt(12) = %.4f)\n", rms, 1 / std::sqrt(12.0));
+  EXPECT_NEAR(rms, 1 / std::sqrt(12.0), 0.05 / std::sqrt(12.0));
+}
+
 TEST(StraightEdge, ErrorFallsAsTheInverseOfTheMapSize) {
   OneWorld world(plates_over_floor(0.4));
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
