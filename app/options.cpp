@@ -113,8 +113,10 @@ constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {
     {"grid-textbook", raytrace::Accel::grid_textbook},
     {"bsp", raytrace::Accel::bsp},
     {"brute", raytrace::Accel::brute}};
-enum class Precision : std::uint8_t { robust };
-constexpr std::pair<std::string_view, Precision> precisions[] = {{"robust", Precision::robust}};
+constexpr std::pair<std::string_view, raytrace::Precision> precisions[] = {
+    {"fast", raytrace::Precision::fast},
+    {"robust", raytrace::Precision::robust},
+    {"exact", raytrace::Precision::exact}};
 
 // Ranges that no struct states. Each is far beyond what is useful and short of what overflows a float.
 constexpr int max_map_size = 65536;  // texels; the OpenGL context's own limit is checked when the map is made
@@ -180,17 +182,17 @@ void add_backend(CLI::App& command, raster::Backend& backend) {
              "where OpenGL comes from; auto tries OSMesa (software), then EGL (a GPU when there is one)");
 }
 
-void add_tracer_options(CLI::App& command, raytrace::Accel& accel) {
+void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Precision& precision) {
   add_choice(command, "--accel", accel, accels, "NAME",
              "how rays find what they hit; brute tests everything");
-  const std::string names = choice_names<Precision>(precisions, " or ");
-  add_value(command, "--precision", "NAME",
-            describe("arithmetic of the rays: robust is watertight, with error bounds", names, names),
-            [](const std::string& value) -> Expected<void> {
-              const Expected<Precision> only = parse_choice<Precision>(value, precisions);
-              if (!only) return fail(only.error());
-              return {};
-            });
+  add_precision(command, precision);
+}
+
+void add_precision(CLI::App& command, raytrace::Precision& precision) {
+  add_choice(
+      command, "--precision", precision, precisions, "NAME",
+      "arithmetic of the rays: fast is the textbooks' floats, robust is watertight with error bounds, exact "
+      "settles what the bounds leave open");
 }
 
 void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& chosen) {

@@ -28,7 +28,8 @@ void add_map_options(CLI::App& command, raster::MapOptions& map);
 std::vector<std::string> technique_names();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// --accel, --precision.
-void add_tracer_options(CLI::App& command, raytrace::Accel& accel);
+void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Precision& precision);
+void add_precision(CLI::App& command, raytrace::Precision& precision);
 /// --accel of several: all, or names with commas between.
 void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& accels);
 std::vector<raytrace::Accel> all_accels();

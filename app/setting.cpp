@@ -13,7 +13,7 @@ void add_setting_options(CLI::App& command, SettingOptions& setting) {
   add_map_options(command, options.raster.map);
   add_light(command, options.light, "compare this light only");
   add_pose_options(command, setting.poses);
-  add_tracer_options(command, options.accel);
+  add_tracer_options(command, options.accel, options.precision);
   add_min_contribution(command, options.raytrace.min_contribution);
 }
 

@@ -61,7 +61,8 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
   out.raster = std::move(*drawn);
 
   report("ray tracing", 0.3);
-  const raytrace::Tracer tracer(world, options.accel);
+  const raytrace::Tracer tracer(world, options.accel, options.precision);
+  out.precision = options.precision;
   out.accel_build_ms = tracer.stats().build_ms;
   out.raytraced = raytrace::trace_frame(tracer, out.plan, scene.camera, *lights, options.raytrace);
 

@@ -16,6 +16,7 @@ struct CompareOptions {
   raster::RasterOptions raster;
   raytrace::RaytraceOptions raytrace;
   raytrace::Accel accel = raytrace::Accel::bvh;
+  raytrace::Precision precision = raytrace::Precision::robust;
   std::string light;  ///< name of the one light to compare; empty: all
   int bias_curve_points = 129;
   bool perceptual = true;  ///< FLIP and SSIM; NaN when left out

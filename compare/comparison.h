@@ -154,6 +154,7 @@ struct Comparison {
   int threads = 0;
   MachineInfo machine;
   EffectPlan plan;
+  raytrace::Precision precision = raytrace::Precision::robust;  ///< of the ray tracer
   raster::RasterFrame raster;
   raytrace::RayTracedFrame raytraced;
   std::vector<LightComparison> lights;

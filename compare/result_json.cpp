@@ -211,6 +211,7 @@ Json result_object(const Comparison& c, double report_ms, double total_ms) {
             {"version", c.raster.context.version},
             {"renderer", c.raster.context.renderer}}},
           {"effects", effects_json(c.plan)},
+          {"precision", raytrace::precision_name(c.precision)},
           {"costs", costs_json(c)},
           {"times_ms",
            {{"load", one_time(c.load_ms)},

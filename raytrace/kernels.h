@@ -8,12 +8,19 @@
 
 namespace gnomon::raytrace {
 
+/// As LeafPrimitive, in floats; of a triangle the first corner and the edges that leave it.
+struct FastPrimitive {
+  std::array<float, 9> v;
+};
+
 /// What the kernels read. Infinite planes stand apart: they have no box.
 struct Structures {
   const World* world = nullptr;
   Bvh bvh;              ///< the default hierarchy; else the primitives alone, in ascending order of ids
   Structure structure;  ///< when it is neither that nor brute force
   std::vector<std::uint32_t> planes;  ///< primitive ids, ascending
+  Precision precision = Precision::robust;
+  std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
   bool has_shapes = false;  ///< spheres among the leaves
 };
@@ -53,6 +60,17 @@ inline bool intersect_plane(const Structures& s, const RayFrame& ray, std::uint3
   return intersect_plane(ray, std::get<Plane>(s.world->shape(plane).geometry), hit.t);
 }
 
+/// Kernel policy: how one candidate is tested. The other two are in raytrace/precision/.
+struct RobustArithmetic {
+  RobustArithmetic(const Structures&, const RayFrame&) {}
+  bool leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
+    return intersect_leaf(s, ray, index, hit);
+  }
+  bool plane(const Structures& s, const RayFrame& ray, std::uint32_t id, Hit& hit) const {
+    return intersect_plane(s, ray, id, hit);
+  }
+};
+
 /// A masked sphere's near side may be a hole while its far side is not.
 inline bool solid(const Structures& s, RayFrame ray, Hit& hit) {
   const World& world = *s.world;
@@ -77,8 +95,9 @@ inline bool precedes(const Hit& a, const Hit& b) {
 }
 
 /// The primitive `skip` (no_id: none) is left out. The result's t is the ray's own.
-template <bool masks, class Stats>
+template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
+  const Arithmetic arithmetic(s, frame);
   Hit best{.t = infinity};
   RayFrame ray = frame;
   // A later hit at the same t may have the lower id, so the interval is closed while the walk shortens it.
@@ -95,10 +114,10 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   };
   Hit hit;
   for (const std::uint32_t plane : s.planes)
-    if (plane != skip && intersect_plane(s, ray, plane, hit)) keep(hit);
+    if (plane != skip && arithmetic.plane(s, ray, plane, hit)) keep(hit);
   BoxRay boxes(ray, s.bvh.center);
   walk(s, boxes, stats, [&](std::uint32_t i) {
-    if (intersect_leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
+    if (arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
       boxes.t_max = float_above(best.t);
     return false;
   });
@@ -107,17 +126,18 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   return best;
 }
 
-template <bool masks, class Stats>
+template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 bool any(const Structures& s, const RayFrame& ray, Stats stats) {
+  const Arithmetic arithmetic(s, ray);
   Hit hit;
   const auto blocks = [&]() {
     if constexpr (masks) return solid(s, ray, hit);
     return true;
   };
   for (const std::uint32_t plane : s.planes)
-    if (intersect_plane(s, ray, plane, hit) && blocks()) return true;
+    if (arithmetic.plane(s, ray, plane, hit) && blocks()) return true;
   BoxRay boxes(ray, s.bvh.center);
-  return walk(s, boxes, stats, [&](std::uint32_t i) { return intersect_leaf(s, ray, i, hit) && blocks(); });
+  return walk(s, boxes, stats, [&](std::uint32_t i) { return arithmetic.leaf(s, ray, i, hit) && blocks(); });
 }
 
 }  // namespace gnomon::raytrace

@@ -69,12 +69,17 @@ class Shader {
     ++counts_.shadow;
     Ray ray = tracer_.shadow_ray(point, light);
     if constexpr (!Policy::refracts)
-      return Vec3f(tracer_.occluded(ray) ? 0.0f : 1.0f);
+      return Vec3f(is_blocked(ray, point, light) ? 0.0f : 1.0f);
     else
       return through_glass(ray);
   }
 
  private:
+  bool is_blocked(const Ray& ray, const SurfacePoint& point, const Light& light) const {
+    if (tracer_.precision() == Precision::exact) return tracer_.light_verdict(point, light) != Verdict::lit;
+    return tracer_.occluded(ray);
+  }
+
   static constexpr int max_glass_surfaces = 64;  // on one shadow ray; what is behind more of them is dark
 
   template <class Shadow>

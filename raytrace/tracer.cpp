@@ -1,6 +1,8 @@
 #include "raytrace/tracer.h"
 
 #include "raytrace/kernels.h"
+#include "raytrace/precision/exact.h"
+#include "raytrace/precision/fast.h"
 #include "raytrace/ray_offset.h"
 #include "raytrace/verdict.h"
 #include "scene/timing.h"
@@ -8,9 +10,10 @@
 namespace gnomon::raytrace {
 namespace {
 
-Structures make_structures(const World& world, Accel accel) {
+Structures make_structures(const World& world, Accel accel, Precision precision) {
   Structures s;
   s.world = &world;
+  s.precision = precision;
   s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
   s.structure = build_structure(world, accel);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
@@ -22,36 +25,70 @@ Structures make_structures(const World& world, Accel accel) {
     else
       ++s.bvh.dropped;
   }
+  if (precision == Precision::fast)
+    for (std::size_t i = 0; i < s.bvh.ids.size(); ++i)
+      s.fast.push_back(fast_primitive(s.bvh.primitives[i], world.is_triangle(s.bvh.ids[i])));
   const auto& materials = world.scene->materials;
   for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
     s.has_masks = materials[world.material_of(id)].alpha_mode == AlphaMode::mask;
   return s;
 }
 
+/// verb(masks, arithmetic) with types that stand for the scene's masks and the chosen arithmetic.
+template <class Verb>
+auto specialise(const Structures& s, const Verb& verb) {
+  const auto with = [&]<class Arithmetic>() {
+    return s.has_masks ? verb.template operator()<true, Arithmetic>()
+                       : verb.template operator()<false, Arithmetic>();
+  };
+  switch (s.precision) {
+    case Precision::fast:
+      return with.template operator()<FastArithmetic>();
+    case Precision::exact:
+      return with.template operator()<ExactArithmetic>();
+    case Precision::robust:
+      break;
+  }
+  return with.template operator()<RobustArithmetic>();
+}
+
 template <class Stats>
 std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return std::nullopt;
-  return s.has_masks ? closest<true>(s, *frame, skip, stats) : closest<false>(s, *frame, skip, stats);
+  return specialise(
+      s, [&]<bool masks, class Arithmetic>() { return closest<masks, Arithmetic>(s, *frame, skip, stats); });
 }
 
 template <class Stats>
 bool any_of(const Structures& s, const Ray& ray, Stats stats) {
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return false;
-  return s.has_masks ? any<true>(s, *frame, stats) : any<false>(s, *frame, stats);
+  return specialise(s,
+                    [&]<bool masks, class Arithmetic>() { return any<masks, Arithmetic>(s, *frame, stats); });
+}
+
+/// The textbook's point: what the ray says, and no bound.
+void forget_bounds(SurfacePoint& point, const Ray& ray, double t) {
+  point.position = Vec3(Vec3f(ray.at(t)));
+  point.position_error = Vec3(0.0);
 }
 
 }  // namespace
+
+std::string_view precision_name(Precision precision) {
+  constexpr std::array<std::string_view, 3> names{"fast", "robust", "exact"};
+  return names[static_cast<std::size_t>(precision)];
+}
 
 struct Tracer::Impl {
   Structures structures;
   AccelStats stats;
 };
 
-Tracer::Tracer(const World& world, Accel accel) : impl_(std::make_unique<Impl>()) {
+Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std::make_unique<Impl>()) {
   const Stopwatch watch;
-  impl_->structures = make_structures(world, accel);
+  impl_->structures = make_structures(world, accel, precision);
   const Bvh& bvh = impl_->structures.bvh;
   const StructureSize size = size_of(impl_->structures.structure);
   impl_->stats = {.build_ms = watch.elapsed_ms(),
@@ -67,6 +104,9 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 const World& Tracer::world() const {
   return *impl_->structures.world;
+}
+Precision Tracer::precision() const {
+  return impl_->structures.precision;
 }
 const AccelStats& Tracer::stats() const {
   return impl_->stats;
@@ -102,16 +142,22 @@ SurfacePoint Tracer::surface_point(const Ray& ray, const Hit& hit) const {
     else
       point.position = plane_point(std::get<Plane>(geometry), ray.at(hit.t), point.position_error);
   }
+  if (precision() == Precision::fast) forget_bounds(point, ray, hit.t);
   point.normal = face_forward(geometric_normal(w, hit.primitive, point.position), ray.direction);
   return point;
 }
 
 Ray Tracer::spawn_ray(const SurfacePoint& from, const Vec3& direction) const {
+  if (precision() == Precision::fast) return {from.position, direction, {textbook_epsilon, infinity}};
   return {offset_origin(from, direction), direction};
 }
 
 Ray Tracer::shadow_ray(const SurfacePoint& from, const Light& light) const {
   if (light.type == LightType::directional) return spawn_ray(from, -light.direction);
+  if (precision() == Precision::fast) {
+    const LightAtPoint at = light_at(light, from.position);
+    return {from.position, at.to_light, {textbook_epsilon, at.distance - textbook_epsilon}};
+  }
   const Vec3 origin = offset_origin(from, light.position - from.position);
   const Vec3 offset = light.position - origin;
   const double distance = glm::length(offset);
@@ -121,7 +167,16 @@ Ray Tracer::shadow_ray(const SurfacePoint& from, const Light& light) const {
 }
 
 Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) const {
-  return verdict(impl_->structures, from, shadow_ray(from, light));
+  const Ray ray = shadow_ray(from, light);
+  switch (precision()) {
+    case Precision::fast:
+      return occluded(ray) ? Verdict::shadowed : Verdict::lit;
+    case Precision::exact:
+      return certified_verdict(impl_->structures, from, ray, light);
+    case Precision::robust:
+      break;
+  }
+  return verdict(impl_->structures, from, ray);
 }
 
 std::optional<Hit> Tracer::nearest_occluder(const SurfacePoint& from, const Light& light) const {

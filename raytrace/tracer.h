@@ -1,12 +1,13 @@
-// Rays against the world: the reference that the rasterizer is measured by. Double precision, watertight
-// triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest primitive id. A ray's
-// hits count for t in the open interval (t.min, t.max): a surface exactly at an end is not hit. NaN, infinite
-// and zero-direction rays hit nothing.
+// Rays against the world: the reference that the rasterizer is measured by. Double precision (unless asked
+// for less), watertight triangles, closed-form shapes, alpha-masked hits honoured. Ties in t go to the lowest
+// primitive id. A ray's hits count for t in the open interval (t.min, t.max): a surface exactly at an end is
+// not hit. NaN, infinite and zero-direction rays hit nothing.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "scene/light.h"
 #include "scene/ray.h"
@@ -45,6 +46,12 @@ enum class Accel : std::uint8_t {
   brute
 };
 
+/// The arithmetic of the rays. fast: floats, as textbooks have it, wrong where HARD_CASES says. robust:
+/// doubles, watertight, with error bounds that make doubt visible. exact: robust, its doubts decided by exact
+/// predicates.
+enum class Precision : std::uint8_t { fast, robust, exact };
+std::string_view precision_name(Precision precision);
+
 /// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either
 /// answer.
 enum class Verdict : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
@@ -64,7 +71,7 @@ struct WorkCounts {
 class Tracer {
  public:
   /// The world must outlive the tracer.
-  Tracer(const World& world, Accel accel);
+  Tracer(const World& world, Accel accel, Precision precision = Precision::robust);
   ~Tracer();
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
@@ -96,6 +103,7 @@ class Tracer {
   std::optional<Hit> nearest_occluder(const SurfacePoint& from, const Light& light) const;
 
   const World& world() const;
+  Precision precision() const;
   const AccelStats& stats() const;
   /// For this room's own algorithms (texel lists, verdicts): raytrace/kernels.h.
   const Structures& structures() const;

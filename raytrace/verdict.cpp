@@ -1,5 +1,7 @@
 #include "raytrace/verdict.h"
 
+#include "raytrace/precision/exact_shadow.h"
+
 namespace gnomon::raytrace {
 namespace {
 
@@ -19,8 +21,10 @@ struct Interval3 {  // of a ray parameter
 
 class Query {
  public:
-  Query(const Structures& s, const SurfacePoint& from, const Ray& ray, const RayFrame& frame)
-      : s_(s), from_(from), ray_(frame) {
+  /// exact: none, or what decides every doubt.
+  Query(const Structures& s, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
+        const ExactShadow* exact = nullptr)
+      : s_(s), from_(from), ray_(frame), exact_(exact), surely_out_(frame.t.max) {
     const Vec3 error = from.position_error + glm::abs(ray.origin - from.position);
     error_ = error;
     error_x_ = axis(error, frame.kx) + std::abs(frame.shear_x) * axis(error, frame.kz);
@@ -30,6 +34,11 @@ class Query {
         bounds.empty()
             ? 0.0
             : max_component(glm::max(glm::abs(bounds.min - ray.origin), glm::abs(bounds.max - ray.origin)));
+    // shadow_ray ends before the light by less than this.
+    if (exact != nullptr) {
+      surely_out_ +=
+          2.0 * (glm::dot(error, Vec3(1.0)) * frame.kernel_t_from_t + error_gamma(8) * frame.t.max);
+    }
     coarse_error_ = std::max(error_x_, error_y_) + 2.0 * error_gamma(coordinate_operations) * reach;
   }
 
@@ -39,6 +48,7 @@ class Query {
       if (plane != from_.primitive && count<masks>(plane, meet_plane(plane), -1, false))
         return Verdict::shadowed;
     BoxRay boxes(ray_, s_.bvh.center, error_);
+    boxes.t_max = float_above(surely_out_);
     NoStats stats;
     const bool sure = walk(s_, boxes, stats, [&](std::uint32_t i) { return visit<masks>(i); });
     if (sure || (doubts_ > 0 && neighbours_cover())) return Verdict::shadowed;
@@ -73,6 +83,10 @@ class Query {
   template <bool masks>
   bool count(std::uint32_t id, Meets meets, int edge, bool positive) {
     if (meets == Meets::no) return false;
+    if (meets == Meets::perhaps && exact_ != nullptr) {
+      if (!exact_->blocks(id)) return false;
+      meets = Meets::surely;
+    }
     if (meets == Meets::perhaps && (below_horizon(id) || beyond_light(id))) return false;
     if constexpr (masks) {
       if (!solid_here(id)) return false;
@@ -147,7 +161,7 @@ class Query {
 
   // `t` against the ray's interval.
   Meets in_interval(const Interval3& t) const {
-    if (!(t.hi >= ray_.t.min && t.lo < ray_.t.max)) return Meets::no;
+    if (!(t.hi >= ray_.t.min && t.lo < surely_out_)) return Meets::no;
     return t.lo > ray_.t.min && t.hi < ray_.t.max ? Meets::surely : Meets::perhaps;
   }
 
@@ -214,10 +228,13 @@ class Query {
       slope_error += std::abs(n * ray_.direction[a]) * error_gamma(8);
     }
     if (std::abs(height) <= height_error) {
+      if (exact_ != nullptr) return Meets::perhaps;
       // The point lies on this plane: it is met at the origin or nowhere, and then it is the same surface.
       return std::abs(slope) <= slope_error || is_same_surface(plane) ? Meets::no : Meets::perhaps;
     }
-    if (std::abs(slope) <= slope_error) {  // nearly along the plane: met very far away, if at all
+    if (std::abs(slope) <= slope_error) {
+      if (exact_ != nullptr) return Meets::perhaps;
+      // Nearly along the plane: met very far away, if at all.
       const double nearest = (std::abs(height) - height_error) / (std::abs(slope) + slope_error);
       return nearest < ray_.t.max && std::isfinite(ray_.t.max) ? Meets::perhaps : Meets::no;
     }
@@ -281,6 +298,8 @@ class Query {
   const Structures& s_;
   const SurfacePoint& from_;
   const RayFrame& ray_;
+  const ExactShadow* exact_;
+  double surely_out_;  ///< nothing from here on can be in the way
   Vec3 error_;
   double error_x_, error_y_, coarse_error_;
   std::size_t doubts_ = 0;
@@ -293,6 +312,15 @@ Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ra
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return Verdict::lit;  // the light lies within the point's own error bound
   Query query(structures, from, ray, *frame);
+  return structures.has_masks ? query.run<true>() : query.run<false>();
+}
+
+Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                          const Light& light) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame) return Verdict::lit;
+  const ExactShadow exact(*structures.world, from, light);
+  Query query(structures, from, ray, *frame, &exact);
   return structures.has_masks ? query.run<true>() : query.run<false>();
 }
 

@@ -11,4 +11,8 @@ namespace gnomon::raytrace {
 /// `ray` is Tracer::shadow_ray of the point.
 Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray);
 
+/// The same without doubt: what the bounds leave open is decided by exact predicates (exact_shadow.h there).
+Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                          const Light& light);
+
 }  // namespace gnomon::raytrace

@@ -14,6 +14,18 @@ std::string test_name(const Case& c) {
   return fmt::format("{:02}_{}", c.number, c.name);
 }
 
+bool run_with(const Case& which, raytrace::Precision precision) {
+  bool ok = true;
+  const Options options{.rays = 10000, .seed = 1, .precision = precision};
+  for (const Row& row : run_case(which, options)) {
+    fmt::print("{} {}: tried {}, wrong {}, worst {:.3g} {} (bound {:.3g}){}\n",
+               raytrace::precision_name(precision), row.name, row.outcome.tried, row.outcome.wrong,
+               row.outcome.worst, row.unit, row.bound, row.ok() ? "" : " FALLS SHORT");
+    ok = ok && row.ok();
+  }
+  return ok;
+}
+
 int run_named(const std::string& name) {
   const auto cases = all_cases();
   const auto found =
@@ -23,11 +35,8 @@ int run_named(const std::string& name) {
     return 1;
   }
   bool ok = true;
-  for (const Row& row : run_case(*found, {.rays = 20000})) {
-    fmt::print("{}: tried {}, wrong {}, worst {:.3g} {} (bound {:.3g}){}\n", row.name, row.outcome.tried,
-               row.outcome.wrong, row.outcome.worst, row.unit, row.bound, row.ok() ? "" : " FALLS SHORT");
-    ok = ok && row.ok();
-  }
+  for (const auto precision : {raytrace::Precision::robust, raytrace::Precision::exact})
+    ok = run_with(*found, precision) && ok;
   return ok ? 0 : 1;
 }
 

@@ -22,6 +22,7 @@ struct RaytraceCommand {
   std::string scene, image, light;
   raytrace::RaytraceOptions options;
   raytrace::Accel accel = raytrace::Accel::bvh;
+  raytrace::Precision precision = raytrace::Precision::robust;
   std::optional<std::optional<double>> exposure;
   std::optional<HeatmapOf> heatmap;
   PoseOptions poses;
@@ -51,7 +52,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
   console.progress("ray tracing", 0.2);
-  const raytrace::Tracer tracer(*loaded->world, command.accel);
+  const raytrace::Tracer tracer(*loaded->world, command.accel, command.precision);
   if (command.heatmap) {
     const OutputGuard whole_outputs;
     const auto work = primary_ray_work(tracer, loaded->scene->camera, command.options.size);
@@ -91,7 +92,7 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_light(*app, command->light,
             "put this light's visibility only into the .exr; the picture always has all lights");
   add_pose_options(*app, command->poses);
-  add_tracer_options(*app, command->accel);
+  add_tracer_options(*app, command->accel, command->precision);
   add_heatmap(*app, command->heatmap);
   add_min_contribution(*app, command->options.min_contribution);
   add_threads(*app, command->threads, "threads of the ray tracer");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -35,20 +36,30 @@ std::string case_numbers() {
   return text;
 }
 
-std::string rows_json(const std::vector<Row>& rows) {
+/// JSON has no infinity: an error that is not a number stands as null.
+nlohmann::ordered_json error_json(double worst) {
+  return std::isfinite(worst) ? nlohmann::ordered_json(worst) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json outcome_json(const verify::Outcome& outcome) {
+  return {{"tried", outcome.tried}, {"wrong", outcome.wrong}, {"worst", error_json(outcome.worst)}};
+}
+
+std::string rows_json(const std::vector<Row>& rows, raytrace::Precision precision) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Row& row : rows) {
     list.push_back({{"case", row.name},
                     {"number", row.number},
                     {"tried", row.outcome.tried},
                     {"wrong", row.outcome.wrong},
-                    {"worst", row.outcome.worst},
+                    {"worst", error_json(row.outcome.worst)},
                     {"bound", row.bound},
                     {"unit", row.unit},
                     {"ok", row.ok()}});
+    if (row.naive) list.back()["naive"] = outcome_json(*row.naive);
   }
   const nlohmann::ordered_json document{
-      {"schema", "gnomon/verify/1"}, {"precision", "robust"}, {"rows", list}};
+      {"schema", "gnomon/verify/1"}, {"precision", raytrace::precision_name(precision)}, {"rows", list}};
   return document.dump(2) + "\n";
 }
 
@@ -56,15 +67,24 @@ std::string error_text(const Row& row, double worst) {
   return row.unit.empty() ? "-" : fmt::format("{:.3g}", worst);
 }
 
-std::string table_row(const Row& row) {
-  return fmt::format("{:>4}  {:<44}{:>11}{:>10}{:>10}{:>8}  {:<4}{}\n", row.number, row.name,
-                     row.outcome.tried, row.outcome.wrong, error_text(row, row.outcome.worst),
-                     error_text(row, row.bound), row.ok() ? "ok" : "NO", row.unit);
+std::string naive_text(const Row& row) {
+  if (!row.naive) return "";
+  const auto tried = static_cast<double>(std::max<std::uint64_t>(row.naive->tried, 1));
+  return fmt::format("{:>11}{:>9.3g}%{:>10}  ", row.naive->wrong,
+                     100.0 * static_cast<double>(row.naive->wrong) / tried,
+                     error_text(row, row.naive->worst));
 }
 
-std::string table_head() {
-  return fmt::format("{:>4}  {:<44}{:>11}{:>10}{:>10}{:>8}  {:<4}{}\n", "no.", "case", "tried", "wrong",
-                     "worst", "bound", "", "unit of worst and bound");
+std::string table_row(const Row& row) {
+  return fmt::format("{:>4}  {:<44}{:>11}{:>10}{:>10}{:>8}  {:<4}{}{}\n", row.number, row.name,
+                     row.outcome.tried, row.outcome.wrong, error_text(row, row.outcome.worst),
+                     error_text(row, row.bound), row.ok() ? "ok" : "NO", naive_text(row), row.unit);
+}
+
+std::string table_head(bool with_naive) {
+  return fmt::format("{:>4}  {:<44}{:>11}{:>10}{:>10}{:>8}  {:<4}{}{}\n", "no.", "case", "tried", "wrong",
+                     "worst", "bound", "", with_naive ? "naive wrong         %     worst  " : "",
+                     "unit of worst and bound");
 }
 
 bool is_chosen(const VerifyCommand& command, int number) {
@@ -77,7 +97,7 @@ Expected<ExitCode> run_verify(const VerifyCommand& command) {
   const ThreadLimit thread_limit(command.threads);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
   const bool shows_table = !command.quiet && command.json != "-";
-  if (shows_table) print_data(table_head());
+  if (shows_table) print_data(table_head(command.options.show_naive));
   std::vector<Row> all;
   for (const verify::Case& c : verify::all_cases()) {
     if (!is_chosen(command, c.number)) continue;
@@ -92,9 +112,10 @@ Expected<ExitCode> run_verify(const VerifyCommand& command) {
     }
   }
   if (command.json == "-") {
-    print_data(rows_json(all));
+    print_data(rows_json(all, command.options.precision));
   } else if (!command.json.empty()) {
-    if (const auto written = write_file(command.json, rows_json(all)); !written) return fail(written.error());
+    if (const auto written = write_file(command.json, rows_json(all, command.options.precision)); !written)
+      return fail(written.error());
   }
   const auto failed = std::count_if(all.begin(), all.end(), [](const Row& row) { return !row.ok(); });
   if (failed > 0) console.message(fmt::format("{} of {} rows fall short", failed, all.size()));
@@ -126,6 +147,7 @@ void add_verify(CLI::App& program, Invocation& invocation) {
       "Run the hard cases of ray tracing on this machine: how many rays were wrong, and the worst error.");
   app->footer(
       "gnomon verify --rays 1e8\n"
+      "gnomon verify --show-naive --case 1,5,10\n"
       "gnomon verify --case 1,25 --json -\n"
       "Exits with 1 when a case falls short. Not in this version: case 40 (lights that have a size), and of "
       "case "
@@ -134,6 +156,11 @@ void add_verify(CLI::App& program, Invocation& invocation) {
   add_ray_count(*app, command->options.rays);
   add_checked(*app, "--case", "N[,N]", "run these cases only [numbers of the table; default all]",
               [command](const std::string& text) { return store_cases(command->cases, text); });
+  add_precision(*app, command->options.precision);
+  app->add_flag(
+      "--show-naive", command->options.show_naive,
+      "set the textbooks' formulation beside it, on the same rays: float Moeller-Trumbore, a slab test that "
+      "lets NaN through, the naive quadratic, a fixed epsilon [default off]");
   add_seed(*app, command->options.seed,
            "of the random rays; the same seed gives the same table on any machine");
   add_threads(*app, command->threads, "threads of the ray tracer");

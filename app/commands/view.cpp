@@ -36,7 +36,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
                   "begin with this light [a light's name; default the first]")
       ->type_name("NAME");
   add_pose_options(*app, options->poses);
-  add_tracer_options(*app, options->compare.accel);
+  add_tracer_options(*app, options->compare.accel, options->compare.precision);
   add_min_contribution(*app, options->compare.raytrace.min_contribution);
   add_exposure(*app, options->exposure);
   app->add_option("--script", options->script, script_help)->type_name("FILE");

@@ -33,6 +33,8 @@ void shared_edges(Run& run) {
                  });
     }
   }
+  triangles_by_rationals(run);
+  verdicts_by_rationals(run);
 }
 
 void light_inside(Run& run) {

@@ -35,6 +35,8 @@ void contact_gap(Run& run);
 void smooth_normals(Run& run);
 void critical_angle(Run& run);  // case_glass.cpp
 void invisible_glass(Run& run);
+void triangles_by_rationals(Run& run);  // case_rational.cpp, rows of case 1
+void verdicts_by_rationals(Run& run);
 void far_from_origin(Run& run);  // case_far.cpp
 
 }  // namespace gnomon::verify

@@ -64,9 +64,16 @@ void Run::blocks(Row row, std::uint64_t trials, const Block& block) {
 }
 
 std::vector<Row> run_case(const Case& which, const Options& options, const Progress& progress) {
-  Run run(which.number, options, progress);
+  Run run(which.number, options, false, progress);
   which.run(run);
-  return run.take_rows();
+  std::vector<Row> rows = run.take_rows();
+  if (!options.show_naive) return rows;
+  Run naive(which.number, options, true, progress);
+  which.run(naive);
+  const std::vector<Row> naive_rows = naive.take_rows();
+  for (std::size_t i = 0; i < std::min(rows.size(), naive_rows.size()); ++i)
+    rows[i].naive = naive_rows[i].outcome;
+  return rows;
 }
 
 }  // namespace gnomon::verify

@@ -49,12 +49,15 @@ struct Tally {
 
 class Run {
  public:
-  Run(int number, const Options& options, const Progress& progress)
-      : number_(number), options_(options), progress_(progress) {}
+  Run(int number, const Options& options, bool textbook, const Progress& progress)
+      : number_(number), options_(options), textbook_(textbook), progress_(progress) {}
 
   raytrace::Tracer tracer(const World& world, raytrace::Accel accel = raytrace::Accel::bvh) const {
-    return raytrace::Tracer(world, accel);
+    return raytrace::Tracer(world, accel, precision());
   }
+  raytrace::Precision precision() const { return textbook_ ? raytrace::Precision::fast : options_.precision; }
+  /// The naive formulation is under test, also of what all precisions share.
+  bool is_textbook() const { return textbook_; }
   /// Share of --rays, at least one block and never above `most`.
   std::uint64_t rays(double share = 1.0, std::uint64_t most = ~std::uint64_t{0}) const;
   std::uint64_t seed() const { return options_.seed; }
@@ -94,6 +97,7 @@ class Run {
 
   int number_;
   Options options_;
+  bool textbook_;
   const Progress& progress_;
   std::vector<Row> rows_;
 };

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "raytrace/tracer.h"
+
 namespace gnomon::verify {
 
 class Run;
@@ -38,13 +40,15 @@ struct Row {
   std::string unit;    ///< of worst and bound; empty: the row only counts
   double bound = 0.0;  ///< what worst must not exceed
   Outcome outcome;
-  std::optional<Outcome> naive;  ///< the textbook formulation on the same rays
+  std::optional<Outcome> naive;  ///< the textbook formulation on the same rays, when asked for
   bool ok() const { return outcome.tried > 0 && outcome.wrong == 0 && outcome.worst <= bound; }
 };
 
 struct Options {
   std::uint64_t rays = 1'000'000;  ///< of a case; costly ones take a stated share of it
   std::uint64_t seed = 1;
+  raytrace::Precision precision = raytrace::Precision::robust;
+  bool show_naive = false;  ///< run the textbook formulation on the same rays too
 };
 
 /// Called between blocks of rays with the row's name and the share of the case done in [0, 1].

@@ -92,6 +92,8 @@ std::string compare_command(const ViewState& state, const ViewOptions& options) 
   add_if(text, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
   add_poses(text, state.setup);
   add_if(text, options.compare.accel != plain.accel, "--accel", "brute");
+  add_if(text, options.compare.precision != plain.precision, "--precision",
+         std::string(raytrace::precision_name(options.compare.precision)));
   add_if(text, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
          "--min-contribution", number_text(options.compare.raytrace.min_contribution));
   if (options.exposure)

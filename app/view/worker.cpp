@@ -120,7 +120,7 @@ void CompareWorker::run() {
     }
     std::optional<Expected<ComparisonOutcome>> outcome;
     try {
-      if (!tracer_) tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel);
+      if (!tracer_) tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel, options_.precision);
       outcome = compare(std::move(request), *job);
     } catch (const std::bad_alloc&) {
       outcome = fail(ErrorKind::graphics, "out of memory");
@@ -143,6 +143,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   compare::Comparison& comparison = outcome.comparison;
   comparison.world = world_.get();
   comparison.plan = plan_;
+  comparison.precision = options_.precision;
   comparison.raster = std::move(request.drawn);
   comparison.accel_build_ms = tracer_->stats().build_ms;
 

@@ -76,7 +76,7 @@ std::optional<Hit> hit_at(const Structures& s, const Ray& ray, std::uint32_t lea
 bool packets_apply(const Structures& s) {
   const double size = s.world->finite_bounds.diagonal();
   const double far = max_component(glm::abs(s.bvh.center)) + size;
-  return !s.bvh.nodes.empty() && size > 1e-9 && far < 1e9;
+  return s.precision != Precision::fast && !s.bvh.nodes.empty() && size > 1e-9 && far < 1e9;
 }
 
 Seen seen_from(const Structures& structures, const Light& light) {

@@ -1,0 +1,24 @@
+// Oracles in rational numbers (GMP): nothing is rounded, and the formulas are the textbooks' (Moeller and
+// Trumbore), other ones than the exact predicates of raytrace/precision/ use.
+#pragma once
+
+#include <array>
+
+#include "raytrace/tracer.h"
+
+namespace gnomon::verify {
+
+struct RationalTriangle {
+  bool meets = false;   ///< the line meets the closed triangle; never when it lies in its plane
+  bool ahead = false;   ///< t > 0
+  double inside = 0.0;  ///< the smallest barycentric weight, rounded
+  double slope = 0.0;   ///< normal (twice the area long) times direction, rounded
+};
+RationalTriangle rational_triangle(const Vec3& origin, const Vec3& direction,
+                                   const std::array<Vec3, 3>& corners);
+
+/// Whether any triangle of the world but the point's own meets the open segment from the point, the mean of
+/// its triangle's corners with its weights, to `light`. Doubles decide first where they are far from doubt.
+bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point, const Vec3& light);
+
+}  // namespace gnomon::verify

@@ -1,0 +1,116 @@
+#include "raytrace/precision/exact.h"
+
+#include "raytrace/precision/dyadic.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+// Below it products may have lost bits to underflow, and the filter's bound does not hold.
+constexpr double least_permanent = 1e-270;
+
+[[gnu::noinline, gnu::cold]] int exact_side(const Vec3& origin, const Vec3& direction, const Vec3& a,
+                                            const Vec3& b) {
+  const Dyadic3 o(origin);
+  return dot(Dyadic3(direction), cross(Dyadic3(a) - o, Dyadic3(b) - o)).sign();
+}
+
+struct PlaneMeeting {
+  Dyadic height, slope;  ///< t = height / slope
+};
+PlaneMeeting meet(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+  const Dyadic3 a(c[0]), normal = cross(Dyadic3(c[1]) - a, Dyadic3(c[2]) - a);
+  return {dot(normal, a - Dyadic3(origin)), dot(normal, Dyadic3(direction))};
+}
+
+std::array<Vec3, 3> corners_of(const LeafPrimitive& triangle) {
+  const auto& v = triangle.v;
+  return {Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]), Vec3(v[6], v[7], v[8])};
+}
+Vec3 vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+int side_of_edge(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b) {
+  const Vec3 p = a - origin, q = b - origin;
+  const double det = glm::dot(direction, glm::cross(p, q));
+  const Vec3 d = glm::abs(direction), m = glm::abs(p), n = glm::abs(q);
+  const double permanent =
+      d.x * (m.y * n.z + m.z * n.y) + d.y * (m.z * n.x + m.x * n.z) + d.z * (m.x * n.y + m.y * n.x);
+  // Roundings of a term: two differences, two products, the cross product's difference, two sums.
+  if (std::abs(det) > error_gamma(10) * permanent && permanent > least_permanent) return det > 0.0 ? 1 : -1;
+  return exact_side(origin, direction, a, b);
+}
+
+bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+  const int u = side_of_edge(origin, direction, c[1], c[2]), v = side_of_edge(origin, direction, c[2], c[0]);
+  if (u * v < 0) return false;
+  const int w = side_of_edge(origin, direction, c[0], c[1]);
+  if (u * w < 0 || v * w < 0) return false;
+  return u != 0 || v != 0 || w != 0;  // all zero: the line lies in the plane
+}
+
+int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c, double bound) {
+  if (std::isinf(bound)) return bound > 0.0 ? -1 : 1;
+  const PlaneMeeting m = meet(origin, direction, c);
+  return (m.height - Dyadic(bound) * m.slope).sign() * m.slope.sign();
+}
+
+double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+  const PlaneMeeting m = meet(origin, direction, c);
+  return m.height.value() / m.slope.value();
+}
+
+ExactArithmetic::ExactArithmetic(const Structures& s, const RayFrame& ray) {
+  const Aabb& bounds = s.world->finite_bounds;
+  const Vec3 origin = vector_of(ray.origin);
+  const double reach =
+      bounds.empty() ? 0.0
+                     : max_component(glm::max(glm::abs(bounds.min - origin), glm::abs(bounds.max - origin)));
+  // A sheared coordinate is the difference of two lengths within reach and has six roundings.
+  coarse_error_ = 2.0 * error_gamma(6) * reach;
+}
+
+bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
+  const std::uint32_t id = s.bvh.ids[index];
+  if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
+  hit.primitive = id;
+  return triangle(ray, s.bvh.primitives[index], hit);
+}
+
+bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
+  const ShearedTriangle s = shear(ray, triangle);
+  double size = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) size += std::abs(s.x[i]) + std::abs(s.y[i]);
+  const double bound = 2.0 * coarse_error_ * (size + coarse_error_);
+  const double low = std::min({s.u, s.v, s.w}), high = std::max({s.u, s.v, s.w});
+  if (low < -bound && high > bound) return false;
+  const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
+  const bool sure = low > bound || high < -bound;
+  if (!sure && !line_meets(origin, direction, corners_of(triangle))) return false;
+  TriangleHit t;
+  const double det = s.u + s.v + s.w, det_error = 4.0 * bound;
+  if (!finish_triangle(ray, s, t) || std::abs(det) < 4.0 * det_error) {
+    t.t = exact_t(origin, direction, corners_of(triangle));
+    if (!(det != 0.0)) t.b1 = t.b2 = 1.0 / 3.0;  // edge-on: any point of it
+  }
+  t.b1 = std::clamp(t.b1, 0.0, 1.0), t.b2 = std::clamp(t.b2, 0.0, 1.0 - t.b1);
+  hit.t = t.t;
+  hit.barycentric = Vec2(t.b1, t.b2);
+  // t is a mean of the corners' depths with weights known within det_error.
+  const double z_size = std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])});
+  const double spread = (2.0 * det_error / std::max(std::abs(det) - det_error, DBL_MIN) + error_gamma(16)) *
+                        2.0 * z_size * std::abs(ray.shear_z);
+  const auto after = [&](double end) {
+    if (std::abs(t.t - end) > spread) return t.t > end;
+    return compare_t(origin, direction, corners_of(triangle), end) > 0;
+  };
+  const auto before = [&](double end) {
+    if (std::abs(t.t - end) > spread) return t.t < end;
+    return compare_t(origin, direction, corners_of(triangle), end) < 0;
+  };
+  return after(ray.t.min) && before(ray.t.max);
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,41 @@
+// Exact predicates: whether a line through given doubles meets a triangle, without any rounding. Signs come
+// from doubles with a bound on their error where that decides, from exact numbers where it does not
+// (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+// section 4, for the filter's form).
+//
+// A triangle is closed: a line through an edge or a corner meets both neighbours. A line in a triangle's
+// plane misses it.
+#pragma once
+
+#include "raytrace/kernels.h"
+
+namespace gnomon::raytrace {
+
+/// The sign of dot(direction, cross(a - origin, b - origin)): on which side of the edge a-b the line passes.
+int side_of_edge(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b);
+
+/// Whether the line meets the triangle.
+bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners);
+
+/// The sign of t - bound, t being where the line meets the triangle's plane; the line must meet the triangle.
+int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners, double bound);
+
+/// That t, rounded.
+double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners);
+
+/// Kernel policy: triangles by exact predicates, with the robust kernel as their filter; spheres and planes
+/// as the robust kernel has them. The ray is taken to be exactly what its doubles say.
+class ExactArithmetic {
+ public:
+  ExactArithmetic(const Structures& s, const RayFrame& ray);
+  bool leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const;
+  bool plane(const Structures& s, const RayFrame& ray, std::uint32_t id, Hit& hit) const {
+    return intersect_plane(s, ray, id, hit);
+  }
+
+ private:
+  bool triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const;
+  double coarse_error_;  ///< of any sheared coordinate of the world
+};
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,47 @@
+// Whether a primitive blocks the way from a receiver to a light's centre, decided without rounding. The
+// receiver is the exact point that its record means: on a triangle the mean of the corners with the stored
+// weights, on a plane the foot of the stored position, on a sphere the stored position. The way is the open
+// segment between the two points (to infinity for a directional light). Surfaces touched only at its ends do
+// not block it.
+#pragma once
+
+#include <optional>
+
+#include "raytrace/precision/dyadic.h"
+#include "raytrace/tracer.h"
+
+namespace gnomon::raytrace {
+
+class ExactShadow {
+ public:
+  ExactShadow(const World& world, const SurfacePoint& from, const Light& light)
+      : world_(world), from_(from), light_(light) {}
+
+  /// `id` is not the receiver's own triangle or plane.
+  bool blocks(std::uint32_t id) const;
+
+ private:
+  /// A point as (x, y, z) / w, w > 0.
+  struct Receiver {
+    Dyadic3 point;
+    Dyadic weight;
+  };
+  bool is_directional() const { return light_.type == LightType::directional; }
+  const Receiver& receiver() const;
+  /// Positive multiple of (light - receiver).
+  Dyadic3 to_light() const;
+  bool triangle_blocks(std::uint32_t id) const;
+  bool plane_blocks(const Plane& plane) const;
+  bool sphere_blocks(const Sphere& sphere) const;
+  bool own_sphere_blocks(const Sphere& sphere) const;
+  /// The sides of a plane through `point` on which receiver and light lie; for a directional light the sign
+  /// of the slope towards it.
+  bool crosses(const Dyadic3& normal, const Dyadic3& point) const;
+
+  const World& world_;
+  const SurfacePoint& from_;
+  const Light& light_;
+  mutable std::optional<Receiver> receiver_;
+};
+
+}  // namespace gnomon::raytrace
