@@ -15,11 +15,21 @@ namespace {
 using raytrace::Accel;
 using raytrace::Tracer;
 
-/// The same ray through a structure, through brute force and, now and then, through the oracle.
-void agree(const Tracer& tracer, const Tracer& brute, const Ray& ray, bool ask_oracle, Tally& tally) {
-  const auto hit = tracer.closest_hit(ray), plain = brute.closest_hit(ray);
-  bool right = same(hit, plain) && tracer.occluded(ray) == plain.has_value() &&
-               brute.occluded(ray) == plain.has_value();
+/// One tracer for each structure but brute force.
+std::vector<Tracer> every_structure(const Run& run, const World& world) {
+  std::vector<Tracer> tracers;
+  for (int accel = 0; accel < static_cast<int>(Accel::brute); ++accel)
+    tracers.push_back(run.tracer(world, static_cast<Accel>(accel)));
+  return tracers;
+}
+
+/// The same ray through all structures, through brute force and, now and then, through the oracle.
+void agree(const std::vector<Tracer>& tracers, const Tracer& brute, const Ray& ray, bool ask_oracle,
+           Tally& tally) {
+  const auto plain = brute.closest_hit(ray);
+  bool right = brute.occluded(ray) == plain.has_value();
+  for (const Tracer& tracer : tracers)
+    right = right && same(tracer.closest_hit(ray), plain) && tracer.occluded(ray) == plain.has_value();
   if (right && ask_oracle) {
     const OracleHit truth = oracle_closest(brute.world(), ray);
     right = truth.doubtful || truth.primitive == (plain ? plain->primitive : no_id);
@@ -52,10 +62,11 @@ void few_primitives(Run& run) {
   for (int count = 0; count <= 2; ++count) {
     Random random(run.seed() + static_cast<std::uint64_t>(count));
     const SmallWorld w(soup(count, 0.5, 1.0, random));
-    const Tracer bvh = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
+    const std::vector<Tracer> all = every_structure(run, w.world());
+    const Tracer brute = run.tracer(w.world(), Accel::brute);
     run.sample(fmt::format("{} primitives", count), run.rays(0.05), [&](Random& r, Tally& tally) {
       const Vec3 origin = r.in_box(3.0);
-      agree(bvh, brute, {origin, r.in_box(1.0) - origin}, true, tally);
+      agree(all, brute, {origin, r.in_box(1.0) - origin}, true, tally);
     });
   }
 }
@@ -69,14 +80,16 @@ void bad_vertices(Run& run) {
   poisoned.positions.insert(poisoned.positions.end(), {{nan, 0, 0}, {infinity, 1, 0}, {0, -infinity, 0}});
   for (std::uint32_t i = 0; i < 30; ++i) poisoned.triangles.push_back({i, i + 1, first + i % 3});
   const SmallWorld w(sound), bad(poisoned);
-  for (const Accel accel : {Accel::bvh, Accel::brute}) {
-    const Tracer plain = run.tracer(w.world(), accel), tracer = run.tracer(bad.world(), accel);
-    run.sample(accel == Accel::bvh ? "bvh" : "brute", run.rays(0.05), [&](Random& r, Tally& tally) {
-      const Vec3 origin = r.in_box(4.0);
-      const Ray ray{origin, r.in_box(2.0) - origin};
-      tally.check(same(plain.closest_hit(ray), tracer.closest_hit(ray)) && tracer.stats().dropped == 30);
-    });
-  }
+  const std::vector<Tracer> all = every_structure(run, bad.world());
+  const Tracer plain = run.tracer(w.world(), Accel::brute);
+  run.sample("the others", run.rays(0.05), [&](Random& r, Tally& tally) {
+    const Vec3 origin = r.in_box(4.0);
+    const Ray ray{origin, r.in_box(2.0) - origin};
+    const auto hit = plain.closest_hit(ray);
+    tally.check(std::all_of(all.begin(), all.end(), [&](const Tracer& tracer) {
+      return tracer.stats().dropped == 30 && same(tracer.closest_hit(ray), hit);
+    }));
+  });
 }
 
 void stadium(Run& run) {
@@ -85,12 +98,14 @@ void stadium(Run& run) {
   const Vec3 center(30.0, 0.5, -20.0);
   const SmallWorld w(
       std::vector<Mesh>{round_mesh(center, small, 12, 12, 0.0, random), box(Vec3(-large), Vec3(large))}, {});
-  const Tracer tracer = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
-  // Bounded memory: no more than a kilobyte for each triangle.
-  const bool small_enough = tracer.stats().bytes < 1024 * std::uint64_t{w.world().triangle_count()};
+  const std::vector<Tracer> all = every_structure(run, w.world());
+  const Tracer brute = run.tracer(w.world(), Accel::brute);
+  // Bounded memory: ten megabytes are room for the coarsest of grids.
+  const bool small_enough = std::all_of(
+      all.begin(), all.end(), [](const Tracer& tracer) { return tracer.stats().bytes < 10'000'000; });
   run.sample("hits", run.rays(0.1), [&](Random& r, Tally& tally) {
     const Vec3 origin = r.coin() ? r.in_box(0.9 * large) : center + r.in_box(10.0 * small);
-    agree(tracer, brute, {origin, center + r.in_box(small) - origin}, false, tally);
+    agree(all, brute, {origin, center + r.in_box(small) - origin}, false, tally);
   });
   run.sample("memory", 256, [&](Random&, Tally& tally) { tally.check(small_enough); });
 }
@@ -107,13 +122,14 @@ void split_plane(Run& run) {
         meshes.push_back(quad(corner, a, b));
       }
   const SmallWorld w(std::move(meshes), {});
-  const Tracer tracer = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
+  const std::vector<Tracer> all = every_structure(run, w.world());
+  const Tracer brute = run.tracer(w.world(), Accel::brute);
   run.sample("rays in the planes", run.rays(0.1), [&](Random& r, Tally& tally) {
     Vec3 origin = r.in_box(6.0), d = r.direction();
     const int a = r.integer(0, 2);
     origin[a] = r.integer(0, 4), d[a] = r.coin() ? 0.0 : -0.0;
     if (r.coin()) d[(a + 1) % 3] = 0.0, origin[(a + 1) % 3] = r.integer(0, 4);
-    agree(tracer, brute, {origin, d}, r.below(4) == 0, tally);
+    agree(all, brute, {origin, d}, r.below(4) == 0, tally);
   });
 }
 
@@ -127,12 +143,13 @@ void cell_corners(Run& run) {
         meshes.push_back(quad(Vec3(x, y, z), Vec3(1, 0, 0), Vec3(0, 0.5, 1)));
       }
   const SmallWorld w(std::move(meshes), {});
-  const Tracer tracer = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
+  const std::vector<Tracer> all = every_structure(run, w.world());
+  const Tracer brute = run.tracer(w.world(), Accel::brute);
   run.sample("rays through corners", run.rays(0.03), [&](Random& r, Tally& tally) {
     Vec3 corner, d;
     for (int a = 0; a < 3; ++a) corner[a] = r.integer(0, 6), d[a] = r.integer(-2, 2);
     if (d == Vec3(0.0)) d.x = 1.0;
-    agree(tracer, brute, {r.nudged(corner - 8.0 * d, r.coin() ? 0 : 4), d}, r.below(4) == 0, tally);
+    agree(all, brute, {r.nudged(corner - 8.0 * d, r.coin() ? 0 : 4), d}, r.below(4) == 0, tally);
   });
 }
 

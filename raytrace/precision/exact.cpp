@@ -62,16 +62,6 @@ double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3,
   return m.height.value() / m.slope.value();
 }
 
-ExactArithmetic::ExactArithmetic(const Structures& s, const RayFrame& ray) {
-  const Aabb& bounds = s.world->finite_bounds;
-  const Vec3 origin = vector_of(ray.origin);
-  const double reach =
-      bounds.empty() ? 0.0
-                     : max_component(glm::max(glm::abs(bounds.min - origin), glm::abs(bounds.max - origin)));
-  // A sheared coordinate is the difference of two lengths within reach and has six roundings.
-  coarse_error_ = 2.0 * error_gamma(6) * reach;
-}
-
 bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
   const std::uint32_t id = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
@@ -81,15 +71,18 @@ bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32
 
 bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
   const ShearedTriangle s = shear(ray, triangle);
-  double size = 0.0;
+  double size = 0.0, reach = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) reach = std::max(reach, std::abs(triangle.v[i] - ray.origin[i % 3]));
+  // A sheared coordinate is the difference of two lengths within reach and has six roundings.
+  const double error = 2.0 * error_gamma(6) * reach;
   for (std::size_t i = 0; i < 3; ++i) size += std::abs(s.x[i]) + std::abs(s.y[i]);
-  const double bound = 2.0 * coarse_error_ * (size + coarse_error_);
+  const double bound = 2.0 * error * (size + error);
   const double low = std::min({s.u, s.v, s.w}), high = std::max({s.u, s.v, s.w});
   if (low < -bound && high > bound) return false;
   const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
   const bool sure = low > bound || high < -bound;
   if (!sure && !line_meets(origin, direction, corners_of(triangle))) return false;
-  TriangleHit t;
+  TriangleHit t{};
   const double det = s.u + s.v + s.w, det_error = 4.0 * bound;
   if (!finish_triangle(ray, s, t) || std::abs(det) < 4.0 * det_error) {
     t.t = exact_t(origin, direction, corners_of(triangle));
@@ -110,7 +103,7 @@ bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangl
     if (std::abs(t.t - end) > spread) return t.t < end;
     return compare_t(origin, direction, corners_of(triangle), end) < 0;
   };
-  return after(ray.t.min) && before(ray.t.max);
+  return after(given_.min) && before(given_.max) && t.t < ray.t.max;
 }
 
 }  // namespace gnomon::raytrace

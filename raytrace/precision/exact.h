@@ -27,7 +27,7 @@ double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3,
 /// as the robust kernel has them. The ray is taken to be exactly what its doubles say.
 class ExactArithmetic {
  public:
-  ExactArithmetic(const Structures& s, const RayFrame& ray);
+  ExactArithmetic(const Structures&, const RayFrame& ray) : given_(ray.t) {}
   bool leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const;
   bool plane(const Structures& s, const RayFrame& ray, std::uint32_t id, Hit& hit) const {
     return intersect_plane(s, ray, id, hit);
@@ -35,7 +35,7 @@ class ExactArithmetic {
 
  private:
   bool triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const;
-  double coarse_error_;  ///< of any sheared coordinate of the world
+  Interval given_;  ///< the ray's own; a walk for the closest hit shortens it by rounded values
 };
 
 }  // namespace gnomon::raytrace
