@@ -34,6 +34,7 @@ Expected<compare::Setting> resolve_setting(const SettingOptions& from, const Sce
   setting.raytrace = from.options.raytrace;
   setting.raytrace.size = setting.raster.size;
   setting.accel = from.options.accel;
+  setting.precision = from.options.precision;
   const auto compared = choose_lights(given, from.options.light);
   if (!compared) return fail(compared.error());
   setting.compared = *compared;

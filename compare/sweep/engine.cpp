@@ -17,8 +17,8 @@ namespace {
 
 // What the truth hangs on.
 bool same_truth(const Setting& a, const Setting& b) {
-  return a.accel == b.accel && a.raytrace.size == b.raytrace.size && a.raytrace.runs == b.raytrace.runs &&
-         a.raytrace.picture == b.raytrace.picture &&
+  return a.accel == b.accel && a.precision == b.precision && a.raytrace.size == b.raytrace.size &&
+         a.raytrace.runs == b.raytrace.runs && a.raytrace.picture == b.raytrace.picture &&
          a.raytrace.min_contribution == b.raytrace.min_contribution && a.camera == b.camera &&
          a.lights == b.lights && a.compared == b.compared;
 }
@@ -100,8 +100,9 @@ struct Engine::Impl {
     table.clear();
     backdrop = {};
     drawn_for.reset();
-    if (!tracer || truth_of->accel != setting.accel) {
-      tracer = std::make_unique<raytrace::Tracer>(world, setting.accel);
+    if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
+      tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
+      comparison.precision = setting.precision;
       comparison.accel_build_ms = tracer->stats().build_ms;
     }
     scene.camera = setting.camera;

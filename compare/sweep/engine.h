@@ -15,6 +15,7 @@ struct Setting {
   raster::RasterOptions raster;
   raytrace::RaytraceOptions raytrace;
   raytrace::Accel accel = raytrace::Accel::bvh;
+  raytrace::Precision precision = raytrace::Precision::robust;
   Camera camera;
   std::vector<Light> lights;            ///< as many as the scene has, of the same types
   std::vector<std::uint32_t> compared;  ///< indices in `lights`
