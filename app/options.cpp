@@ -281,6 +281,15 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const char* what) {
             [&seed](const std::string& value) { return assign(seed, parse_seed(value)); });
 }
 
+void add_samples(CLI::App& command, int& samples) {
+  add_value(command, "--samples", "N",
+            describe("rays from each point to a light with size", fmt::format("1 to {}", max_shadow_samples),
+                     "the light's shadow_samples, 64"),
+            [&samples](const std::string& value) {
+              return assign(samples, parse_integer(value, 1, max_shadow_samples));
+            });
+}
+
 void add_ray_count(CLI::App& command, std::uint64_t& rays) {
   constexpr NumberRange range{1e3, 1e12};
   add_value(command, "--rays", "N",

@@ -47,6 +47,8 @@ void add_ray_count(CLI::App& command, std::uint64_t& rays);
 /// An option of one command only: `store` parses the value and may fail.
 void add_checked(CLI::App& command, const std::string& name, const char* type, const std::string& text,
                  const std::function<Expected<void>(const std::string&)>& store);
+/// Left alone: each light's own number.
+void add_samples(CLI::App& command, int& samples);
 void add_fail_above(CLI::App& command, std::optional<double>& share);
 /// A file to be written; `what` says which, with its extensions.
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,

@@ -69,7 +69,9 @@ void add_record(Channels& channels, const raster::LightRecord& record, const std
   channels.add(prefix + "distance.V", [&](std::size_t i) { return record.distance.data[i]; });
 }
 
-double truth_value(raytrace::Verdict verdict) {
+double truth_value(const raytrace::LightTruth& light, std::size_t pixel) {
+  if (!light.visibility.data.empty()) return light.visibility.data[pixel];
+  const raytrace::Verdict verdict = light.verdict.data[pixel];
   if (verdict == raytrace::Verdict::uncertain) return 0.5;
   return verdict == raytrace::Verdict::lit ? 1.0 : 0.0;
 }
@@ -114,7 +116,7 @@ Expected<void> write_picture(const std::string& path, const World& world,
   channels.add_ids(world, [&](std::size_t i) { return points[i].primitive; });
   for (const raytrace::LightTruth& light : frame.lights) {
     channels.add(light_prefix(world, light.light, frame.lights.size()) + "truth.V",
-                 [&](std::size_t i) { return truth_value(light.verdict.data[i]); });
+                 [&](std::size_t i) { return truth_value(light, i); });
   }
   return channels.write(path);
 }

@@ -92,9 +92,16 @@ Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose)
   const LightPose before = light_pose(given, centre);
   const LocalFrame from = local_frame(frame, before.azimuth_degrees, before.elevation_degrees);
   light.position = centre + glm::length(given.position - centre) * to.outwards;
-  light.direction = glm::normalize(glm::dot(given.direction, from.outwards) * to.outwards +
-                                   glm::dot(given.direction, from.east) * to.east +
-                                   glm::dot(given.direction, from.north) * to.north);
+  const auto turned = [&](const Vec3& v) {
+    return glm::dot(v, from.outwards) * to.outwards + glm::dot(v, from.east) * to.east +
+           glm::dot(v, from.north) * to.north;
+  };
+  light.direction = glm::normalize(turned(given.direction));
+  if (auto* disc = std::get_if<DiscLight>(&light.extent)) disc->normal = glm::normalize(turned(disc->normal));
+  if (auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
+    rectangle->half_width = turned(rectangle->half_width);
+    rectangle->half_height = turned(rectangle->half_height);
+  }
   return light;
 }
 

@@ -15,6 +15,7 @@ void add_setting_options(CLI::App& command, SettingOptions& setting) {
   add_pose_options(command, setting.poses);
   add_tracer_options(command, options.accel, options.precision);
   add_min_contribution(command, options.raytrace.min_contribution);
+  add_samples(command, options.raytrace.shadow_samples);
 }
 
 std::vector<std::string> map_setting_names() {

@@ -8,7 +8,8 @@
 
 namespace gnomon::compare {
 
-/// Gaps of the compared pixels, sorted ascending, by what the truth says of them.
+/// Gaps of the compared pixels, sorted ascending, by what the truth says of them; under a light with size a
+/// pixel counts as lit that sees more than half of it.
 struct GapLists {
   std::vector<float> lit, shadowed;
 

@@ -138,7 +138,8 @@ struct LightComparison {
   std::array<double, 3> texel_world{};         ///< min, median, max over compared receivers
   Times classify;
 
-  std::array<Image<float>, rung_count> rungs;  ///< 1 lit, 0 shadowed; 1 where not compared and no receiver
+  std::array<Image<float>, rung_count>
+      rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not compared and no receiver
   Image<Label> labels;
 };
 

@@ -1,6 +1,6 @@
-// Rungs of DESIGN.md section 3 for lights without size. V0 comes from the ray tracer, V6 from the rasterizer;
-// V2 and V3 from the exact ray through the texel's centre, V4 from the stored depth, V5 from the technique's
-// bias in double precision.
+// Rungs of DESIGN.md section 3. V0 and V1 come from the ray tracer, V6 from the rasterizer; V2 and V3 from
+// the exact ray through the texel's centre, V4 from the stored depth, V5 from the technique's bias in double
+// precision.
 #include "compare/ladder.h"
 
 #include <tbb/parallel_for.h>
@@ -99,9 +99,21 @@ float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const Tex
   return lit(!(own > depth_from_stored(map.view, stored)));
 }
 
+// V0: the share of the light that the receiver sees; of a light without size, all or nothing.
+float truth_rung(const LadderInput& in, std::size_t pixel) {
+  if (!in.truth.visibility.data.empty()) return in.truth.visibility.data[pixel];
+  return lit(in.truth.verdict.data[pixel] == Verdict::lit);
+}
+
+// V1: the light shrunk to its centre.
+float point_rung(const LadderInput& in, std::size_t pixel) {
+  return lit(in.truth.verdict.data[pixel] == Verdict::lit);
+}
+
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float truth = out.rungs[0].data[pixel];
   const float drawn = in.record.visibility.data[pixel];
+  out.rungs[1].data[pixel] = point_rung(in, pixel);
   for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
   if (std::abs(drawn - truth) > 0.5f) out.labels.data[pixel] = Label::outside_map;
 }
@@ -110,10 +122,9 @@ void climb_lower(const Column& column, const TexelCentre& centre, std::size_t te
                  LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const float truth = lit(in.truth.verdict.data[pixel] == Verdict::lit);
   const float flat = flat_rung(in, receiver, centre);
-  out.rungs[0].data[pixel] = truth;
-  out.rungs[1].data[pixel] = truth;
+  out.rungs[0].data[pixel] = truth_rung(in, pixel);
+  out.rungs[1].data[pixel] = point_rung(in, pixel);
   out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
   out.rungs[3].data[pixel] = flat;
   out.rungs[4].data[pixel] = stored_rung(in, receiver, centre, texel, flat);
@@ -167,7 +178,8 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     raytrace::TexelKey key;
     if (texel_of_pixel(in.record, pixel, key)) continue;
     outside.push_back(pixel);
-    rungs[0].data[pixel] = rungs[1].data[pixel] = lit(in.truth.verdict.data[pixel] == Verdict::lit);
+    rungs[0].data[pixel] = truth_rung(in, pixel);
+    rungs[1].data[pixel] = point_rung(in, pixel);
   }
   groups = group_by_texel(in.record, pixels);
   const std::vector<TexelCentre> centres = trace_centres(in, groups.keys);

@@ -8,6 +8,7 @@
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
+#include "scene/light.h"
 
 namespace gnomon::compare {
 namespace {
@@ -32,10 +33,29 @@ Json one_time(double ms) {
   return times(Times{{ms}});
 }
 
+Json extent_json(std::monostate) {
+  return nullptr;
+}
+Json extent_json(const SunDisc& sun) {
+  return {{"shape", "sun"}, {"angular_diameter_degrees", number(sun.angular_diameter * 180.0 / pi)}};
+}
+Json extent_json(const SphereLight& sphere) {
+  return {{"shape", "sphere"}, {"radius", number(sphere.radius)}};
+}
+Json extent_json(const DiscLight& disc) {
+  return {{"shape", "disc"}, {"radius", number(disc.radius)}, {"normal", vector3(disc.normal)}};
+}
+Json extent_json(const RectangleLight& r) {
+  return {
+      {"shape", "rectangle"}, {"half_width", vector3(r.half_width)}, {"half_height", vector3(r.half_height)}};
+}
+
 Json light_json(const Light& light) {
   Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
   if (light.type != LightType::directional) json["position"] = vector3(light.position);
   if (light.type != LightType::point) json["direction"] = vector3(light.direction);
+  if (has_size(light))
+    json["extent"] = std::visit([](const auto& e) { return extent_json(e); }, light.extent);
   return json;
 }
 
@@ -140,31 +160,37 @@ Json theory_json(const TheoryStats& t) {
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
-  return {{"light", light_json(light_of(c, light))},
-          {"map", map_json(c, light)},
-          {"pixels", pixels_json(light.pixels)},
-          {"error", error_json(light.error)},
-          {"budget", budget_json(light)},
-          {"ladder", ladder_json(light)},
-          {"classes", classes_json(light)},
-          {"edges",
-           {{"count", light.edges.edges},
-            {"mean_texels", number(light.edges.mean_texels)},
-            {"rms_texels", number(light.edges.rms_texels)},
-            {"rms_pixels", number(light.edges.rms_pixels)}}},
-          {"detachment",
-           {{"pixels", light.detachment.pixels},
-            {"mean_world", number(light.detachment.mean_world)},
-            {"max_world", number(light.detachment.max_world)}}},
-          {"bias_curve", bias_curve_json(light)},
-          {"best_bias", best_bias_json(light.best_bias)},
-          {"theory", theory_json(light.theory)},
-          {"shadow_rays", truth.rays},
-          {"times_ms",
-           {{"map_pass", times(drawn.map_pass)},
-            {"shade_pass", times(drawn.shade_pass)},
-            {"shadow_rays", times(truth.shadow_rays)},
-            {"classify", times(light.classify)}}}};
+  Json block{{"light", light_json(light_of(c, light))},
+             {"map", map_json(c, light)},
+             {"pixels", pixels_json(light.pixels)},
+             {"error", error_json(light.error)},
+             {"budget", budget_json(light)},
+             {"ladder", ladder_json(light)},
+             {"classes", classes_json(light)},
+             {"edges",
+              {{"count", light.edges.edges},
+               {"mean_texels", number(light.edges.mean_texels)},
+               {"rms_texels", number(light.edges.rms_texels)},
+               {"rms_pixels", number(light.edges.rms_pixels)}}},
+             {"detachment",
+              {{"pixels", light.detachment.pixels},
+               {"mean_world", number(light.detachment.mean_world)},
+               {"max_world", number(light.detachment.max_world)}}},
+             {"bias_curve", bias_curve_json(light)},
+             {"best_bias", best_bias_json(light.best_bias)},
+             {"theory", theory_json(light.theory)},
+             {"shadow_rays", truth.rays},
+             {"times_ms",
+              {{"map_pass", times(drawn.map_pass)},
+               {"shade_pass", times(drawn.shade_pass)},
+               {"shadow_rays", times(truth.shadow_rays)},
+               {"classify", times(light.classify)}}}};
+  if (!truth.visibility.data.empty()) {
+    block["shadow_samples"] = truth.samples;
+    block["soft_shadow_rays"] = truth.soft_rays;
+    block["times_ms"]["soft_shadow_rays"] = times(truth.soft_shadow_rays);
+  }
+  return block;
 }
 
 Json effects_json(const EffectPlan& plan) {
@@ -189,9 +215,10 @@ Json scene_json(const World& world) {
 
 Json costs_json(const Comparison& c) {
   const raytrace::RayCounts& rays = c.raytraced.rays;
-  return {{"map_texels", c.raster.map_texels},  {"map_bytes", c.raster.map_bytes},
-          {"primary_rays", rays.primary},       {"shadow_rays", rays.shadow},
-          {"reflection_rays", rays.reflection}, {"refraction_rays", rays.refraction}};
+  return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
+          {"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
+          {"soft_shadow_rays", rays.soft_shadow}, {"reflection_rays", rays.reflection},
+          {"refraction_rays", rays.refraction}};
 }
 
 Json result_object(const Comparison& c, double report_ms, double total_ms) {

@@ -18,10 +18,17 @@ struct RaytraceOptions {
   int runs = 1;  ///< timed repetitions of the primary and shadow passes (>= 1), after one warm-up when > 1
   bool picture = true;  ///< shade and follow secondary rays; false: receivers and verdicts only
   double min_contribution = 1.0 / 512.0;  ///< secondary rays below this share of a pixel are not followed
+  int shadow_samples =
+      0;  ///< rays per point to a light with size, <= max_shadow_samples; 0: as the light says
+  std::uint64_t seed = 0;  ///< of every sample
+  bool operator==(const RaytraceOptions&) const = default;
 };
 
 struct RayCounts {
-  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  std::uint64_t primary = 0;
+  std::uint64_t shadow = 0;       ///< to lights without size, and to the centres of those with one
+  std::uint64_t soft_shadow = 0;  ///< to samples of lights with size
+  std::uint64_t reflection = 0, refraction = 0;
 };
 
 struct LightTruth {
@@ -29,6 +36,13 @@ struct LightTruth {
   Image<Verdict> verdict;   ///< lit where no receiver; shadowed where the light cannot reach (facing away)
   Times shadow_rays;        ///< ms for the pixels that the light can reach
   std::uint64_t rays = 0;
+
+  /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
+  /// light's centre cannot reach it. Empty for a light without size, whose verdict is the whole truth.
+  Image<float> visibility{};
+  int samples = 0;           ///< rays per point
+  Times soft_shadow_rays{};  ///< ms
+  std::uint64_t soft_rays = 0;
 };
 
 struct RayTracedFrame {

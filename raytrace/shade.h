@@ -13,19 +13,21 @@
 #include "raytrace/blinn_phong.h"
 #include "raytrace/frame.h"
 #include "raytrace/fresnel.h"
+#include "raytrace/light_samples.h"
 #include "raytrace/surface_uv.h"
 
 namespace gnomon::raytrace {
 
 enum class Secondary : std::uint8_t { none, mirror, glass, absorbing_glass };
 
-template <Secondary secondary_, bool textures_, bool specular_>
+template <Secondary secondary_, bool textures_, bool specular_, bool soft_>
 struct ShadePolicy {
   static constexpr bool reflects = secondary_ != Secondary::none;
   static constexpr bool refracts = secondary_ == Secondary::glass || secondary_ == Secondary::absorbing_glass;
   static constexpr bool absorbs = secondary_ == Secondary::absorbing_glass;
   static constexpr bool textures = textures_;
   static constexpr bool specular = specular_;
+  static constexpr bool soft = soft_;  ///< some light has a size
 };
 
 /// Interpolated and normalised, on the side of the point's geometric normal; the geometric normal where the
@@ -43,11 +45,13 @@ struct Path {
 template <class Policy>
 class Shader {
  public:
-  Shader(const Tracer& tracer, double min_contribution, RayCounts& counts)
+  /// One for each pixel: its number and options.seed choose the samples.
+  Shader(const Tracer& tracer, const RaytraceOptions& options, std::size_t pixel, RayCounts& counts)
       : tracer_(tracer),
         world_(tracer.world()),
         scene_(*world_.scene),
-        min_contribution_(min_contribution),
+        options_(options),
+        pixel_key_(sample_key(options.seed, pixel)),
         counts_(counts) {}
 
   /// Radiance from a point towards where the path came from. shadow(light index) in [0, 1] is asked only for
@@ -64,23 +68,48 @@ class Shader {
     return radiance;
   }
 
-  /// Share of the light that arrives along a straight line.
-  Vec3f transmittance(const SurfacePoint& point, const Light& light) {
+  /// Share of the light that arrives along straight lines.
+  Vec3f transmittance(const SurfacePoint& point, std::uint32_t light_index) {
+    const Light& light = scene_.lights[light_index];
+    if constexpr (Policy::soft)
+      if (has_size(light)) return soft_transmittance(point, light, light_index);
     ++counts_.shadow;
-    Ray ray = tracer_.shadow_ray(point, light);
     if constexpr (!Policy::refracts)
-      return Vec3f(is_blocked(ray, point, light) ? 0.0f : 1.0f);
+      return Vec3f(is_blocked(point, light) ? 0.0f : 1.0f);
+    else
+      return transmittance(tracer_.shadow_ray(point, light));
+  }
+
+ private:
+  static constexpr int max_glass_surfaces = 64;  // on one shadow ray; what is behind more of them is dark
+
+  /// `exact` certifies the ray to the light's centre; samples of a light's size are decided as `robust` does.
+  bool is_blocked(const SurfacePoint& point, const Light& light) const {
+    if (tracer_.precision() == Precision::exact) return tracer_.light_verdict(point, light) != Verdict::lit;
+    return tracer_.occluded(tracer_.shadow_ray(point, light));
+  }
+
+  Vec3f transmittance(const Ray& ray) {
+    if constexpr (!Policy::refracts)
+      return Vec3f(tracer_.occluded(ray) ? 0.0f : 1.0f);
     else
       return through_glass(ray);
   }
 
- private:
-  bool is_blocked(const Ray& ray, const SurfacePoint& point, const Light& light) const {
-    if (tracer_.precision() == Precision::exact) return tracer_.light_verdict(point, light) != Verdict::lit;
-    return tracer_.occluded(ray);
+  /// The mean over the light's samples; each point of the pixel's paths has its own.
+  Vec3f soft_transmittance(const SurfacePoint& point, const Light& light, std::uint32_t light_index) {
+    const int count = options_.shadow_samples > 0 ? options_.shadow_samples : light.shadow_samples;
+    const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_lit_);
+    const LightSamples samples(tracer_, point, light, count, key);
+    Vec3f sum(0.0f);
+    for (int i = 0; i < count; ++i) {
+      const std::optional<Ray> ray = samples[i];
+      if (!ray) continue;
+      ++counts_.soft_shadow;
+      sum += transmittance(*ray);
+    }
+    return sum / static_cast<float>(count);
   }
-
-  static constexpr int max_glass_surfaces = 64;  // on one shadow ray; what is behind more of them is dark
 
   template <class Shadow>
   Vec3f local(const SurfacePoint& point, const Path& path, const Material& material, const Vec3& normal,
@@ -136,13 +165,13 @@ class Shader {
   Vec3f follow(const SurfacePoint& from, const Path& path, const Vec3& direction, double share,
                std::uint32_t medium, std::uint64_t& count) {
     const Path next{direction, path.depth + 1, path.weight * share, medium};
-    if (next.depth > scene_.max_depth || next.weight < min_contribution_) return Vec3f(0.0f);
+    if (next.depth > scene_.max_depth || next.weight < options_.min_contribution) return Vec3f(0.0f);
     ++count;
     const Ray ray = tracer_.spawn_ray(from, direction);
     const std::optional<Hit> hit = tracer_.closest_hit(ray);
     if (!hit) return static_cast<float>(share) * scene_.background;
     const SurfacePoint point = tracer_.surface_point(ray, *hit);
-    const auto shadow = [&](std::uint32_t i) { return transmittance(point, scene_.lights[i]); };
+    const auto shadow = [&](std::uint32_t i) { return transmittance(point, i); };
     Vec3f radiance = leaving(point, next, shadow);
     if constexpr (Policy::absorbs) radiance *= absorbed(medium, hit->t);
     return static_cast<float>(share) * radiance;
@@ -183,7 +212,9 @@ class Shader {
   const Tracer& tracer_;
   const World& world_;
   const Scene& scene_;
-  const double min_contribution_;
+  const RaytraceOptions& options_;
+  const std::uint64_t pixel_key_;
+  std::uint64_t points_lit_ = 0;  // soft lights asked for so far
   RayCounts& counts_;
 };
 

@@ -154,12 +154,17 @@ Ray Tracer::spawn_ray(const SurfacePoint& from, const Vec3& direction) const {
 
 Ray Tracer::shadow_ray(const SurfacePoint& from, const Light& light) const {
   if (light.type == LightType::directional) return spawn_ray(from, -light.direction);
+  return shadow_ray(from, light.position);
+}
+
+Ray Tracer::shadow_ray(const SurfacePoint& from, const Vec3& target) const {
   if (precision() == Precision::fast) {
-    const LightAtPoint at = light_at(light, from.position);
-    return {from.position, at.to_light, {textbook_epsilon, at.distance - textbook_epsilon}};
+    const double distance = glm::length(target - from.position);
+    const Vec3 direction = (target - from.position) / distance;
+    return {from.position, direction, {textbook_epsilon, distance - textbook_epsilon}};
   }
-  const Vec3 origin = offset_origin(from, light.position - from.position);
-  const Vec3 offset = light.position - origin;
+  const Vec3 origin = offset_origin(from, target - from.position);
+  const Vec3 offset = target - origin;
   const double distance = glm::length(offset);
   const double doubt =
       error_gamma(8) * distance + glm::dot(from.position_error + glm::abs(origin - from.position), Vec3(1.0));

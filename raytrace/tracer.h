@@ -95,6 +95,9 @@ class Tracer {
   /// surface as by spawn_ray.
   Ray shadow_ray(const SurfacePoint& from, const Light& light) const;
 
+  /// The same to any point, such as one of a light with size.
+  Ray shadow_ray(const SurfacePoint& from, const Vec3& target) const;
+
   /// Exact visibility of the light's centre, with the error bound's doubt made visible. Any unmasked surface
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
   /// within.

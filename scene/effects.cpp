@@ -5,6 +5,8 @@
 #include <functional>
 #include <set>
 
+#include "scene/light.h"
+
 namespace gnomon {
 namespace {
 
@@ -37,11 +39,22 @@ EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& rema
   return {effect, false, false, fmt::format("no material has {}", property)};
 }
 
-EffectEntry hard_shadow(const Scene& scene) {
-  if (scene.lights.empty()) return {Effect::hard_shadow, false, false, "the scene has no light"};
-  return {Effect::hard_shadow, true, true,
-          fmt::format("light '{}'{} has no size", scene.lights.front().name,
-                      scene.lights.size() > 1 ? fmt::format(" (and {} more)", scene.lights.size() - 1) : "")};
+// The lights that have a size, or those that have none; the first one is the reason.
+EffectEntry shadow(const Scene& scene, bool soft) {
+  const Effect effect = soft ? Effect::soft_shadow : Effect::hard_shadow;
+  if (scene.lights.empty()) return {effect, false, false, "the scene has no light"};
+  const Light* first = nullptr;
+  std::size_t count = 0;
+  for (const Light& light : scene.lights) {
+    if (has_size(light) != soft) continue;
+    if (count++ == 0) first = &light;
+  }
+  if (first == nullptr)
+    return {effect, false, false, soft ? "no light has a size" : "every light has a size"};
+  return {
+      effect, true, true,
+      fmt::format("light '{}'{} {}", first->name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "",
+                  soft ? "has a size; the rasterizer draws its centre alone" : "has no size")};
 }
 
 }  // namespace
@@ -60,8 +73,8 @@ EffectPlan plan_effects(const Scene& scene) {
   };
   using M = const Material&;
   return {{
-      hard_shadow(scene),
-      EffectEntry{Effect::soft_shadow, false, false, "no light has a size"},
+      shadow(scene, false),
+      shadow(scene, true),
       material(Effect::reflection, Remark{true, "; only the ray tracer shows it"},
                "mirror or transmission > 0", [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
       material(Effect::refraction,

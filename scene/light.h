@@ -18,6 +18,9 @@ LightAtPoint light_at(const Light& light, const Vec3& position);
 /// formula.
 double spot_falloff(const Light& light, const Vec3& to_light);
 
+/// Whether the light casts soft shadows: its extent is there and not zero.
+bool has_size(const Light& light);
+
 /// The geometric normal turned to the side that `direction` (from the eye to the surface) arrives from.
 inline Vec3 face_forward(const Vec3& normal, const Vec3& direction) {
   return glm::dot(normal, direction) > 0.0 ? -normal : normal;

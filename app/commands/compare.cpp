@@ -124,6 +124,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (command.runs)
     command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
   command.setting.options.raytrace.size = command.setting.options.raster.size;
+  command.setting.options.raytrace.seed = command.seed;
 
   if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
   const auto loaded = load(command.scene, console);
@@ -159,7 +160,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
                        command.setting.options.raytrace.runs)
                .c_str());
   add_exposure(app, command.exposure);
-  add_seed(app, command.seed, "recorded in the result; nothing is random yet");
+  add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
   add_fail_above(app, command.fail_above);
   add_output(app, "--aov", command.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");

@@ -95,6 +95,8 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_tracer_options(*app, command->accel, command->precision);
   add_heatmap(*app, command->heatmap);
   add_min_contribution(*app, command->options.min_contribution);
+  add_samples(*app, command->options.shadow_samples);
+  add_seed(*app, command->options.seed, "of the samples of lights with size");
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);

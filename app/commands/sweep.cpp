@@ -152,6 +152,7 @@ Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t 
   auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
   if (!options) return fail(options.error());
   options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
+  options->options.raytrace.seed = shop.command.seed;
   auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
   if (!setting) return fail(setting.error());
   const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);
@@ -358,7 +359,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs, "1");
   add_exposure(app, command.exposure);
-  add_seed(app, command.seed, "recorded in the results; nothing is random yet");
+  add_seed(app, command.seed, "of the samples of lights with size; recorded in the results");
   add_quiet(app, command.quiet);
 }
 

@@ -17,10 +17,8 @@ namespace {
 
 // What the truth hangs on.
 bool same_truth(const Setting& a, const Setting& b) {
-  return a.accel == b.accel && a.precision == b.precision && a.raytrace.size == b.raytrace.size &&
-         a.raytrace.runs == b.raytrace.runs && a.raytrace.picture == b.raytrace.picture &&
-         a.raytrace.min_contribution == b.raytrace.min_contribution && a.camera == b.camera &&
-         a.lights == b.lights && a.compared == b.compared;
+  return a.accel == b.accel && a.precision == b.precision && a.raytrace == b.raytrace &&
+         a.camera == b.camera && a.lights == b.lights && a.compared == b.compared;
 }
 
 // The drawing options are equal but for the constant bias.

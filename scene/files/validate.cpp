@@ -123,6 +123,31 @@ Defect shape_defect(const Shape& shape, const std::string& path, std::size_t mat
   return std::nullopt;
 }
 
+Defect extent_defect(const Light& light, const std::string& path) {
+  const auto bad = [&](std::string_view key, std::string_view allowed) {
+    return defect(fmt::format("{}.{}", path, key), fmt::format("out of range (allowed {})", allowed));
+  };
+  if (light.shadow_samples < 1 || light.shadow_samples > max_shadow_samples)
+    return bad("shadow_samples", fmt::format("1 to {}", max_shadow_samples));
+  if (std::holds_alternative<std::monostate>(light.extent)) return std::nullopt;
+  if (std::holds_alternative<SunDisc>(light.extent) != (light.type == LightType::directional))
+    return defect(path, "a sun's disc is for directional lights, and they have no other extent");
+  if (const auto* sun = std::get_if<SunDisc>(&light.extent))
+    if (!(sun->angular_diameter >= 0.0 && sun->angular_diameter <= 0.5 * pi))
+      return bad("angular_diameter", "0 to 90 degrees");
+  const auto size = [](double v) { return v >= 0.0 && coordinate(v); };
+  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
+    if (!size(sphere->radius)) return bad("sphere.radius", ">= 0");
+  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
+    if (!size(disc->radius)) return bad("disc.radius", ">= 0");
+    if (!unit(disc->normal)) return bad("disc.normal", "unit length");
+  }
+  if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent))
+    if (!coordinates(rectangle->half_width) || !coordinates(rectangle->half_height))
+      return bad("rectangle", "finite sides");
+  return std::nullopt;
+}
+
 Defect light_defect(const Light& light, const std::string& path) {
   if (!radiance(light.intensity)) return defect(path + ".intensity", "out of range (allowed finite, >= 0)");
   if (light.type != LightType::directional && !coordinates(light.position))
@@ -136,7 +161,7 @@ Defect light_defect(const Light& light, const std::string& path) {
         path + ".outer_angle",
         fmt::format("half-angles of the cone (got {:g} and {:g} degrees, allowed 0 <= inner < outer < 90)",
                     light.inner_angle * 180.0 / pi, light.outer_angle * 180.0 / pi));
-  return std::nullopt;
+  return extent_defect(light, path);
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// The ray-traced picture of a frame whose receivers and shadows are known. Every set of effects has its own
+// kernel (raytrace/shade.h); the plan chooses it.
+#pragma once
+
+#include "raytrace/frame.h"
+#include "raytrace/sampling.h"
+
+namespace gnomon::raytrace {
+
+/// The key of one pixel's samples of one light.
+constexpr std::uint64_t pixel_key(std::uint64_t seed, std::size_t pixel, std::uint32_t light) {
+  return sample_key(sample_key(seed, pixel), light);
+}
+
+/// Fills frame.color and adds the rays that it casts.
+void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
+                   const RaytraceOptions& options, RayTracedFrame& frame);
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,68 @@
+// Seeded, stratified sample points. What a point is depends on the seed, the pixel and its number alone, so
+// pictures are the same for any number of threads.
+// Kollig and Keller 2002, "Efficient Multidimensional Sampling" (scrambled Hammersley points: of 2^m points
+// each box of area 2^-m of the elementary grids holds exactly one); Shirley and Chiu 1997, "A Low Distortion
+// Map Between Disk and Square".
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "scene/math.h"
+
+namespace gnomon::raytrace {
+
+/// SplitMix64's finaliser (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators").
+constexpr std::uint64_t mix_bits(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+/// A key of its own for each pair.
+constexpr std::uint64_t sample_key(std::uint64_t key, std::uint64_t index) {
+  return mix_bits(mix_bits(key) + index);
+}
+
+constexpr std::uint32_t reversed_bits(std::uint32_t v) {
+  v = (v >> 16) | (v << 16);
+  v = ((v & 0xff00ff00U) >> 8) | ((v & 0x00ff00ffU) << 8);
+  v = ((v & 0xf0f0f0f0U) >> 4) | ((v & 0x0f0f0f0fU) << 4);
+  v = ((v & 0xccccccccU) >> 2) | ((v & 0x33333333U) << 2);
+  return ((v & 0xaaaaaaaaU) >> 1) | ((v & 0x55555555U) << 1);
+}
+
+/// `count` (1 to 2^31) points of the unit square [0, 1)^2, each uniformly distributed, one in each of `count`
+/// columns.
+class StratifiedSquare {
+ public:
+  StratifiedSquare(std::uint32_t count, std::uint64_t key)
+      : count_(count),
+        free_bits_(0xffffffffU >> std::bit_width(count - 1)),
+        key_(key),
+        scramble_(static_cast<std::uint32_t>(mix_bits(key))) {}
+
+  Vec2 operator[](std::uint32_t i) const {
+    const std::uint64_t jitter = sample_key(key_, i);
+    const auto low = static_cast<std::uint32_t>(jitter), high = static_cast<std::uint32_t>(jitter >> 32);
+    const std::uint32_t row = ((reversed_bits(i) ^ scramble_) & ~free_bits_) | (low & free_bits_);
+    return {(i + high * 0x1p-32) / count_, row * 0x1p-32};
+  }
+
+ private:
+  std::uint32_t count_, free_bits_;
+  std::uint64_t key_;
+  std::uint32_t scramble_;
+};
+
+/// The unit square onto the unit disc, area to area (Shirley and Chiu 1997).
+inline Vec2 concentric_disc(const Vec2& square) {
+  const Vec2 p = 2.0 * square - 1.0;
+  if (p == Vec2(0.0)) return p;
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const double radius = wide ? p.x : p.y;
+  const double angle = wide ? pi / 4.0 * (p.y / p.x) : pi / 2.0 - pi / 4.0 * (p.x / p.y);
+  return radius * Vec2(std::cos(angle), std::sin(angle));
+}
+
+}  // namespace gnomon::raytrace
