@@ -1,4 +1,4 @@
-// The report page in a real browser. Needs node, tests/browser (npm ci) and Debian's chromium-headless-shell; what is
+// The report page in a real browser. Needs node, tests/browser (npm install) and Debian's chromium-headless-shell; what is
 // missing is said, and the test is skipped (exit 77). Usage: node report_browser_test.mjs SAMPLE_PROGRAM WORK_FOLDER
 //
 // Per sample page: nothing in the console, no request, no axe-core violation in light and dark, every number equal to

@@ -1,5 +1,5 @@
 // The built page that is checked in (compare/report/page/dist/page.html) is what its sources build, byte for byte, and
-// weighs under 400 kB. Needs node and compare/report/page (npm ci); skipped (exit 77) without. Usage: node
+// weighs under 400 kB. Needs node and compare/report/page (npm install); skipped (exit 77) without. Usage: node
 // report_built_page_test.mjs WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -10,7 +10,7 @@ import { fileURLToPath } from "node:url";
 const sources = fileURLToPath(new URL("../compare/report/page", import.meta.url));
 const folder = resolve(process.argv[2]), vite = join(sources, "node_modules/vite/bin/vite.js");
 if (!existsSync(vite)) {
-  console.log("skipped: vite is not installed: npm ci --prefix compare/report/page");
+  console.log("skipped: vite is not installed: npm install --no-save --prefix compare/report/page");
   process.exit(77);
 }
 rmSync(folder, { recursive: true, force: true });

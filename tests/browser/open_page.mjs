@@ -13,7 +13,7 @@ export function skip(reason) {
 
 const require = createRequire(new URL("package.json", import.meta.url));
 function load(name) {
-  try { return require(name); } catch { return skip(`${name} is not installed: npm ci --prefix tests/browser`); }
+  try { return require(name); } catch { return skip(`${name} is not installed: npm install --no-save --prefix tests/browser`); }
 }
 const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
   || skip("no chromium-headless-shell or chromium in /usr/bin");
