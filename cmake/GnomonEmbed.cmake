@@ -1,5 +1,5 @@
-# gnomon_embed(TARGET NAMESPACE FILES...)
-# Embeds files as bytes (.incbin) and generates <embedded/NAMESPACE.h> with
+# gnomon_embed(TARGET NAMESPACE [KEEP_PATHS] FILES...)
+# Embeds files as bytes (.incbin), named without their folders unless KEEP_PATHS, and generates <embedded/NAMESPACE.h> with
 #   std::string_view gnomon::embedded::NAMESPACE(std::string_view file_name)   -> empty when unknown
 #   std::span<const Entry> gnomon::embedded::NAMESPACE##_entries()             -> every {name, bytes}
 function(gnomon_embed target space)
@@ -9,9 +9,15 @@ function(gnomon_embed target space)
   set(externs "")
   set(entries "")
   set(index 0)
-  foreach(file ${ARGN})
+  set(files ${ARGN})
+  list(FIND files KEEP_PATHS keep_paths)
+  list(REMOVE_ITEM files KEEP_PATHS)
+  foreach(file ${files})
     get_filename_component(path "${file}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
     get_filename_component(name "${path}" NAME)
+    if(NOT keep_paths EQUAL -1)
+      set(name "${file}")
+    endif()
     set(symbol "gnomon_embedded_${space}_${index}")
     string(APPEND asm "    .global ${symbol}\n    .balign 16\n${symbol}:\n    .incbin \"${path}\"\n"
       "    .global ${symbol}_end\n${symbol}_end:\n    .byte 0\n")

@@ -18,6 +18,32 @@ std::string_view technique_name(raster::Technique technique) {
   switch (technique) {
     case raster::Technique::hard:
       return "hard";
+    case raster::Technique::pcf:
+      return "pcf";
+    case raster::Technique::pcss:
+      return "pcss";
+    case raster::Technique::vsm:
+      return "vsm";
+    case raster::Technique::esm:
+      return "esm";
+    case raster::Technique::evsm:
+      return "evsm";
+    case raster::Technique::msm:
+      return "msm";
+    case raster::Technique::second_depth:
+      return "second-depth";
+    case raster::Technique::midpoint:
+      return "midpoint";
+    case raster::Technique::csm:
+      return "csm";
+    case raster::Technique::lispsm:
+      return "lispsm";
+    case raster::Technique::cube:
+      return "cube";
+    case raster::Technique::izb:
+      return "izb";
+    case raster::Technique::hybrid:
+      return "hybrid";
   }
   return "unknown";
 }

@@ -9,7 +9,7 @@
 namespace gnomon::compare {
 
 std::string_view light_type_name(LightType type);                ///< "directional", "point", "spot"
-std::string_view technique_name(raster::Technique technique);    ///< "hard"
+std::string_view technique_name(raster::Technique technique);    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
 std::string_view program_version();

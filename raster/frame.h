@@ -43,17 +43,18 @@ struct LightRecord {
   std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
   double bias_constant_world = 0.0;  ///< the constant bias in world units, after unit conversion
-  Image<float> visibility;           ///< what was drawn: 1 lit, 0 shadowed (rung V6). Not multiplied by n.l
-  Image<Vec2f> texel_uv;             ///< the receiver's own map position in texels, before any offset
-  Image<std::uint8_t> face;          ///< of texel_uv
-  Image<float> distance;             ///< along the light ray, world units
-  /// The gap less every part of the bias but the constant: visibility is 0 iff gap >
+  Image<float> visibility;   ///< what was drawn, in [0, 1]: 1 lit, 0 shadowed (rung V6). Not times n.l
+  Image<Vec2f> texel_uv;     ///< the receiver's own map position in texels, before any offset
+  Image<std::uint8_t> face;  ///< of texel_uv
+  Image<float> distance;     ///< along the light ray, world units
+  /// The gap less every part of the bias but the constant: a hard test shadows iff gap >
   /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map.
   Image<float> gap;
   /// 1 where the lookup falls beside the map or behind the light, or finds nothing stored for a receiver that
   /// lies outside the map's depth range.
   Image<std::uint8_t> outside_map;
-  /// ms, from an idle device to glFinish, without the analysis. map_pass: the whole depth map, all faces.
+  /// ms, from an idle device to glFinish, without the analysis. map_pass: the whole depth map, all faces, and
+  /// what the technique makes of it (blur, mipmaps ...).
   /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
   Times map_pass, shade_pass;
 };
@@ -64,8 +65,8 @@ struct RasterFrame {
   ColorImage color;                 ///< linear radiance, all lights
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id
   std::vector<LightRecord> lights;  ///< in the order asked for
-  std::uint64_t map_texels = 0;     ///< texels rendered, all lights
-  std::uint64_t map_bytes = 0;      ///< device memory of depth maps at one time: the lights take turns in it
+  std::uint64_t map_texels = 0;     ///< texels rendered, all lights, blur and the like included
+  std::uint64_t map_bytes = 0;      ///< device memory of maps at one time: the lights take turns in it
 };
 
 }  // namespace gnomon::raster

@@ -81,7 +81,8 @@ void Framebuffer::attach(GLenum attachment, const Texture2D& texture, int layer)
 }
 
 void Framebuffer::draw_to(int count) {
-  constexpr std::array<GLenum, 3> all{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  constexpr std::array<GLenum, 4> all{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
+                                      GL_COLOR_ATTACHMENT3};
   gl()->NamedFramebufferDrawBuffers(id(), count, all.data());
 }
 

@@ -10,11 +10,29 @@
 namespace gnomon::raster {
 namespace {
 
-using Names = std::vector<std::string_view>;
+using Names = std::vector<std::string>;
+
+// The value of a define "NAME value"; empty without one.
+std::string_view value_of(std::string_view name, std::span<const std::string_view> defines) {
+  for (const std::string_view define : defines)
+    if (define.starts_with(name) && define.substr(name.size()).starts_with(' '))
+      return define.substr(name.size() + 1);
+  return {};
+}
+
+// The file named by an include line's text: `$NAME` before a dot stands for that define's value.
+std::string included_name(std::string_view text, std::span<const std::string_view> defines) {
+  const std::size_t dollar = text.find('$');
+  if (dollar == text.npos) return std::string(text);
+  const std::size_t dot = text.find('.', dollar);
+  return fmt::format("{}{}{}", text.substr(0, dollar),
+                     value_of(text.substr(dollar + 1, dot - dollar - 1), defines), text.substr(dot));
+}
 
 // Appends a source, its includes in place. `#line L S` keeps the compiler's line numbers right: S is the
 // place in `files`.
-void expand(std::string_view source, Names& files, std::string& out) {
+void expand(std::string_view source, Names& files, std::span<const std::string_view> defines,
+            std::string& out) {
   const std::size_t self = files.size() - 1;
   int line_number = 0;
   while (!source.empty()) {
@@ -27,11 +45,12 @@ void expand(std::string_view source, Names& files, std::string& out) {
       out.append(line).push_back('\n');
       continue;
     }
-    const std::string_view name = line.substr(include.size(), line.rfind('"') - include.size());
+    const std::string name =
+        included_name(line.substr(include.size(), line.rfind('"') - include.size()), defines);
     if (std::find(files.begin(), files.end(), name) == files.end()) {
       files.push_back(name);
       out += fmt::format("#line 1 {}\n", files.size() - 1);
-      expand(embedded::shaders(name), files, out);
+      expand(embedded::shaders(name), files, defines, out);
     }
     out += fmt::format("#line {} {}\n", line_number + 1, self);
   }
@@ -41,9 +60,9 @@ std::string expand_source(std::string_view source, std::string_view file, Names&
                           std::span<const std::string_view> defines) {
   std::string out = "#version 450 core\n";
   for (const std::string_view define : defines) out += fmt::format("#define {}\n", define);
-  files.push_back(file);
+  files.emplace_back(file);
   out += "#line 1 0\n";
-  expand(source, files, out);
+  expand(source, files, defines, out);
   return out;
 }
 

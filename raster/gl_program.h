@@ -1,5 +1,6 @@
-// GLSL programs linked from the embedded sources of shaders/, with #include lines resolved (each file once)
-// and a permutation's names defined. Private to raster.
+// GLSL programs linked from the embedded sources of shaders/, with #include lines resolved (each file once;
+// $NAME in a file's name stands for the value of that define) and a permutation's names defined. Private to
+// raster.
 #pragma once
 
 #include <span>

@@ -9,7 +9,23 @@
 namespace gnomon::raster {
 
 enum class Backend : std::uint8_t { automatic, osmesa, egl };
-enum class Technique : std::uint8_t { hard };
+/// app/options.cpp offers those that are finished.
+enum class Technique : std::uint8_t {
+  hard,
+  pcf,
+  pcss,
+  vsm,
+  esm,
+  evsm,
+  msm,
+  second_depth,
+  midpoint,
+  csm,
+  lispsm,
+  cube,
+  izb,
+  hybrid
+};
 enum class DepthFormat : std::uint8_t { d16, d24, d32f };
 /// Which triangles the map leaves out, by their winding as the light sees it; of a shape, which side.
 enum class Cull : std::uint8_t { none, front, back };

@@ -92,22 +92,25 @@ void ImpostorProgram::set_face(int face, Cull cull) const {
 
 Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, const SceneFeatures& features) {
   const bool lit = !p.no_light;
-  const auto defines = Defines()
-                           .add(p.no_light, "NO_LIGHT")
-                           .add(p.first_light, "FIRST_LIGHT")
-                           .add(p.records, "RECORDS")
-                           .add(lit && p.light == LightType::directional, "DIRECTIONAL")
-                           .add(lit && p.light == LightType::spot, "SPOT")
-                           .add(lit && p.light != LightType::directional, "PERSPECTIVE")
-                           .add(lit && p.light == LightType::point, "CUBE")
-                           .add(p.slope_bias, "SLOPE_BIAS")
-                           .add(p.normal_offset, "NORMAL_OFFSET")
-                           .add(p.receiver_plane, "RECEIVER_PLANE")
-                           .add(features.textures, "TEXTURES")
-                           .add(features.alpha_mask, "ALPHA_MASK")
-                           .add(features.specular, "SPECULAR")
-                           .add(features.emission, "EMISSION")
-                           .add(features.smooth_normals, "SMOOTH_NORMALS");
+  const std::string technique = "TECHNIQUE " + p.technique.name;
+  auto defines = Defines()
+                     .add(lit, technique)
+                     .add(p.no_light, "NO_LIGHT")
+                     .add(p.first_light, "FIRST_LIGHT")
+                     .add(p.records, "RECORDS")
+                     .add(lit && p.light == LightType::directional, "DIRECTIONAL")
+                     .add(lit && p.light == LightType::spot, "SPOT")
+                     .add(lit && p.light != LightType::directional, "PERSPECTIVE")
+                     .add(lit && p.light == LightType::point, "CUBE")
+                     .add(p.slope_bias, "SLOPE_BIAS")
+                     .add(p.normal_offset, "NORMAL_OFFSET")
+                     .add(p.receiver_plane, "RECEIVER_PLANE")
+                     .add(features.textures, "TEXTURES")
+                     .add(features.alpha_mask, "ALPHA_MASK")
+                     .add(features.specular, "SPECULAR")
+                     .add(features.emission, "EMISSION")
+                     .add(features.smooth_normals, "SMOOTH_NORMALS");
+  for (const std::string& define : p.technique.defines) defines.add(true, define);
   return Program::link(gl, "fullscreen.vert", "shade.frag", defines);
 }
 

@@ -9,6 +9,7 @@
 #include "raster/gl_program.h"
 #include "raster/options.h"
 #include "raster/shape_bounds.h"
+#include "raster/technique_shader.h"
 #include "scene/effects.h"
 #include "scene/light_view.h"
 #include "scene/world.h"
@@ -65,6 +66,7 @@ struct ShadePermutation {
   bool records = false;
   LightType light = LightType::directional;
   bool slope_bias = false, normal_offset = false, receiver_plane = false;
+  TechniqueShader technique{};
   auto operator<=>(const ShadePermutation&) const = default;
 };
 Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& permutation,

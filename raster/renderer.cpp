@@ -13,6 +13,7 @@
 #include "raster/light_block.h"
 #include "raster/options_check.h"
 #include "raster/shading_pass.h"
+#include "raster/technique_pass.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -44,7 +45,9 @@ class GlRenderer final : public Renderer {
   struct Job;  // one call of render()
   Expected<RasterFrame> render_checked(const RasterOptions& options, std::span<const std::uint32_t> lights);
   Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
-  Expected<void> draw_map(const Job& job, const LightView& view, LightRecord* record);
+  Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
+  Expected<void> draw_map(const MapJob& map, bool with_ids);
+  Expected<void> time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record);
   Expected<void> shade(Job& job, std::uint32_t light, LightRecord* record);
   Expected<void> shade_without_light(Job& job);
   Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass);
@@ -59,6 +62,8 @@ class GlRenderer final : public Renderer {
   DepthMapPass map_pass_;
   ShadingPass shading_;
   Buffer light_block_;
+  std::unique_ptr<TechniquePass> technique_pass_;
+  Technique technique_ = Technique::hard;  ///< of technique_pass_
 };
 
 struct GlRenderer::Job {
@@ -69,14 +74,15 @@ struct GlRenderer::Job {
   bool first_light = true;
 };
 
-ShadePermutation shade_permutation(const Light& light, const Bias& bias, bool first, bool records) {
+ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bool first, bool records) {
   ShadePermutation p;
   p.first_light = first;
   p.records = records;
   p.light = light.type;
-  p.slope_bias = bias.slope != 0.0;
-  p.normal_offset = bias.normal_offset_texels > 0.0;
-  p.receiver_plane = bias.receiver_plane;
+  p.slope_bias = map.bias.slope != 0.0;
+  p.normal_offset = map.bias.normal_offset_texels > 0.0;
+  p.receiver_plane = map.bias.receiver_plane;
+  p.technique = technique_shader(map, light);
   return p;
 }
 
@@ -89,7 +95,7 @@ Expected<void> GlRenderer::compile() {
   }
   bool first = true;
   for (const Light& light : world_->scene->lights) {
-    if (auto program = programs_.shade(shade_permutation(light, Bias{}, first, true)); !program)
+    if (auto program = programs_.shade(shade_permutation(light, MapOptions{}, first, true)); !program)
       return fail(program.error());
     first = false;
   }
@@ -172,34 +178,57 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->map.view = *view;
     record->map.format = map.depth_format;
   }
+  const MapJob map_job{buffers_, light, *view, map_pass_, map};
   const bool with_ids = record != nullptr && job.options.analysis;
-  if (auto ok = map_pass_.prepare(*view, map.depth_format, with_ids); !ok) return ok;
-  job.frame.map_texels += static_cast<std::uint64_t>(view->face_count) *
-                          static_cast<std::uint64_t>(view->size) * static_cast<std::uint64_t>(view->size);
-  job.frame.map_bytes = std::max(job.frame.map_bytes, map_pass_.bytes());
-  if (auto ok = draw_map(job, *view, record); !ok) return ok;
+  if (auto ok = prepare_maps(job, map_job, with_ids); !ok) return ok;
+  if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
   return shade(job, index, record);
 }
 
-Expected<void> GlRenderer::draw_map(const Job& job, const LightView& view, LightRecord* record) {
-  const Cull cull = job.options.map.cull;
+Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {
+  const auto texels = [&] {
+    const auto side = static_cast<std::uint64_t>(map.view.size);
+    return static_cast<std::uint64_t>(map.view.face_count) * side * side;
+  };
+  if (technique_ != map.options.technique) {
+    technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
+    technique_ = map.options.technique;
+  }
+  if (auto ok = map_pass_.prepare(map.view, map.options.depth_format, with_ids); !ok) return ok;
+  job.frame.map_texels += texels();
+  std::uint64_t bytes = map_pass_.bytes();
+  if (technique_pass_ != nullptr) {
+    if (auto ok = technique_pass_->prepare(map); !ok) return ok;
+    job.frame.map_texels += technique_pass_->texels();
+    bytes += technique_pass_->bytes();
+  }
+  job.frame.map_bytes = std::max(job.frame.map_bytes, bytes);
+  return {};
+}
+
+Expected<void> GlRenderer::draw_map(const MapJob& map, bool with_ids) {
+  auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, with_ids);
+  return ok && technique_pass_ != nullptr ? technique_pass_->draw(map) : ok;
+}
+
+Expected<void> GlRenderer::time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record) {
   if (record != nullptr) {
-    auto ok = time_pass(job.options.runs, record->map_pass,
-                        [&] { return map_pass_.draw(buffers_, view, cull, false); });
+    auto ok = time_pass(job.options.runs, record->map_pass, [&] { return draw_map(map, false); });
     if (!ok) return ok;
   }
   const bool with_ids = record != nullptr && job.options.analysis;
-  if (auto ok = map_pass_.draw(buffers_, view, cull, with_ids); !ok) return ok;
+  if (auto ok = draw_map(map, with_ids); !ok) return ok;
   if (with_ids) map_pass_.read(record->map, true);
-  return gl_->check("drawing the depth map");
+  return gl_->check("drawing the shadow map");
 }
 
 Expected<void> GlRenderer::shade(Job& job, std::uint32_t index, LightRecord* record) {
   const Light& light = world_->scene->lights[index];
-  const Bias& bias = job.options.map.bias;
+  const MapOptions& map = job.options.map;
   map_pass_.bind_for_lookup();
+  if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr) {
-    const ShadePermutation timed = shade_permutation(light, bias, job.first_light, false);
+    const ShadePermutation timed = shade_permutation(light, map, job.first_light, false);
     auto ok = time_pass(job.options.runs, record->shade_pass, [&]() -> Expected<void> {
       if (auto drawn = shading_.draw_visibility(buffers_, job.view); !drawn) return drawn;
       job.visibility_drawn = true;
@@ -212,7 +241,7 @@ Expected<void> GlRenderer::shade(Job& job, std::uint32_t index, LightRecord* rec
     job.visibility_drawn = true;
   }
   const bool records = record != nullptr && job.options.analysis;
-  const ShadePermutation kept = shade_permutation(light, bias, job.first_light, records);
+  const ShadePermutation kept = shade_permutation(light, map, job.first_light, records);
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
   if (records) shading_.read_records(*record);
   job.first_light = false;

@@ -50,11 +50,13 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
   if (with_records) {
     record_ = Texture2D(gl, GL_RGBA32F, size);
     flags_ = Texture2D(gl, GL_R8UI, size);
+    drawn_visibility_ = Texture2D(gl, GL_R32F, size);
     record_target_ = Framebuffer(gl);
     record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::radiance_output, color_);
     record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::record_output, record_);
     record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::flags_output, flags_);
-    record_target_.draw_to(3);
+    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::visibility_output, drawn_visibility_);
+    record_target_.draw_to(4);
   }
   if (auto ok = gl.check("making the image buffers"); !ok) return ok;
   if (auto ok = visibility_target_.check_complete(); !ok) return ok;
@@ -176,13 +178,13 @@ void ShadingPass::read_records(LightRecord& record) const {
   record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
   record.visibility = Image<float>(size_);
+  drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
   record.texel_uv = Image<Vec2f>(size_);
   record.face = Image<std::uint8_t>(size_);
   record.distance = Image<float>(size_);
   record.gap = Image<float>(size_);
   record.outside_map = Image<std::uint8_t>(size_);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    record.visibility.data[i] = (flags[i] & shaders::flag_lit) != 0 ? 1.0f : 0.0f;
     record.texel_uv.data[i] = Vec2f(values[i]);
     record.distance.data[i] = values[i].z;
     record.gap.data[i] = values[i].w;

@@ -30,6 +30,7 @@ float texel_depth_slope(Texel at, vec3 n) {
 
 struct ShadowTest {
   Texel own;     // the receiver's own texel, before any offset
+  Texel at;      // where the map is looked up: after the normal offset
   float gap;     // -infinity where nothing is stored, or outside the map
   bool outside;  // the lookup fell outside the map, or beyond its depths where nothing is stored
 };
@@ -43,6 +44,7 @@ ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
   float sine = length(cross(normal, to_light));
   at = project_to_texel(position + normal * (light.bias.z * texel_world_size(at.local.z) * sine));
 #endif
+  test.at = at;
   test.gap = -infinite;
   test.outside = !at.inside;
   if (!at.inside) return test;

@@ -1,9 +1,11 @@
 // One light's share of the picture, from the visibility buffer and the light's depth map. Permutations: FIRST_LIGHT
 // adds what needs no light (ambient, emission, background); NO_LIGHT does only that; RECORDS writes, besides, what was tested.
+// TECHNIQUE names the file of technique/ whose technique_visibility() says how much of the light the receiver gets.
 #include "shared_constants.h"
 #ifndef NO_LIGHT
 #include "light.glsl"
 #include "gap.glsl"
+#include "technique/$TECHNIQUE.glsl"
 #else
 const float infinite = uintBitsToFloat(0x7f800000u);
 #endif
@@ -16,6 +18,7 @@ layout(location = radiance_output) out vec4 radiance;
 #ifdef RECORDS
 layout(location = record_output) out vec4 record;  // texel u, v, distance, gap
 layout(location = flags_output) out uint flags;
+layout(location = visibility_output) out float visibility_record;
 #endif
 
 const uint no_id = 0xffffffffu;
@@ -25,7 +28,8 @@ void main() {
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef RECORDS
   record = vec4(0.0);
-  flags = uint(flag_lit);
+  flags = 0u;
+  visibility_record = 1.0;
 #endif
   if (primitive == no_id) {
 #ifdef FIRST_LIGHT
@@ -45,14 +49,15 @@ void main() {
 #ifndef NO_LIGHT
   LightAtPoint at = light_at(r.position);
   ShadowTest test = shadow_test(r.position, r.normal, at.to_light);
-  bool lit = !(test.gap > light.bias.x);
-  if (lit && dot(r.normal, at.to_light) > 0.0)
-    radiance.rgb += material.emission_and_local.w * blinn_phong(diffuse, material.specular_and_shininess, at.irradiance,
-                                                                r.shading, at.to_light, r.to_eye);
+  float visibility = technique_visibility(test, r.position, r.normal, at.to_light);
+  if (visibility > 0.0 && dot(r.normal, at.to_light) > 0.0)
+    radiance.rgb += material.emission_and_local.w * visibility *
+                    blinn_phong(diffuse, material.specular_and_shininess, at.irradiance, r.shading, at.to_light,
+                                r.to_eye);
 #ifdef RECORDS
   record = vec4(test.own.uv, test.own.distance, test.gap);
-  flags = uint((lit ? flag_lit : 0) | (test.outside ? flag_outside_map : 0)) |
-          uint(test.own.face << flag_face_shift);
+  flags = uint((test.outside ? flag_outside_map : 0) | (test.own.face << flag_face_shift));
+  visibility_record = visibility;
 #endif
 #endif
 }

@@ -45,11 +45,11 @@ const int uv_attribute = 1;
 const int radiance_output = 0;
 const int record_output = 1;
 const int flags_output = 2;
+const int visibility_output = 3;
 
-// Bits of the flags output: visibility, lookup outside the map, and the cube face above them
-const int flag_lit = 1;
-const int flag_outside_map = 2;
-const int flag_face_shift = 2;
+// Bits of the flags output: lookup outside the map, and the cube face above it
+const int flag_outside_map = 1;
+const int flag_face_shift = 1;
 
 // Shapes
 const int shape_sphere = 0;

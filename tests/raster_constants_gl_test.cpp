@@ -44,7 +44,7 @@ constexpr Named constants[] = {
     GNOMON_NAMED(radiance_output),
     GNOMON_NAMED(record_output),
     GNOMON_NAMED(flags_output),
-    GNOMON_NAMED(flag_lit),
+    GNOMON_NAMED(visibility_output),
     GNOMON_NAMED(flag_outside_map),
     GNOMON_NAMED(flag_face_shift),
     GNOMON_NAMED(shape_sphere),
