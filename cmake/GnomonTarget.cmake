@@ -21,6 +21,16 @@ if(GNOMON_SANITIZE)
   target_link_options(gnomon_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Coverage counters that libFuzzer reads (tests/fuzz_tests.cmake), and the sanitizers that tell it of a fault.
+if(GNOMON_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "GNOMON_FUZZ: libFuzzer is a part of clang (got ${CMAKE_CXX_COMPILER_ID})")
+  endif()
+  target_compile_options(gnomon_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+    -fno-sanitize-recover=undefined)
+  target_link_options(gnomon_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
 function(gnomon_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(gnomon_${name} STATIC ${ARG_SOURCES})

@@ -208,7 +208,6 @@ TEST(SoftShadows, WhatLiesBelowTheHorizonIsNotSeen) {
   // is there.
   Scene scene = test::scene_of({}, {test::plane({0, 0, 0}, {0, 1, 0})});
   scene.lights = {test::point_light({5, 1e-9, 0})};
-  const Vec3 origin(0.0);
   for (const double radius : {1.0, 4.0, 8.0}) {
     scene.lights[0].extent = SphereLight{radius};
     const TestWorld w(scene);

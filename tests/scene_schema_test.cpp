@@ -69,10 +69,10 @@ TEST(Schema, NumbersHaveTheLoadersRanges) {
   int checked = 0;
   for (const auto& [key, rule] : materials.items()) {
     if (rule.value("type", "") != "number") continue;
-    const auto loads = [&](double value) {
+    const auto loads = [name = key](double value) {
       const nlohmann::json scene{
           {"schema", "gnomon/scene/1"},
-          {"materials", {{{"name", "m"}, {key, value}}}},
+          {"materials", {{{"name", "m"}, {name, value}}}},
           {"shapes", {{{"sphere", {{"center", {0, 0, 0}}, {"radius", 1}}}, {"material", "m"}}}}};
       return load_json_scene(scene.dump(), "s.json", ".", {}).has_value();
     };

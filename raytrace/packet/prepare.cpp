@@ -20,7 +20,7 @@ using M = hn::Mask<D>;
 constexpr D d;
 constexpr Half half;
 constexpr Index index;
-constexpr HalfIndex half_index;
+[[maybe_unused]] constexpr HalfIndex half_index;
 
 inline V all(double v) {
   return hn::Set(d, v);

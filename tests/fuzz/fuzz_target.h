@@ -1,0 +1,34 @@
+// What every fuzz target offers, besides libFuzzer's own entry point: inputs worth mutating. A target runs
+// under libFuzzer (clang, GNOMON_FUZZ) or under fuzz_replay.cpp, which replays its seeds and a fixed series
+// of mutations of them with any compiler. A target aborts, with a line on stderr, on anything that must not
+// be.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace gnomon::fuzz {
+
+/// Well-formed inputs of the target, small.
+std::vector<std::string> seeds();
+
+/// Loads the bytes as a file with this extension (".obj"), confined to its folder. Aborts unless the outcome
+/// is a sound scene or a one-line error of a kind that a file may cause.
+void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size);
+
+/// What load_as has done so far.
+struct LoadCounts {
+  std::size_t tried = 0, loaded = 0;
+  std::string last_error;
+};
+const LoadCounts& load_counts();
+
+/// Ends the process for the fuzzer to see.
+[[noreturn]] void broken(const std::string& what);
+
+}  // namespace gnomon::fuzz

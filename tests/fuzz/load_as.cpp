@@ -1,0 +1,107 @@
+// A file of the fuzzer's bytes through the loaders, and what must hold of whatever comes out.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "fuzz_target.h"
+#include "scene/load.h"
+#include "scene/world.h"
+
+namespace gnomon::fuzz {
+namespace {
+
+/// A folder for all of a process's inputs, gone with it.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "gnomon-fuzz-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) broken("no temporary folder");
+    path_ = pattern;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+const std::string& folder() {
+  static const Folder all;
+  return all.path();
+}
+
+std::string put(std::string_view extension, const std::uint8_t* data, std::size_t size) {
+  const std::string path = folder() + "/input" + std::string(extension);
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) broken("cannot write " + path);
+  const bool written = std::fwrite(data, 1, size, file) == size;
+  if (std::fclose(file) != 0 || !written) broken("cannot write " + path);
+  return path;
+}
+
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check_world(const Scene& scene) {
+  if (scene.materials.empty() || scene.lights.empty()) broken("a scene without material or light");
+  const World world = make_world(scene);
+  for (const Vec3& p : world.positions)
+    if (!finite(p)) broken("a vertex that is not finite");
+  for (std::uint32_t i = 0; i < world.triangle_count(); ++i) {
+    for (const std::uint32_t corner : world.triangles[i])
+      if (corner >= world.positions.size()) broken("a corner beyond the vertices");
+    if (world.triangle_material[i] >= scene.materials.size()) broken("a material beyond the list");
+  }
+  for (const Shape& shape : world.shapes)
+    if (shape.material >= scene.materials.size()) broken("a shape's material beyond the list");
+  for (const Material& material : scene.materials)
+    if (material.diffuse_texture != no_id && material.diffuse_texture >= scene.textures.size())
+      broken("a texture beyond the list");
+  for (const Light& light : scene.lights)
+    if (!finite(light.position) || !(std::abs(glm::length(light.direction) - 1.0) < 1e-6))
+      broken("a light without a place or direction");
+}
+
+void check_error(const Error& error) {
+  if (error.kind != ErrorKind::bad_input && error.kind != ErrorKind::graphics)
+    broken("an error of kind " + std::to_string(static_cast<int>(error.kind)) + ": " + error.message());
+  const std::string line = error.message();
+  if (error.reason.empty()) broken("an error without a reason");
+  if (line.find('\n') != std::string::npos) broken("an error of more than one line: " + line);
+}
+
+LoadCounts counts;
+
+}  // namespace
+
+const LoadCounts& load_counts() {
+  return counts;
+}
+
+void broken(const std::string& what) {
+  std::fprintf(stderr, "fuzz: %s\n", what.c_str());
+  std::abort();
+}
+
+void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size) {
+  const std::string path = put(extension, data, size);
+  const Expected<Scene> scene = load_scene(path, {.confine_paths = true});
+  ++counts.tried;
+  if (scene) {
+    ++counts.loaded;
+    return check_world(*scene);
+  }
+  counts.last_error = scene.error().message();
+  check_error(scene.error());
+}
+
+}  // namespace gnomon::fuzz
