@@ -37,7 +37,7 @@ double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, c
   raytrace::TexelKey key;
   if (bias.normal_offset_texels > 0.0) {
     const double sine = glm::length(glm::cross(normal, to_light));
-    position += normal * (bias.normal_offset_texels * texel_world_size(view, at.depth) * sine);
+    position += normal * (bias.normal_offset_texels * texel_world_size(view, at) * sine);
     at = project_to_texel(view, position);
     if (!at.inside) return -infinity;
     key = raytrace::TexelKey::pack(at.face, at.column(), at.row());
@@ -46,13 +46,13 @@ double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, c
   }
   texel = record.map.texel_index(key.face(), key.column(), key.row());
   const double stored = record.map.depth[texel];
-  if (!(stored < 1.0)) return -infinity;
+  if (!holds_caster(view, stored)) return -infinity;
 
   const double receiver_depth = bias.receiver_plane ? plane_depth(view, key.face(), key.column() + 0.5,
                                                                   key.row() + 0.5, position, normal)
                                                     : at.depth;
   const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
-  double gap = (receiver_depth - depth_from_stored(view, stored)) * along_ray;
+  double gap = (receiver_depth - depth_from_stored(view, key.face(), key.row() + 0.5, stored)) * along_ray;
   if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, position, normal);
   return gap;
 }

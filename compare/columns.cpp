@@ -12,7 +12,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
   out.face = key.face();
   out.ray = texel_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
   // Casters of an orthographic map may lie before depth 0, never before its near depth.
-  if (view.projection == LightProjection::orthographic) out.ray.t.min = view.near_depth;
+  if (view.projection == LightProjection::orthographic) out.ray.t.min = view.face(out.face).near_depth;
   out.hit = in.tracer.closest_hit(out.ray);
   if (out.hit)
     out.depth = out.hit->t * glm::dot(out.ray.direction, view.faces[std::size_t(out.face)].forward);

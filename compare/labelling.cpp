@@ -15,7 +15,7 @@ int own_surface_on_ray(const LadderInput& in, const Column& column, std::uint32_
                        double v) {
   const LightView& view = in.record.map.view;
   Ray ray = texel_ray(view, column.key().face(), u, v);
-  if (view.projection == LightProjection::orthographic) ray.t.min = view.near_depth;
+  if (view.projection == LightProjection::orthographic) ray.t.min = view.face(column.key().face()).near_depth;
   for (int depth = 0; depth < max_chain; ++depth) {
     const auto hit = in.tracer.closest_hit(ray);
     if (!hit) return -1;

@@ -88,15 +88,17 @@ float flat_rung(const LadderInput& in, const SurfacePoint& receiver, const Texel
 // V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference.
 float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre,
-                  std::size_t texel, float flat) {
+                  raytrace::TexelKey key, float flat) {
   const raster::ShadowMap& map = in.record.map;
+  const std::size_t texel = map.texel_index(key.face(), key.column(), key.row());
   if (in.drawn.options.map.cull != raster::Cull::none &&
       (!centre.hit || map.primitive[texel] != centre.hit->primitive))
     return flat;
   const double stored = map.depth[texel];
-  if (!(stored < 1.0)) return 1.0f;
+  const double row = key.row();
+  if (!holds_caster(map.view, stored)) return 1.0f;
   const double own = project_to_face(map.view, centre.face, receiver.position).depth;
-  return lit(!(own > depth_from_stored(map.view, stored)));
+  return lit(!(own > depth_from_stored(map.view, centre.face, row + 0.5, stored)));
 }
 
 // V0: the share of the light that the receiver sees; of a light without size, all or nothing.
@@ -118,7 +120,7 @@ void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   if (std::abs(drawn - truth) > 0.5f) out.labels.data[pixel] = Label::outside_map;
 }
 
-void climb_lower(const Column& column, const TexelCentre& centre, std::size_t texel, std::size_t pixel,
+void climb_lower(const Column& column, const TexelCentre& centre, raytrace::TexelKey key, std::size_t pixel,
                  LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
@@ -127,7 +129,7 @@ void climb_lower(const Column& column, const TexelCentre& centre, std::size_t te
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
   out.rungs[3].data[pixel] = flat;
-  out.rungs[4].data[pixel] = stored_rung(in, receiver, centre, texel, flat);
+  out.rungs[4].data[pixel] = stored_rung(in, receiver, centre, key, flat);
 }
 
 bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
@@ -186,8 +188,7 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
   columns = std::make_unique<ColumnSet>(input, groups, centres);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     const Column column = columns->column(g);
-    for (const std::uint32_t pixel : groups[g])
-      climb_lower(column, centres[g], texel_of_group(*this, g), pixel, *this);
+    for (const std::uint32_t pixel : groups[g]) climb_lower(column, centres[g], groups.keys[g], pixel, *this);
   });
 }
 

@@ -24,14 +24,18 @@ ColorImage grey(const Image<float>& picture) {
   return out;
 }
 
+bool has_one_texel_size(const LightView& view) {
+  return view.projection == LightProjection::orthographic && view.face_count == 1 && view.face(0).warp == 0.0;
+}
+
 std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& labels) {
   const LightView& view = in.record.map.view;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < labels.data.size(); ++i) {
     if (!is_compared(labels.data[i])) continue;
     const Vec3& x = in.traced.receiver.data[i].position;
-    sizes.push_back(texel_world_size(view, project_to_face(view, in.record.face.data[i], x).depth));
-    if (view.projection == LightProjection::orthographic) break;  // one size for all
+    sizes.push_back(texel_world_size(view, project_to_face(view, in.record.face.data[i], x)));
+    if (has_one_texel_size(view)) break;
   }
   if (sizes.empty()) return {};
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);

@@ -56,16 +56,18 @@ raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step) {
   small.view = map.view;
   small.view.size = (map.view.size + step - 1) / step;
   small.format = map.format;
+  const float empty = map.view.reversed ? 0.0f : 1.0f;
   small.depth.assign(static_cast<std::size_t>(map.view.face_count) *
                          static_cast<std::size_t>(small.view.size) *
                          static_cast<std::size_t>(small.view.size),
-                     1.0f);
+                     empty);
   tbb::parallel_for(0, map.view.face_count * small.view.size, [&](int line) {
     const int face = line / small.view.size, small_row = line % small.view.size;
     for (int row = small_row * step; row < std::min((small_row + 1) * step, map.view.size); ++row)
       for (int column = 0; column < map.view.size; ++column) {
         float& nearest = small.depth[small.texel_index(face, column / step, small_row)];
-        nearest = std::min(nearest, map.depth[map.texel_index(face, column, row)]);
+        const float depth = map.depth[map.texel_index(face, column, row)];
+        nearest = map.view.reversed ? std::max(nearest, depth) : std::min(nearest, depth);
       }
   });
   return small;

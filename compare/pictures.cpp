@@ -31,11 +31,12 @@ glm::u8vec3 backdrop(const glm::u8vec3& c) {
 
 // How far a stored depth lies through the map's range: 0 at its near end, 1 at its far end. Even in depth for
 // an orthographic map; in its logarithm for a perspective one, whose range may span several powers of ten.
-double depth_share(const LightView& view, float stored) {
-  const double depth = depth_from_stored(view, static_cast<double>(stored));
+double depth_share(const LightView& view, int face, int row, float stored) {
+  const double depth = depth_from_stored(view, face, row + 0.5, static_cast<double>(stored));
+  const Interval range = view.depth_range();
   if (view.projection == LightProjection::perspective)
-    return std::log(depth / view.near_depth) / std::log(view.far_depth / view.near_depth);
-  return (depth - view.near_depth) / (view.far_depth - view.near_depth);
+    return std::log(depth / range.min) / std::log(range.max / range.min);
+  return (depth - range.min) / (range.max - range.min);
 }
 
 }  // namespace
@@ -79,8 +80,8 @@ Rgb8Image depth_map_picture(const raster::ShadowMap& map) {
     const int left = (face % across) * (n + gap), top = (face / across) * (n + gap);
     for (int column = 0; column < n; ++column) {
       const float stored = map.depth[map.texel_index(face, column, row)];
-      if (stored < 1.0f)
-        image.at(left + column, top + n - 1 - row) = viridis(1.0 - depth_share(map.view, stored));
+      if (holds_caster(map.view, stored))
+        image.at(left + column, top + n - 1 - row) = viridis(1.0 - depth_share(map.view, face, row, stored));
     }
   });
   return image;

@@ -42,8 +42,13 @@ double pixel_solid_angle(const Camera& camera, ImageSize size, double cos_axis) 
 
 // Area of a texel square to the light ray at the receiver.
 double texel_area(const LightView& view, const TexelCoordinate& at) {
-  const double across = 2.0 * view.half_extent.x / view.size, up = 2.0 * view.half_extent.y / view.size;
-  if (view.projection == LightProjection::orthographic) return across * up;
+  if (view.projection == LightProjection::orthographic) {
+    const auto c = column_corners(view, at.face, at.column(), at.row());  // a trapezium
+    const Vec2 a = c[2] - c[0], b = c[3] - c[1];
+    return 0.5 * std::abs(a.x * b.y - a.y * b.x);
+  }
+  const Vec2 half = view.face(at.face).half_extent;
+  const double across = 2.0 * half.x / view.size, up = 2.0 * half.y / view.size;
   const double cosine = at.depth / at.distance;  // between the ray and the face's axis
   return across * up * at.depth * at.depth * cosine;
 }

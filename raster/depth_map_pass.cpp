@@ -108,8 +108,7 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
                                          Cull cull, bool with_ids) {
   const World& world = buffers.world();
   const bool perspective = view.projection == LightProjection::perspective;
-  const Projection projection{view.origin, view.faces[static_cast<std::size_t>(face)], view.half_extent,
-                              perspective, Vec2(2.0 / view.size)};
+  const Projection projection = face_projection(view, face);
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
     const auto bounds = shape_bounds(projection, shape);
@@ -122,7 +121,8 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
                                               .alpha_mask = masked && programs_->features().alpha_mask});
     if (!program) return fail(program.error());
     (*program)->use();
-    (*program)->set_shape(static_cast<int>(i), *bounds, shape_in_frame(view.origin, projection.frame, shape));
+    (*program)->set_shape(static_cast<int>(i), *bounds,
+                          shape_in_frame(projection.origin, projection.frame, shape));
     (*program)->set_face(face, cull);
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

@@ -9,14 +9,17 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Bia
     block.right[i] = Vec4f(Vec4(view.faces[i].right, 0.0));
     block.up[i] = Vec4f(Vec4(view.faces[i].up, 0.0));
     block.forward[i] = Vec4f(Vec4(view.faces[i].forward, 0.0));
+    block.origin_and_warp[i] = Vec4f(Vec4(face_origin(view, view.faces[i]) - reference, view.faces[i].warp));
+    block.extent_and_depths[i] =
+        Vec4f(Vec4(view.faces[i].half_extent, view.faces[i].near_depth, view.faces[i].far_depth));
   }
   block.origin_and_size = Vec4f(Vec4(view.origin - reference, view.size));
-  block.extent_and_depths = Vec4f(Vec4(view.half_extent, view.near_depth, view.far_depth));
   block.bias = Vec4f(Vec4(constant_world, bias.slope, bias.normal_offset_texels, 0.0));
   const double cos_outer = std::cos(light.outer_angle);
   const double ramp = std::max(1e-9, std::cos(light.inner_angle) - cos_outer);  // as in scene/light.cpp
   block.direction_and_cos_outer = Vec4f(Vec4(light.direction, cos_outer));
   block.intensity_and_cone = Vec4f(light.intensity, static_cast<float>(1.0 / ramp));
+  block.counts = glm::ivec4(view.face_count, 0, 0, 0);
   return block;
 }
 

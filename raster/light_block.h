@@ -10,8 +10,9 @@
 namespace gnomon::raster {
 
 struct LightBlock {
-  std::array<Vec4f, 6> right, up, forward;
-  Vec4f origin_and_size, extent_and_depths, bias, direction_and_cos_outer, intensity_and_cone;
+  std::array<Vec4f, 6> right, up, forward, origin_and_warp, extent_and_depths;
+  Vec4f origin_and_size, bias, direction_and_cos_outer, intensity_and_cone;
+  glm::ivec4 counts;
 };
 
 LightBlock make_light_block(const Light& light, const LightView& view, const Bias& bias,

@@ -52,10 +52,11 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
 }
 
 double texel_world(const LightView& view, const World& world) {
-  double depth = 0.0;
-  if (!world.finite_bounds.empty()) depth = project_to_texel(view, world.finite_bounds.center()).depth;
-  if (!(depth > 0.0)) depth = std::sqrt(std::max(0.0, view.near_depth * view.far_depth));
-  return texel_world_size(view, depth);
+  TexelCoordinate at;
+  if (!world.finite_bounds.empty()) at = project_to_texel(view, world.finite_bounds.center());
+  const LightFace& face = view.face(at.face);
+  if (!(at.depth > 0.0)) at.depth = std::sqrt(std::max(0.0, face.near_depth * face.far_depth));
+  return texel_world_size(view, at.face, at.depth);
 }
 
 double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {

@@ -13,6 +13,12 @@ Mat4 clip_from_relative(const View& view, const World& world, const Vec3& refere
          relative_to_eye;
 }
 
+LightFace axes(const Vec3& right, const Vec3& up, const Vec3& forward) {
+  LightFace frame;
+  frame.right = right, frame.up = up, frame.forward = forward;
+  return frame;
+}
+
 CameraBlock camera_block(const View& view, const World& world, const Vec3& reference) {
   const double near = near_distance(world, view.eye);
   CameraBlock block{};
@@ -109,12 +115,10 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
 
 Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {
   const World& world = buffers.world();
-  const Projection projection{view.eye,
-                              {view.right, view.up, view.forward},
-                              Vec2(view.tan_half_x, view.tan_half_y),
-                              true,
+  const Projection projection{view.eye, axes(view.right, view.up, view.forward),
+                              Vec2(view.tan_half_x, view.tan_half_y), true,
                               Vec2(2.0 / size_.width, 2.0 / size_.height)};
-  const LightFace world_axes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  const LightFace world_axes = axes(Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
     const auto bounds = shape_bounds(projection, shape);

@@ -41,12 +41,31 @@ std::optional<ClipRectangle> plane_bounds(const Projection& projection, const Pl
   return out;
 }
 
+// Of the square around a disc on a warped orthographic face (light_view.h): its corners bound it, for lines
+// stay lines.
+std::optional<ClipRectangle> warped_bounds(const Projection& projection, const Vec2& c, double r) {
+  const double warp = projection.frame.warp;
+  const Vec2 half = projection.half_extent;
+  if (!(1.0 + warp * (c.y - r) > 0.0)) return ClipRectangle{};
+  ClipRectangle out{Vec2(infinity), Vec2(-infinity)};
+  for (const Vec2 side : {Vec2(-r, -r), Vec2(r, -r), Vec2(r, r), Vec2(-r, r)}) {
+    const Vec2 p = c + side;
+    const Vec2 shown = Vec2(p.x, p.y + warp * half.y * half.y) / (half * (1.0 + warp * p.y));
+    out.min = glm::min(out.min, shown - projection.pixel),
+    out.max = glm::max(out.max, shown + projection.pixel);
+  }
+  out.min = glm::max(out.min, Vec2(-1.0)), out.max = glm::min(out.max, Vec2(1.0));
+  if (!(out.min.x < out.max.x && out.min.y < out.max.y)) return std::nullopt;
+  return out;
+}
+
 std::optional<ClipRectangle> sphere_bounds(const Projection& projection, const Sphere& sphere) {
   const Vec3 d = sphere.center - projection.origin;
   const Vec3 c(glm::dot(d, projection.frame.right), glm::dot(d, projection.frame.up),
                glm::dot(d, projection.frame.forward));
   const double r = sphere.radius;
   if (projection.perspective && c.z + r <= 0.0) return std::nullopt;
+  if (projection.frame.warp != 0.0) return warped_bounds(projection, Vec2(c), r);
   ClipRectangle out;
   for (int axis = 0; axis < 2; ++axis) {
     const Interval range =
@@ -59,6 +78,12 @@ std::optional<ClipRectangle> sphere_bounds(const Projection& projection, const S
 }
 
 }  // namespace
+
+Projection face_projection(const LightView& view, int face) {
+  const LightFace& frame = view.face(face);
+  return {face_origin(view, frame), frame, frame.half_extent, view.projection == LightProjection::perspective,
+          Vec2(2.0 / view.size)};
+}
 
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere_bounds(projection, *sphere);

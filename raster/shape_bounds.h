@@ -14,14 +14,17 @@ struct ClipRectangle {
 };
 
 /// An image to project onto: an orthonormal frame and the half extent at unit depth (perspective) or at any
-/// depth.
+/// depth. The frame's own extent and depths are not looked at, but its warp is (light_view.h).
 struct Projection {
   Vec3 origin;
   LightFace frame;
   Vec2 half_extent;
   bool perspective = true;
-  Vec2 pixel;  ///< one pixel in normalised device coordinates: the margin kept around the shape
+  Vec2 pixel{0.0};  ///< one pixel in normalised device coordinates: the margin kept around the shape
 };
+
+/// A face of a light's map.
+Projection face_projection(const LightView& view, int face);
 
 /// None when no part of the shape can be seen. A plane's rectangle ends at its horizon.
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape);

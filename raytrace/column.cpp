@@ -28,30 +28,53 @@ Column::Column(const LightView& view, int face, int column, int row)
     : perspective_(view.projection == LightProjection::perspective),
       face_(view.faces[static_cast<std::size_t>(face)]),
       origin_(view.origin),
-      origin_size_(sum_of_magnitudes(view.origin)) {
+      origin_size_(sum_of_magnitudes(view.origin) + std::abs(face_.center.x) + std::abs(face_.center.y)) {
   const auto edge = [&](int i, double half) { return (2.0 * i / view.size - 1.0) * half; };
-  x_ = {edge(column, view.half_extent.x), edge(column + 1, view.half_extent.x)};
-  y_ = {edge(row, view.half_extent.y), edge(row + 1, view.half_extent.y)};
+  x_ = {edge(column, face_.half_extent.x), edge(column + 1, face_.half_extent.x)};
+  y_ = {edge(row, face_.half_extent.y), edge(row + 1, face_.half_extent.y)};
   reach_ = std::max({std::abs(x_[0]), std::abs(x_[1]), std::abs(y_[0]), std::abs(y_[1])});
-  grid_error_ = product_gamma * std::max(view.half_extent.x, view.half_extent.y);
+  grid_error_ = product_gamma * std::max(face_.half_extent.x, face_.half_extent.y);
   handedness_ = glm::dot(glm::cross(face_.right, face_.up), face_.forward) < 0.0 ? -1.0 : 1.0;
   corners_ = {Vec3(x_[0], y_[0], 1.0), Vec3(x_[1], y_[0], 1.0), Vec3(x_[1], y_[1], 1.0),
               Vec3(x_[0], y_[1], 1.0)};
+  light_corners_ = corners_;
+  corner_error_ = grid_error_;
+  if (!perspective_) {
+    const std::array<Vec2, 4> xy = column_corners(view, face, column, row);
+    for (std::size_t k = 0; k < 4; ++k) light_corners_[k] = Vec3(xy[k], 1.0);
+    const double sb = face_.warp * face_.half_extent.y;
+    // A shift of the shown height moves the height below it by at most (1 + sb) / (1 - sb) times as much.
+    corner_error_ = 4.0 * grid_error_ * (1.0 + sb) / (1.0 - sb) +
+                    product_gamma * (std::abs(face_.center.x) + std::abs(face_.center.y));
+    if (sb == 0.0 && face_.center == Vec2(0.0)) corner_error_ = grid_error_;
+  }
+  low_ = high_ = Vec2(light_corners_[0]);
+  for (const Vec3& c : light_corners_) low_ = glm::min(low_, Vec2(c)), high_ = glm::max(high_, Vec2(c));
+}
+
+Vec3 Column::homogeneous(const Vec3& q) const {
+  if (perspective_) return q;
+  const double x = q.x - face_.center.x, y = q.y - face_.center.y, b = face_.half_extent.y;
+  return {x, y + face_.warp * b * b, 1.0 + face_.warp * y};
 }
 
 LightVertex Column::vertex(const Vec3& world) const {
   const Vec3 d = world - origin_;
   const Vec3 q(glm::dot(face_.right, d), glm::dot(face_.up, d), glm::dot(face_.forward, d));
-  return {q, homogeneous(q), vertex_gamma * (sum_of_magnitudes(world) + origin_size_)};
+  const double error = vertex_gamma * (sum_of_magnitudes(world) + origin_size_);
+  if (face_.warp == 0.0) return {q, homogeneous(q), error};
+  const Vec3 h = homogeneous(q);
+  const double b = face_.half_extent.y;
+  return {q, h, std::max(1.0, face_.warp) * error + vertex_gamma * (sum_of_magnitudes(h) + b)};
 }
 
 bool Column::surely_outside(std::span<const LightVertex> vertices) const {
-  std::array<bool, 5> outside{true, true, true, true, perspective_};
+  std::array<bool, 5> outside{true, true, true, true, perspective_ || face_.warp != 0.0};
   for (const LightVertex& v : vertices) {
     const std::array<double, 4> values = plane_values(v.h);
     const double error = plane_error(v);
     for (std::size_t k = 0; k < 4; ++k) outside[k] = outside[k] && values[k] < -error;
-    outside[4] = outside[4] && v.q.z < -v.error;
+    outside[4] = outside[4] && v.h.z < -v.error;
   }
   return outside[0] || outside[1] || outside[2] || outside[3] || outside[4];
 }

@@ -1,7 +1,8 @@
 // One texel's column of light rays, and conservative tests of points, segments and triangles against it.
 //
 // Light space: x along right, y along up, z along forward from the view's origin, world units. The tests are
-// made in homogeneous coordinates h = (x, y, 1) of an orthographic map and (x, y, z) of a perspective one;
+// made in homogeneous coordinates h = (x, y, 1) of an orthographic map (x and y from its face's centre; a
+// warped face's h = (x, y + s b^2, 1 + s y), see scene/light_view.h) and (x, y, z) of a perspective one;
 // there a column is the convex cone of its four corners (x, y, 1), and an edge spans a cone with the light
 // that needs no division and may reach behind it. "Surely" means: whatever rounding did to the corners, the
 // vertices and the map's grid.
@@ -19,7 +20,7 @@ namespace gnomon::raytrace {
 struct LightVertex {
   Vec3 q;        ///< light space
   Vec3 h;        ///< homogeneous
-  double error;  ///< bound on each component's error
+  double error;  ///< bound on each component's error, of q and of h
 };
 
 class Column {
@@ -46,13 +47,15 @@ class Column {
   /// more than the column, by the error bounds). Empty when nothing is left.
   Interval distances(std::span<const LightVertex> polygon) const;
 
-  /// The directions of the column's corners, z = 1, in turn.
-  const std::array<Vec3, 4>& corners() const { return corners_; }
-  Vec2 min() const { return {x_[0], y_[0]}; }
-  Vec2 max() const { return {x_[1], y_[1]}; }
+  /// The column's corners in light space, in turn: directions with z = 1 (perspective), or points at z = 1.
+  const std::array<Vec3, 4>& corners() const { return light_corners_; }
+  /// The rectangle around the corners.
+  Vec2 min() const { return low_; }
+  Vec2 max() const { return high_; }
   const Vec3& origin() const { return origin_; }
   const LightFace& face() const { return face_; }
-  double grid_error() const { return grid_error_; }
+  /// Of the corners and of the rectangle.
+  double grid_error() const { return corner_error_; }
 
  private:
   std::array<double, 4> plane_values(const Vec3& h) const {
@@ -64,7 +67,7 @@ class Column {
   /// Which side of the plane through the light and the segment the corners lie on: 1 or -1 when all surely,
   /// else 0.
   int side_of_corners(const LightVertex& a, const LightVertex& b) const;
-  Vec3 homogeneous(const Vec3& q) const { return perspective_ ? q : Vec3(q.x, q.y, 1.0); }
+  Vec3 homogeneous(const Vec3& q) const;
 
   bool perspective_;
   LightFace face_;
@@ -74,7 +77,10 @@ class Column {
   double reach_;                 // the largest of |x_|, |y_|
   double grid_error_;            // of x_ and y_, and of a texel looked up beside them
   double handedness_;            // of (right, up, forward)
-  std::array<Vec3, 4> corners_;
+  std::array<Vec3, 4> corners_;  // homogeneous
+  std::array<Vec3, 4> light_corners_;
+  Vec2 low_, high_;
+  double corner_error_;  // of light_corners_
 };
 
 }  // namespace gnomon::raytrace

@@ -73,14 +73,15 @@ class BoxColumn {
 bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey key) {
   const Vec3 offset = sphere.center - view.origin;
   const double size = glm::dot(Vec3(1.0), glm::abs(sphere.center) + glm::abs(view.origin)) + sphere.radius;
-  const double reach = std::max(view.half_extent.x, view.half_extent.y);
+  const LightFace& face = view.face(key.face());
+  const double reach =
+      std::max({face.half_extent.x, face.half_extent.y, std::abs(face.center.x), std::abs(face.center.y)});
   const double slack =
       error_gamma(32) * (size + (view.projection == LightProjection::orthographic ? reach : size));
   for (const HalfSpace& plane : column_planes(view, key.face(), key.column(), key.row()))
     if (glm::dot(plane.normal, offset) - plane.offset < -(sphere.radius + slack)) return true;
-  const Vec3& forward = view.faces[static_cast<std::size_t>(key.face())].forward;
   return view.projection == LightProjection::perspective &&
-         glm::dot(forward, offset) < -(sphere.radius + slack);
+         glm::dot(face.forward, offset) < -(sphere.radius + slack);
 }
 
 /// Collects the lists of a run of keys; one per task, for it keeps its buffers.

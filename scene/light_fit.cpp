@@ -23,11 +23,17 @@ struct Rect {
 LightFace face_along(const Vec3& forward) {
   const Vec3 hint = std::abs(forward.y) < 0.999 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, -1.0);
   const Vec3 right = glm::normalize(glm::cross(forward, hint));
-  return {right, glm::cross(right, forward), forward};
+  LightFace face;
+  face.right = right, face.up = glm::cross(right, forward), face.forward = forward;
+  return face;
 }
 
 std::array<LightFace, 6> cube_faces() {
-  const auto face = [](Vec3 forward, Vec3 up) { return LightFace{glm::cross(forward, up), up, forward}; };
+  const auto face = [](Vec3 forward, Vec3 up) {
+    LightFace out;
+    out.right = glm::cross(forward, up), out.up = up, out.forward = forward;
+    return out;
+  };
   return {face({1, 0, 0}, {0, 1, 0}),  face({-1, 0, 0}, {0, 1, 0}), face({0, 1, 0}, {0, 0, 1}),
           face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
 }
@@ -184,9 +190,7 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   out.projection = LightProjection::orthographic;
   out.faces[0] = face;
   out.origin = reference + middle.x * face.right + middle.y * face.up;
-  out.half_extent = half;
-  out.near_depth = z.min - margin;
-  out.far_depth = z.max + margin;
+  out.set_extent(half, z.min - margin, z.max + margin);
   return out;
 }
 
@@ -241,7 +245,7 @@ double farthest_distance(const World& world, const Vec3& p) {
 // Depth range of a perspective map: nothing closer than `near` exists; finite things end before `far`, and an
 // infinite plane is kept until the shadow of anything finite has left it (ten times the scene, or 50
 // heights).
-void fit_depth(const World& world, LightView& view) {
+void fit_depth(const World& world, const Vec2& half_extent, LightView& view) {
   const double closest = closest_distance(world, view.origin);
   double far_depth = farthest_distance(world, view.origin);
   for (const Shape& shape : world.shapes) {
@@ -249,10 +253,9 @@ void fit_depth(const World& world, LightView& view) {
       far_depth = std::max({10.0 * far_depth, far_depth,
                             50.0 * std::abs(glm::dot(plane->normal, plane->point - view.origin))});
   }
-  const double diagonal =
-      std::sqrt(1.0 + view.half_extent.x * view.half_extent.x + view.half_extent.y * view.half_extent.y);
-  view.far_depth = far_depth * 1.001;
-  view.near_depth = std::max(0.999 * closest / diagonal, 1e-4 * view.far_depth);
+  const double diagonal = std::sqrt(1.0 + half_extent.x * half_extent.x + half_extent.y * half_extent.y);
+  far_depth *= 1.001;
+  view.set_extent(half_extent, std::max(0.999 * closest / diagonal, 1e-4 * far_depth), far_depth);
 }
 
 }  // namespace
@@ -267,17 +270,17 @@ Expected<LightView> fit_light_view(const World& world, const Light& light, const
   out.size = size;
   out.projection = LightProjection::perspective;
   out.origin = light.position;
+  Vec2 half_extent(1.0);
   if (light.type == LightType::spot) {
     out.faces[0] = face_along(light.direction);
-    out.half_extent = Vec2(std::tan(light.outer_angle) * size / std::max(1.0, size - 2.0));
+    half_extent = Vec2(std::tan(light.outer_angle) * size / std::max(1.0, size - 2.0));
   } else {
     out.face_count = 6;
     out.faces = cube_faces();
-    out.half_extent = Vec2(1.0);
   }
   if (world.primitive_count() == 0)
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the scene has no surface");
-  fit_depth(world, out);
+  fit_depth(world, half_extent, out);
   return out;
 }
 

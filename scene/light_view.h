@@ -5,6 +5,11 @@
 // (u, v) run from (0, 0) to (size, size), v along `up` (OpenGL's window convention: row 0 is the lowest);
 // texel (i, j) has its centre at (i + 1/2, j + 1/2). "Depth" is the coordinate along forward, in world units
 // from `origin`; "distance" is measured along the light ray (equal to depth for an orthographic map).
+//
+// A face covers its own rectangle and range of depths (cascades), and an orthographic one may be *warped*
+// along up (Wimmer et al. 2004): with y measured from the face's centre, b its half extent along up and s its
+// warp, the map shows (x, y + s b^2) / (1 + s y), which keeps y = -b, b where they are and gives more texels
+// to the end where y is low. Light rays stay parallel; a texel's column is then a prism over a trapezium.
 #pragma once
 
 #include <array>
@@ -20,18 +25,29 @@ enum class LightProjection : std::uint8_t { orthographic, perspective };
 
 struct LightFace {
   Vec3 right, up, forward;
+  Vec2 center{0.0};         ///< the middle of an orthographic face, along right and up from LightView::origin
+  Vec2 half_extent{1.0};    ///< along right and up: world units (orthographic), tangents of half-angles
+                            ///< (perspective); of a warped face along right: at its centre
+  double near_depth = 0.0;  ///< mapped to stored depth 0
+  double far_depth = 1.0;   ///< mapped to stored depth 1 (of a warped face: at its low end)
+  double warp = 0.0;        ///< orthographic: >= 0, times half_extent.y below 1; 1 / world units
 };
 
 struct LightView {
   LightProjection projection = LightProjection::orthographic;
-  int size = 0;        ///< texels on a side
-  int face_count = 1;  ///< 6 for a point light, in the order +x -x +y -y +z -z
+  int size = 0;  ///< texels on a side
+  int face_count =
+      1;  ///< 6 for a point light, in the order +x -x +y -y +z -z; orthographic: cascades, finest first
   std::array<LightFace, 6> faces{};
-  Vec3 origin{0.0};  ///< the light's position, or the centre of the orthographic map at depth 0
-  Vec2 half_extent{
-      1.0};  ///< along right and up: world units (orthographic), tangents of half-angles (perspective)
-  double near_depth = 0.0;  ///< mapped to stored depth 0
-  double far_depth = 1.0;   ///< mapped to stored depth 1
+  Vec3 origin{0.0};       ///< the light's position, or where depth is 0 and centres are measured from
+  bool seamless = false;  ///< of a cube: no point falls beside the face that it belongs to
+  bool reversed = false;  ///< stored depth is 1 at the near depth and 0 at the far one
+
+  const LightFace& face(int i) const { return faces[static_cast<std::size_t>(i)]; }
+  /// Gives every face this extent and these depths.
+  void set_extent(const Vec2& half_extent, double near_depth, double far_depth);
+  /// From the nearest near depth to the farthest far depth.
+  Interval depth_range() const;
 };
 
 /// Where a world point falls in the map.
@@ -45,9 +61,16 @@ struct TexelCoordinate {
   int row() const { return static_cast<int>(std::floor(v)); }
 };
 
+/// The middle of an orthographic face at depth 0; the light's position for a perspective one.
+inline Vec3 face_origin(const LightView& view, const LightFace& face) {
+  return view.origin + face.center.x * face.right + face.center.y * face.up;
+}
+
 /// Point lights choose the face of the largest |component|; ties go to x, then y, then z.
 int cube_face(const Vec3& from_light);
 
+/// A point in several cascades belongs to the first that holds it and the four texels around it; one in none,
+/// to the last.
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world);
 /// The same on a face already chosen.
 TexelCoordinate project_to_face(const LightView& view, int face, const Vec3& world);
@@ -57,8 +80,15 @@ TexelCoordinate project_to_face(const LightView& view, int face, const Vec3& wor
 /// whose casters may lie before depth 0, and [0, infinity] for perspective ones.
 Ray texel_ray(const LightView& view, int face, double u, double v);
 
-/// World width of one texel (its wider side), perpendicular to forward, at the given depth.
-double texel_world_size(const LightView& view, double depth);
+/// World width of one texel (its wider side), perpendicular to forward, at the given depth; of a warped face
+/// at its centre.
+double texel_world_size(const LightView& view, int face, double depth);
+/// The same where a point falls.
+double texel_world_size(const LightView& view, const TexelCoordinate& at);
+
+/// Corners of a texel's column in turn (low x and y first): (x, y) along right and up from `origin`, at depth
+/// 1 of a perspective map.
+std::array<Vec2, 4> column_corners(const LightView& view, int face, int column, int row);
 
 /// The four planes of a texel's column of light rays: p is inside iff dot(normal, p - view.origin) >= offset
 /// for all. Normals are unit length. The column of a perspective map also needs depth > 0.
@@ -68,10 +98,17 @@ struct HalfSpace {
 };
 std::array<HalfSpace, 4> column_planes(const LightView& view, int face, int column, int row);
 
-/// Stored depth in [0, 1] <-> depth in world units. Orthographic: linear. Perspective: OpenGL's hyperbola
-/// with zero-to-one clip range: s = f (z - n) / (z (f - n)).
-double stored_from_depth(const LightView& view, double depth);
-double depth_from_stored(const LightView& view, double stored);
+/// Whether a stored depth is that of a caster, not of an empty texel.
+inline bool holds_caster(const LightView& view, double stored) {
+  return view.reversed ? stored > 0.0 : stored < 1.0;
+}
+
+/// Stored depth in [0, 1] <-> depth in world units, on the ray at height v of a face (texels; only a warped
+/// face depends on it). Orthographic: linear. Perspective: OpenGL's hyperbola with zero-to-one clip range: s
+/// = f (z - n) / (z (f - n)). Warped: linear along each ray, times (1 - s b) / (1 + s y). Reversed: n and f
+/// change places.
+double stored_from_depth(const LightView& view, int face, double v, double depth);
+double depth_from_stored(const LightView& view, int face, double v, double stored);
 
 /// light_clip_from_relative, for points given relative to `reference` (camera-relative upload); z in [0, w].
 Mat4 light_clip_from_relative(const LightView& view, int face, const Vec3& reference);

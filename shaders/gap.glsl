@@ -9,7 +9,7 @@ layout(binding = depth_map_unit) uniform sampler2DArray depth_map;
 // Depth, along forward, at which the light ray offset by (du, dv) texels from `at` meets the plane through it with
 // light-space normal n facing the light; +infinity where it does not meet it from the front.
 float plane_depth(Texel at, vec3 n, vec2 offset_texels) {
-  vec2 step = offset_texels * texel_extent();
+  vec2 step = texel_step(at, offset_texels);
 #ifdef PERSPECTIVE
   float here = dot(n, at.local) / at.local.z;  // n . (x, y, 1)
   float there = here + dot(n.xy, step);
@@ -42,16 +42,17 @@ ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
   Texel at = test.own;
 #ifdef NORMAL_OFFSET
   float sine = length(cross(normal, to_light));
-  at = project_to_texel(position + normal * (light.bias.z * texel_world_size(at.local.z) * sine));
+  at = project_to_texel(position + normal * (light.bias.z * texel_world_size(at) * sine));
 #endif
   test.at = at;
   test.gap = -infinite;
   test.outside = !at.inside;
   if (!at.inside) return test;
-  ivec2 texel = ivec2(floor(at.uv));
-  float stored = texelFetch(depth_map, ivec3(texel, at.face), 0).r;
-  if (!(stored < map_clear_depth)) {
-    test.outside = at.local.z < light.extent_and_depths.z || at.local.z > light.extent_and_depths.w;
+  ivec3 texel = ivec3(floor(at.uv), at.face);
+  float stored = texelFetch(depth_map, texel, 0).r;
+  if (!holds_caster(stored)) {
+    vec4 range = light.extent_and_depths[at.face];
+    test.outside = at.local.z < range.z || at.local.z > range.w;
     return test;
   }
   float receiver = at.local.z;
@@ -64,9 +65,9 @@ ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
   vec3 n = to_face(at.face, normal);
 #endif
 #ifdef RECEIVER_PLANE
-  receiver = plane_depth(at, n, vec2(texel) + 0.5 - at.uv);
+  receiver = plane_depth(at, n, vec2(texel.xy) + 0.5 - at.uv);
 #endif
-  test.gap = (receiver - depth_from_stored(stored)) * along_ray;
+  test.gap = (receiver - depth_from_stored(texel, stored)) * along_ray;
 #ifdef SLOPE_BIAS
   test.gap -= light.bias.y * texel_depth_slope(at, n) * along_ray;
 #endif

@@ -24,7 +24,11 @@ struct TexelRay {
 };
 
 TexelRay texel_ray() {
-  vec2 offset = (2.0 * gl_FragCoord.xy / light.origin_and_size.w - 1.0) * light.extent_and_depths.xy;
+  vec2 offset = (2.0 * gl_FragCoord.xy / light.origin_and_size.w - 1.0) * light.extent_and_depths[face].xy;
+#ifdef WARP
+  offset.y = unwarped(face, offset.y);
+  offset.x *= warp_divisor(face, offset.y);
+#endif
 #ifdef PERSPECTIVE
   return TexelRay(vec3(0.0), vec3(offset, 1.0));
 #else
@@ -40,7 +44,7 @@ bool usable(TexelRay ray, float t) {
 #ifdef ALPHA_MASK
   ShapeData shape = shapes[shape_index];
   vec3 p = ray.origin + t * ray.direction;
-  vec3 position = light.origin_and_size.xyz + p.x * light.right[face].xyz + p.y * light.up[face].xyz +
+  vec3 position = light.origin_and_warp[face].xyz + p.x * light.right[face].xyz + p.y * light.up[face].xyz +
                   p.z * light.forward[face].xyz;
   if (is_hole(materials[shape.material], shape_uv(shape, position))) return false;
 #endif
@@ -61,9 +65,9 @@ void main() {
   float t = (shape_in_frame.w - dot(shape_in_frame.xyz, ray.origin)) / facing;
 #endif
   if (!usable(ray, t)) discard;
-  float stored = stored_from_depth(t);
-  if (stored >= map_clear_depth) discard;
-  gl_FragDepth = max(stored, 0.0);
+  float stored = stored_from_depth(ivec3(gl_FragCoord.xy, face), t);
+  if (!holds_caster(stored)) discard;
+  gl_FragDepth = clamp(stored, 0.0, 1.0);
 #ifdef PRIMITIVE_IDS
   primitive_id = shapes[shape_index].primitive;
 #endif

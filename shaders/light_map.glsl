@@ -1,15 +1,19 @@
 // The light's depth map: which texel a point looks up, and what a stored depth means. Twin of scene/light_view.h.
-// Permutations PERSPECTIVE (spot and point lights; else orthographic) and CUBE (six faces).
+// Permutations PERSPECTIVE (spot and point lights; else orthographic), CUBE (six faces), SEAMLESS (no point falls beside
+// its face of a cube), CASCADES (several orthographic faces, finest first), WARP (a face warped along up) and REVERSED
+// (stored depth is 1 at the near depth and 0 at the far one).
 
 layout(std140, binding = light_block) uniform Light {
   vec4 right[6];
   vec4 up[6];
   vec4 forward[6];
+  vec4 origin_and_warp[6];       // of each face, relative to the frame's reference
+  vec4 extent_and_depths[6];     // half extent along right and up; near and far depth
   vec4 origin_and_size;          // relative to the frame's reference; texels on a side
-  vec4 extent_and_depths;        // half extent along right and up; near and far depth
   vec4 bias;                     // constant (world units), slope (multiples), normal offset (texels)
   vec4 direction_and_cos_outer;  // the way the light travels
   vec4 intensity_and_cone;       // w: 1 / (cos inner - cos outer)
+  ivec4 counts;                  // faces
 } light;
 
 struct Texel {
@@ -32,15 +36,20 @@ vec3 to_face(int face, vec3 v) {
   return vec3(dot(light.right[face].xyz, v), dot(light.up[face].xyz, v), dot(light.forward[face].xyz, v));
 }
 
-Texel project_to_texel(vec3 position) {
-  Texel t;
-  vec3 d = position - light.origin_and_size.xyz;
-#ifdef CUBE
-  t.face = cube_face(d);
-#else
-  t.face = 0;
+#ifdef WARP
+// Height above the centre of a warped face, from the height that the map shows.
+float unwarped(int face, float shown) {
+  float warp = light.origin_and_warp[face].w, b = light.extent_and_depths[face].y;
+  return (shown - warp * b * b) / (1.0 - warp * shown);
+}
+float warp_divisor(int face, float y) { return 1.0 + light.origin_and_warp[face].w * y; }
 #endif
-  t.local = to_face(t.face, d);
+
+Texel project_to_face(int face, vec3 position) {
+  Texel t;
+  t.face = face;
+  vec3 d = position - light.origin_and_warp[face].xyz;
+  t.local = to_face(face, d);
 #ifdef PERSPECTIVE
   t.distance = length(d);
   float w = t.local.z;
@@ -48,41 +57,119 @@ Texel project_to_texel(vec3 position) {
   t.distance = t.local.z;
   float w = 1.0;
 #endif
+  vec2 shown = t.local.xy;
+  vec2 extent = light.extent_and_depths[face].xy;
+#ifdef WARP
+  w = warp_divisor(face, shown.y);
+  shown.y += light.origin_and_warp[face].w * extent.y * extent.y;
+#endif
   float size = light.origin_and_size.w;
-  t.uv = 0.5 * (t.local.xy / (w * light.extent_and_depths.xy) + 1.0) * size;
+  t.uv = 0.5 * (shown / (w * extent) + 1.0) * size;
+#ifdef SEAMLESS
+  if (w > 0.0) t.uv = clamp(t.uv, vec2(0.0), vec2(size * (1.0 - 6e-8)));  // the last float below size
+#endif
   t.inside = w > 0.0 && all(greaterThanEqual(t.uv, vec2(0.0))) && all(lessThan(t.uv, vec2(size)));
   return t;
 }
 
+// A point in several cascades belongs to the first that holds it and the four texels around it.
+Texel project_to_texel(vec3 position) {
+#if defined(CUBE)
+  return project_to_face(cube_face(position - light.origin_and_size.xyz), position);
+#elif defined(CASCADES)
+  int last = light.counts.x - 1;
+  for (int face = 0; face < last; ++face) {
+    Texel t = project_to_face(face, position);
+    if (all(greaterThanEqual(t.uv, vec2(1.0))) && all(lessThan(t.uv, vec2(light.origin_and_size.w - 1.0)))) return t;
+  }
+  return project_to_face(last, position);
+#else
+  return project_to_face(0, position);
+#endif
+}
+
+// The share of the stored range that a warped face leaves to the ray at height v (texels).
+float warp_share(int face, float v) {
+#ifdef WARP
+  float b = light.extent_and_depths[face].y;
+  float y = unwarped(face, (2.0 * v / light.origin_and_size.w - 1.0) * b);
+  return (1.0 - light.origin_and_warp[face].w * b) / warp_divisor(face, y);
+#else
+  return 1.0;
+#endif
+}
+
+bool holds_caster(float stored) {
+#ifdef REVERSED
+  return stored > 0.0;
+#else
+  return stored < map_clear_depth;
+#endif
+}
+
+// `texel`: column, row and face of the texel, whose centre's ray the depth lies on.
 // n f / (f - s (f - n)) for perspective, written so that s near 1 loses nothing: 1 - s is exact there.
-float depth_from_stored(float s) {
-  float n = light.extent_and_depths.z;
-  float f = light.extent_and_depths.w;
+float depth_from_stored(ivec3 texel, float s) {
+  float n = light.extent_and_depths[texel.z].z;
+  float f = light.extent_and_depths[texel.z].w;
 #ifdef PERSPECTIVE
+#ifdef REVERSED
+  return n * f / (n + s * (f - n));
+#else
   return n * f / (n + (1.0 - s) * (f - n));
+#endif
 #else
-  return n + s * (f - n);
+  float share = s / warp_share(texel.z, float(texel.y) + 0.5);
+#ifdef REVERSED
+  return f - share * (f - n);
+#else
+  return n + share * (f - n);
+#endif
 #endif
 }
 
-float stored_from_depth(float z) {
-  float n = light.extent_and_depths.z;
-  float f = light.extent_and_depths.w;
-#ifdef PERSPECTIVE
-  return f * (z - n) / (z * (f - n));
+float stored_from_depth(ivec3 texel, float z) {
+  float n = light.extent_and_depths[texel.z].z;
+  float f = light.extent_and_depths[texel.z].w;
+#ifdef REVERSED
+  float from_zero = f - z;
+  float one = n;
 #else
-  return (z - n) / (f - n);
+  float from_zero = z - n;
+  float one = f;
+#endif
+#ifdef PERSPECTIVE
+  return one * from_zero / (z * (f - n));
+#else
+  return from_zero / (f - n) * warp_share(texel.z, float(texel.y) + 0.5);
 #endif
 }
 
-// Width along right and up of a whole texel: world units (orthographic), tangents (perspective).
-vec2 texel_extent() { return 2.0 * light.extent_and_depths.xy / light.origin_and_size.w; }
+// Width along right and up of a whole texel: world units (orthographic), tangents (perspective). Of a warped face at its
+// centre: see texel_step().
+vec2 texel_extent(int face) { return 2.0 * light.extent_and_depths[face].xy / light.origin_and_size.w; }
 
-// World width of a texel (its wider side) at a depth.
-float texel_world_size(float depth) {
-  vec2 extent = texel_extent();
-#ifdef PERSPECTIVE
-  return max(extent.x, extent.y) * depth;
+// The way along right and up (at depth 1 of a perspective map) to the ray so many texels away.
+vec2 texel_step(Texel at, vec2 offset_texels) {
+#ifdef WARP
+  vec2 extent = light.extent_and_depths[at.face].xy;
+  vec2 shown = (2.0 * (at.uv + offset_texels) / light.origin_and_size.w - 1.0) * extent;
+  float y = unwarped(at.face, shown.y);
+  return vec2(shown.x * warp_divisor(at.face, y), y) - at.local.xy;
+#else
+  return offset_texels * texel_extent(at.face);
+#endif
+}
+
+// World width of the texel (its wider side) where a point falls.
+float texel_world_size(Texel at) {
+  vec2 extent = texel_extent(at.face);
+#if defined(PERSPECTIVE)
+  return max(extent.x, extent.y) * at.local.z;
+#elif defined(WARP)
+  float w = warp_divisor(at.face, at.local.y);
+  float sb = light.origin_and_warp[at.face].w * light.extent_and_depths[at.face].y;
+  return max(extent.x * w, extent.y * w * w / (1.0 - sb * sb));
 #else
   return max(extent.x, extent.y);
 #endif

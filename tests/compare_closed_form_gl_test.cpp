@@ -28,8 +28,8 @@ HalfTexelSlopes floor_slopes(const LightView& view) {
   const Vec3 n(0, 1, 0);
   const LightFace& f = view.faces[0];
   const double n_forward = glm::dot(n, f.forward);
-  return {std::abs(view.half_extent.x / view.size * glm::dot(n, f.right) / n_forward),
-          std::abs(view.half_extent.y / view.size * glm::dot(n, f.up) / n_forward)};
+  return {std::abs(view.face(0).half_extent.x / view.size * glm::dot(n, f.right) / n_forward),
+          std::abs(view.face(0).half_extent.y / view.size * glm::dot(n, f.up) / n_forward)};
 }
 
 struct AcneCase {

@@ -82,8 +82,8 @@ TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
     const Vec4 clip = light_clip_from_relative(view, t.face, reference) * Vec4(p - reference, 1.0);
     EXPECT_NEAR(0.5 * (clip.x / clip.w + 1.0) * view.size, t.u, 1e-8);
     EXPECT_NEAR(0.5 * (clip.y / clip.w + 1.0) * view.size, t.v, 1e-8);
-    EXPECT_NEAR(clip.z / clip.w, stored_from_depth(view, t.depth), 1e-10);
-    EXPECT_NEAR(depth_from_stored(view, stored_from_depth(view, t.depth)), t.depth,
+    EXPECT_NEAR(clip.z / clip.w, stored_from_depth(view, t.face, t.v, t.depth), 1e-10);
+    EXPECT_NEAR(depth_from_stored(view, t.face, t.v, stored_from_depth(view, t.face, t.v, t.depth)), t.depth,
                 1e-9 * std::abs(t.depth) + 1e-12);
   }
 }
@@ -120,8 +120,8 @@ TEST_P(LightViews, NothingThatTheCameraSeesIsCutOff) {
     const TexelCoordinate t = project_to_texel(view, p);
     if (!seen || (scene.lights[0].type == LightType::spot && !t.inside)) continue;
     EXPECT_TRUE(t.inside);
-    EXPECT_GT(t.depth, view.near_depth);
-    EXPECT_LT(t.depth, view.far_depth);
+    EXPECT_GT(t.depth, view.face(t.face).near_depth);
+    EXPECT_LT(t.depth, view.face(t.face).far_depth);
   }
 }
 
@@ -132,7 +132,10 @@ TEST(Fit, FollowsTheCamera) {
   scene.camera.vertical_fov = 0.05;
   const auto part = fit_light_view(world, scene.lights[0], scene.camera, 1.0, 64);
   ASSERT_TRUE(whole && part);
-  EXPECT_LT(part->half_extent.x * part->half_extent.y, 0.5 * whole->half_extent.x * whole->half_extent.y);
+  const auto area = [](const LightView& view) {
+    return view.face(0).half_extent.x * view.face(0).half_extent.y;
+  };
+  EXPECT_LT(area(*part), 0.5 * area(*whole));
 }
 
 TEST(Fit, AnEmptySceneIsAnError) {

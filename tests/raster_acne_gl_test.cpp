@@ -27,8 +27,8 @@ struct Slopes {
 Slopes half_texel_slopes(const LightView& view, const Vec3& normal) {
   const LightFace& f = view.faces[0];
   const double nz = glm::dot(normal, f.forward);
-  return {std::abs(glm::dot(normal, f.right) / nz) * view.half_extent.x / view.size,
-          std::abs(glm::dot(normal, f.up) / nz) * view.half_extent.y / view.size};
+  return {std::abs(glm::dot(normal, f.right) / nz) * view.face(0).half_extent.x / view.size,
+          std::abs(glm::dot(normal, f.up) / nz) * view.face(0).half_extent.y / view.size};
 }
 
 /// Share of lit-side pixels inside the map that are drawn in shadow. Nothing casts a shadow here but the

@@ -108,13 +108,14 @@ TEST_P(Bias, NormalOffsetLooksUpAMovedReceiver) {
   compare(bias, [&](const Receiver& r, float, float after) {
     const LightView& map = plain_.light().map.view;
     const double sine = glm::length(glm::cross(r.normal, r.to_light));
-    const Vec3 moved = r.position + r.normal * (2.0 * texel_world_size(map, r.at.depth) * sine);
+    const Vec3 moved = r.position + r.normal * (2.0 * texel_world_size(map, r.at) * sine);
     Receiver m = r;
     m.at = project_to_texel(map, moved);
     if (near_texel_border(m) || !m.at.inside) return;
     const auto& shadow_map = plain_.light().map;
     const double stored = shadow_map.depth[shadow_map.texel_index(m.at.face, m.at.column(), m.at.row())];
-    ASSERT_NEAR(after, (m.at.depth - depth_from_stored(map, stored)) * along(m), 4.0 * tolerance);
+    ASSERT_NEAR(after, (m.at.depth - depth_from_stored(map, m.at.face, m.at.v, stored)) * along(m),
+                4.0 * tolerance);
     ASSERT_EQ(plain_.light().texel_uv.data[r.pixel], biased_.light().texel_uv.data[r.pixel])
         << "the own place moved";
     ASSERT_EQ(plain_.light().distance.data[r.pixel], biased_.light().distance.data[r.pixel]);
@@ -125,14 +126,14 @@ TEST_P(Bias, ConstantInTexelsBecomesWorldUnitsOnce) {
   const LightView& map = plain_.light().map.view;
   const TexelCoordinate center = project_to_texel(map, plain_.world->finite_bounds.center());
   EXPECT_DOUBLE_EQ(raster::constant_bias_world({.constant = 3.0}, map, *plain_.world),
-                   3.0 * texel_world_size(map, center.depth));
+                   3.0 * texel_world_size(map, center));
   EXPECT_EQ(
       raster::constant_bias_world({.constant = 3.0, .unit = raster::BiasUnit::world}, map, *plain_.world),
       3.0);
   raster::RasterOptions options = small_options();
   options.map.bias.constant = 3.0;
   biased_.render(options);
-  EXPECT_DOUBLE_EQ(biased_.light().bias_constant_world, 3.0 * texel_world_size(map, center.depth));
+  EXPECT_DOUBLE_EQ(biased_.light().bias_constant_world, 3.0 * texel_world_size(map, center));
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, Bias,

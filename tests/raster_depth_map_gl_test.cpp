@@ -72,7 +72,8 @@ TEST_P(StoredDepth, IsExactWithinOneQuantum) {
         if (!hit) continue;
         const double stored = map.depth[map.texel_index(face, column, row)];
         const Ray ray = texel_ray(map.view, face, column + 0.5, row + 0.5);
-        const double exact = stored_from_depth(map.view, depth_of(map.view, face, ray, hit->t));
+        const double exact =
+            stored_from_depth(map.view, face, row + 0.5, depth_of(map.view, face, ray, hit->t));
         if (hit->primitive == no_id || exact > 1.0) {
           ASSERT_EQ(stored, 1.0) << "nothing lies on this ray before the far depth";
           continue;

@@ -55,7 +55,7 @@ TEST_P(Records, MatchTheReceiversOwnPlaceInTheMap) {
       ASSERT_NEAR(record.distance.data[pixel], at.distance, tolerance);
       if (at.depth <= 0.0) continue;
       const double width = map.projection == LightProjection::perspective ? at.depth : 1.0;
-      const Vec2 texels = tolerance / width * 0.5 * map.size / map.half_extent *
+      const Vec2 texels = tolerance / width * 0.5 * map.size / map.face(0).half_extent *
                           (1.0 + std::abs(at.u / map.size - 0.5) + std::abs(at.v / map.size - 0.5));
       ASSERT_NEAR(record.texel_uv.data[pixel].x, at.u, texels.x + 1e-6 * at.u);
       ASSERT_NEAR(record.texel_uv.data[pixel].y, at.v, texels.y + 1e-6 * at.v);
@@ -91,14 +91,15 @@ TEST_P(Records, GapIsTheDistanceBehindTheStoredDepth) {
         ++empty;
         ASSERT_EQ(record.gap.data[pixel], -std::numeric_limits<float>::infinity());
         ASSERT_EQ(record.visibility.data[pixel], 1.0f);
-        ASSERT_EQ(record.outside_map.data[pixel],
-                  !inside || at.depth > map.far_depth || at.depth < map.near_depth);
+        ASSERT_EQ(record.outside_map.data[pixel], !inside || at.depth > map.face(at.face).far_depth ||
+                                                      at.depth < map.face(at.face).near_depth);
         continue;
       }
       ++tested;
       const double along = map.projection == LightProjection::perspective ? at.distance / at.depth : 1.0;
-      const double expected = (at.depth - depth_from_stored(map, stored)) * along;
-      const double ulp = depth_from_stored(map, stored + std::exp2(-24)) - depth_from_stored(map, stored);
+      const double expected = (at.depth - depth_from_stored(map, at.face, at.v, stored)) * along;
+      const double ulp = depth_from_stored(map, at.face, at.v, stored + std::exp2(-24)) -
+                         depth_from_stored(map, at.face, at.v, stored);
       const double tolerance = position_tolerance(*drawn.world, map, ray, *hit) + 2.0 * ulp * along;
       ASSERT_NEAR(record.gap.data[pixel], expected, tolerance) << x << ", " << y;
     }

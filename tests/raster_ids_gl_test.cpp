@@ -41,8 +41,9 @@ TEST_P(Ids, OfTexelsAreThoseOfTheHitNearestToTheLight) {
         if (!hit) continue;
         const std::size_t texel = map.texel_index(face, column, row);
         const Ray ray = texel_ray(map.view, face, column + 0.5, row + 0.5);
-        const bool stored = hit->primitive != no_id &&
-                            stored_from_depth(map.view, depth_of(map.view, face, ray, hit->t)) < 1.0;
+        const bool stored =
+            hit->primitive != no_id &&
+            stored_from_depth(map.view, face, row + 0.5, depth_of(map.view, face, ray, hit->t)) < 1.0;
         ASSERT_EQ(map.primitive[texel], stored ? hit->primitive : no_id)
             << face << ": " << column << ", " << row;
         ASSERT_EQ(map.depth[texel] == 1.0f, !stored);

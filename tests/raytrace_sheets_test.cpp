@@ -25,9 +25,9 @@ using test::TestWorld;
 LightView downwards(int size, double half) {
   LightView view;
   view.size = size;
-  view.faces[0] = {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
-  view.half_extent = Vec2(half);
-  view.near_depth = -10.0, view.far_depth = 10.0;
+  LightFace& face = view.faces[0];
+  face.right = {1, 0, 0}, face.up = {0, 0, -1}, face.forward = {0, -1, 0};
+  view.set_extent(Vec2(half), -10.0, 10.0);
   return view;
 }
 

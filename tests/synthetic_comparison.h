@@ -96,11 +96,11 @@ inline raster::ShadowMap make_map(const Light& light) {
   map.view.projection = point ? LightProjection::perspective : LightProjection::orthographic;
   map.view.size = map_size;
   map.view.face_count = point ? 6 : 1;
-  map.view.near_depth = 1.0;
-  map.view.far_depth = 11.0;
-  map.view.faces.fill({Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0, -1, 0)});  // looking down
+  LightFace down;
+  down.right = Vec3(1, 0, 0), down.up = Vec3(0, 0, -1), down.forward = Vec3(0, -1, 0);
+  map.view.faces.fill(down);
   map.view.origin = Vec3(160, 5.5, 90);
-  map.view.half_extent = point ? Vec2(1.0) : Vec2(160.0);
+  map.view.set_extent(point ? Vec2(1.0) : Vec2(160.0), 1.0, 11.0);
   const auto texels = static_cast<std::size_t>(map.view.face_count * map_size * map_size);
   map.depth.assign(texels, 1.0f);
   map.primitive.assign(texels, no_id);

@@ -150,8 +150,8 @@ Depth from the light in world units{}; dark grey where nothing is stored.{}{}</f
 )",
       picture(pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
               ""),
-      plain_number(view.far_depth), depth_scale(fmt::format("depth-scale-{}", b.index)),
-      plain_number(view.near_depth),
+      plain_number(view.depth_range().max), depth_scale(fmt::format("depth-scale-{}", b.index)),
+      plain_number(view.depth_range().min),
       view.projection == LightProjection::perspective ? ", on a logarithmic scale" : "",
       view.face_count > 1 ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z." : "",
       step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "");

@@ -104,7 +104,8 @@ class Channels {
 };
 
 double depth_step(const LightView& view) {
-  return std::exp2(std::ceil(std::log2(view.far_depth - view.near_depth)) - 22.0);
+  const Interval range = view.depth_range();
+  return std::exp2(std::ceil(std::log2(range.max - range.min)) - 22.0);
 }
 
 void add_ladder(Channels& channels, const LightComparison& light) {
@@ -150,16 +151,20 @@ Json view_json(const LightView& view) {
   Json faces = Json::array();
   for (int i = 0; i < view.face_count; ++i) {
     const LightFace& face = view.faces[static_cast<std::size_t>(i)];
-    faces.push_back(
-        {{"right", vector3(face.right)}, {"up", vector3(face.up)}, {"forward", vector3(face.forward)}});
+    faces.push_back({{"right", vector3(face.right)},
+                     {"up", vector3(face.up)},
+                     {"forward", vector3(face.forward)},
+                     {"center", Json::array({face.center.x, face.center.y})},
+                     {"half_extent", Json::array({face.half_extent.x, face.half_extent.y})},
+                     {"warp", face.warp}});
   }
   return {{"perspective", view.projection == LightProjection::perspective},
           {"size", view.size},
           {"faces", std::move(faces)},
           {"origin", vector3(view.origin)},
-          {"half_extent", Json::array({view.half_extent.x, view.half_extent.y})},
-          {"near", view.near_depth},
-          {"far", view.far_depth}};
+          {"half_extent", Json::array({view.face(0).half_extent.x, view.face(0).half_extent.y})},
+          {"near", view.depth_range().min},
+          {"far", view.depth_range().max}};
 }
 
 // Depths in world units, in steps; -1 where nothing is stored. A reduced map keeps the nearest depth of each
@@ -173,12 +178,16 @@ Json map_json(const raster::ShadowMap& map) {
   while (texels(step) > most_map_texels) ++step;
   const raster::ShadowMap small = step == 1 ? raster::ShadowMap{} : reduced_map(map, step);
   const std::vector<float>& depth = step == 1 ? map.depth : small.depth;
-  const double unit = depth_step(map.view);
+  const LightView& view = step == 1 ? map.view : small.view;
+  const double unit = depth_step(view), near_depth = view.depth_range().min;
+  const auto side = static_cast<std::size_t>(view.size);
   std::vector<std::uint32_t> numbers(depth.size());
   tbb::parallel_for(std::size_t{0}, depth.size(), [&](std::size_t i) {
     const double stored = depth[i];
-    numbers[i] = stored < 1.0
-                     ? integer(std::round((depth_from_stored(map.view, stored) - map.view.near_depth) / unit))
+    const auto face = static_cast<int>(i / (side * side));
+    const double v = static_cast<double>(i / side % side) + 0.5;
+    numbers[i] = holds_caster(view, stored)
+                     ? integer(std::round((depth_from_stored(view, face, v, stored) - near_depth) / unit))
                      : 0xffffffffu;
   });
   return {
