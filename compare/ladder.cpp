@@ -10,6 +10,7 @@
 #include "compare/biased_test.h"
 #include "compare/columns.h"
 #include "compare/labelling.h"
+#include "scene/solid.h"
 
 namespace gnomon::compare {
 
@@ -57,10 +58,14 @@ double plane_rounding(const Ray& ray, const SurfacePoint& receiver) {
   return 32.0 * std::numeric_limits<double>::epsilon() * size / facing;
 }
 
-// A sphere's inside is another sheet than the outside that the light meets first.
+// A sphere's or closed solid's inside is another sheet than the outside that the light meets first.
 bool on_inner_side(const LadderInput& in, const SurfacePoint& receiver) {
   if (in.world.is_triangle(receiver.primitive)) return false;
-  const auto* sphere = std::get_if<Sphere>(&in.world.shape(receiver.primitive).geometry);
+  const ShapeGeometry& geometry = in.world.shape(receiver.primitive).geometry;
+  if (is_solid(geometry))
+    return is_closed(geometry) &&
+           glm::dot(receiver.normal, geometric_normal(in.world, receiver.primitive, receiver.position)) < 0.0;
+  const auto* sphere = std::get_if<Sphere>(&geometry);
   return sphere != nullptr && glm::dot(receiver.normal, receiver.position - sphere->center) < 0.0;
 }
 

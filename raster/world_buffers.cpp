@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "scene/solid.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -85,6 +86,10 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       materials_(gl) {}
 
 Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
+  for (const Shape& shape : world.shapes)
+    if (is_solid(shape.geometry))
+      return fail(ErrorKind::graphics,
+                  fmt::format("the rasterizer cannot draw shape '{}' yet; raytrace can", shape.name));
   const std::uint64_t largest =
       std::max<std::uint64_t>(16 * std::uint64_t{world.triangle_count()}, 12 * world.positions.size());
   GLint64 limit = 0;

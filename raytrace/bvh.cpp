@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "scene/solid.h"
+
 namespace gnomon::raytrace {
 namespace {
 
@@ -216,7 +218,9 @@ LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {
     const auto [a, b, c] = world.corners(id);
     return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}};
   }
-  const auto& sphere = std::get<Sphere>(world.shape(id).geometry);
+  const ShapeGeometry& geometry = world.shape(id).geometry;
+  if (is_solid(geometry)) return {};  // looked up in the world
+  const auto& sphere = std::get<Sphere>(geometry);
   return {{sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius}};
 }
 
@@ -245,6 +249,12 @@ BoxRef sphere_box(const Sphere& sphere, std::uint32_t id, const Vec3& center) {
   const Vec3 middle = sphere.center - center;
   const Vec3 half = Vec3(sphere.radius) + error_gamma(3) * (glm::abs(middle) + Vec3(sphere.radius));
   return box_of(middle - half, middle + half, id);
+}
+
+BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& center) {
+  const Aabb box = world_box(solid);
+  const Vec3 error = error_gamma(32) * (glm::abs(box.min) + glm::abs(box.max) + box.extent());
+  return box_of(box.min - error - center, box.max + error - center, id);
 }
 
 bool usable_triangle(const World& world, std::uint32_t id) {
@@ -277,8 +287,17 @@ FinitePrimitives finite_primitives(const World& world) {
   if (all_finite(middle)) out.center = middle;
   append_triangles(world, out);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
-    const auto* sphere = std::get_if<Sphere>(&world.shape(id).geometry);
-    if (sphere == nullptr) continue;
+    const ShapeGeometry& geometry = world.shape(id).geometry;
+    if (std::holds_alternative<Plane>(geometry)) continue;
+    if (is_solid(geometry)) {
+      const Aabb box = world_box(geometry);
+      if (all_finite(box.min) && all_finite(box.max))
+        out.boxes.push_back(solid_box(geometry, id, out.center));
+      else
+        ++out.dropped;
+      continue;
+    }
+    const auto* sphere = std::get_if<Sphere>(&geometry);
     if (all_finite(sphere->center) && std::isfinite(sphere->radius) && sphere->radius > 0.0)
       out.boxes.push_back(sphere_box(*sphere, id, out.center));
     else

@@ -36,7 +36,8 @@ struct alignas(16) BvhNode {
   BvhChild child[4];
 };
 
-/// A triangle's corners (x0 y0 z0 x1 ... z2), or a sphere's centre and radius in the first four.
+/// A triangle's corners (x0 y0 z0 x1 ... z2), or a sphere's centre and radius in the first four; nothing
+/// for a solid (scene/solid.h), which is looked up by its id.
 struct LeafPrimitive {
   std::array<double, 9> v;
 };
@@ -57,7 +58,7 @@ struct BoxRef {
   std::uint32_t id;
 };
 
-/// The finite, non-degenerate triangles and spheres of a world, in ascending order of ids.
+/// The finite, non-degenerate triangles, spheres and solids of a world, in ascending order of ids.
 struct FinitePrimitives {
   std::vector<BoxRef> boxes;
   Vec3 center{0.0};  ///< of the world's finite bounds

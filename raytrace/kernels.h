@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/accel/structure.h"
+#include "raytrace/solid.h"
 #include "raytrace/surface_uv.h"
 #include "raytrace/tracer.h"
 #include "raytrace/traverse.h"
@@ -22,7 +23,7 @@ struct Structures {
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
-  bool has_shapes = false;  ///< spheres among the leaves
+  bool has_shapes = false;  ///< spheres or solids among the leaves
 };
 
 struct CountWork {
@@ -45,7 +46,9 @@ inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32
   hit.primitive = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
     hit.barycentric = Vec2(0.0);
-    return intersect_sphere(ray, primitive, hit.t);
+    const ShapeGeometry& geometry = s.world->shape(hit.primitive).geometry;
+    return is_solid(geometry) ? intersect_solid(ray, geometry, hit.t)
+                              : intersect_sphere(ray, primitive, hit.t);
   }
   TriangleHit t;
   if (!intersect_triangle(ray, primitive, t)) return false;
@@ -71,7 +74,7 @@ struct RobustArithmetic {
   }
 };
 
-/// A masked sphere's near side may be a hole while its far side is not.
+/// A masked sphere's near side may be a hole while its far side is not; so with each side of a solid.
 inline bool solid(const Structures& s, RayFrame ray, Hit& hit) {
   const World& world = *s.world;
   const Material& material = world.scene->materials[world.material_of(hit.primitive)];
@@ -82,7 +85,16 @@ inline bool solid(const Structures& s, RayFrame ray, Hit& hit) {
   };
   if (!is_masked_out(world, material, hit.primitive, hit.barycentric, position())) return true;
   if (world.is_triangle(hit.primitive)) return false;
-  const auto* sphere = std::get_if<Sphere>(&world.shape(hit.primitive).geometry);
+  const ShapeGeometry& geometry = world.shape(hit.primitive).geometry;
+  if (is_solid(geometry)) {
+    for (const double t : solid_crossings(ray, geometry)) {
+      if (!(t > hit.t && t < ray.t.max)) continue;
+      hit.t = t;
+      if (!is_masked_out(world, material, hit.primitive, hit.barycentric, position())) return true;
+    }
+    return false;
+  }
+  const auto* sphere = std::get_if<Sphere>(&geometry);
   SphereRoots roots;
   if (sphere == nullptr || !sphere_roots(ray, sphere->center, sphere->radius, roots)) return false;
   if (!(roots.far > hit.t && roots.far < ray.t.max)) return false;

@@ -87,6 +87,21 @@ void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, c
   }
 }
 
+// One sheet per side, within the distances of the solid's box.
+void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool, const Column& column,
+                         std::vector<Sheet>& sheets) {
+  const Aabb box = local_box(solid);
+  const LightVertex center = column.vertex(solid_center(solid));
+  const double radius = 0.5 * box.diagonal();
+  const double slack = center.error + shape_gamma * (radius + column.grid_error());
+  const double reach = column.perspective() ? radius : reach_along(solid, column.face().forward);
+  const double middle = column.perspective() ? glm::length(center.q) : center.q.z;
+  const double least = middle - reach - slack;
+  const double nearest = column.perspective() ? std::max(0.0, least) : least;
+  sheets.push_back(sheet(id, true, true, nearest, middle + reach + slack));
+  sheets.push_back(sheet(id, false, true, nearest, middle + reach + slack));
+}
+
 void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const Column& column,
                         std::vector<Sheet>& sheets) {
   const LightFace& face = column.face();

@@ -5,6 +5,7 @@
 #include "raytrace/column.h"
 #include "raytrace/intersect.h"
 #include "raytrace/shape_sheets.h"
+#include "scene/solid.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -169,6 +170,8 @@ std::vector<Sheet> find_sheets(const World& world, const Topology& topology, con
     const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       append_sphere_sheets(*sphere, id, masked, splitter.column(), sheets);
+    else if (is_solid(shape.geometry))
+      append_solid_sheets(shape.geometry, id, masked, splitter.column(), sheets);
     else
       append_plane_sheet(std::get<Plane>(shape.geometry), id, masked, splitter.column(), sheets);
   }

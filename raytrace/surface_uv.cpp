@@ -1,5 +1,7 @@
 #include "raytrace/surface_uv.h"
 
+#include "scene/solid.h"
+
 namespace gnomon::raytrace {
 
 Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycentric, const Vec3& position) {
@@ -15,6 +17,7 @@ Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycen
     const double turn = std::atan2(n.z, n.x) / (2.0 * pi);
     return {turn - std::floor(turn), std::acos(std::clamp(n.y, -1.0, 1.0)) / pi};
   }
+  if (is_solid(geometry)) return solid_uv(geometry, position);
   const auto& plane = std::get<Plane>(geometry);
   Vec3 tangent, bitangent;
   orthonormal_basis(plane.normal, tangent, bitangent);

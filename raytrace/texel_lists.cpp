@@ -70,6 +70,12 @@ class BoxColumn {
   std::size_t count_ = 4;
 };
 
+/// The sphere around a solid's box.
+Sphere around(const ShapeGeometry& geometry) {
+  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return *sphere;
+  return {solid_center(geometry), 0.5 * local_box(geometry).diagonal()};
+}
+
 bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey key) {
   const Vec3 offset = sphere.center - view.origin;
   const double size = glm::dot(Vec3(1.0), glm::abs(sphere.center) + glm::abs(view.origin)) + sphere.radius;
@@ -154,10 +160,9 @@ class Collector {
     const Column column(view_, key.face(), key.column(), key.row());
     const std::size_t first = out.size();
     for (const Candidate& c : candidates_) {
-      const bool misses =
-          s_.world->is_triangle(c.id)
-              ? column.surely_misses(c.corners)
-              : sphere_surely_misses(std::get<Sphere>(s_.world->shape(c.id).geometry), view_, key);
+      const bool misses = s_.world->is_triangle(c.id)
+                              ? column.surely_misses(c.corners)
+                              : sphere_surely_misses(around(s_.world->shape(c.id).geometry), view_, key);
       if (!misses) out.push_back(c.id);
     }
     if (s_.planes.empty()) return;

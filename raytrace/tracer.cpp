@@ -139,6 +139,8 @@ SurfacePoint Tracer::surface_point(const Ray& ray, const Hit& hit) const {
     const auto& geometry = w.shape(hit.primitive).geometry;
     if (const auto* sphere = std::get_if<Sphere>(&geometry))
       point.position = sphere_point(*sphere, ray.at(hit.t), point.position_error);
+    else if (is_solid(geometry))
+      point.position = solid_point(geometry, ray.at(hit.t), point.position_error);
     else
       point.position = plane_point(std::get<Plane>(geometry), ray.at(hit.t), point.position_error);
   }

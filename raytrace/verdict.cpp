@@ -1,11 +1,10 @@
 #include "raytrace/verdict.h"
 
 #include "raytrace/precision/exact_shadow.h"
+#include "raytrace/solid_verdict.h"
 
 namespace gnomon::raytrace {
 namespace {
-
-enum class Meets : std::uint8_t { no, perhaps, surely };
 
 /// A triangle that the ray may or may not meet. When the doubt is about one edge alone, the neighbour across
 /// it may resolve it.
@@ -66,7 +65,7 @@ class Query {
   template <bool masks>
   bool visit(std::uint32_t index) {
     const std::uint32_t id = s_.bvh.ids[index];
-    if (s_.has_shapes && !s_.world->is_triangle(id)) return count<masks>(id, meet_sphere(id), -1, false);
+    if (s_.has_shapes && !s_.world->is_triangle(id)) return count<masks>(id, meet_shape(id), -1, false);
     const ShearedTriangle t = shear(ray_, s_.bvh.primitives[index]);
     double size = 0.0;
     for (std::size_t i = 0; i < 3; ++i) size += std::abs(t.x[i]) + std::abs(t.y[i]);
@@ -83,7 +82,7 @@ class Query {
   template <bool masks>
   bool count(std::uint32_t id, Meets meets, int edge, bool positive) {
     if (meets == Meets::no) return false;
-    if (meets == Meets::perhaps && exact_ != nullptr) {
+    if (meets == Meets::perhaps && exact_ != nullptr && exact_->decides(id)) {
       if (!exact_->blocks(id)) return false;
       meets = Meets::surely;
     }
@@ -115,6 +114,8 @@ class Query {
     } else if (const auto* sphere = std::get_if<Sphere>(&world.shape(id).geometry)) {
       met = intersect_sphere(ray_, {{sphere->center.x, sphere->center.y, sphere->center.z, sphere->radius}},
                              hit.t);
+    } else if (is_solid(world.shape(id).geometry)) {
+      met = intersect_solid(ray_, world.shape(id).geometry, hit.t);
     } else {
       met = intersect_plane(s_, ray_, id, hit);
     }
@@ -136,7 +137,9 @@ class Query {
       const auto [a, b, c] = s_.world->corners(id);
       return is_below(a, 0.0) && is_below(b, 0.0) && is_below(c, 0.0);
     }
-    const auto* sphere = std::get_if<Sphere>(&s_.world->shape(id).geometry);
+    const ShapeGeometry& geometry = s_.world->shape(id).geometry;
+    if (is_solid(geometry)) return is_below(solid_center(geometry), reach_along(geometry, n));
+    const auto* sphere = std::get_if<Sphere>(&geometry);
     return sphere != nullptr && is_below(sphere->center, sphere->radius);
   }
 
@@ -147,7 +150,7 @@ class Query {
     const double end = ray_.t.max * glm::dot(d, d);
     const auto is_beyond = [&](const Vec3& p, double radius) {
       const Vec3 offset = p - Vec3(ray_.origin[0], ray_.origin[1], ray_.origin[2]);
-      const double reach = radius * glm::length(d);
+      const double reach = radius * glm::length(d);  // of a solid: of its box along d
       const double bound = error_gamma(8) * (glm::dot(glm::abs(d), glm::abs(offset)) + reach + std::abs(end));
       return glm::dot(d, offset) - reach >= end - bound;
     };
@@ -155,7 +158,10 @@ class Query {
       const auto [a, b, c] = s_.world->corners(id);
       return is_beyond(a, 0.0) && is_beyond(b, 0.0) && is_beyond(c, 0.0);
     }
-    const auto* sphere = std::get_if<Sphere>(&s_.world->shape(id).geometry);
+    const ShapeGeometry& geometry = s_.world->shape(id).geometry;
+    if (is_solid(geometry))
+      return is_beyond(solid_center(geometry), reach_along(geometry, glm::normalize(d)));
+    const auto* sphere = std::get_if<Sphere>(&geometry);
     return sphere != nullptr && is_beyond(sphere->center, sphere->radius);
   }
 
@@ -247,6 +253,12 @@ class Query {
   // A plane through the point whose normal is the point's own, but for rounding.
   bool is_same_surface(const Plane& plane) const {
     return glm::length(glm::cross(plane.normal, from_.normal)) <= error_gamma(16);
+  }
+
+  Meets meet_shape(std::uint32_t id) const {
+    const ShapeGeometry& geometry = s_.world->shape(id).geometry;
+    if (!is_solid(geometry)) return meet_sphere(id);
+    return meet_solid(ray_, surely_out_, error_, geometry, id == from_.primitive ? &from_.normal : nullptr);
   }
 
   Meets meet_sphere(std::uint32_t id) const {

@@ -7,6 +7,7 @@
 
 #include "scene/camera.h"
 #include "scene/light_view.h"
+#include "scene/solid.h"
 
 namespace gnomon {
 namespace {
@@ -118,10 +119,15 @@ void for_each_extent(const World& world, const LightFace& face, const Vec3& refe
     use(Rect{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z);
   }
   for (const Shape& shape : world.shapes) {
+    if (std::holds_alternative<Plane>(shape.geometry)) continue;
     const auto* sphere = std::get_if<Sphere>(&shape.geometry);
-    if (sphere == nullptr) continue;
-    const Vec3 c = to_light_space(face, sphere->center - reference);
-    use(Rect{Vec2(c) - sphere->radius, Vec2(c) + sphere->radius}, c.z - sphere->radius, c.z + sphere->radius);
+    const Vec3 center = sphere != nullptr ? sphere->center : solid_center(shape.geometry);
+    const auto reach = [&](const Vec3& axis) {
+      return sphere != nullptr ? sphere->radius : reach_along(shape.geometry, axis);
+    };
+    const Vec3 c = to_light_space(face, center - reference);
+    const Vec3 half(reach(face.right), reach(face.up), reach(face.forward));
+    use(Rect{Vec2(c - half), Vec2(c + half)}, c.z - half.z, c.z + half.z);
   }
 }
 
@@ -217,6 +223,13 @@ double distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return std::abs(glm::dot(n, ap)) / glm::length(n);
 }
 
+// To the solid's box: less than to the solid.
+double distance_to_box(const Vec3& p, const ShapeGeometry& solid) {
+  const Aabb box = local_box(solid);
+  const Vec3 local = to_local(frame_of(solid), p);
+  return glm::length(local - glm::clamp(local, box.min, box.max));
+}
+
 double closest_distance(const World& world, const Vec3& p) {
   double closest = infinity;
   for (std::uint32_t i = 0; i < world.triangle_count(); ++i)
@@ -224,6 +237,8 @@ double closest_distance(const World& world, const Vec3& p) {
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       closest = std::min(closest, std::abs(glm::length(sphere->center - p) - sphere->radius));
+    else if (is_solid(shape.geometry))
+      closest = std::min(closest, distance_to_box(p, shape.geometry));
     else {
       const auto& plane = std::get<Plane>(shape.geometry);
       closest = std::min(closest, std::abs(glm::dot(plane.normal, plane.point - p)));
@@ -238,6 +253,9 @@ double farthest_distance(const World& world, const Vec3& p) {
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       farthest = std::max(farthest, glm::length(sphere->center - p) + sphere->radius);
+    else if (is_solid(shape.geometry))
+      farthest = std::max(farthest, glm::length(solid_center(shape.geometry) - p) +
+                                        0.5 * local_box(shape.geometry).diagonal());
   }
   return farthest;
 }

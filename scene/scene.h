@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/expression.h"
 #include "scene/image.h"
 #include "scene/math.h"
 
@@ -87,9 +88,42 @@ struct Plane {
   Vec3 normal{0.0, 1.0, 0.0};
 };
 
+/// A rigid frame; local = transpose(axes) * (p - origin).
+struct ShapeFrame {
+  Vec3 origin{0.0};
+  Mat3 axes{1.0};  ///< columns: the local x, y and z axis in the world; orthonormal, right-handed
+};
+
+enum class QuadricKind : std::uint8_t { ellipsoid, cylinder, cone, paraboloid, hyperboloid };
+
+/// xx x^2 + yy y^2 + zz z^2 + z z + one = 0 in its frame, less than 0 inside, cut to a range of z.
+/// scene/solid.h makes them.
+struct Quadric {
+  QuadricKind kind = QuadricKind::ellipsoid;
+  ShapeFrame frame;
+  double xx = 1.0, yy = 1.0, zz = 1.0, z = 0.0, one = -1.0;
+  Aabb box{Vec3(-1.0), Vec3(1.0)};  ///< local bounds; its z range is where the surface is cut
+  bool closed = true;  ///< flat caps where the cut leaves a hole (an ellipsoid is not cut); else open
+};
+
+/// Around the local z axis; 0 < minor < major.
+struct Torus {
+  ShapeFrame frame;
+  double major = 1.0, minor = 0.25;
+};
+
+/// f(x, y, z) = 0 in its frame, inside a box; less than 0 inside the body.
+struct Implicit {
+  ShapeFrame frame;
+  Aabb box{Vec3(-1.0), Vec3(1.0)};  ///< local
+  std::string text;                 ///< of the function
+  Expression function;
+  bool closed = false;  ///< the box's faces close the body where f < 0; else the surface ends there
+};
+
 struct Shape {
   std::string name;
-  std::variant<Sphere, Plane> geometry;
+  std::variant<Sphere, Plane, Quadric, Torus, Implicit> geometry;
   std::uint32_t material = 0;
 };
 

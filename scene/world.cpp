@@ -1,5 +1,7 @@
 #include "scene/world.h"
 
+#include "scene/solid.h"
+
 namespace gnomon {
 namespace {
 
@@ -44,6 +46,8 @@ World make_world(const Scene& scene) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
       world.finite_bounds.grow(sphere->center - Vec3(sphere->radius));
       world.finite_bounds.grow(sphere->center + Vec3(sphere->radius));
+    } else if (is_solid(shape.geometry)) {
+      world.finite_bounds.grow(world_box(shape.geometry));
     }
   }
   return world;
@@ -63,6 +67,7 @@ Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& p
   }
   const auto& geometry = world.shape(primitive).geometry;
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) return glm::normalize(position - sphere->center);
+  if (is_solid(geometry)) return solid_normal(geometry, position);
   return std::get<Plane>(geometry).normal;
 }
 

@@ -26,7 +26,7 @@ struct World {
   // Shapes (world space already)
   std::span<const Shape> shapes;
 
-  Aabb finite_bounds;  ///< of all triangles and spheres
+  Aabb finite_bounds;  ///< of everything but planes
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles.size()); }
   std::uint32_t primitive_count() const {

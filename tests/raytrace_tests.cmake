@@ -4,6 +4,11 @@ gnomon_test(raytrace_test
   LIBS gnomon::raytrace TBB::tbb)
 target_include_directories(raytrace_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
+gnomon_test(raytrace_solids_test
+  SOURCES raytrace_solids_test.cpp support/raytrace_support.cpp
+  LIBS gnomon::raytrace TBB::tbb)
+target_include_directories(raytrace_solids_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
 gnomon_test(raytrace_packet_test
   SOURCES raytrace_packet_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb hwy::hwy)

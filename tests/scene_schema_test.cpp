@@ -57,6 +57,11 @@ TEST(Schema, ListsTheLoadersKeys) {
   EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"sphere": {"zzz": 1}}])")),
             schema_keys(shapes.at("sphere")));
   EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"plane": {"zzz": 1}}])")), schema_keys(shapes.at("plane")));
+  for (const std::string kind :
+       {"ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloid", "torus", "implicit"})
+    EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{")" + kind + R"(": {"zzz": 1}}])")),
+              schema_keys(shapes.at(kind)))
+        << kind;
   EXPECT_EQ(loader_keys(scene_with(
                 R"("meshes": [{"name": "t", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]}],
     "instances": [{"mesh": "t", "rotate": {"zzz": 1}}])")),

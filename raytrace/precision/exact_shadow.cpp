@@ -1,6 +1,12 @@
 #include "raytrace/precision/exact_shadow.h"
 
+#include "scene/solid.h"
+
 namespace gnomon::raytrace {
+
+bool ExactShadow::decides(std::uint32_t id) const {
+  return world_.is_triangle(id) || !is_solid(world_.shape(id).geometry);
+}
 
 bool ExactShadow::blocks(std::uint32_t id) const {
   if (world_.is_triangle(id)) return triangle_blocks(id);

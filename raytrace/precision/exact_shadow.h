@@ -17,7 +17,10 @@ class ExactShadow {
   ExactShadow(const World& world, const SurfacePoint& from, const Light& light)
       : world_(world), from_(from), light_(light) {}
 
-  /// `id` is not the receiver's own triangle or plane.
+  /// Triangles, planes and spheres are decided, also for a receiver on a solid (its stored position); a
+  /// solid's doubts stay.
+  bool decides(std::uint32_t id) const;
+  /// `id` is not the receiver's own triangle or plane, and is decided.
   bool blocks(std::uint32_t id) const;
 
  private:

@@ -1,5 +1,5 @@
 // The textbook's arithmetic: floats throughout, Moeller and Trumbore 1997 for triangles, the naive quadratic
-// for spheres, and an epsilon instead of error bounds. It is here to be compared with: HARD_CASES tells where
+// for spheres (other solids are met in doubles here too), and an epsilon instead of error bounds. It is here to be compared with: HARD_CASES tells where
 // each of these fails.
 #pragma once
 
@@ -31,7 +31,9 @@ class FastArithmetic {
   bool leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
     hit.primitive = s.bvh.ids[index];
     const FastPrimitive& p = s.fast[index];
-    if (s.has_shapes && !s.world->is_triangle(hit.primitive)) return sphere(p, ray, hit);
+    if (s.has_shapes && !s.world->is_triangle(hit.primitive))
+      return is_solid(s.world->shape(hit.primitive).geometry) ? intersect_leaf(s, ray, index, hit)
+                                                              : sphere(p, ray, hit);
     return triangle(p, ray, hit);
   }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/solid.h"
+
 namespace gnomon {
 namespace {
 
@@ -44,6 +46,8 @@ void for_each_point(const Scene& scene, const Visit& visit) {
   for (const Shape& shape : scene.shapes)
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       for_each_corner({sphere->center - Vec3(sphere->radius), sphere->center + Vec3(sphere->radius)}, visit);
+    else if (is_solid(shape.geometry))
+      for_each_corner(world_box(shape.geometry), visit);
 }
 
 Footprint footprint(const Scene& scene, const Aabb& bounds) {

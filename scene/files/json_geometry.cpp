@@ -145,12 +145,16 @@ Mat4 read_rotation(const JsonNode& node) {
   return glm::rotate(Mat4(1.0), angle * pi / 180.0, axis->as_direction());
 }
 
+}  // namespace
+
 Mat4 read_rotations(const JsonNode& node) {
   if (!node.is(JsonValue::Type::array)) return read_rotation(node);
   Mat4 all(1.0);
   for (const JsonNode& one : node.as_array()) all = read_rotation(one) * all;
   return all;
 }
+
+namespace {
 
 Mat4 read_transform(const JsonObject& object) {
   if (const auto matrix = object.find("matrix")) {
@@ -277,11 +281,19 @@ Plane read_plane(const JsonNode& node) {
 }
 
 Shape read_shape(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(node, {"name", "material", "sphere", "plane"});
+  const std::vector<std::string_view> kinds{"sphere",     "plane",       "ellipsoid", "cylinder", "cone",
+                                            "paraboloid", "hyperboloid", "torus",     "implicit"};
+  std::vector<std::string_view> keys{"name", "material"};
+  keys.insert(keys.end(), kinds.begin(), kinds.end());
+  const JsonObject object(node, keys);
   Shape shape;
-  const std::string_view kind = object.exactly_one({"sphere", "plane"});
-  if (kind == "sphere") shape.geometry = read_sphere(*object.find("sphere"));
-  if (kind == "plane") shape.geometry = read_plane(*object.find("plane"));
+  const std::string_view kind = object.exactly_one(kinds);
+  if (kind == "sphere")
+    shape.geometry = read_sphere(*object.find("sphere"));
+  else if (kind == "plane")
+    shape.geometry = read_plane(*object.find("plane"));
+  else if (!kind.empty())
+    shape.geometry = read_solid(kind, *object.find(kind));
   shape.name = object.string("name", fmt::format("{}-{}", kind, reader.scene.shapes.size() + 1));
   if (const auto material = object.require("material")) shape.material = find_material(reader, *material);
   return shape;

@@ -47,6 +47,10 @@ void read_lights(SceneReader& reader, const JsonNode& list);
 void read_meshes(SceneReader& reader, const JsonNode& list);
 void read_instances(SceneReader& reader, const JsonNode& list);
 void read_shapes(SceneReader& reader, const JsonNode& list);
+/// Rotations of an instance or a shape: one, or several applied in order.
+Mat4 read_rotations(const JsonNode& node);
+/// A quadric, torus or implicit surface; `kind` is its key in the shape.
+decltype(Shape::geometry) read_solid(std::string_view kind, const JsonNode& node);
 Camera read_camera(SceneReader& reader, const JsonNode& node);
 
 /// The material that a string names; 0 and an error when there is none.

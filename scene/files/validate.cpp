@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/solid.h"
+
 namespace gnomon {
 namespace {
 
@@ -109,6 +111,18 @@ Defect instance_defect(const Scene& scene, const MeshInstance& instance, const s
   return std::nullopt;
 }
 
+// The readers and makers see to the rest.
+Defect solid_defect(const ShapeGeometry& solid, const std::string& path) {
+  const Aabb box = world_box(solid);
+  if (!coordinates(box.min)) return position_defect(path, box.min);
+  if (!coordinates(box.max)) return position_defect(path, box.max);
+  const Vec3 size = local_box(solid).extent();
+  if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0)) return defect(path, "has no size");
+  if (const auto* implicit = std::get_if<Implicit>(&solid))
+    if (implicit->function.steps.empty()) return defect(path + ".function", "is empty");
+  return std::nullopt;
+}
+
 Defect shape_defect(const Shape& shape, const std::string& path, std::size_t materials) {
   if (shape.material >= materials) return defect(path + ".material", "there is no such material");
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
@@ -117,6 +131,7 @@ Defect shape_defect(const Shape& shape, const std::string& path, std::size_t mat
       return defect(path + ".sphere.radius", "out of range (allowed > 0)");
     return std::nullopt;
   }
+  if (is_solid(shape.geometry)) return solid_defect(shape.geometry, path);
   const Plane& plane = std::get<Plane>(shape.geometry);
   if (!coordinates(plane.point)) return position_defect(path + ".plane.point", plane.point);
   if (!unit(plane.normal)) return defect(path + ".plane.normal", "is not of unit length");
