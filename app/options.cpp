@@ -1,100 +1,16 @@
-// CLI11 throws; what is thrown here is caught in command_line.cpp and never leaves this room.
 #include "app/options.h"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <span>
-#include <utility>
-
-#include "app/suggest.h"
-#include "app/values.h"
+#include "app/filter_options.h"
+#include "app/option_kinds.h"
 
 namespace gnomon::app {
 
 namespace {
 
-/// "what [unit; range; default]": the shape of every option's help.
-std::string describe(std::string_view what, std::string_view unit_and_range, std::string_view fallback) {
-  return fmt::format("{} [{}; default {}]", what, unit_and_range, fallback);
-}
-
-/// One option that takes one value; `store` parses it and may fail.
-template <class Store>
-void add_value(CLI::App& command, const std::string& names, const char* type, const std::string& text,
-               Store store) {
-  const std::string name = names.substr(names.find("--"));
-  command
-      .add_option_function<std::string>(
-          names,
-          [name, store = std::move(store)](const std::string& value) {
-            if (const Expected<void> stored = store(value); !stored) {
-              throw CLI::ValidationError(name, stored.error().reason);
-            }
-          },
-          text)
-      ->type_name(type);
-}
-
-/// Stores the value of a parse, or hands its error on.
-template <class Field, class Value>
-Expected<void> assign(Field& field, const Expected<Value>& value) {
-  if (!value) return fail(value.error());
-  field = static_cast<Field>(*value);
-  return {};
-}
-
-void add_integer(CLI::App& command, const std::string& name, int& field, int min, int max, const char* unit,
-                 const char* what) {
-  const std::string range = fmt::format("{}{}{} to {}", unit, *unit ? ", " : "", min, max);
-  add_value(
-      command, name, "N", describe(what, range, std::to_string(field)),
-      [&field, min, max](const std::string& value) { return assign(field, parse_integer(value, min, max)); });
-}
-
-void add_number(CLI::App& command, const std::string& name, double& field, NumberRange range,
-                const char* unit, const char* what) {
-  add_value(command, name, "NUMBER",
-            describe(what, fmt::format("{}, {}", unit, range_text(range)), number_text(field)),
-            [&field, range](const std::string& value) { return assign(field, parse_number(value, range)); });
-}
-
-template <class Enum>
-using Choices = std::span<const std::pair<std::string_view, Enum>>;
-
-template <class Enum>
-std::string choice_names(Choices<Enum> choices, std::string_view separator) {
-  std::string text;
-  for (const auto& [name, value] : choices)
-    text += (text.empty() ? "" : std::string(separator)) + std::string(name);
-  return text;
-}
-
-template <class Enum>
-Expected<Enum> parse_choice(const std::string& text, Choices<Enum> choices) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices) {
-    if (name == text) return value;
-    names.push_back(name);
-  }
-  return fail(ErrorKind::usage, fmt::format("unknown value (got {}, allowed {}){}", text,
-                                            choice_names<Enum>(choices, ", "), did_you_mean(text, names)));
-}
-
-template <class Enum, std::size_t N>
-void add_choice(CLI::App& command, const std::string& name, Enum& field,
-                const std::pair<std::string_view, Enum> (&choices)[N], const char* type, const char* what) {
-  const Choices<Enum> all(choices);
-  std::string_view fallback;
-  for (const auto& [text, value] : all) {
-    if (value == field) fallback = text;
-  }
-  add_value(
-      command, name, type, describe(what, choice_names<Enum>(all, " or "), fallback),
-      [&field, all](const std::string& value) { return assign(field, parse_choice<Enum>(value, all)); });
-}
-
-constexpr std::pair<std::string_view, raster::Technique> techniques[] = {{"hard", raster::Technique::hard}};
+constexpr std::pair<std::string_view, raster::Technique> techniques[] = {
+    {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf}, {"pcss", raster::Technique::pcss},
+    {"vsm", raster::Technique::vsm},   {"esm", raster::Technique::esm}, {"evsm", raster::Technique::evsm},
+    {"msm", raster::Technique::msm}};
 constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
     {"d16", raster::DepthFormat::d16},
     {"d24", raster::DepthFormat::d24},
@@ -169,6 +85,7 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_choice(command, "--depth-format", map.depth_format, depth_formats, "NAME",
              "number format of the stored depth");
   add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
+  add_filter_options(command, map.filter);
 }
 
 std::vector<std::string> technique_names() {

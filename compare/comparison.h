@@ -122,6 +122,23 @@ struct TheoryStats {
   Distribution aliasing, perspective, projection, measured_aliasing;
 };
 
+/// What the filter of vsm, esm, evsm or msm lets through inside a shadow (bleeding.h): a part of the filter
+/// step.
+struct BleedingStats {
+  std::uint64_t pixels = 0;
+  double mean = 0.0;  ///< of V6 - V5 on them, over all compared pixels
+  double max = 0.0;   ///< of V6 - V5
+};
+
+/// Soft shadows in truth and as drawn (penumbra.h); widths are medians over the edges where both were found.
+struct PenumbraStats {
+  std::uint64_t edges = 0, umbra_edges = 0;
+  double true_penumbra_world = 0.0, drawn_penumbra_world = 0.0;
+  double true_umbra_world = 0.0, drawn_umbra_world = 0.0;
+  std::uint64_t true_umbra_pixels = 0, true_penumbra_pixels = 0;
+  std::uint64_t drawn_umbra_pixels = 0, drawn_penumbra_pixels = 0;
+};
+
 struct LightComparison {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
@@ -131,6 +148,8 @@ struct LightComparison {
   std::array<std::uint64_t, class_count> classes{};  ///< acne … outside_map; they sum to error.wrong
   EdgeStats edges;
   Detachment detachment;
+  BleedingStats bleeding;
+  std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::vector<BiasCurvePoint> bias_curve;
   BestBias best_bias;
   TheoryStats theory;

@@ -1,5 +1,8 @@
 #include "compare/labelling.h"
 
+#include "compare/bleeding.h"
+#include "compare/filter_parameters.h"
+
 namespace gnomon::compare {
 
 using raytrace::SurfacePoint;
@@ -68,6 +71,13 @@ Label bias_label(const LadderInput& in, const Column& column, const WrongPixel& 
   return stored != no_id && column.same_sheet(receiver, stored) ? Label::acne : Label::false_feature;
 }
 
+// Light where nothing within the filter's reach is lit has leaked; near an edge it is the edge's blur.
+Label filter_label(const LadderInput& in, const WrongPixel& wrong) {
+  if (wrong.false_shadow) return Label::blur;
+  const double reach = filter_reach_texels(in.drawn.options.map);
+  return lit_within_reach(in, wrong.pixel, reach) ? Label::blur : Label::light_leak;
+}
+
 }  // namespace
 
 Label label_wrong_pixel(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
@@ -83,7 +93,7 @@ Label label_wrong_pixel(const LadderInput& in, const Column& column, const Wrong
     case Cause::bias:
       return bias_label(in, column, wrong);
     case Cause::filter:
-      return Label::blur;
+      return filter_label(in, wrong);
   }
   return Label::blur;
 }

@@ -1,9 +1,11 @@
 #include "compare/light_comparison.h"
 
 #include "compare/bias_curve.h"
+#include "compare/bleeding.h"
 #include "compare/budget.h"
 #include "compare/edges.h"
 #include "compare/flip.h"
+#include "compare/penumbra.h"
 #include "compare/ssim.h"
 #include "compare/theory.h"
 
@@ -73,6 +75,8 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   const Image<float>& truth = out.rungs[0];
   out.edges = measure_edges(in.drawn, in.record, truth, out.labels, in.world);
   out.detachment = measure_detachment(in.tracer, in.light, in.traced.receiver, out.labels);
+  out.bleeding = measure_bleeding(in, out.rungs, out.labels);
+  if (!in.truth.visibility.data.empty()) out.penumbra = measure_penumbra(in, truth, out.labels);
   out.texel_world = texel_sizes(in, out.labels);
   out.theory = predict(in, out.labels);
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);

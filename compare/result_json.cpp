@@ -5,6 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "compare/filter_parameters.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -59,6 +60,13 @@ Json light_json(const Light& light) {
   return json;
 }
 
+Json filter_json(const raster::MapOptions& map) {
+  Json json{{"kind", filter_kind(map)}, {"radius_texels", filter_reach_texels(map)}};
+  for (const auto& [name, value] : filter_parameters(map)) json[name] = value;
+  if (json.contains("mipmaps")) json["mipmaps"] = json["mipmaps"] != 0.0;
+  return json;
+}
+
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
@@ -74,7 +82,7 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"slope", number(map.bias.slope)},
             {"normal_offset_texels", number(map.bias.normal_offset_texels)},
             {"receiver_plane", map.bias.receiver_plane}}},
-          {"filter", {{"kind", "none"}, {"radius_texels", 0.0}}},
+          {"filter", filter_json(map)},
           {"texel_world",
            {{"min", number(light.texel_world[0])},
             {"median", number(light.texel_world[1])},
@@ -121,6 +129,28 @@ Json classes_json(const LightComparison& light) {
   for (std::size_t k = 0; k < class_count; ++k)
     json[std::string(label_name(static_cast<Label>(k + 1)))] = light.classes[k];
   return json;
+}
+
+Json bleeding_json(const LightComparison& light) {
+  const double filter = light.budget[static_cast<std::size_t>(Cause::filter)].absolute_mean;
+  const BleedingStats& b = light.bleeding;
+  return {{"pixels", b.pixels},
+          {"mean", number(b.mean)},
+          {"max", number(b.max)},
+          {"share_of_filter", number(filter > 0.0 ? b.mean / filter : 0.0)}};
+}
+
+Json penumbra_json(const PenumbraStats& p) {
+  return {{"edges", p.edges},
+          {"true_penumbra_world", number(p.true_penumbra_world)},
+          {"drawn_penumbra_world", number(p.drawn_penumbra_world)},
+          {"umbra_edges", p.umbra_edges},
+          {"true_umbra_world", number(p.true_umbra_world)},
+          {"drawn_umbra_world", number(p.drawn_umbra_world)},
+          {"true_umbra_pixels", p.true_umbra_pixels},
+          {"true_penumbra_pixels", p.true_penumbra_pixels},
+          {"drawn_umbra_pixels", p.drawn_umbra_pixels},
+          {"drawn_penumbra_pixels", p.drawn_penumbra_pixels}};
 }
 
 Json bias_curve_json(const LightComparison& light) {
@@ -185,6 +215,8 @@ Json light_block(const Comparison& c, const LightComparison& light) {
                {"shade_pass", times(drawn.shade_pass)},
                {"shadow_rays", times(truth.shadow_rays)},
                {"classify", times(light.classify)}}}};
+  if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
+  if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
   if (!truth.visibility.data.empty()) {
     block["shadow_samples"] = truth.samples;
     block["soft_shadow_rays"] = truth.soft_rays;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/filter_parameters.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -131,6 +132,27 @@ void add_theory(Page& page, const TheoryStats& t) {
                              plain_number(t.aliasing.p99)));
 }
 
+// What moments let through inside shadows, as a part of the filter step.
+void add_bleeding(Page& page, const Comparison& c, const LightComparison& light) {
+  if (!raster::uses_moments(c.raster.options.map.technique)) return;
+  const BleedingStats& b = light.bleeding;
+  page.field("bleeding",
+             fmt::format("{} of the filter step, on {} pixel{}; at most {}", signed_number(b.mean),
+                         grouped(b.pixels), b.pixels == 1 ? "" : "s", percent(b.max)));
+}
+
+// Median widths across shadow edges.
+void add_penumbra(Page& page, const PenumbraStats& p) {
+  if (p.edges == 0) return;
+  page.field("penumbra", fmt::format("{} wide in truth, {} as drawn (medians of {} edges)",
+                                     plain_number(p.true_penumbra_world),
+                                     plain_number(p.drawn_penumbra_world), grouped(p.edges)));
+  if (p.umbra_edges == 0) return;
+  page.field("umbra", fmt::format("{} wide in truth, {} as drawn (medians of {} edges)",
+                                  plain_number(p.true_umbra_world), plain_number(p.drawn_umbra_world),
+                                  grouped(p.umbra_edges)));
+}
+
 // What the time bought: an approximation by the map, or the exact answer by rays.
 void add_times(Page& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
@@ -147,11 +169,15 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.paragraph(verdict_sentence(c, light));
   page.blank();
   page.field("map", map_line(c, light));
+  const std::string filter = filter_text(c.raster.options.map);
+  if (!filter.empty()) page.field("filter", filter);
   page.field("pixels", pixels_line(light.pixels));
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
     page.field("budget", budget_line(light));
+    add_bleeding(page, c, light);
+    if (light.penumbra) add_penumbra(page, *light.penumbra);
     add_theory(page, light.theory);
   }
   add_times(page, c, light);

@@ -35,22 +35,28 @@ void Buffer::bind(GLenum target, int binding) const {
   gl()->BindBufferBase(target, static_cast<GLuint>(binding), id());
 }
 
-Texture2D::Texture2D(const Gl& gl, GLenum format, ImageSize size, int layers)
+Texture2D::Texture2D(const Gl& gl, GLenum format, ImageSize size, int layers, int levels)
     : GlObject(gl, created([&](GLuint* id) {
                  gl->CreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, id);
                })),
       size_(size),
       layers_(layers),
+      levels_(levels),
       format_(format) {
   if (layers > 0) {
-    gl->TextureStorage3D(id(), 1, format, size.width, size.height, layers);
+    gl->TextureStorage3D(id(), levels, format, size.width, size.height, layers);
   } else {
-    gl->TextureStorage2D(id(), 1, format, size.width, size.height);
+    gl->TextureStorage2D(id(), levels, format, size.width, size.height);
   }
   gl->TextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl->TextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl->TextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl->TextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void Texture2D::set_linear_filtering() {
+  gl()->TextureParameteri(id(), GL_TEXTURE_MIN_FILTER, levels_ > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+  gl()->TextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
 void Texture2D::bind(int unit) const {

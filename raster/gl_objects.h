@@ -66,21 +66,24 @@ class Buffer : public GlObject<GlKind::buffer> {
   std::size_t size_ = 0;
 };
 
-/// A 2D texture, or a 2D array texture when layers > 0; nearest filtering, clamped to the edge, one level.
+/// A 2D texture, or a 2D array texture when layers > 0; nearest filtering, clamped to the edge.
 class Texture2D : public GlObject<GlKind::texture> {
  public:
   Texture2D() = default;
-  Texture2D(const Gl& gl, GLenum format, ImageSize size, int layers = 0);
+  Texture2D(const Gl& gl, GLenum format, ImageSize size, int layers = 0, int levels = 1);
+  /// Linear within a level and between levels.
+  void set_linear_filtering();
   void bind(int unit) const;
   ImageSize size() const { return size_; }
   int layers() const { return layers_; }
+  int levels() const { return levels_; }
   GLenum format() const { return format_; }
-  /// All texels, all layers, row 0 first, tightly packed.
+  /// All texels of level 0, all layers, row 0 first, tightly packed.
   void read(GLenum components, GLenum type, std::span<std::byte> out) const;
 
  private:
   ImageSize size_;
-  int layers_ = 0;
+  int layers_ = 0, levels_ = 1;
   GLenum format_ = 0;
 };
 

@@ -1,8 +1,30 @@
 #include "raster/light_block.h"
 
 namespace gnomon::raster {
+namespace {
 
-LightBlock make_light_block(const Light& light, const LightView& view, const Bias& bias,
+/// Two vectors from the light's centre that span it: half the sides of a rectangle, radii of a disc. A
+/// sphere's radius stands in x of the first; a sun's two are tangents at unit distance.
+std::pair<Vec3, Vec3> light_area(const Light& light, const LightView& view) {
+  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
+    const double radius = std::tan(0.5 * sun->angular_diameter);
+    return {radius * view.faces[0].right, radius * view.faces[0].up};
+  }
+  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
+    return {Vec3(sphere->radius, 0, 0), Vec3(0.0)};
+  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
+    const Vec3 n = disc->normal;
+    const Vec3 least = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);  // an axis that n is not along
+    const Vec3 u = glm::normalize(glm::cross(n, least));
+    return {disc->radius * u, disc->radius * glm::cross(n, u)};
+  }
+  if (const auto* r = std::get_if<RectangleLight>(&light.extent)) return {r->half_width, r->half_height};
+  return {Vec3(0.0), Vec3(0.0)};
+}
+
+}  // namespace
+
+LightBlock make_light_block(const Light& light, const LightView& view, const MapOptions& map,
                             double constant_world, const Vec3& reference) {
   LightBlock block{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(view.face_count); ++i) {
@@ -14,12 +36,20 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Bia
         Vec4f(Vec4(view.faces[i].half_extent, view.faces[i].near_depth, view.faces[i].far_depth));
   }
   block.origin_and_size = Vec4f(Vec4(view.origin - reference, view.size));
-  block.bias = Vec4f(Vec4(constant_world, bias.slope, bias.normal_offset_texels, 0.0));
+  block.bias = Vec4f(Vec4(constant_world, map.bias.slope, map.bias.normal_offset_texels, 0.0));
   const double cos_outer = std::cos(light.outer_angle);
   const double ramp = std::max(1e-9, std::cos(light.inner_angle) - cos_outer);  // as in scene/light.cpp
   block.direction_and_cos_outer = Vec4f(Vec4(light.direction, cos_outer));
   block.intensity_and_cone = Vec4f(light.intensity, static_cast<float>(1.0 / ramp));
   block.counts = glm::ivec4(view.face_count, 0, 0, 0);
+  const auto [u, v] = light_area(light, view);
+  block.area_u = Vec4f(Vec4(u, 0.0));
+  block.area_v = Vec4f(Vec4(v, 0.0));
+  const FilterOptions& f = map.filter;
+  block.filter_radii = Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, 0.0));
+  block.moments = map.technique == Technique::evsm
+                      ? Vec4f(Vec4(f.evsm_positive_exponent, f.evsm_negative_exponent, 0.0, 0.0))
+                      : Vec4f(Vec4(f.esm_exponent, 0.0, f.moment_bias, 0.0));
   return block;
 }
 

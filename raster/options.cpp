@@ -27,6 +27,33 @@ Expected<void> check_bias(const Bias& bias) {
   return {};
 }
 
+Expected<void> check_range(std::string field, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  return fail(
+      usage(std::move(field), fmt::format("is out of range (got {}, allowed {} to {})", value, low, high)));
+}
+
+Expected<void> check_filter(const FilterOptions& f) {
+  constexpr double least = 1e-3;  // texels; the kernels of radius 0 are those of `hard`
+  struct Range {
+    const char* field;
+    double value, low, high;
+  };
+  const Range ranges[] = {{"filter radius", f.radius_texels, least, 64.0},
+                          {"filter samples", double(f.samples), 1.0, 1024.0},
+                          {"blocker samples", double(f.blocker_samples), 1.0, 1024.0},
+                          {"search radius", f.search_radius_texels, least, 1024.0},
+                          {"blur radius", double(f.blur_radius_texels), 0.0, 64.0},
+                          {"light bleeding reduction", f.light_bleeding_reduction, 0.0, 0.999},
+                          {"esm exponent", f.esm_exponent, least, 80.0},
+                          {"evsm exponent", f.evsm_positive_exponent, least, 40.0},
+                          {"evsm negative exponent", f.evsm_negative_exponent, least, 40.0},
+                          {"moment bias", f.moment_bias, 0.0, 1.0}};
+  for (const Range& r : ranges)
+    if (auto ok = check_range(r.field, r.value, r.low, r.high); !ok) return ok;
+  return {};
+}
+
 Expected<void> check_size(std::string field, std::string_view unit, int size, int limit,
                           std::string_view limit_name) {
   if (size < 1)
@@ -40,6 +67,26 @@ Expected<void> check_size(std::string field, std::string_view unit, int size, in
 
 }  // namespace
 
+bool uses_moments(Technique technique) {
+  return technique == Technique::vsm || technique == Technique::esm || technique == Technique::evsm ||
+         technique == Technique::msm;
+}
+
+MapOptions effective_options(const MapOptions& options) {
+  MapOptions out = options;
+  if (options.technique == Technique::pcss) out.bias.receiver_plane = true;
+  return out;
+}
+
+Expected<void> check_map_options(const MapOptions& options) {
+  if (auto ok = check_bias(options.bias); !ok) return ok;
+  if (auto ok = check_filter(options.filter); !ok) return ok;
+  if (options.bias.receiver_plane && uses_moments(options.technique))
+    return fail(usage("receiver plane",
+                      "does not go with vsm, esm, evsm and msm: they compare with no single texel"));
+  return {};
+}
+
 Expected<void> check_options(const RasterOptions& options, const ContextInfo& context) {
   constexpr std::string_view limits = "the least of GL_MAX_TEXTURE_SIZE and GL_MAX_VIEWPORT_DIMS";
   const int limit = context.max_map_size;
@@ -48,7 +95,7 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   if (auto ok = check_size("image height", "pixels", options.size.height, limit, limits); !ok) return ok;
   if (options.runs < 0)
     return fail(usage("runs", fmt::format("must not be negative (got {})", options.runs)));
-  return check_bias(options.map.bias);
+  return check_map_options(options.map);
 }
 
 double texel_world(const LightView& view, const World& world) {

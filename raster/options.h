@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "scene/expected.h"
 #include "scene/image.h"
 
 namespace gnomon::raster {
@@ -51,14 +52,59 @@ struct Bias {
   bool operator==(const Bias&) const = default;
 };
 
+/// Which texels pcf compares with, and how it weighs them.
+enum class FilterKernel : std::uint8_t {
+  box,       ///< N x N texels around the receiver's own, N = 2 floor(radius) + 1, all alike
+  hardware,  ///< the 2 x 2 nearest texels, bilinear weights: what GPUs do in one lookup
+  vogel,     ///< points of a disc, turned by another angle at every pixel
+  optimised  ///< all texels that a square of side 2 radius overlaps, weighed by the overlap, four per lookup
+};
+
+/// How a technique averages. Each field says which techniques read it.
+struct FilterOptions {
+  FilterKernel kernel = FilterKernel::box;  ///< pcf
+  /// pcf (box, vogel, optimised): half the kernel's width, texels, in (0, 64]; 1.5 covers 3 texels.
+  double radius_texels = 1.5;
+  int samples = 32;          ///< pcf vogel, pcss: taps of the filter, in [1, 1024]
+  int blocker_samples = 32;  ///< pcss: taps of the search for blockers, in [1, 1024]
+  /// pcss: the search for blockers goes no farther than this, texels, in (0, 1024].
+  double search_radius_texels = 64.0;
+  /// vsm, esm, evsm, msm: the moments are averaged over (2 n + 1)^2 texels, n in [0, 64].
+  int blur_radius_texels = 2;
+  /// vsm, esm, evsm, msm: pixels that cover several texels read an average of them.
+  bool mipmaps = true;
+  /// vsm, evsm, msm: visibility up to this is taken as bleeding and drawn black, the rest is stretched to
+  /// [0, 1] (Lauritzen 2007); in [0, 1).
+  double light_bleeding_reduction = 0.2;
+  /// esm: the factor in exp(c z), z the distance in multiples of the map's range; in (0, 80].
+  double esm_exponent = 80.0;
+  /// evsm: the factors in exp(p z) and -exp(-n z), z the distance with the map's range as [-1, 1]; in (0,
+  /// 40].
+  double evsm_positive_exponent = 40.0, evsm_negative_exponent = 5.0;
+  /// msm: share of a fixed distribution mixed into the moments against rounding; in [0, 1].
+  double moment_bias = 3e-7;
+  bool operator==(const FilterOptions&) const = default;
+};
+
 struct MapOptions {
   Technique technique = Technique::hard;
   int size = 1024;  ///< texels on a side, >= 1, at most the context's limit
   DepthFormat depth_format = DepthFormat::d32f;
   Cull cull = Cull::none;
   Bias bias;
+  FilterOptions filter;
   bool operator==(const MapOptions&) const = default;
 };
+
+/// Draws from filtered moments of the depth: vsm, esm, evsm, msm.
+bool uses_moments(Technique technique);
+
+/// What a technique really does with the options: pcss always compares with the receiver's plane, since a
+/// kernel as wide as a penumbra shadows every slope otherwise.
+MapOptions effective_options(const MapOptions& options);
+
+/// Error (usage): choices that exclude each other, or a value outside its range.
+Expected<void> check_map_options(const MapOptions& options);
 
 struct RasterOptions {
   ImageSize size{1280, 720};

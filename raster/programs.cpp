@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <type_traits>
 
 #include "shaders/shared_constants.h"
 
@@ -117,7 +118,8 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
 namespace {
 
 template <class Key, class Value, class Link>
-Expected<const Value*> find_or_link(std::map<Key, Value>& cache, const Key& key, const Link& link) {
+Expected<const Value*> find_or_link(std::map<Key, Value>& cache, const std::type_identity_t<Key>& key,
+                                    const Link& link) {
   if (const auto found = cache.find(key); found != cache.end()) return &found->second;
   Expected<Value> made = link();
   if (!made) return fail(made.error());
@@ -134,6 +136,14 @@ Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, boo
 Expected<const ImpostorProgram*> ProgramCache::impostor(ImpostorProgram::Permutation key) {
   key.textures = features_.textures;
   return find_or_link(impostors_, key, [&] { return ImpostorProgram::link(*gl_, key); });
+}
+
+Expected<const Program*> ProgramCache::fullscreen(const std::string& fragment,
+                                                  const std::vector<std::string>& defines) {
+  return find_or_link(fullscreens_, {fragment, defines}, [&] {
+    const std::vector<std::string_view> names(defines.begin(), defines.end());
+    return Program::link(*gl_, "fullscreen.vert", fragment, names);
+  });
 }
 
 Expected<const Program*> ProgramCache::shade(const ShadePermutation& key) {

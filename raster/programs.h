@@ -81,6 +81,8 @@ class ProgramCache {
   /// `permutation.textures` is filled in here.
   Expected<const ImpostorProgram*> impostor(ImpostorProgram::Permutation permutation);
   Expected<const Program*> shade(const ShadePermutation& permutation);
+  /// A fragment shader over the whole viewport.
+  Expected<const Program*> fullscreen(const std::string& fragment, const std::vector<std::string>& defines);
 
  private:
   const Gl* gl_;
@@ -88,6 +90,7 @@ class ProgramCache {
   std::map<TriangleProgram::Permutation, TriangleProgram> triangles_;
   std::map<ImpostorProgram::Permutation, ImpostorProgram> impostors_;
   std::map<ShadePermutation, Program> shades_;
+  std::map<std::pair<std::string, std::vector<std::string>>, Program> fullscreens_;
 };
 
 }  // namespace gnomon::raster

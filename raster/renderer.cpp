@@ -67,7 +67,7 @@ class GlRenderer final : public Renderer {
 };
 
 struct GlRenderer::Job {
-  const RasterOptions& options;
+  RasterOptions options;
   View view;
   RasterFrame frame{};
   bool visibility_drawn = false;
@@ -126,8 +126,9 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
                   fmt::format("no such light (got {}, the scene has {})", light, scene.lights.size()));
   }
   Job job{options, make_view(scene.camera, options.size)};
+  job.options.map = effective_options(options.map);
   job.frame.context = info_;
-  job.frame.options = options;
+  job.frame.options = job.options;
   job.frame.lights.resize(lights.size());
   if (auto ok = shading_.prepare(options.size, options.analysis && !lights.empty()); !ok)
     return fail(ok.error());
@@ -170,7 +171,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
                                    double(job.options.size.width) / job.options.size.height, map.size);
   if (!view) return fail(view.error());
   const double constant = constant_bias_world(map.bias, *view, *world_);
-  light_block_.write_one(make_light_block(light, *view, map.bias, constant, buffers_.reference()));
+  light_block_.write_one(make_light_block(light, *view, map, constant, buffers_.reference()));
   light_block_.bind(GL_UNIFORM_BUFFER, shaders::light_block);
   if (record != nullptr) {
     record->light = index;

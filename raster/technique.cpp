@@ -1,14 +1,97 @@
 // The one place that knows every technique by name.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "raster/moment_pass.h"
 #include "raster/technique_pass.h"
 #include "raster/technique_shader.h"
+#include "scene/light.h"
 
 namespace gnomon::raster {
+namespace {
 
-TechniqueShader technique_shader(const MapOptions&, const Light&) {
-  return {};
+std::string define(const char* name, int value) {
+  return fmt::format("{} {}", name, value);
 }
 
-std::unique_ptr<TechniquePass> make_technique_pass(Gl&, ProgramCache&, Technique) {
+TechniqueShader pcf_shader(const FilterOptions& filter) {
+  switch (filter.kernel) {
+    case FilterKernel::box:
+      return {"pcf_box", {define("BOX_SIZE", 2 * static_cast<int>(filter.radius_texels) + 1)}};
+    case FilterKernel::hardware:
+      return {"pcf_hardware", {}};
+    case FilterKernel::vogel:
+      return {"pcf_vogel", {define("FILTER_SAMPLES", filter.samples)}};
+    case FilterKernel::optimised:
+      break;
+  }
+  // The square overlaps at most ceil(2 radius) + 1 texels of a row.
+  const int texels = static_cast<int>(std::ceil(2.0 * filter.radius_texels)) + 1;
+  return {"pcf_optimised", {define("PAIRS", (texels + 1) / 2)}};
+}
+
+const char* area_define(const LightExtent& extent) {
+  if (std::holds_alternative<SunDisc>(extent)) return "AREA_SUN";
+  if (std::holds_alternative<SphereLight>(extent)) return "AREA_SPHERE";
+  return std::holds_alternative<DiscLight>(extent) ? "AREA_DISC" : "AREA_RECTANGLE";
+}
+
+TechniqueShader pcss_shader(const FilterOptions& filter, const Light& light) {
+  if (!has_size(light)) return {};  // no penumbra: the hard test
+  return {"pcss",
+          {area_define(light.extent), define("FILTER_SAMPLES", filter.samples),
+           define("BLOCKER_SAMPLES", filter.blocker_samples)}};
+}
+
+std::vector<std::string> moment_defines(const MapOptions& options, const Light& light) {
+  const FilterOptions& filter = options.filter;
+  const char* kind = options.technique == Technique::vsm    ? "MOMENTS_VSM"
+                     : options.technique == Technique::esm  ? "MOMENTS_ESM"
+                     : options.technique == Technique::evsm ? "MOMENTS_EVSM"
+                                                            : "MOMENTS_MSM";
+  return {kind, define("MOMENT_BORDER", moment_border(filter, light.type))};
+}
+
+TechniqueShader moment_technique(const char* name, const MapOptions& options, const Light& light) {
+  TechniqueShader shader{name, moment_defines(options, light)};
+  if (!options.filter.mipmaps) return shader;
+  shader.defines.emplace_back("MIPMAPS");
+  shader.defines.push_back(define("MAX_LEVEL", moment_max_level(options.filter, light.type, options.size)));
+  return shader;
+}
+
+}  // namespace
+
+std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view) {
+  std::vector<std::string> defines = moment_defines(options, light);
+  if (light.type != LightType::directional) defines.emplace_back("PERSPECTIVE");
+  if (light.type == LightType::point) defines.emplace_back("CUBE");
+  if (view.reversed) defines.emplace_back("REVERSED");
+  return defines;
+}
+
+TechniqueShader technique_shader(const MapOptions& options, const Light& light) {
+  switch (options.technique) {
+    case Technique::pcf:
+      return pcf_shader(options.filter);
+    case Technique::pcss:
+      return pcss_shader(options.filter, light);
+    case Technique::vsm:
+      return moment_technique("vsm", options, light);
+    case Technique::esm:
+      return moment_technique("esm", options, light);
+    case Technique::evsm:
+      return moment_technique("evsm", options, light);
+    case Technique::msm:
+      return moment_technique("msm", options, light);
+    default:
+      return {};  // the hard test
+  }
+}
+
+std::unique_ptr<TechniquePass> make_technique_pass(Gl& gl, ProgramCache& programs, Technique technique) {
+  if (uses_moments(technique)) return std::make_unique<MomentPass>(gl, programs);
   return nullptr;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/options.h"
-#include "scene/scene.h"
+#include "scene/light_view.h"
 
 namespace gnomon::raster {
 
@@ -17,5 +17,7 @@ struct TechniqueShader {
   auto operator<=>(const TechniqueShader&) const = default;
 };
 TechniqueShader technique_shader(const MapOptions& options, const Light& light);
+/// What moments.frag is specialised by.
+std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view);
 
 }  // namespace gnomon::raster

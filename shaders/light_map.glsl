@@ -14,6 +14,10 @@ layout(std140, binding = light_block) uniform Light {
   vec4 direction_and_cos_outer;  // the way the light travels
   vec4 intensity_and_cone;       // w: 1 / (cos inner - cos outer)
   ivec4 counts;                  // faces
+  vec4 area_u;                   // a light with size: two vectors from its centre that span it (raster/light_block.cpp)
+  vec4 area_v;
+  vec4 filter_radii;             // filter and search radius, texels; bleeding reduction
+  vec4 moments;                  // positive and negative exponent, moment bias
 } light;
 
 struct Texel {

@@ -20,6 +20,9 @@ const int face_uniform = 2;
 const int cull_uniform = 3;
 const int shape_in_frame_uniform = 4;
 const int viewport_uniform = 0;
+const int layer_uniform = 0;
+const int step_uniform = 1;
+const int blur_radius_uniform = 2;
 
 // Shader storage buffers
 const int positions_buffer = 0;
@@ -36,6 +39,7 @@ const int visibility_unit = 0;
 const int depth_map_unit = 1;
 const int texel_pages_unit = 2;
 const int present_unit = 3;
+const int moments_unit = 4;
 
 // Vertex attributes
 const int position_attribute = 0;

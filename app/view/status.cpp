@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/filter_options.h"
 #include "app/shell.h"
 #include "app/values.h"
 #include "compare/number_text.h"
@@ -50,6 +51,7 @@ void add_map(std::string& text, const raster::MapOptions& map) {
   add_if(text, map.depth_format != plain.depth_format, "--depth-format",
          std::string(compare::depth_format_name(map.depth_format)));
   add_if(text, map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
+  text += filter_options_text(map.filter);
 }
 
 void add_poses(std::string& text, const Setup& setup) {

@@ -1,0 +1,98 @@
+// How one option is added to a command: its help says unit, range and default, taken from the same numbers
+// that the parser checks and the same field that it fills. CLI11 throws; what is thrown here is caught in
+// command_line.cpp and never leaves this room.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <span>
+#include <utility>
+
+#include "app/suggest.h"
+#include "app/values.h"
+
+namespace gnomon::app {
+
+/// "what [unit; range; default]": the shape of every option's help.
+inline std::string describe(std::string_view what, std::string_view unit_and_range,
+                            std::string_view fallback) {
+  return fmt::format("{} [{}; default {}]", what, unit_and_range, fallback);
+}
+
+/// One option that takes one value; `store` parses it and may fail.
+template <class Store>
+void add_value(CLI::App& command, const std::string& names, const char* type, const std::string& text,
+               Store store) {
+  const std::string name = names.substr(names.find("--"));
+  command
+      .add_option_function<std::string>(
+          names,
+          [name, store = std::move(store)](const std::string& value) {
+            if (const Expected<void> stored = store(value); !stored) {
+              throw CLI::ValidationError(name, stored.error().reason);
+            }
+          },
+          text)
+      ->type_name(type);
+}
+
+/// Stores the value of a parse, or hands its error on.
+template <class Field, class Value>
+Expected<void> assign(Field& field, const Expected<Value>& value) {
+  if (!value) return fail(value.error());
+  field = static_cast<Field>(*value);
+  return {};
+}
+
+inline void add_integer(CLI::App& command, const std::string& name, int& field, int min, int max,
+                        const char* unit, const char* what) {
+  const std::string range = fmt::format("{}{}{} to {}", unit, *unit ? ", " : "", min, max);
+  add_value(
+      command, name, "N", describe(what, range, std::to_string(field)),
+      [&field, min, max](const std::string& value) { return assign(field, parse_integer(value, min, max)); });
+}
+
+inline void add_number(CLI::App& command, const std::string& name, double& field, NumberRange range,
+                       const char* unit, const char* what) {
+  add_value(command, name, "NUMBER",
+            describe(what, fmt::format("{}, {}", unit, range_text(range)), number_text(field)),
+            [&field, range](const std::string& value) { return assign(field, parse_number(value, range)); });
+}
+
+template <class Enum>
+using Choices = std::span<const std::pair<std::string_view, Enum>>;
+
+template <class Enum>
+std::string choice_names(Choices<Enum> choices, std::string_view separator) {
+  std::string text;
+  for (const auto& [name, value] : choices)
+    text += (text.empty() ? "" : std::string(separator)) + std::string(name);
+  return text;
+}
+
+template <class Enum>
+Expected<Enum> parse_choice(const std::string& text, Choices<Enum> choices) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  return fail(ErrorKind::usage, fmt::format("unknown value (got {}, allowed {}){}", text,
+                                            choice_names<Enum>(choices, ", "), did_you_mean(text, names)));
+}
+
+template <class Enum, std::size_t N>
+void add_choice(CLI::App& command, const std::string& name, Enum& field,
+                const std::pair<std::string_view, Enum> (&choices)[N], const char* type, const char* what) {
+  const Choices<Enum> all(choices);
+  std::string_view fallback;
+  for (const auto& [text, value] : all) {
+    if (value == field) fallback = text;
+  }
+  add_value(
+      command, name, type, describe(what, choice_names<Enum>(all, " or "), fallback),
+      [&field, all](const std::string& value) { return assign(field, parse_choice<Enum>(value, all)); });
+}
+
+}  // namespace gnomon::app

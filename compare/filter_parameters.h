@@ -1,0 +1,27 @@
+// The filter of a technique as files and pages tell it: its kind, how far it reaches, and the parameters in
+// use.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "raster/options.h"
+
+namespace gnomon::compare {
+
+/// "none", pcf's kernels, "penumbra" (pcss) or "moments".
+std::string_view filter_kind(const raster::MapOptions& map);
+
+/// How far from the receiver's place the filter can read, texels: half the width of its square; 0 for none.
+/// Of pcss, the most; mipmaps are not counted.
+double filter_reach_texels(const raster::MapOptions& map);
+
+/// The other parameters that the technique reads, by their names in result.json.
+std::vector<std::pair<std::string, double>> filter_parameters(const raster::MapOptions& map);
+
+/// "moments, blur radius 2, ...": one line for a person; empty for none.
+std::string filter_text(const raster::MapOptions& map);
+
+}  // namespace gnomon::compare

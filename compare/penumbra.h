@@ -1,0 +1,16 @@
+// How wide the soft shadows of a light with size are, in truth and as drawn.
+#pragma once
+
+#include "compare/ladder.h"
+
+namespace gnomon::compare {
+
+/// At every pair of neighbouring compared pixels of one object between which the truth crosses one half,
+/// walks in the picture along the edge's normal (the truth's gradient over a 7x7 window) both ways, on the
+/// drawn shadow from its own crossing nearest to there: the penumbra is the way from a tenth to nine tenths
+/// visible, the umbra the way below a tenth beyond it, both in world units between the receivers of the
+/// pixels at the ends.
+PenumbraStats measure_penumbra(const LadderInput& input, const Image<float>& truth,
+                               const Image<Label>& labels);
+
+}  // namespace gnomon::compare
