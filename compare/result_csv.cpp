@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/filter_parameters.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -39,6 +40,7 @@ void add_setting(Row& row, const Comparison& c, const LightComparison& light) {
   row.emplace_back("width_pixels", fmt::to_string(c.raster.options.size.width));
   row.emplace_back("height_pixels", fmt::to_string(c.raster.options.size.height));
   row.emplace_back("technique", technique_name(map.technique));
+  row.emplace_back("filter", filter_kind(map));
   row.emplace_back("map_size_texels", fmt::to_string(record.map.view.size));
   row.emplace_back("depth_format", depth_format_name(record.map.format));
   row.emplace_back("bias_constant_world", number(record.bias_constant_world));

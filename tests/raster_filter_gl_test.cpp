@@ -295,6 +295,39 @@ TEST(FilterScenes, VsmBleedsByItsFormula) {
   EXPECT_GT(most, 0.1);
 }
 
+// A floor under a lamp, where two faces of its cube meet: filters read across the edge, so that nothing shows
+// there.
+TEST(FilterScenes, CubeEdgesDoNotShow) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.meshes = {square_mesh(4.0)};
+  scene.instances.push_back({"floor", 0, placed({0.0, 0.0, 0.0}, 1.0), 0});
+  scene.lights = {lamp(LightType::point, {0.3, 1.1, 0.2}, {0.0, 0.0, 0.0})};
+  scene.lights[0].extent = SphereLight{0.1};
+  scene.camera.eye = {0.5, 3.0, 5.0};
+  scene.camera.target = {0.0, 0.0, 0.0};
+  for (const Technique technique :
+       {Technique::pcf, Technique::pcss, Technique::vsm, Technique::esm, Technique::evsm, Technique::msm}) {
+    raster::RasterOptions options = technique_options(technique);
+    options.map.bias.constant = 0.5;
+    options.map.bias.receiver_plane = technique == Technique::pcf;
+    options.map.filter.mipmaps = true;
+    options.map.filter.radius_texels = 4.5;
+    const Drawn drawn = draw(scene, options);
+    float at_edge = 1.0f, elsewhere = 1.0f;
+    int edge_pixels = 0;
+    for_receivers(drawn, 0.0, [&](const FilterReceiver& r) {
+      const double to_edge = std::min(std::min(r.at.u, r.at.v), 128.0 - std::max(r.at.u, r.at.v));
+      float& least = to_edge < 5.0 ? at_edge : elsewhere;
+      edge_pixels += to_edge < 5.0 ? 1 : 0;
+      least = std::min(least, drawn.light().visibility.data[r.pixel]);
+    });
+    EXPECT_GT(edge_pixels, 100);
+    EXPECT_GT(elsewhere, 0.9f) << int(technique);
+    EXPECT_GT(at_edge, elsewhere - 0.03f) << int(technique);
+  }
+}
+
 /// A world on a device with one light's depth map drawn: the passes without the renderer around them.
 class DrawnMap {
  public:

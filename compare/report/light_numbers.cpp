@@ -74,6 +74,33 @@ std::string detachment_fact(const LightBlock& b) {
                           fact_value(b, "detachment.max_world", d.max_world)));
 }
 
+std::string bleeding_fact(const LightBlock& b) {
+  const BleedingStats& bleeding = b.light.bleeding;
+  if (bleeding.pixels == 0) return "";
+  return fact("Light bleeding", fact_value(b, "bleeding.mean", bleeding.mean),
+              fmt::format("mean light that the filter lets into closed shadow, on {} pixels; {} at most",
+                          keyed_count(b.key("bleeding.pixels"), bleeding.pixels),
+                          fact_value(b, "bleeding.max", bleeding.max)));
+}
+
+std::string penumbra_facts(const LightBlock& b) {
+  if (!b.light.penumbra || b.light.penumbra->edges == 0) return "";
+  const PenumbraStats& p = *b.light.penumbra;
+  const auto both = [&](std::string_view what, double truth, double drawn, std::uint64_t edges,
+                        std::string_view edge_key) {
+    return fmt::format("world units wide as drawn, {} in truth; medians of {} edges",
+                       fact_value(b, fmt::format("penumbra.true_{}_world", what), truth),
+                       keyed_count(b.key(fmt::format("penumbra.{}", edge_key)), edges)) +
+           (drawn == 0.0 ? "; the technique draws none" : "");
+  };
+  std::string text = fact("Penumbra", fact_value(b, "penumbra.drawn_penumbra_world", p.drawn_penumbra_world),
+                          both("penumbra", p.true_penumbra_world, p.drawn_penumbra_world, p.edges, "edges"));
+  if (p.umbra_edges > 0)
+    text += fact("Umbra", fact_value(b, "penumbra.drawn_umbra_world", p.drawn_umbra_world),
+                 both("umbra", p.true_umbra_world, p.drawn_umbra_world, p.umbra_edges, "umbra_edges"));
+  return text;
+}
+
 std::string texel_fact(const LightBlock& b) {
   const auto& [least, median, most] = b.light.texel_world;
   return fact("Texel width", fact_value(b, "map.texel_world.median", median),
@@ -125,7 +152,7 @@ std::string facts_block(const LightBlock& b) {
   return R"(<h3>How far, how visible</h3>
 <dl class="facts">
 )" + edge_facts(b) +
-         detachment_fact(b) + texel_fact(b) +
+         detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) + texel_fact(b) +
          fact("FLIP", fact_value(b, "error.flip", error.flip),
               "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
               "entirely") +
