@@ -1,5 +1,7 @@
 #include "app/options.h"
 
+#include <filesystem>
+
 #include "app/filter_options.h"
 #include "app/option_kinds.h"
 
@@ -97,6 +99,19 @@ std::vector<std::string> technique_names() {
 void add_backend(CLI::App& command, raster::Backend& backend) {
   add_choice(command, "--backend", backend, backends, "NAME",
              "where OpenGL comes from; auto tries OSMesa (software), then EGL (a GPU when there is one)");
+}
+
+void add_shader_dir(CLI::App& command, std::string& folder) {
+  add_value(command, "--shader-dir", "DIR",
+            describe("shader files to use instead of the program's own of the same names, such as "
+                     "technique/pcf_box.glsl",
+                     "a folder", "none"),
+            [&folder](const std::string& text) -> Expected<void> {
+              if (!std::filesystem::is_directory(text))
+                return fail(ErrorKind::usage, fmt::format("no such folder (got {})", text));
+              folder = text;
+              return {};
+            });
 }
 
 void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Precision& precision) {

@@ -27,6 +27,8 @@ void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.
 std::vector<std::string> technique_names();
 void add_backend(CLI::App& command, raster::Backend& backend);
+/// --shader-dir.
+void add_shader_dir(CLI::App& command, std::string& folder);
 /// --accel, --precision.
 void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Precision& precision);
 void add_precision(CLI::App& command, raytrace::Precision& precision);

@@ -39,11 +39,11 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
                                             name, fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
-Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend,
-                                                          const LoadedScene& loaded) {
+Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
+                                                          const std::string& shader_folder) {
   Expected<std::unique_ptr<raster::Context>> context = raster::create_context(backend);
   if (!context) return fail(context.error());
-  return raster::Renderer::create(std::move(*context), *loaded.world, loaded.plan);
+  return raster::Renderer::create(std::move(*context), *loaded.world, loaded.plan, shader_folder);
 }
 
 struct ThreadLimit::Impl {

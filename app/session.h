@@ -28,7 +28,8 @@ Expected<LoadedScene> load(const std::string& path_or_name, Console& console);
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);
 
-Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded);
+Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
+                                                          const std::string& shader_folder = {});
 
 /// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,
 /// those of Mesa's software rasterizer from here on. 0: all cores.

@@ -8,6 +8,7 @@
 
 #include "compare/number_text.h"
 #include "compare/outputs.h"
+#include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
 namespace {
@@ -96,9 +97,10 @@ std::string nothing_compared(const PixelCounts& p) {
 
 }  // namespace
 
-std::string verdict_sentence(const Comparison&, const LightComparison& light) {
+// What other biases would do follows from the gaps of a hard test alone.
+std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  return wrong_part(light) + bias_part(light);
+  return wrong_part(light) + (biases_follow_from_gaps(c.raster.options.map) ? bias_part(light) : "");
 }
 
 }  // namespace gnomon::compare

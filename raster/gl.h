@@ -24,6 +24,10 @@ class Gl {
   ~Gl();
 
   const GladGLContext* operator->() const { return &api_; }
+  /// A folder whose files take the place of those of the same name in shaders/; empty: none.
+  const std::string& shader_folder() const { return shader_folder_; }
+  void set_shader_folder(std::string folder) { shader_folder_ = std::move(folder); }
+
   GLint integer(GLenum name) const;
   std::string text(GLenum name) const;
   /// Error (graphics) when OpenGL reported one since the last check: "`what`: its words".
@@ -35,6 +39,7 @@ class Gl {
                                       const GLchar* message, const void* self);
   GladGLContext api_{};
   std::vector<std::string> messages_;
+  std::string shader_folder_;
 };
 
 /// Side of the largest square depth map: the least of texture and viewport limits.

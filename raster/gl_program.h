@@ -1,4 +1,5 @@
-// GLSL programs linked from the embedded sources of shaders/, with #include lines resolved (each file once;
+// GLSL programs linked from the embedded sources of shaders/ (or from the files of the same names in the
+// context's shader folder, Gl::shader_folder()), with #include lines resolved (each file once;
 // $NAME in a file's name stands for the value of that define) and a permutation's names defined. Private to
 // raster.
 #pragma once
@@ -14,8 +15,9 @@ namespace gnomon::raster {
 class Program : public GlObject<GlKind::program> {
  public:
   Program() = default;
-  /// `fragment` may be empty: depth only. Error (internal): the compiler's log; the shaders are part of the
-  /// program.
+  /// `fragment` may be empty: depth only. Error: the compiler's log: ErrorKind::internal where the shaders
+  /// are the program's own, ErrorKind::bad_input with file and line where one of the shader folder is at
+  /// fault.
   static Expected<Program> link(const Gl& gl, std::string_view vertex, std::string_view fragment,
                                 std::span<const std::string_view> defines);
   /// A compute program from source text that may include files of shaders/ (tests use it).

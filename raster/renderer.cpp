@@ -275,10 +275,12 @@ void GlRenderer::restore_state() const {
 }  // namespace
 
 Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> context, const World& world,
-                                                     const EffectPlan& plan) {
+                                                     const EffectPlan& plan,
+                                                     const std::string& shader_folder) {
   if (!context->make_current()) return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
   auto gl = Gl::load(*context);
   if (!gl) return fail(gl.error());
+  (*gl)->set_shader_folder(shader_folder);
   const SceneFeatures features = scene_features(plan, world);
   auto buffers = WorldBuffers::upload(**gl, world, features);
   if (!buffers) return fail(buffers.error());

@@ -19,9 +19,12 @@ namespace gnomon::raster {
 class Renderer {
  public:
   /// Uploads the world and compiles the shader permutations that `plan` calls for.
-  /// The world and its scene must outlive the renderer.
+  /// The world and its scene must outlive the renderer. `shader_folder`: files in it take the place of those
+  /// of the same name in shaders/ ("technique/pcf_box.glsl"); empty: none. Error (bad input) with file and
+  /// line when one of them does not compile; in render() when it is first asked for then.
   static Expected<std::unique_ptr<Renderer>> create(std::unique_ptr<Context> context, const World& world,
-                                                    const EffectPlan& plan);
+                                                    const EffectPlan& plan,
+                                                    const std::string& shader_folder = {});
   virtual ~Renderer() = default;
 
   /// Renders all lights into the picture; `lights` (indices in Scene::lights) get a LightRecord each.

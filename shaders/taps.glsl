@@ -26,9 +26,16 @@ Comparison make_comparison(ShadowTest test, vec3 normal) {
   return c;
 }
 
-float receiver_depth(Comparison c, ivec2 texel) {
+// What one comparison compares, as depths along the receiver's own face's forward.
+struct Tap {
+  float receiver;
+  float occluder;  // infinite where nothing is stored
+};
+
+// The receiver's depth seen from a texel's centre so many texels away.
+float receiver_depth(Comparison c, vec2 offset_texels) {
 #ifdef RECEIVER_PLANE
-  return plane_depth(c.at, c.n, vec2(texel) + 0.5 - c.at.uv);
+  return plane_depth(c.at, c.n, offset_texels);
 #else
   return c.at.local.z;
 #endif
@@ -42,41 +49,45 @@ float depth_or_infinite(ivec3 texel, float stored) {
   return holds_caster(stored) ? depth_from_stored(texel, stored) : infinite;
 }
 
+Tap tap_on_face(Comparison c, ivec2 texel, float stored) {
+  return Tap(receiver_depth(c, vec2(texel) + 0.5 - c.at.uv), depth_or_infinite(ivec3(texel, c.at.face), stored));
+}
+
 #ifdef CUBE
-// Along the receiver's own face's forward, of what another face stores in the texel's direction.
-float depth_beyond_edge(Comparison c, ivec2 texel) {
-  vec2 tangent = c.at.local.xy / c.at.local.z + texel_step(c.at, vec2(texel) + 0.5 - c.at.uv);
+// The texel of another face that lies in the direction where this face's grid would go on. What it stores lies on the ray
+// through its own centre, which is where the receiver's plane must be met as well.
+Tap tap_beyond_edge(Comparison c, ivec2 texel) {
+  vec2 extent = texel_extent(c.at.face);
+  vec2 own = c.at.local.xy / c.at.local.z;
+  vec2 tangent = own + (vec2(texel) + 0.5 - c.at.uv) * extent;
   vec3 direction = light.right[c.at.face].xyz * tangent.x + light.up[c.at.face].xyz * tangent.y +
                    light.forward[c.at.face].xyz;
   Texel there = project_to_texel(light.origin_and_size.xyz + direction);
   ivec2 last = ivec2(light.origin_and_size.w) - 1;
   ivec3 at = ivec3(clamp(ivec2(floor(there.uv)), ivec2(0), last), there.face);
-  return depth_or_infinite(at, texelFetch(depth_map, at, 0).r) / there.local.z;
+  vec2 centre = (2.0 * (vec2(at.xy) + 0.5) / light.origin_and_size.w - 1.0) * light.extent_and_depths[at.z].xy;
+  vec3 ray = to_face(c.at.face, light.right[at.z].xyz * centre.x + light.up[at.z].xyz * centre.y +
+                                    light.forward[at.z].xyz);
+  return Tap(receiver_depth(c, (ray.xy / ray.z - own) / extent),
+             depth_or_infinite(at, texelFetch(depth_map, at, 0).r) * ray.z);
 }
 #endif
 
-// Depth of what is stored in a texel, which may lie beyond the face's edge.
-float occluder_depth(Comparison c, ivec2 texel) {
-  ivec3 at = ivec3(texel, c.at.face);
-  if (on_face(texel)) return depth_or_infinite(at, texelFetch(depth_map, at, 0).r);
+Tap tap_at(Comparison c, ivec2 texel) {
+  if (on_face(texel)) return tap_on_face(c, texel, texelFetch(depth_map, ivec3(texel, c.at.face), 0).r);
 #ifdef CUBE
-  return depth_beyond_edge(c, texel);
+  return tap_beyond_edge(c, texel);
 #else
-  return infinite;
+  return Tap(c.at.local.z, infinite);
 #endif
 }
 
-bool shadows(Comparison c, float receiver, float occluder) {
-  return !isinf(occluder) && (receiver - occluder) * c.along_ray > c.slack;
+bool shadows(Comparison c, Tap tap) {
+  return !isinf(tap.occluder) && (tap.receiver - tap.occluder) * c.along_ray > c.slack;
 }
 
-float lit_at(Comparison c, ivec2 texel) {
-  return shadows(c, receiver_depth(c, texel), occluder_depth(c, texel)) ? 0.0 : 1.0;
-}
-
-float lit_by(Comparison c, ivec2 texel, float stored) {
-  return shadows(c, receiver_depth(c, texel), depth_or_infinite(ivec3(texel, c.at.face), stored)) ? 0.0 : 1.0;
-}
+float lit_by(Comparison c, Tap tap) { return shadows(c, tap) ? 0.0 : 1.0; }
+float lit_at(Comparison c, ivec2 texel) { return lit_by(c, tap_at(c, texel)); }
 
 // Four texels at once: (0,0), (1,0), (0,1), (1,1) from `low`.
 vec4 lit_at_four(Comparison c, ivec2 low) {
@@ -85,10 +96,6 @@ vec4 lit_at_four(Comparison c, ivec2 low) {
     return vec4(lit_at(c, low), lit_at(c, low + right), lit_at(c, low + up), lit_at(c, low + 1));
   vec2 corner = vec2(low + 1) / light.origin_and_size.w;
   vec4 stored = textureGather(depth_map, vec3(corner, c.at.face)).wzxy;
-  vec4 lit;
-  lit.x = lit_by(c, low, stored.x);
-  lit.y = lit_by(c, low + right, stored.y);
-  lit.z = lit_by(c, low + up, stored.z);
-  lit.w = lit_by(c, low + 1, stored.w);
-  return lit;
+  return vec4(lit_by(c, tap_on_face(c, low, stored.x)), lit_by(c, tap_on_face(c, low + right, stored.y)),
+              lit_by(c, tap_on_face(c, low + up, stored.z)), lit_by(c, tap_on_face(c, low + 1, stored.w)));
 }

@@ -1,5 +1,6 @@
 // Filters in the whole chain: where they stand on the ladder, light bleeding as a share of the filter step,
 // and soft shadows against the rays and the closed form (DESIGN.md section 3).
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "compare/outputs.h"
@@ -131,7 +132,10 @@ TEST_P(Ladder, OnlyTheLastStepIsTheFilters) {
   const Compared run = run_comparison(two_roofs(), technique_options(GetParam(), size, 128));
   for (std::size_t k = 0; k + 1 < compare::rung_count; ++k)
     EXPECT_EQ(run.light().rungs[k].data, hard.light().rungs[k].data) << "V" << k;
-  EXPECT_EQ(run.light().rungs[6].data, run.result.raster.lights[0].visibility.data);
+  for (std::size_t i = 0; i < run.light().labels.data.size(); ++i)
+    if (compare::is_compared(run.light().labels.data[i])) {
+      ASSERT_EQ(run.light().rungs[6].data[i], run.result.raster.lights[0].visibility.data[i]);
+    }
   EXPECT_GT(run.light().budget[std::size_t(Cause::filter)].absolute_mean, 1e-4);
   double sum = 0.0;
   for (const auto& step : run.light().budget) sum += step.signed_mean;
@@ -145,26 +149,38 @@ INSTANTIATE_TEST_SUITE_P(Filters, Ladder,
                          ::testing::Values(Technique::pcf, Technique::vsm, Technique::esm, Technique::evsm,
                                            Technique::msm));
 
-compare::BleedingStats bleeding(Technique technique) {
+struct Bled {
+  compare::BleedingStats stats;
+  double bias_world = 0.0;
+};
+
+Bled bleeding(Technique technique) {
   compare::CompareOptions options = technique_options(technique, {240, 144}, 256);
   options.raster.map.filter.light_bleeding_reduction = 0.0;
   options.raster.map.filter.mipmaps = false;
   const Compared run = run_comparison(two_roofs(), options);
   const auto& light = run.light();
   EXPECT_LE(light.bleeding.mean, light.budget[std::size_t(Cause::filter)].absolute_mean);
-  return light.bleeding;
+  return {light.bleeding, run.result.raster.lights[0].bias_constant_world};
 }
 
-// Where the upper roof's edge lies over the lower roof, the filter mixes their depths. Half of each at 3.05
-// and 1.05 gives (1/4) 2^2 / ((1/4) 2^2 + 2.05^2) = 19 % light on the floor; evsm and msm are made to let
-// less through.
-TEST(Bleeding, IsFoundAndOrderedAsPublished) {
-  const auto vsm = bleeding(Technique::vsm), evsm = bleeding(Technique::evsm), msm = bleeding(Technique::msm);
-  EXPECT_GT(vsm.pixels, 20u);
-  EXPECT_NEAR(vsm.max, 0.19, 0.05);
-  EXPECT_LT(evsm.mean, 0.5 * vsm.mean);
-  EXPECT_LT(msm.mean, 0.5 * vsm.mean);
-  EXPECT_EQ(bleeding(Technique::pcf).pixels, 0u);
+// Where the upper roof's edge lies over the lower roof, the filter mixes their depths. A share p of the upper
+// one, 3.05 above the floor, and the rest at 1.05 let through variance / (variance + distance to the mean
+// squared) by Chebyshev's inequality, the bias taken off both heights; the most is found where p passes
+// through its best. evsm and msm are made to let less through. 0.004: p comes in steps, and the camera sees
+// not every one.
+TEST(Bleeding, IsFoundAndAsMuchAsTheFormula) {
+  const Bled vsm = bleeding(Technique::vsm);
+  double most = 0.0;
+  for (double p = 0.0; p <= 1.0; p += 0.001) {
+    const double variance = p * (1.0 - p) * 4.0, to_mean = 1.05 + 2.0 * p - vsm.bias_world;
+    most = std::max(most, variance / (variance + to_mean * to_mean));
+  }
+  EXPECT_GT(vsm.stats.pixels, 20u);
+  EXPECT_NEAR(vsm.stats.max, most, 0.004);
+  EXPECT_LT(bleeding(Technique::evsm).stats.mean, 0.5 * vsm.stats.mean);
+  EXPECT_LT(bleeding(Technique::msm).stats.mean, 0.5 * vsm.stats.mean);
+  EXPECT_EQ(bleeding(Technique::pcf).stats.pixels, 0u);
 }
 
 }  // namespace

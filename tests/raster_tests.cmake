@@ -4,3 +4,6 @@ gnomon_test(raster_gl_test
           raster_context_gl_test.cpp raster_depth_map_gl_test.cpp raster_filter_gl_test.cpp raster_frame_gl_test.cpp raster_ids_gl_test.cpp
           raster_limits_gl_test.cpp raster_picture_gl_test.cpp raster_present_gl_test.cpp raster_shape_bounds_test.cpp
   LIBS gnomon::raster gnomon_raster_private)
+# Each technique's frame against the same draw calls by hand; run by hand, not a test.
+add_executable(technique_bench bench/technique_bench.cpp)
+target_link_libraries(technique_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raster gnomon_raster_private fmt::fmt)

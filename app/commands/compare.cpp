@@ -27,6 +27,7 @@ struct CompareCommand {
   std::string scene, folder, json, aov;
   SettingOptions setting;
   raster::Backend backend = raster::Backend::automatic;
+  std::string shader_folder;
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
   std::optional<double> fail_above;
@@ -56,7 +57,7 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
   if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
     return fail(fits.error());
-  const auto renderer = make_renderer(command.backend, loaded);
+  const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   auto comparison =
       compare::compare_world(*loaded.world, **renderer, command.setting.options,
@@ -154,6 +155,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
       "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");
   add_setting_options(app, command.setting);
   add_backend(app, command.backend);
+  add_shader_dir(app, command.shader_folder);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs,
            fmt::format("{} for shadow maps, {} for rays", command.setting.options.raster.runs,

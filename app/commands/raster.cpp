@@ -21,6 +21,7 @@ struct RasterCommand {
   std::string scene, image, light;
   raster::RasterOptions options;
   raster::Backend backend = raster::Backend::automatic;
+  std::string shader_folder;
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   int threads = 0;
@@ -48,7 +49,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!lights) return fail(lights.error());
   const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
-  const auto renderer = make_renderer(command.backend, *loaded);
+  const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);
   command.options.runs = 0;
@@ -85,6 +86,7 @@ void add_raster(CLI::App& program, Invocation& invocation) {
             "put this light's records only into the .exr; the picture always has all lights");
   add_pose_options(*app, command->poses);
   add_backend(*app, command->backend);
+  add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of Mesa's software rasterizer");
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);

@@ -91,6 +91,7 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
   const auto product = compare::Grid::make(axes, false);
   if (!product) return fail(product.error());
   std::vector<Family> families;
+  std::optional<Error> unsound;
   for (std::size_t cell = 0; cell < product->cells(); ++cell)
     for (const Values& kind : kinds) {
       Values values;
@@ -99,8 +100,12 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
       values.insert(values.end(), kind.begin(), kind.end());
       auto family = make_family(std::move(values), fixed);
       if (!family) return fail(family.error());
+      const auto sound = raster::check_map_options(family->tuned.map);
+      if (!sound) unsound = sound.error();
+      if (!sound) continue;  // a bias that does not go with the technique
       families.push_back(std::move(*family));
     }
+  if (families.empty() && unsound) return fail(*unsound);
   return families;
 }
 

@@ -35,6 +35,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   app->add_option("--light", options->compare.light,
                   "begin with this light [a light's name; default the first]")
       ->type_name("NAME");
+  add_shader_dir(*app, options->shader_folder);
   add_pose_options(*app, options->poses);
   add_tracer_options(*app, options->compare.accel, options->compare.precision);
   add_min_contribution(*app, options->compare.raytrace.min_contribution);

@@ -16,8 +16,9 @@ ImageSize preview_size(ImageSize full) {
 }
 
 Expected<std::unique_ptr<raster::Renderer>> make_window_renderer(std::unique_ptr<raster::Context> context,
-                                                                 const LoadedScene& loaded) {
-  return raster::Renderer::create(std::move(context), *loaded.world, loaded.plan);
+                                                                 const LoadedScene& loaded,
+                                                                 const std::string& shader_folder) {
+  return raster::Renderer::create(std::move(context), *loaded.world, loaded.plan, shader_folder);
 }
 
 }  // namespace
@@ -25,8 +26,9 @@ Expected<std::unique_ptr<raster::Renderer>> make_window_renderer(std::unique_ptr
 Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context> context,
                                                  const LoadedScene& loaded,
                                                  const compare::CompareOptions& options,
+                                                 const std::string& shader_folder,
                                                  std::function<void()> on_finished) {
-  auto renderer = make_window_renderer(std::move(context), loaded);
+  auto renderer = make_window_renderer(std::move(context), loaded, shader_folder);
   if (!renderer) return fail(renderer.error());
   return std::unique_ptr<Studio>(new Studio(std::move(*renderer), loaded, options, std::move(on_finished)));
 }

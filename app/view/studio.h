@@ -36,6 +36,7 @@ class Studio {
   static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
                                                   const LoadedScene& loaded,
                                                   const compare::CompareOptions& options,
+                                                  const std::string& shader_folder,
                                                   std::function<void()> on_finished);
 
   /// Draws the live picture where the state has changed, and sets the state's measures. Error: this cannot be

@@ -13,6 +13,7 @@ namespace gnomon::app {
 struct ViewOptions {
   std::string scene;                ///< a path or the name of a built-in scene
   compare::CompareOptions compare;  ///< raster.size is the window's first size
+  std::string shader_folder;        ///< replacements of shaders/ files; empty: none
   PoseOptions poses;
   std::optional<std::optional<double>> exposure;  ///< none: the scene's own
   std::string script;  ///< a file of steps that drives the window (script.h); empty: none

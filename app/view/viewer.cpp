@@ -45,7 +45,8 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, const
   auto presenter = raster::Presenter::create(*viewer->context_);
   if (!presenter) return fail(presenter.error());
   viewer->presenter_ = std::move(*presenter);
-  auto studio = Studio::create(viewer->window_->context(), loaded, options.compare, [] { Window::wake(); });
+  auto studio = Studio::create(viewer->window_->context(), loaded, options.compare, options.shader_folder,
+                               [] { Window::wake(); });
   if (!studio) return fail(studio.error());
   viewer->studio_ = std::move(*studio);
   viewer->listen();

@@ -58,10 +58,9 @@ float mean_blocker_depth(Comparison c, LightArea area, float turn) {
   float count = 0.0;
   for (int i = 0; i < BLOCKER_SAMPLES; ++i) {
     vec2 offset = scale * ray_offset(c, area, light_point(i, BLOCKER_SAMPLES, turn), near);
-    ivec2 texel = ivec2(floor(c.at.uv + offset));
-    float occluder = occluder_depth(c, texel);
-    if (shadows(c, receiver_depth(c, texel), occluder)) {
-      sum += occluder;
+    Tap tap = tap_at(c, ivec2(floor(c.at.uv + offset)));
+    if (shadows(c, tap)) {
+      sum += tap.occluder;
       count += 1.0;
     }
   }

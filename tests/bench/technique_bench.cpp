@@ -1,0 +1,276 @@
+// technique_bench: each filtering technique's frame through raster::Renderer against a minimal OpenGL program
+// that issues the same draw calls and nothing else (no checks, no records, no costs counted). The two take
+// turns, and the least of many runs counts, so that other programs on the machine disturb both alike.
+//   technique_bench [SCENE [RUNS]]     a built-in scene without analytic shapes, one directional light
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "raster/light_block.h"
+#include "raster/moment_pass.h"
+#include "raster/options_check.h"
+#include "raster/renderer.h"
+#include "raster/shading_pass.h"
+#include "scene/load.h"
+#include "scene/timing.h"
+#include "shaders/shared_constants.h"
+
+namespace gnomon::bench {
+namespace {
+
+using raster::Framebuffer;
+using raster::Texture2D;
+
+/// Stops the program: a benchmark has nobody to hand an error to.
+template <class T>
+T must(Expected<T> value) {
+  if (!value) {
+    fmt::print(stderr, "{}\n", value.error().message());
+    std::exit(1);
+  }
+  if constexpr (!std::is_void_v<T>) return std::move(*value);
+}
+
+GLenum moment_format(raster::Technique technique) {
+  return technique == raster::Technique::vsm   ? GL_RG32F
+         : technique == raster::Technique::esm ? GL_R32F
+                                               : GL_RGBA32F;
+}
+
+/// The same passes by hand.
+class MinimalProgram {
+ public:
+  MinimalProgram(const World& world, const raster::RasterOptions& options)
+      : world_(world), options_(options), context_(must(raster::create_context(raster::Backend::automatic))) {
+    context_->make_current();
+    gl_ = must(raster::Gl::load(*context_));
+    features_ = raster::scene_features(plan_effects(*world.scene), world);
+    programs_ = std::make_unique<raster::ProgramCache>(*gl_, features_);
+    view_ = make_view(world.scene->camera, options.size);
+    buffers_ =
+        std::make_unique<raster::WorldBuffers>(must(raster::WorldBuffers::upload(*gl_, world, features_)));
+    buffers_->set_reference(raster::reference_point(world, view_.eye));
+    make_map();
+    make_moments();
+    make_images();
+  }
+
+  void frame() {
+    context_->make_current();
+    const raster::Gl& gl = *gl_;
+    buffers_->bind();
+    bind_blocks();
+    begin(GL_LOWER_LEFT, map_target_, options_.map.size, options_.map.size, GL_LESS);
+    const float far = shaders::map_clear_depth;
+    gl->ClearNamedFramebufferfv(map_target_.id(), GL_DEPTH, 0, &far);
+    buffers_->draw_triangles(*map_program_, *map_masked_, map_clip_);
+    depth_.bind(shaders::depth_map_unit);
+    if (raster::uses_moments(options_.map.technique)) draw_moments();
+    begin(GL_UPPER_LEFT, visibility_target_, options_.size.width, options_.size.height, GL_GREATER);
+    const float back = shaders::camera_clear_depth;
+    gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &back);
+    gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
+    buffers_->draw_triangles(*camera_program_, *camera_masked_, camera_clip_);
+    fullscreen(color_target_, options_.size, *shade_program_);
+    gl->Finish();
+  }
+
+ private:
+  void make_map() {
+    const Light& light = world_.scene->lights[0];
+    const double aspect = double(options_.size.width) / options_.size.height;
+    light_view_ = must(fit_light_view(world_, light, world_.scene->camera, aspect, options_.map.size));
+    const double bias = raster::constant_bias_world(options_.map.bias, light_view_, world_);
+    light_block_ = raster::Buffer(*gl_);
+    light_block_.write_one(
+        raster::make_light_block(light, light_view_, options_.map, bias, buffers_->reference()));
+    depth_ = Texture2D(*gl_, GL_DEPTH_COMPONENT32F, {options_.map.size, options_.map.size}, 1);
+    map_target_ = Framebuffer(*gl_);
+    map_target_.attach(GL_DEPTH_ATTACHMENT, depth_, 0);
+    map_target_.draw_to(0);
+    map_program_ = must(programs_->triangles(false, false));
+    map_masked_ = features_.alpha_mask ? must(programs_->triangles(false, true)) : map_program_;
+    map_clip_ = light_clip_from_relative(light_view_, 0, buffers_->reference());
+  }
+
+  void make_moments() {
+    if (!raster::uses_moments(options_.map.technique)) return;
+    const Light& light = world_.scene->lights[0];
+    const ImageSize size{options_.map.size, options_.map.size};
+    const int levels = raster::moment_max_level(options_.map.filter, light.type, options_.map.size) + 1;
+    const GLenum format = moment_format(options_.map.technique);
+    moments_ = Texture2D(*gl_, format, size, 1, levels);
+    moments_.set_linear_filtering();
+    rows_ = Texture2D(*gl_, format, size, 1);
+    moment_target_ = Framebuffer(*gl_);
+    moment_target_.attach(GL_COLOR_ATTACHMENT0, moments_, 0);
+    moment_target_.draw_to(1);
+    row_target_ = Framebuffer(*gl_);
+    row_target_.attach(GL_COLOR_ATTACHMENT0, rows_, 0);
+    row_target_.draw_to(1);
+    convert_ =
+        must(programs_->fullscreen("moments.frag", raster::moment_shader(options_.map, light, light_view_)));
+    blur_ = must(programs_->fullscreen("blur.frag", {}));
+  }
+
+  void make_images() {
+    const raster::Gl& gl = *gl_;
+    // The camera's block and matrix are those of the shading pass; its set-up is not timed.
+    shading_ = std::make_unique<raster::ShadingPass>(*gl_, *programs_);
+    must(shading_->prepare(options_.size, false));
+    shading_->set_camera(*buffers_, view_);
+    GLint block = 0;
+    gl->GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, shaders::camera_block, &block);
+    camera_block_ = static_cast<GLuint>(block);
+    const Mat4 relative = Mat4(Vec4(1, 0, 0, 0), Vec4(0, 1, 0, 0), Vec4(0, 0, 1, 0),
+                               Vec4(buffers_->reference() - view_.eye, 1.0));
+    camera_clip_ = clip_from_view(view_, raster::near_distance(world_, view_.eye)) *
+                   view_from_eye_relative(view_) * relative;
+    visible_ = Texture2D(gl, GL_R32UI, options_.size);
+    camera_depth_ = Texture2D(gl, GL_DEPTH_COMPONENT32F, options_.size);
+    color_ = Texture2D(gl, GL_RGBA32F, options_.size);
+    visibility_target_ = Framebuffer(gl);
+    visibility_target_.attach(GL_DEPTH_ATTACHMENT, camera_depth_);
+    visibility_target_.attach(GL_COLOR_ATTACHMENT0, visible_);
+    visibility_target_.draw_to(1);
+    color_target_ = Framebuffer(gl);
+    color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
+    color_target_.draw_to(1);
+    camera_program_ = must(programs_->triangles(true, false));
+    camera_masked_ = features_.alpha_mask ? must(programs_->triangles(true, true)) : camera_program_;
+    raster::ShadePermutation permutation;
+    permutation.first_light = true;
+    permutation.light = world_.scene->lights[0].type;
+    permutation.receiver_plane = options_.map.bias.receiver_plane;
+    permutation.technique = raster::technique_shader(options_.map, world_.scene->lights[0]);
+    shade_program_ = must(programs_->shade(permutation));
+  }
+
+  void bind_blocks() const {
+    light_block_.bind(GL_UNIFORM_BUFFER, shaders::light_block);
+    (*gl_)->BindBufferBase(GL_UNIFORM_BUFFER, shaders::camera_block, camera_block_);
+  }
+
+  void begin(GLenum origin, const Framebuffer& target, int width, int height, GLenum depth_test) const {
+    const raster::Gl& gl = *gl_;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
+    gl->ClipControl(origin, GL_ZERO_TO_ONE);
+    gl->Viewport(0, 0, width, height);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->Enable(GL_DEPTH_CLAMP);
+    gl->DepthMask(GL_TRUE);
+    gl->DepthFunc(depth_test);
+  }
+
+  void fullscreen(const Framebuffer& target, ImageSize size, const raster::Program& program) const {
+    const raster::Gl& gl = *gl_;
+    visible_.bind(shaders::visibility_unit);
+    if (moments_) moments_.bind(shaders::moments_unit);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
+    gl->Viewport(0, 0, size.width, size.height);
+    gl->Disable(GL_DEPTH_TEST);
+    program.use();
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void draw_moments() const {
+    const raster::Gl& gl = *gl_;
+    gl->Disable(GL_DEPTH_TEST);
+    const auto pass = [&](const Framebuffer& target, const raster::Program& program) {
+      gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
+      program.use();
+      gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    };
+    pass(moment_target_, *convert_);
+    gl->ProgramUniform1i(blur_->id(), shaders::blur_radius_uniform, options_.map.filter.blur_radius_texels);
+    moments_.bind(shaders::moments_unit);
+    gl->ProgramUniform2i(blur_->id(), shaders::step_uniform, 1, 0);
+    pass(row_target_, *blur_);
+    rows_.bind(shaders::moments_unit);
+    gl->ProgramUniform2i(blur_->id(), shaders::step_uniform, 0, 1);
+    pass(moment_target_, *blur_);
+    gl->GenerateTextureMipmap(moments_.id());
+  }
+
+  const World& world_;
+  raster::RasterOptions options_;
+  std::unique_ptr<raster::Context> context_;
+  std::unique_ptr<raster::Gl> gl_;
+  raster::SceneFeatures features_;
+  std::unique_ptr<raster::ProgramCache> programs_;
+  std::unique_ptr<raster::WorldBuffers> buffers_;
+  std::unique_ptr<raster::ShadingPass> shading_;
+  View view_;
+  LightView light_view_;
+  Mat4 map_clip_{1.0}, camera_clip_{1.0};
+  raster::Buffer light_block_;
+  GLuint camera_block_ = 0;
+  Texture2D depth_, moments_, rows_, visible_, camera_depth_, color_;
+  Framebuffer map_target_, moment_target_, row_target_, visibility_target_, color_target_;
+  const raster::TriangleProgram *map_program_ = nullptr, *map_masked_ = nullptr, *camera_program_ = nullptr,
+                                *camera_masked_ = nullptr;
+  const raster::Program *convert_ = nullptr, *blur_ = nullptr, *shade_program_ = nullptr;
+};
+
+struct Least {
+  double ours = 1e300, minimal = 1e300;  ///< ms
+};
+
+Least race(const World& world, raster::Technique technique, int runs) {
+  raster::RasterOptions options;
+  options.size = {640, 360};
+  options.map.technique = technique;
+  options.map = raster::effective_options(options.map);
+  options.analysis = false;
+  options.runs = 3;
+  auto renderer = must(raster::Renderer::create(must(raster::create_context(raster::Backend::automatic)),
+                                                world, plan_effects(*world.scene)));
+  MinimalProgram minimal(world, options);
+  minimal.frame();
+  Least least;
+  const std::uint32_t light = 0;
+  for (int turn = 0; turn < runs; ++turn) {
+    const raster::RasterFrame frame = must(renderer->render(options, {&light, 1}));
+    const raster::LightRecord& record = frame.lights[0];
+    least.ours = std::min(least.ours,
+                          std::ranges::min(record.map_pass.runs) + std::ranges::min(record.shade_pass.runs));
+    for (int i = 0; i < options.runs; ++i) {
+      const Stopwatch watch;
+      minimal.frame();
+      least.minimal = std::min(least.minimal, watch.elapsed_ms());
+    }
+  }
+  return least;
+}
+
+int run(const std::string& name, int runs) {
+  Scene scene = must(load_scene(name));
+  scene.lights.resize(std::min<std::size_t>(scene.lights.size(), 1));
+  const World world = make_world(scene);
+  if (!world.shapes.empty() || scene.lights.empty() || scene.lights[0].type != LightType::directional) {
+    fmt::print(stderr, "{}: needs a directional light and no analytic shapes\n", name);
+    return 1;
+  }
+  const std::pair<const char*, raster::Technique> techniques[] = {
+      {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf}, {"pcss", raster::Technique::pcss},
+      {"vsm", raster::Technique::vsm},   {"esm", raster::Technique::esm}, {"evsm", raster::Technique::evsm},
+      {"msm", raster::Technique::msm}};
+  fmt::print("{:8} {:>10} {:>12} {:>7}\n", "", "Gnomon ms", "minimal ms", "ratio");
+  for (const auto& [label, technique] : techniques) {
+    const Least least = race(world, technique, runs);
+    fmt::print("{:8} {:10.2f} {:12.2f} {:7.3f}\n", label, least.ours, least.minimal,
+               least.ours / least.minimal);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace gnomon::bench
+
+int main(int argc, char** argv) {
+  return gnomon::bench::run(argc > 1 ? argv[1] : "courtyard",
+                            argc > 2 ? std::max(1, std::atoi(argv[2])) : 10);
+}
