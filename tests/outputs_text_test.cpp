@@ -126,7 +126,8 @@ TEST(Csv, HasOneRowPerLightAndQuotesNames) {
   made->scene.name = "a \"b\", c";
   const std::string csv = result_csv(made->comparison);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-  EXPECT_NE(csv.find("\r\n\"a \"\"b\"\", c\",sun,directional,320,180,hard,64,d32f,0.052,"), std::string::npos)
+  EXPECT_NE(csv.find("\r\n\"a \"\"b\"\", c\",sun,directional,320,180,hard,none,64,d32f,0.052,"),
+            std::string::npos)
       << csv;
   const std::string header = csv.substr(0, csv.find('\r'));
   EXPECT_EQ(header.rfind("scene,light,light_type,", 0), 0u);

@@ -1,12 +1,13 @@
 // technique_bench: each filtering technique's frame through raster::Renderer against a minimal OpenGL program
 // that issues the same draw calls and nothing else (no checks, no records, no costs counted). The two take
-// turns, and the least of many runs counts, so that other programs on the machine disturb both alike.
-//   technique_bench [SCENE [RUNS]]     a built-in scene without analytic shapes, one directional light
+// turns; the medians of their CPU times are compared, which other programs on the machine disturb little.
+//   technique_bench [SCENE [TURNS]]     a built-in scene without analytic shapes, one directional light
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "raster/light_block.h"
 #include "raster/moment_pass.h"
@@ -14,7 +15,6 @@
 #include "raster/renderer.h"
 #include "raster/shading_pass.h"
 #include "scene/load.h"
-#include "scene/timing.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::bench {
@@ -214,38 +214,61 @@ class MinimalProgram {
   const raster::Program *convert_ = nullptr, *blur_ = nullptr, *shade_program_ = nullptr;
 };
 
-struct Least {
-  double ours = 1e300, minimal = 1e300;  ///< ms
+/// Milliseconds of the process's own CPU time, all threads: other programs' share of the machine is not in
+/// it.
+double cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <class Act>
+double cpu_of(const Act& act) {
+  const double start = cpu_ms();
+  act();
+  return cpu_ms() - start;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Frames {
+  double ours = 0.0, minimal = 0.0;  ///< ms of CPU time each
 };
 
-Least race(const World& world, raster::Technique technique, int runs) {
+Frames race(const World& world, raster::Technique technique, int turns) {
+  constexpr int frames = 6;
   raster::RasterOptions options;
   options.size = {640, 360};
   options.map.technique = technique;
   options.map = raster::effective_options(options.map);
   options.analysis = false;
-  options.runs = 3;
   auto renderer = must(raster::Renderer::create(must(raster::create_context(raster::Backend::automatic)),
                                                 world, plan_effects(*world.scene)));
   MinimalProgram minimal(world, options);
   minimal.frame();
-  Least least;
   const std::uint32_t light = 0;
-  for (int turn = 0; turn < runs; ++turn) {
-    const raster::RasterFrame frame = must(renderer->render(options, {&light, 1}));
-    const raster::LightRecord& record = frame.lights[0];
-    least.ours = std::min(least.ours,
-                          std::ranges::min(record.map_pass.runs) + std::ranges::min(record.shade_pass.runs));
-    for (int i = 0; i < options.runs; ++i) {
-      const Stopwatch watch;
-      minimal.frame();
-      least.minimal = std::min(least.minimal, watch.elapsed_ms());
-    }
+  const auto render = [&](int runs) {
+    options.runs = runs;
+    must(renderer->render(options, {&light, 1}));
+  };
+  render(1);
+  std::vector<double> ours, theirs;
+  for (int turn = 0; turn < turns; ++turn) {
+    // What more timed runs cost: set-up, warm-up and reading back fall out of the difference.
+    const double one = cpu_of([&] { render(1); });
+    ours.push_back((cpu_of([&] { render(1 + frames); }) - one) / frames);
+    theirs.push_back(cpu_of([&] {
+                       for (int i = 0; i < frames; ++i) minimal.frame();
+                     }) /
+                     frames);
   }
-  return least;
+  return {median(ours), median(theirs)};
 }
 
-int run(const std::string& name, int runs) {
+int run(const std::string& name, int turns) {
   Scene scene = must(load_scene(name));
   scene.lights.resize(std::min<std::size_t>(scene.lights.size(), 1));
   const World world = make_world(scene);
