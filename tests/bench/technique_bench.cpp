@@ -283,8 +283,7 @@ int run(const std::string& name, int turns) {
   fmt::print("{:8} {:>10} {:>12} {:>7}\n", "", "Gnomon ms", "minimal ms", "ratio");
   for (const auto& [label, technique] : techniques) {
     const Frames ms = race(world, technique, turns);
-    fmt::print("{:8} {:10.2f} {:12.2f} {:7.3f}
-", label, ms.ours, ms.minimal, ms.ours / ms.minimal);
+    fmt::print("{:8} {:10.2f} {:12.2f} {:7.3f}\n", label, ms.ours, ms.minimal, ms.ours / ms.minimal);
     std::fflush(stdout);
   }
   return 0;
