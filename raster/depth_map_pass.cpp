@@ -114,8 +114,8 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
     const auto bounds = shape_bounds(projection, shape);
     if (!bounds) continue;
     const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
-    const auto program = programs_->impostor({.camera = false,
-                                              .sphere = std::holds_alternative<Sphere>(shape.geometry),
+    const auto program = programs_->impostor(world, i,
+                                             {.camera = false,
                                               .perspective = perspective,
                                               .primitive_ids = with_ids,
                                               .alpha_mask = masked && programs_->features().alpha_mask});
@@ -123,6 +123,8 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
     (*program)->use();
     (*program)->set_shape(static_cast<int>(i), *bounds,
                           shape_in_frame(projection.origin, projection.frame, shape));
+    if (is_solid(shape.geometry))
+      (*program)->set_solid(solid_from_frame(projection.origin, projection.frame, shape.geometry));
     (*program)->set_face(face, cull);
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

@@ -22,6 +22,11 @@ class Defines {
   std::vector<std::string_view> names_;
 };
 
+/// The define that holds the text of a range of implicit functions; empty for none.
+std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count) {
+  return count == 0 ? std::string() : "IMPLICIT_FUNCTIONS " + functions_glsl(table, first, count);
+}
+
 template <class Typed>
 Expected<Typed> typed(Expected<Program> program) {
   if (!program) return fail(program.error());
@@ -40,6 +45,11 @@ SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
   features.emission = plan.simulates(Effect::emission);
   features.smooth_normals = std::any_of(world.normals.begin(), world.normals.end(),
                                         [](const Vec3f& n) { return n != Vec3f(0.0f); });
+  for (const Shape& shape : world.shapes) {
+    features.quadrics = features.quadrics || std::holds_alternative<Quadric>(shape.geometry);
+    features.tori = features.tori || std::holds_alternative<Torus>(shape.geometry);
+  }
+  features.functions = function_table(world);
   return features;
 }
 
@@ -65,9 +75,22 @@ void TriangleProgram::set_first_primitive(std::uint32_t primitive) const {
   if (reads_primitive_) gl()->ProgramUniform1ui(id(), shaders::first_primitive_uniform, primitive);
 }
 
-Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation& p) {
+ImpostorKind impostor_kind(const Shape& shape) {
+  static_assert(std::variant_size_v<ShapeGeometry> == 5, "the order of ImpostorKind is that of the geometry");
+  return static_cast<ImpostorKind>(shape.geometry.index());
+}
+
+Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation& p,
+                                                const FunctionTable& functions) {
+  const bool implicit = p.kind == ImpostorKind::implicit;
+  const std::string text = functions_define(functions, p.function, implicit ? 1 : 0);
   const auto defines = Defines()
-                           .add(p.sphere, "SPHERE")
+                           .add(p.kind == ImpostorKind::sphere, "SPHERE")
+                           .add(p.kind >= ImpostorKind::quadric, "SOLID")
+                           .add(p.kind == ImpostorKind::quadric, "QUADRIC")
+                           .add(p.kind == ImpostorKind::torus, "TORUS")
+                           .add(implicit, "IMPLICIT")
+                           .add(implicit, text)
                            .add(p.perspective, "PERSPECTIVE")
                            .add(p.primitive_ids, "PRIMITIVE_IDS")
                            .add(p.alpha_mask, "ALPHA_MASK")
@@ -84,6 +107,12 @@ void ImpostorProgram::set_shape(int index, const ClipRectangle& rectangle, const
   gl()->ProgramUniform4fv(id(), shaders::shape_in_frame_uniform, 1, glm::value_ptr(rounded));
 }
 
+void ImpostorProgram::set_solid(const Mat4& solid_from_frame) const {
+  const Mat4f rounded(solid_from_frame);
+  gl()->ProgramUniformMatrix4fv(id(), shaders::solid_from_frame_uniform, 1, GL_FALSE,
+                                glm::value_ptr(rounded));
+}
+
 void ImpostorProgram::set_face(int face, Cull cull) const {
   gl()->ProgramUniform1i(id(), shaders::face_uniform, face);
   const int code = cull == Cull::none ? shaders::cull_none
@@ -93,6 +122,8 @@ void ImpostorProgram::set_face(int face, Cull cull) const {
 
 Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, const SceneFeatures& features) {
   const bool lit = !p.no_light;
+  const std::size_t functions = features.functions.functions.size();
+  const std::string text = functions_define(features.functions, 0, functions);
   const std::string technique = "TECHNIQUE " + p.technique.name;
   auto defines = Defines()
                      .add(lit, technique)
@@ -110,7 +141,12 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                      .add(features.alpha_mask, "ALPHA_MASK")
                      .add(features.specular, "SPECULAR")
                      .add(features.emission, "EMISSION")
-                     .add(features.smooth_normals, "SMOOTH_NORMALS");
+                     .add(features.smooth_normals, "SMOOTH_NORMALS")
+                     .add(features.quadrics || features.tori || functions > 0, "SOLIDS")
+                     .add(features.quadrics, "QUADRIC")
+                     .add(features.tori, "TORUS")
+                     .add(functions > 0, "IMPLICIT")
+                     .add(functions > 0, text);
   for (const std::string& define : p.technique.defines) defines.add(true, define);
   return Program::link(gl, "fullscreen.vert", "shade.frag", defines);
 }
@@ -133,9 +169,12 @@ Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, boo
   return find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
 }
 
-Expected<const ImpostorProgram*> ProgramCache::impostor(ImpostorProgram::Permutation key) {
+Expected<const ImpostorProgram*> ProgramCache::impostor(const World& world, std::size_t shape,
+                                                        ImpostorProgram::Permutation key) {
   key.textures = features_.textures;
-  return find_or_link(impostors_, key, [&] { return ImpostorProgram::link(*gl_, key); });
+  key.kind = impostor_kind(world.shapes[shape]);
+  key.function = features_.functions.of_shape[shape];
+  return find_or_link(impostors_, key, [&] { return ImpostorProgram::link(*gl_, key, features_.functions); });
 }
 
 Expected<const Program*> ProgramCache::fullscreen(const std::string& fragment,

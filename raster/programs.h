@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "raster/expression_glsl.h"
 #include "raster/gl_program.h"
 #include "raster/options.h"
 #include "raster/shape_bounds.h"
@@ -19,6 +20,8 @@ namespace gnomon::raster {
 /// The effects that change shader text.
 struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
+  bool quadrics = false, tori = false;
+  FunctionTable functions;  ///< of the implicit surfaces
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 
@@ -40,21 +43,29 @@ class TriangleProgram : public Program {
   bool reads_primitive_ = false;
 };
 
-/// One sphere or plane, ray-cast inside its bounding rectangle.
+/// What an impostor program draws.
+enum class ImpostorKind : std::uint8_t { sphere, plane, quadric, torus, implicit };
+ImpostorKind impostor_kind(const Shape& shape);
+
+/// One shape, ray-cast inside its bounding rectangle.
 class ImpostorProgram : public Program {
  public:
   struct Permutation {
     bool camera = false;  ///< else a light's map
-    bool sphere = false;  ///< else a plane
+    ImpostorKind kind = ImpostorKind::plane;
+    std::uint32_t function = 0;  ///< of an implicit surface
     bool perspective = false;
     bool primitive_ids = false;  ///< always in the camera's pass
     bool alpha_mask = false;
     bool textures = false;
     auto operator<=>(const Permutation&) const = default;
   };
-  static Expected<ImpostorProgram> link(const Gl& gl, const Permutation& permutation);
+  static Expected<ImpostorProgram> link(const Gl& gl, const Permutation& permutation,
+                                        const FunctionTable& functions);
   /// `in_frame`: see shape_in_frame().
   void set_shape(int index, const ClipRectangle& rectangle, const Vec4& in_frame) const;
+  /// Of a solid; see solid_from_frame().
+  void set_solid(const Mat4& solid_from_frame) const;
   /// Of a map.
   void set_face(int face, Cull cull) const;
 };
@@ -78,8 +89,9 @@ class ProgramCache {
   ProgramCache(const Gl& gl, const SceneFeatures& features) : gl_(&gl), features_(features) {}
   const SceneFeatures& features() const { return features_; }
   Expected<const TriangleProgram*> triangles(bool primitive_ids, bool alpha_mask);
-  /// `permutation.textures` is filled in here.
-  Expected<const ImpostorProgram*> impostor(ImpostorProgram::Permutation permutation);
+  /// For the world's i-th shape; `permutation.textures`, `kind` and `function` are filled in here.
+  Expected<const ImpostorProgram*> impostor(const World& world, std::size_t shape,
+                                            ImpostorProgram::Permutation permutation);
   Expected<const Program*> shade(const ShadePermutation& permutation);
   /// A fragment shader over the whole viewport.
   Expected<const Program*> fullscreen(const std::string& fragment, const std::vector<std::string>& defines);

@@ -124,14 +124,16 @@ Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View&
     const auto bounds = shape_bounds(projection, shape);
     if (!bounds) continue;
     const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
-    const auto program = programs_->impostor({.camera = true,
-                                              .sphere = std::holds_alternative<Sphere>(shape.geometry),
+    const auto program = programs_->impostor(world, i,
+                                             {.camera = true,
                                               .perspective = true,
                                               .primitive_ids = true,
                                               .alpha_mask = masked && programs_->features().alpha_mask});
     if (!program) return fail(program.error());
     (*program)->use();
     (*program)->set_shape(static_cast<int>(i), *bounds, shape_in_frame(view.eye, world_axes, shape));
+    if (is_solid(shape.geometry))
+      (*program)->set_solid(solid_from_frame(view.eye, world_axes, shape.geometry));
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   return {};

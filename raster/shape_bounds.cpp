@@ -77,6 +77,34 @@ std::optional<ClipRectangle> sphere_bounds(const Projection& projection, const S
   return out;
 }
 
+// Of the solid's box. A box that reaches behind a perspective origin may fall anywhere.
+std::optional<ClipRectangle> solid_bounds(const Projection& projection, const ShapeGeometry& solid) {
+  const Aabb box = local_box(solid);
+  const LightFace& frame = projection.frame;
+  ClipRectangle out{Vec2(infinity), Vec2(-infinity)};
+  int behind = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 local((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
+                     (corner & 4) != 0 ? box.max.z : box.min.z);
+    const Vec3 d = to_world(frame_of(solid), local) - projection.origin;
+    const Vec3 c(glm::dot(d, frame.right), glm::dot(d, frame.up), glm::dot(d, frame.forward));
+    const double w = projection.perspective ? c.z : 1.0 + frame.warp * c.y;
+    if (!(w > 0.0)) {
+      ++behind;
+      continue;
+    }
+    const double lift = frame.warp * projection.half_extent.y * projection.half_extent.y;
+    const Vec2 shown = Vec2(c.x, c.y + lift) / (w * projection.half_extent);
+    out.min = glm::min(out.min, shown), out.max = glm::max(out.max, shown);
+  }
+  if (behind == 8) return std::nullopt;
+  if (behind > 0) return ClipRectangle{};
+  out.min = glm::max(out.min - projection.pixel, Vec2(-1.0));
+  out.max = glm::min(out.max + projection.pixel, Vec2(1.0));
+  if (!(out.min.x < out.max.x && out.min.y < out.max.y)) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 Projection face_projection(const LightView& view, int face) {
@@ -87,6 +115,7 @@ Projection face_projection(const LightView& view, int face) {
 
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere_bounds(projection, *sphere);
+  if (is_solid(shape.geometry)) return solid_bounds(projection, shape.geometry);
   return plane_bounds(projection, std::get<Plane>(shape.geometry));
 }
 
@@ -96,8 +125,17 @@ Vec4 shape_in_frame(const Vec3& origin, const LightFace& frame, const Shape& sha
   };
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
     return Vec4(along_axes(sphere->center - origin), sphere->radius);
+  if (is_solid(shape.geometry)) return Vec4(0.0);
   const auto& plane = std::get<Plane>(shape.geometry);
   return Vec4(along_axes(plane.normal), glm::dot(plane.normal, plane.point - origin));
+}
+
+Mat4 solid_from_frame(const Vec3& origin, const LightFace& frame, const ShapeGeometry& solid) {
+  const Mat3 local_from_world = glm::transpose(frame_of(solid).axes);
+  const Mat3 local_from_axes = local_from_world * Mat3(frame.right, frame.up, frame.forward);
+  Mat4 out(local_from_axes);
+  out[3] = Vec4(to_local(frame_of(solid), origin), 1.0);
+  return out;
 }
 
 }  // namespace gnomon::raster

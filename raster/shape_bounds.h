@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/light_view.h"
+#include "scene/solid.h"
 
 namespace gnomon::raster {
 
@@ -30,7 +31,11 @@ Projection face_projection(const LightView& view, int face);
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape);
 
 /// The shape as seen from the projection's origin along its axes, worked out in double precision: a sphere's
-/// centre and radius, or a plane's unit normal n and the offset d of n . p = d.
+/// centre and radius, or a plane's unit normal n and the offset d of n . p = d. Of a
+/// solid nothing: see below.
 Vec4 shape_in_frame(const Vec3& origin, const LightFace& frame, const Shape& shape);
+
+/// Takes a place in that frame to the solid's own; requires a solid.
+Mat4 solid_from_frame(const Vec3& origin, const LightFace& frame, const ShapeGeometry& solid);
 
 }  // namespace gnomon::raster

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "raster/expression_glsl.h"
 #include "scene/solid.h"
 #include "shaders/shared_constants.h"
 
@@ -25,13 +26,40 @@ MaterialData material_data(const Material& m) {
   return out;
 }
 
-ShapeData shape_data(const Shape& shape, std::uint32_t primitive, const Vec3& reference) {
+void fill_solid(const ShapeGeometry& solid, const Vec3& reference, ShapeData& out) {
+  const ShapeFrame& frame = frame_of(solid);
+  const Aabb box = local_box(solid);
+  const auto* quadric = std::get_if<Quadric>(&solid);
+  const bool uncut = quadric != nullptr && quadric->kind == QuadricKind::ellipsoid;
+  out.center_and_radius = Vec4f(Vec4(frame.origin - reference, 0.0));
+  out.tangent = Vec4f(Vec4(frame.axes[0], 0.0));
+  out.bitangent = Vec4f(Vec4(frame.axes[1], 0.0));
+  out.normal = Vec4f(Vec4(frame.axes[2], 0.0));
+  out.box_min = Vec4f(Vec4(box.min, quadric != nullptr ? quadric->one : 0.0));
+  out.box_max = Vec4f(Vec4(box.max, uncut ? 2.0 : is_closed(solid) ? 1.0 : 0.0));
+  out.kind = shaders::shape_implicit;
+  if (quadric != nullptr) {
+    out.kind = shaders::shape_quadric;
+    out.coefficients = Vec4f(Vec4(quadric->xx, quadric->yy, quadric->zz, quadric->z));
+  } else if (const auto* torus = std::get_if<Torus>(&solid)) {
+    out.kind = shaders::shape_torus;
+    out.coefficients = Vec4f(Vec4(torus->major, torus->minor, 0.0, 0.0));
+  }
+}
+
+ShapeData shape_data(const Shape& shape, std::uint32_t primitive, std::uint32_t function,
+                     const Vec3& reference) {
   ShapeData out{};
+  out.function = function;
   out.material = shape.material;
   out.primitive = primitive;
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
     out.kind = shaders::shape_sphere;
     out.center_and_radius = Vec4f(Vec4(sphere->center - reference, sphere->radius));
+    return out;
+  }
+  if (is_solid(shape.geometry)) {
+    fill_solid(shape.geometry, reference, out);
     return out;
   }
   const auto& plane = std::get<Plane>(shape.geometry);
@@ -86,10 +114,6 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       materials_(gl) {}
 
 Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
-  for (const Shape& shape : world.shapes)
-    if (is_solid(shape.geometry))
-      return fail(ErrorKind::graphics,
-                  fmt::format("the rasterizer cannot draw shape '{}' yet; raytrace can", shape.name));
   const std::uint64_t largest =
       std::max<std::uint64_t>(16 * std::uint64_t{world.triangle_count()}, 12 * world.positions.size());
   GLint64 limit = 0;
@@ -155,9 +179,10 @@ void WorldBuffers::set_reference(const Vec3& reference) {
     planes.push_back(triangle_plane(*world_, i, reference));
   planes_.write(std::span<const Vec4f>(planes));
   std::vector<ShapeData> shapes;
+  const FunctionTable table = function_table(*world_);
   for (std::size_t i = 0; i < world_->shapes.size(); ++i)
-    shapes.push_back(
-        shape_data(world_->shapes[i], world_->triangle_count() + static_cast<std::uint32_t>(i), reference));
+    shapes.push_back(shape_data(world_->shapes[i], world_->triangle_count() + static_cast<std::uint32_t>(i),
+                                table.of_shape[i], reference));
   shapes_.write(std::span<const ShapeData>(shapes));
 }
 

@@ -22,8 +22,8 @@ struct CameraBlock {
 };
 
 struct ShapeData {
-  Vec4f center_and_radius, normal, tangent, bitangent;
-  std::uint32_t kind, material, primitive, unused;
+  Vec4f center_and_radius, normal, tangent, bitangent, coefficients, box_min, box_max;
+  std::uint32_t kind, material, primitive, function;
 };
 
 struct MaterialData {

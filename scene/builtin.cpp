@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 11> scenes{{
+constexpr std::array<BuiltinScene, 12> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
@@ -20,6 +20,9 @@ constexpr std::array<BuiltinScene, 11> scenes{{
     {"thin-wall", "A wall thinner than the bias that cures acne: its shadow starts too far away."},
     {"sphere-plane",
      "One exact sphere over an exact plane under a point light: the truth has a closed form."},
+    {"shapes",
+     "Quadrics, a torus and implicit surfaces, all exact: what is wrong in a shadow is the shadow map's "
+     "alone."},
     {"penumbra", "A disc light over a disc over a floor: umbra and penumbra have closed forms."},
     {"whitted", "Glass and mirror spheres over a checkered floor, after Whitted's picture of 1980."},
     {"teapot", "Newell's teapot on a table."},

@@ -1,4 +1,4 @@
-// Sphere or plane (permutation SPHERE) in the camera's pass: casts the pixel's ray and writes its true depth.
+// Sphere, plane or solid (permutations SPHERE, SOLID) in the camera's pass: casts the pixel's ray and writes its true depth.
 #include "shared_constants.h"
 
 layout(location = shape_uniform) uniform int shape_index;
@@ -7,6 +7,10 @@ layout(location = shape_in_frame_uniform) uniform vec4 shape_in_frame;  // relat
 #include "camera.glsl"
 #include "world.glsl"
 #include "sphere.glsl"
+#ifdef SOLID
+layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // local from relative to the eye
+#include "solid.glsl"
+#endif
 #ifdef ALPHA_MASK
 #include "material.glsl"
 #endif
@@ -24,7 +28,17 @@ bool usable(vec3 direction, float t) {
 
 void main() {
   vec3 direction = pixel_direction(gl_FragCoord.xy);
-#ifdef SPHERE
+#ifdef SOLID
+  ShapeData shape = shapes[shape_index];
+  vec3 local_direction = mat3(solid_from_frame) * direction;
+  float t, from = 0.0;
+  bool found = false;
+  for (int side = 0; side < most_sides && !found; ++side) {
+    if (!solid_next(shape, solid_from_frame[3].xyz, local_direction, from, t)) discard;
+    found = usable(direction, t);
+    from = solid_after(shape, local_direction, t);
+  }
+#elif defined(SPHERE)
   float t, t_far;
   if (!sphere_crossings(vec3(0.0), direction, shape_in_frame.xyz, shape_in_frame.w, t, t_far)) discard;
   if (!usable(direction, t)) t = t_far;

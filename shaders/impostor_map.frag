@@ -1,4 +1,4 @@
-// Sphere or plane (permutation SPHERE) in a light's depth map: casts the ray through the texel's centre and writes its true
+// Sphere, plane or solid (permutations SPHERE, SOLID) in a light's depth map: casts the ray through the texel's centre and writes its true
 // depth. Culling leaves out the shape's front or back side as seen by the light. A caster before the map's near depth
 // is stored at it, one beyond the far depth is not stored.
 #include "shared_constants.h"
@@ -11,6 +11,10 @@ layout(location = shape_in_frame_uniform) uniform vec4 shape_in_frame;  // centr
 #include "light_map.glsl"
 #include "world.glsl"
 #include "sphere.glsl"
+#ifdef SOLID
+layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // local from the face's frame
+#include "solid.glsl"
+#endif
 #ifdef ALPHA_MASK
 #include "material.glsl"
 #endif
@@ -53,7 +57,28 @@ bool usable(TexelRay ray, float t) {
 
 void main() {
   TexelRay ray = texel_ray();
-#ifdef SPHERE
+#ifdef SOLID
+  ShapeData shape = shapes[shape_index];
+  vec3 local_origin = (solid_from_frame * vec4(ray.origin, 1.0)).xyz, local_direction = mat3(solid_from_frame) * ray.direction;
+#ifdef PERSPECTIVE
+  float from = 0.0;
+#else
+  float from = -infinite_t;
+#endif
+  float t;
+  bool found = false;
+  for (int side = 0; side < most_sides && !found; ++side) {
+    if (!solid_next(shape, local_origin, local_direction, from, t)) discard;
+    found = usable(ray, t);
+    if (found && cull != cull_none) {
+      vec3 p = local_origin + t * local_direction;
+      bool faces_light = dot(solid_surface(shape, p), local_direction) < 0.0;
+      found = faces_light == (cull == cull_back);
+    }
+    from = solid_after(shape, local_direction, t);
+  }
+  if (!found) discard;
+#elif defined(SPHERE)
   float t_near, t_far;
   if (!sphere_crossings(ray.origin, ray.direction, shape_in_frame.xyz, shape_in_frame.w, t_near, t_far)) discard;
   bool near_counts = cull != cull_front && usable(ray, t_near);

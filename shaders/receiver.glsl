@@ -5,6 +5,9 @@
 #include "camera.glsl"
 #include "world.glsl"
 #include "sphere.glsl"
+#ifdef SOLIDS
+#include "solid.glsl"
+#endif
 #include "material.glsl"
 
 struct TriangleData {
@@ -92,11 +95,41 @@ Receiver triangle_receiver(uint id, vec3 direction) {
   return r;
 }
 
+#ifdef SOLIDS
+// Where the ray meets the solid, put back onto it.
+vec3 solid_receiver(ShapeData shape, vec3 direction, out vec3 normal) {
+  vec3 origin = to_solid(shape, camera.eye_and_near.xyz - shape.center_and_radius.xyz);
+  vec3 local_direction = to_solid(shape, direction);
+  float t = 0.0, from = 0.0;
+  for (int side = 0; side < most_sides; ++side) {
+    float next;
+    if (!solid_next(shape, origin, local_direction, from, next)) break;
+    t = next;
+#ifdef ALPHA_MASK
+    if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) {
+      from = solid_after(shape, local_direction, t);
+      continue;
+    }
+#endif
+    break;
+  }
+  vec3 p = origin + t * local_direction;
+  normal = solid_surface(shape, p);
+  normal = from_solid(shape, solid_surface(shape, p));
+  return shape.center_and_radius.xyz + from_solid(shape, p);
+}
+#endif
+
 Receiver shape_receiver(ShapeData shape, vec3 direction) {
   Receiver r;
   if (shape.kind == uint(shape_plane)) {
     r.position = meet_plane(direction, shape.normal.xyz, shape.normal.w, 0.0, infinite);
     r.normal = face_forward(shape.normal.xyz, direction);
+#ifdef SOLIDS
+  } else if (shape.kind >= uint(shape_quadric)) {
+    r.position = solid_receiver(shape, direction, r.normal);
+    r.normal = face_forward(r.normal, direction);
+#endif
   } else {
     vec3 center = shape.center_and_radius.xyz;
     float t_near, t_far;

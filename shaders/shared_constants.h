@@ -19,6 +19,7 @@ const int shape_uniform = 1;
 const int face_uniform = 2;
 const int cull_uniform = 3;
 const int shape_in_frame_uniform = 4;
+const int solid_from_frame_uniform = 5;
 const int viewport_uniform = 0;
 const int layer_uniform = 0;
 const int step_uniform = 1;
@@ -58,6 +59,9 @@ const int flag_face_shift = 1;
 // Shapes
 const int shape_sphere = 0;
 const int shape_plane = 1;
+const int shape_quadric = 2;
+const int shape_torus = 3;
+const int shape_implicit = 4;
 
 // Which sides of a shape a depth map keeps (raster::Cull)
 const int cull_none = 0;

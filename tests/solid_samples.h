@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "raytrace_support.h"
 #include "scene/solid.h"
 
 namespace gnomon::test {

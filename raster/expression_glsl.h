@@ -1,0 +1,24 @@
+// GLSL of the scene's implicit functions, generated from the same expressions that the ray tracer evaluates:
+// each with bounds and slope along a ray (shaders/bounds.glsl), and with its gradient. Private to raster.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/world.h"
+
+namespace gnomon::raster {
+
+/// The distinct functions of a world's implicit surfaces, and which one each shape has.
+struct FunctionTable {
+  std::vector<const Expression*> functions;
+  std::vector<std::uint32_t> of_shape;  ///< index in functions, 0 for other shapes
+};
+FunctionTable function_table(const World& world);
+
+/// `Slope function_slope(uint, Slope, Slope, Slope)` and `vec4 function_gradient(uint, vec4, vec4, vec4)` on
+/// one line, for the functions from `first` on, `count` of them.
+std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count);
+
+}  // namespace gnomon::raster
