@@ -4,6 +4,13 @@
 
 #include "app/filter_options.h"
 #include "app/option_kinds.h"
+#include <CLI/CLI.hpp>
+#include <span>
+#include <utility>
+
+#include "app/suggest.h"
+#include "app/values.h"
+#include "scene/tessellate.h"
 
 namespace gnomon::app {
 
@@ -70,6 +77,17 @@ void add_scene(CLI::App& command, std::string& scene) {
       .add_option("SCENE", scene,
                   "a scene file (.json .gltf .glb .obj .ply) or a built-in scene's name (gnomon scenes)")
       ->required();
+}
+
+void add_tessellate(CLI::App& command, int& tessellate) {
+  const std::string range = fmt::format("sectors, {} to {}", min_tessellation, max_tessellation);
+  add_value(command, "--tessellate", "N",
+            describe("make triangles of the exact shapes, to see what that changes: N sectors around, N/2 "
+                     "rings, N^3 cells of an implicit surface",
+                     range, "off: shapes are exact"),
+            [&tessellate](const std::string& value) {
+              return assign(tessellate, parse_integer(value, min_tessellation, max_tessellation));
+            });
 }
 
 void add_size(CLI::App& command, ImageSize& size) {

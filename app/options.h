@@ -22,6 +22,8 @@ namespace gnomon::app {
 
 void add_scene(CLI::App& command, std::string& scene);
 void add_size(CLI::App& command, ImageSize& size);
+/// --tessellate; 0: off.
+void add_tessellate(CLI::App& command, int& tessellate);
 /// --map-size, --technique, the biases, --depth-format, --cull.
 void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.

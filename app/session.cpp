@@ -9,15 +9,17 @@
 
 #include "app/suggest.h"
 #include "scene/load.h"
+#include "scene/tessellate.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
 
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console) {
+Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate) {
   const Stopwatch watch;
   console.progress("loading", 0.0);
   Expected<Scene> scene = load_scene(path_or_name);
   if (!scene) return fail(scene.error());
+  if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
   LoadedScene loaded;
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
   loaded.world = std::make_unique<World>(make_world(*loaded.scene));

@@ -22,8 +22,8 @@ struct LoadedScene {
   double load_ms = 0.0;
 };
 
-/// Prints the loader's notes.
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console);
+/// Prints the loader's notes. `tessellate`: shapes become triangles (scene/tessellate.h); 0: they stay exact.
+Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate = 0);
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);

@@ -10,6 +10,7 @@
 #include "compare/biased_test.h"
 #include "compare/columns.h"
 #include "compare/labelling.h"
+#include "raytrace/shape_sheets.h"
 #include "scene/solid.h"
 
 namespace gnomon::compare {
@@ -69,6 +70,18 @@ bool on_inner_side(const LadderInput& in, const SurfacePoint& receiver) {
   return sphere != nullptr && glm::dot(receiver.normal, receiver.position - sphere->center) < 0.0;
 }
 
+// Of a solid that is not convex, one primitive may hold several sheets.
+bool on_one_piece(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre) {
+  if (in.world.is_triangle(receiver.primitive) || centre.hit->primitive != receiver.primitive) return true;
+  const ShapeGeometry& geometry = in.world.shape(receiver.primitive).geometry;
+  if (!is_solid(geometry)) return true;
+  const LightView& view = in.record.map.view;
+  const bool orthographic = view.projection == LightProjection::orthographic;
+  const Vec3 own = orthographic ? centre.ray.direction : glm::normalize(receiver.position - view.origin);
+  return raytrace::hang_together(geometry, receiver.position, centre.ray.at(centre.hit->t), own,
+                                 centre.ray.direction);
+}
+
 // V2: the ray through the texel's centre is lit on x's own sheet, or where it reaches the receiver's tangent
 // plane unhindered.
 float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint& receiver,
@@ -80,7 +93,9 @@ float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint
     const bool ahead = in.record.map.view.projection == LightProjection::orthographic || t > 0.0;
     if (ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver)) return 1.0f;
   }
-  return lit(!on_inner_side(in, receiver) && column.same_sheet(receiver.primitive, centre.hit->primitive));
+  if (on_inner_side(in, receiver) || !column.same_sheet(receiver.primitive, centre.hit->primitive))
+    return 0.0f;
+  return lit(on_one_piece(in, receiver, centre));
 }
 
 // V3: the same first hit against x's own depth.

@@ -22,14 +22,36 @@ struct AlongRay {
     const Vec3 p = origin + s * direction;
     return solid_value(*solid, Number(p.x, direction.x), Number(p.y, direction.y), Number(p.z, direction.z));
   }
+  Slope coordinate(int a, const Bounds& s) const {
+    const Bounds start(origin[a] - origin_error[a], origin[a] + origin_error[a]);
+    return {start + s * Bounds(direction[a]), Bounds(direction[a])};
+  }
   Slope bounds(const Bounds& s) const {
-    const auto at = [&](int a) {
-      const Bounds start(origin[a] - origin_error[a], origin[a] + origin_error[a]);
-      return Slope(start + s * Bounds(direction[a]), Bounds(direction[a]));
-    };
-    return solid_value(*solid, at(0), at(1), at(2));
+    return solid_value(*solid, coordinate(0, s), coordinate(1, s), coordinate(2, s));
   }
 };
+
+/// The axes, from this one on, across which a solid is cut by its box; 3: not cut.
+inline int first_cut_axis(const ShapeGeometry& solid) {
+  if (std::holds_alternative<Torus>(solid)) return 3;
+  const auto* quadric = std::get_if<Quadric>(&solid);
+  if (quadric == nullptr) return 0;
+  return quadric->kind == QuadricKind::ellipsoid ? 3 : 2;
+}
+
+/// A closed solid as one function, less than 0 in the body: the greatest of f and the distances over its
+/// cuts. Of an open one f alone.
+inline Slope body_slope(const ShapeGeometry& solid, const Slope& x, const Slope& y, const Slope& z) {
+  Slope h = solid_value(solid, x, y, z);
+  if (!is_closed(solid)) return h;
+  const std::array<const Slope*, 3> at{&x, &y, &z};
+  const Aabb box = local_box(solid);
+  for (int a = first_cut_axis(solid); a < 3; ++a) {
+    const Slope& p = *at[static_cast<std::size_t>(a)];
+    h = maximum(h, maximum(p - Slope(box.max[a]), Slope(box.min[a]) - p));
+  }
+  return h;
+}
 
 /// The root between lo and hi, where f has the values of different sign (or 0 at hi), to the last place that
 /// f resolves. Newton's step where it stays inside, else halving; bounded by 200 steps.

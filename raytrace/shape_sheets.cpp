@@ -1,5 +1,10 @@
 #include "raytrace/shape_sheets.h"
 
+#include <optional>
+
+#include "raytrace/along_ray.h"
+#include "raytrace/solid.h"
+
 namespace gnomon::raytrace {
 namespace {
 
@@ -87,8 +92,55 @@ void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, c
   }
 }
 
+namespace {
+
+/// Depths, along forward, between which the rays through the corners of a widened column meet a convex solid.
+struct ConvexRange {
+  double last_entry = -infinity, first_exit = infinity;
+};
+
+// None unless each of these rays surely crosses the solid ahead of the light. Its shadow is convex, so every
+// ray of the column crosses it then; and since the hull of the four entries lies in the solid, no ray enters
+// it behind that hull, nor leaves it before the hull of the exits. The widening is far beyond the rounding of
+// the crossings themselves.
+std::optional<ConvexRange> convex_range(const ShapeGeometry& solid, const Column& column, double slack,
+                                        double nearest_depth) {
+  constexpr double steepest = 1e-4;  // cosine: below, rounding moves a crossing too far
+  const double size = local_box(solid).diagonal();
+  const double widening = 8.0 * slack + 1e-9 * size;
+  if (column.perspective() && !(nearest_depth > widening)) return std::nullopt;
+  const double wider = column.perspective() ? widening / nearest_depth : widening;
+  const Vec2 middle = 0.5 * (column.min() + column.max());
+  const LightFace& face = column.face();
+  ConvexRange range;
+  for (const Vec3& corner : column.corners()) {
+    const Vec2 c = Vec2(corner) + wider * glm::sign(Vec2(corner) - middle);
+    const Vec3 sideways = c.x * face.right + c.y * face.up;
+    const Ray ray = column.perspective() ? Ray{column.origin(), face.forward + sideways}
+                                         : Ray{column.origin() + sideways, face.forward};
+    const auto frame = make_ray_frame(ray);
+    if (!frame) return std::nullopt;
+    const std::vector<double> at = solid_crossings(*frame, solid);
+    if (at.size() != 2) return std::nullopt;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double depth = at[side] / frame->kernel_t_from_t;
+      const double steep =
+          std::abs(glm::dot(solid_normal(solid, ray.at(depth)), glm::normalize(ray.direction)));
+      if (!(steep > steepest) || (column.perspective() && !(depth > widening))) return std::nullopt;
+      const double error = widening / steep;
+      if (side == 0)
+        range.last_entry = std::max(range.last_entry, depth + error);
+      else
+        range.first_exit = std::min(range.first_exit, depth - error);
+    }
+  }
+  return range;
+}
+
+}  // namespace
+
 // One sheet per side, within the distances of the solid's box.
-void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool, const Column& column,
+void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool masked, const Column& column,
                          std::vector<Sheet>& sheets) {
   const Aabb box = local_box(solid);
   const LightVertex center = column.vertex(solid_center(solid));
@@ -100,6 +152,54 @@ void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool, con
   const double nearest = column.perspective() ? std::max(0.0, least) : least;
   sheets.push_back(sheet(id, true, true, nearest, middle + reach + slack));
   sheets.push_back(sheet(id, false, true, nearest, middle + reach + slack));
+  if (masked || !is_convex(solid)) return;
+  const auto range = convex_range(solid, column, slack, center.q.z - radius - slack);
+  if (!range) return;
+  // A depth becomes a distance by the length of the ray's direction (x, y, 1).
+  double longest = 1.0, shortest = 1.0;
+  if (column.perspective()) {
+    for (const Vec3& corner : column.corners()) longest = std::max(longest, glm::length(corner));
+    shortest = glm::length(Vec3(glm::clamp(Vec2(0.0), column.min(), column.max()), 1.0));
+  }
+  Sheet& front = sheets[sheets.size() - 2];
+  Sheet& back = sheets.back();
+  const double in = range->last_entry * longest, out = range->first_exit * shortest;
+  front.has_boundary = back.has_boundary = false;
+  front.farthest = std::min(front.farthest, in + shape_gamma * std::abs(in));
+  back.nearest = std::max(back.nearest, out - shape_gamma * std::abs(out));
+}
+
+bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, const Vec3& direction_a,
+                   const Vec3& direction_b) {
+  if (is_convex(solid)) return true;
+  constexpr int pieces = 8;
+  const ShapeFrame& frame = frame_of(solid);
+  const Vec3 p = to_local(frame, a), step = to_local(frame, b) - p;
+  const Vec3 d = glm::transpose(frame.axes) * direction_a, e = glm::transpose(frame.axes) * direction_b;
+  const double length = glm::length(step), rounding = error_gamma(64) * local_box(solid).diagonal();
+  const auto bounds = [&](const Bounds& along, const Bounds& depth) {
+    const auto at = [&](int k) {
+      const Bounds direction(std::min(d[k], e[k]), std::max(d[k], e[k]));
+      return Slope(Bounds(p[k]) + along * Bounds(step[k]) + depth * direction, direction);
+    };
+    return body_slope(solid, at(0), at(1), at(2));
+  };
+  // Over every place between the two, from a depth before the chord to one behind it, the rays meet the
+  // surface once: then it is one piece.
+  const auto proven = [&](double reach) {
+    for (int i = 0; i < pieces; ++i) {
+      const Bounds along(i / double(pieces), (i + 1) / double(pieces));
+      const Bounds before = bounds(along, Bounds(-reach)).value, behind = bounds(along, Bounds(reach)).value;
+      const Slope whole = bounds(along, Bounds(-reach, reach));
+      const bool crosses =
+          (before.positive() && behind.negative()) || (before.negative() && behind.positive());
+      if (!(crosses && whole.value.sure && whole.change.without_zero())) return false;
+    }
+    return true;
+  };
+  for (const double share : {0.125, 0.5, 2.0})
+    if (proven(share * length + rounding)) return true;
+  return false;
 }
 
 void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const Column& column,

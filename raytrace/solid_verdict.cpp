@@ -13,14 +13,7 @@ enum class Place : std::uint8_t { inside, outside, unknown };
 class March {
  public:
   March(const AlongRay& f, const Aabb& box, bool closed, int own_sign)
-      : f_(f), box_(box), closed_(closed), own_sign_(own_sign) {
-    const auto* quadric = std::get_if<Quadric>(f.solid);
-    const bool ellipsoid = quadric != nullptr && quadric->kind == QuadricKind::ellipsoid;
-    if (std::holds_alternative<Torus>(*f.solid) || ellipsoid)
-      first_cut_ = 3;
-    else
-      first_cut_ = quadric != nullptr ? 2 : 0;
-  }
+      : f_(f), box_(box), closed_(closed), own_sign_(own_sign), first_cut_(first_cut_axis(*f.solid)) {}
 
   /// `at_start`: the ray starts at lo, on the solid itself.
   Meets run(double lo, double hi, bool at_start) {
@@ -82,23 +75,13 @@ class March {
   }
 
   Slope function(const Bounds& s) const {
-    Slope h = f_.bounds(s);
-    for (int a = first_cut_; closed_ && a < 3; ++a) {
-      const Slope p(along(a, s), Bounds(f_.direction[a]));
-      h = maximum(h, maximum(p - Slope(box_.max[a]), Slope(box_.min[a]) - p));
-    }
-    return h;
-  }
-
-  Bounds along(int a, const Bounds& s) const {
-    const double o = f_.origin[a], e = f_.origin_error[a];
-    return Bounds(o - e, o + e) + s * Bounds(f_.direction[a]);
+    return body_slope(*f_.solid, f_.coordinate(0, s), f_.coordinate(1, s), f_.coordinate(2, s));
   }
 
   Place place_of(const Bounds& s) const {
     Place place = Place::inside;
     for (int a = first_cut_; a < 3; ++a) {
-      const Bounds p = along(a, s);
+      const Bounds p = f_.coordinate(a, s).value;
       if (p.hi < box_.min[a] || p.lo > box_.max[a]) return Place::outside;
       if (!(p.lo > box_.min[a] && p.hi < box_.max[a])) place = Place::unknown;
     }
@@ -109,7 +92,7 @@ class March {
   const Aabb box_;
   const bool closed_;
   const int own_sign_;
-  int first_cut_;  // the axes from here on cut the solid
+  const int first_cut_;  // the axes from here on cut the solid
   bool above_ = false, below_ = false, doubt_ = false;
 };
 

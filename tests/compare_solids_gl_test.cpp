@@ -115,16 +115,20 @@ void expect_right(const Tally& tally, const std::string& what) {
 }
 
 TEST(SolidImpostors, AreWhereTheRaysMeetThem) {
-  raster::RasterOptions options = small_options(96);
+  raster::RasterOptions options = small_options(64);
   options.size = {96, 64};
-  for (const Shape& solid : solid_samples())
-    for (const Light& light : all_lights()) {
+  std::size_t next = 0;
+  for (const Shape& solid : solid_samples()) {
+    const bool marched = solid.geometry.index() > 2;  // tori and implicit surfaces meet every kind of light
+    for (std::size_t k = 0; k < (marched ? 3 : 1); ++k) {
+      const Light light = all_lights()[next++ % 3];
       const Drawn drawn = draw(with_floor(solid, light), options);
       ASSERT_NE(drawn.renderer, nullptr);
       const Tracer tracer(*drawn.world, Accel::bvh);
       expect_right(check_camera(drawn, tracer), solid.name + " seen, " + light.name);
       expect_right(check_map(drawn, tracer), solid.name + " lit, " + light.name);
     }
+  }
 }
 
 // Culling keeps the first surface that faces away from the light, or towards it.

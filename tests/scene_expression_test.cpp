@@ -108,6 +108,12 @@ TEST(Expression, DepthAndSizeAreCapped) {
 
 // ---- in a scene ----
 
+std::string complete_notes(const Scene& scene) {
+  std::string all;
+  for (const std::string& note : scene.notes) all += note;
+  return all;
+}
+
 std::string message_of(const std::string& shape) {
   const auto scene = load_json_scene(
       "{\"schema\": \"gnomon/scene/1\", \"materials\": [{\"name\": \"m\"}],\n\"shapes\": [{\"material\": "
@@ -128,6 +134,27 @@ TEST(SolidsInScenes, AreRead) {
         R"("torus": {"center": [0,0,0], "major_radius": 1, "minor_radius": 0.25})",
         R"("implicit": {"function": "x^2+y^2+z^2-1", "box": [[-1,-1,-1],[1,1,1]]})"})
     EXPECT_EQ(message_of(shape), "loaded") << shape;
+}
+
+TEST(SolidsInScenes, OpenGlassIsNoted) {
+  const auto notes_of = [](const std::string& geometry) {
+    const auto scene = load_json_scene(
+        R"({"schema": "gnomon/scene/1", "materials": [{"name": "m", "transmission": 1}],
+            "camera": {"eye": [0,0,5], "target": [0,0,0]}, "lights": [{"type": "directional", "direction": [0,-1,0]}], )" +
+            geometry + "}",
+        "s.json", ".", {});
+    EXPECT_TRUE(scene) << scene.error().message();
+    return scene ? complete_notes(*scene) : std::string();
+  };
+  const std::string tetrahedron =
+      R"("vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "triangles": [[0,2,1],[0,1,3],[1,2,3])";
+  const std::string instance = R"(}], "instances": [{"mesh": "t", "material": "m"}])";
+  EXPECT_EQ(notes_of(R"("meshes": [{"name": "t", )" + tetrahedron + ",[0,3,2]]" + instance), "");
+  EXPECT_EQ(notes_of(R"("meshes": [{"name": "t", )" + tetrahedron + "]" + instance),
+            "The glass mesh 't' is not closed (3 open edges): it has no inside to refract in.");
+  EXPECT_EQ(notes_of(R"("shapes": [{"name": "pipe", "material": "m",
+              "cylinder": {"base": [0,0,0], "radius": 1, "height": 1, "closed": false}}])"),
+            "The glass shape 'pipe' is open: it has no inside to refract in.");
 }
 
 TEST(SolidsInScenes, MistakesAreOneLine) {

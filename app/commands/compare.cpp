@@ -33,6 +33,7 @@ struct CompareCommand {
   std::optional<double> fail_above;
   std::uint64_t seed = 0;
   int threads = 0;
+  int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
   std::string command_line;
 };
@@ -128,7 +129,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   command.setting.options.raytrace.seed = command.seed;
 
   if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
-  const auto loaded = load(command.scene, console);
+  const auto loaded = load(command.scene, console, command.tessellate);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   const auto posed =
@@ -150,6 +151,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
 
 void add_options(CLI::App& app, CompareCommand& command) {
   add_scene(app, command.scene);
+  add_tessellate(app, command.tessellate);
   add_output(
       app, "-o,--output", command.folder, "DIR",
       "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");

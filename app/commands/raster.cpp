@@ -25,6 +25,7 @@ struct RasterCommand {
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   int threads = 0;
+  int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
 };
 
@@ -43,7 +44,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const bool records = command.image.ends_with(".exr");
   const double bytes = records ? exr_bytes_per_pixel : png_bytes_per_pixel;
   if (const auto fits = check_memory(command.options.size, bytes); !fits) return fail(fits.error());
-  const auto loaded = load(command.scene, console);
+  const auto loaded = load(command.scene, console, command.tessellate);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
@@ -81,6 +82,7 @@ void add_raster(CLI::App& program, Invocation& invocation) {
              ".png, or .exr with ids and, per light, visibility, gap and map position [default "
              "out/NAME-raster.png]");
   add_size(*app, command->options.size);
+  add_tessellate(*app, command->tessellate);
   add_map_options(*app, command->options.map);
   add_light(*app, command->light,
             "put this light's records only into the .exr; the picture always has all lights");

@@ -27,6 +27,7 @@ struct RaytraceCommand {
   std::optional<HeatmapOf> heatmap;
   PoseOptions poses;
   int threads = 0;
+  int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
 };
 
@@ -45,7 +46,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const bool records = command.image.ends_with(".exr");
   const double bytes = records ? exr_bytes_per_pixel : png_bytes_per_pixel;
   if (const auto fits = check_memory(command.options.size, bytes); !fits) return fail(fits.error());
-  const auto loaded = load(command.scene, console);
+  const auto loaded = load(command.scene, console, command.tessellate);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
@@ -89,6 +90,7 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
              ".png, or .exr with depth, position, normal, ids and, per light, visibility [default "
              "out/NAME-raytrace.png]");
   add_size(*app, command->options.size);
+  add_tessellate(*app, command->tessellate);
   add_light(*app, command->light,
             "put this light's visibility only into the .exr; the picture always has all lights");
   add_pose_options(*app, command->poses);

@@ -31,6 +31,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ViewOptions>();
   add_scene(*app, options->scene);
   add_size(*app, options->compare.raster.size);
+  add_tessellate(*app, options->tessellate);
   add_map_options(*app, options->compare.raster.map);
   app->add_option("--light", options->compare.light,
                   "begin with this light [a light's name; default the first]")

@@ -18,6 +18,7 @@ struct ViewOptions {
   std::optional<std::optional<double>> exposure;  ///< none: the scene's own
   std::string script;  ///< a file of steps that drives the window (script.h); empty: none
   int threads = 0;     ///< 0: all cores
+  int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "scene/closed_mesh.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -157,6 +160,28 @@ Camera default_camera(const Scene& scene, const Aabb& bounds) {
   return camera;
 }
 
+// Glass needs an inside: an index of refraction on one side of it. Said once for each mesh.
+void note_open_glass(Scene& scene) {
+  const auto is_glass = [&](std::uint32_t material) { return scene.materials[material].transmission > 0.0f; };
+  std::vector<char> told(scene.meshes.size(), 0);
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const bool glass = mesh.triangle_materials.empty() ? is_glass(instance.material)
+                                                       : std::any_of(mesh.triangle_materials.begin(),
+                                                                     mesh.triangle_materials.end(), is_glass);
+    if (!glass || told[instance.mesh]) continue;
+    told[instance.mesh] = 1;
+    if (const std::uint64_t open = open_edges(mesh.positions, mesh.triangles); open > 0)
+      scene.notes.push_back(
+          fmt::format("The glass mesh '{}' is not closed ({} open edge{}): it has no inside to refract in.",
+                      mesh.name, open, open == 1 ? "" : "s"));
+  }
+  for (const Shape& shape : scene.shapes)
+    if (is_solid(shape.geometry) && !is_closed(shape.geometry) && is_glass(shape.material))
+      scene.notes.push_back(
+          fmt::format("The glass shape '{}' is open: it has no inside to refract in.", shape.name));
+}
+
 Scene add_defaults(LoadedFile loaded) {
   Scene& scene = loaded.scene;
   Aabb bounds = scene_bounds(scene);
@@ -175,6 +200,7 @@ Scene add_defaults(LoadedFile loaded) {
   if (loaded.is_model && scene.lights.empty()) add_ground(scene, bounds);
   if (scene.lights.empty()) add_sun(scene, loaded.is_model);
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
+  note_open_glass(scene);
   return std::move(scene);
 }
 
