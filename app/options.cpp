@@ -4,12 +4,6 @@
 
 #include "app/filter_options.h"
 #include "app/option_kinds.h"
-#include <CLI/CLI.hpp>
-#include <span>
-#include <utility>
-
-#include "app/suggest.h"
-#include "app/values.h"
 #include "scene/tessellate.h"
 
 namespace gnomon::app {

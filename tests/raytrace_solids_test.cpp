@@ -406,7 +406,9 @@ TEST(SolidSheets, HoldForEveryRayOfTheColumn) {
       }
     }
     EXPECT_EQ(wrong, 0) << shape.name << " of " << checked;
-    if (is_convex(shape.geometry)) EXPECT_GT(covered, checked / 50) << shape.name;
+    if (is_convex(shape.geometry)) {
+      EXPECT_GT(covered, checked / 50) << shape.name;
+    }
   }
 }
 

@@ -34,7 +34,9 @@ TEST(Tessellation, ClosedShapesGiveClosedMeshes) {
       if (shape.geometry.index() == 4 && n < 8) continue;  // coarser than the surface: nothing may be left
       EXPECT_FALSE(mesh.triangles.empty()) << shape.name;
       EXPECT_EQ(open_edges(mesh.positions, mesh.triangles) == 0, closed(shape)) << shape.name << " " << n;
-      if (closed(shape)) EXPECT_GT(volume(mesh), 0.0) << shape.name << " " << n;
+      if (closed(shape)) {
+        EXPECT_GT(volume(mesh), 0.0) << shape.name << " " << n;
+      }
     }
 }
 
