@@ -11,9 +11,10 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::pair<std::string_view, raster::Technique> techniques[] = {
-    {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf}, {"pcss", raster::Technique::pcss},
-    {"vsm", raster::Technique::vsm},   {"esm", raster::Technique::esm}, {"evsm", raster::Technique::evsm},
-    {"msm", raster::Technique::msm}};
+    {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf},
+    {"pcss", raster::Technique::pcss}, {"vsm", raster::Technique::vsm},
+    {"esm", raster::Technique::esm},   {"evsm", raster::Technique::evsm},
+    {"msm", raster::Technique::msm},   {"hybrid", raster::Technique::hybrid}};
 constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
     {"d16", raster::DepthFormat::d16},
     {"d24", raster::DepthFormat::d24},

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/suggest.h"
+#include "hybrid/visibility.h"
 #include "scene/load.h"
 #include "scene/tessellate.h"
 #include "scene/timing.h"
@@ -45,7 +46,15 @@ Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backen
                                                           const std::string& shader_folder) {
   Expected<std::unique_ptr<raster::Context>> context = raster::create_context(backend);
   if (!context) return fail(context.error());
-  return raster::Renderer::create(std::move(*context), *loaded.world, loaded.plan, shader_folder);
+  return make_renderer(std::move(*context), loaded, shader_folder);
+}
+
+Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster::Context> context,
+                                                          const LoadedScene& loaded,
+                                                          const std::string& shader_folder) {
+  auto renderer = raster::Renderer::create(std::move(context), *loaded.world, loaded.plan, shader_folder);
+  if (renderer) (*renderer)->use_external_visibility(hybrid::make_visibility(*loaded.world));
+  return renderer;
 }
 
 struct ThreadLimit::Impl {

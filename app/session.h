@@ -28,7 +28,11 @@ Expected<LoadedScene> load(const std::string& path_or_name, Console& console, in
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);
 
+/// Ready for every technique.
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
+                                                          const std::string& shader_folder = {});
+Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster::Context> context,
+                                                          const LoadedScene& loaded,
                                                           const std::string& shader_folder = {});
 
 /// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,

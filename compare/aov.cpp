@@ -71,6 +71,9 @@ void add_lookup(Channels& channels, const Comparison& c, const LightComparison& 
   channels.add("texel_uv.U", [&](std::size_t i) { return drawn(i) ? record.texel_uv.data[i].x : 0.0f; });
   channels.add("texel_uv.V", [&](std::size_t i) { return drawn(i) ? record.texel_uv.data[i].y : 0.0f; });
   channels.add("gap.V", [&](std::size_t i) { return drawn(i) ? record.gap.data[i] : 0.0f; });
+  // Who decided: 0 surely shadowed, 1 surely lit, 2 traced, 3 not asked.
+  if (record.external && !record.external->decision.data.empty())
+    channels.add("decision.V", [&](std::size_t i) { return record.external->decision.data[i]; });
 }
 
 void add_picture(Channels& channels, const Comparison& c) {

@@ -56,7 +56,9 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   out.plan = plan_effects(scene);
   report("shadow maps", 0.0);
-  auto drawn = renderer.render(options.raster, *lights);
+  raster::RasterOptions drawing = options.raster;
+  drawing.seed = options.raytrace.seed, drawing.shadow_samples = options.raytrace.shadow_samples;
+  auto drawn = renderer.render(drawing, *lights);
   if (!drawn) return tl::unexpected(drawn.error());
   out.raster = std::move(*drawn);
 

@@ -172,6 +172,18 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
   }
 }
 
+// A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: all of
+// its rungs are what it drew.
+Climb climb_without_map(const LadderInput& in, Climb out) {
+  for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
+    if (!is_compared(out.labels.data[i])) continue;
+    const float drawn = in.record.visibility.data[i];
+    for (std::size_t k = 1; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
+    if (drawn_wrong(in, out, i)) out.labels.data[i] = Label::light_size;  // the only step left
+  }
+  return out;
+}
+
 std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < labels.data.size(); ++i)
@@ -216,6 +228,8 @@ LowerClimb::~LowerClimb() = default;
 
 Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
   Climb out{lower.rungs, lower.sorted};
+  if (in.drawn.options.map.technique == raster::Technique::hybrid)
+    return climb_without_map(in, std::move(out));
   tbb::parallel_for(std::size_t{0}, lower.outside.size(),
                     [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
   const std::size_t count = lower.groups.keys.size();

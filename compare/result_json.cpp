@@ -67,26 +67,49 @@ Json filter_json(const raster::MapOptions& map) {
   return json;
 }
 
+Json share_json(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? number(static_cast<double>(part) / static_cast<double>(whole)) : Json(nullptr);
+}
+
+Json hybrid_json(const raster::ExternalCosts& e) {
+  return {{"receivers", e.receivers},
+          {"surely_lit", e.surely_lit},
+          {"surely_shadowed", e.surely_shadowed},
+          {"penumbra", e.penumbra},
+          {"rays", e.rays},
+          {"all_rays", e.all_rays},
+          {"ray_share", share_json(e.rays, e.all_rays)},
+          {"triangle_tests", e.triangle_tests},
+          {"all_triangle_tests", e.all_triangle_tests},
+          {"triangle_test_share", share_json(e.triangle_tests, e.all_triangle_tests)},
+          {"silhouette", e.silhouette},
+          {"bytes", e.bytes},
+          {"times_ms",
+           {{"build", times(e.build)}, {"receivers", times(e.receivers_ms)}, {"shadow", times(e.shadow)}}}};
+}
+
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
   const double texel = light.texel_world[1];
-  return {{"technique", technique_name(map.technique)},
-          {"size", record.map.view.size},
-          {"faces", record.map.view.face_count},
-          {"depth_format", depth_format_name(record.map.format)},
-          {"cull", cull_name(map.cull)},
-          {"bias",
-           {{"constant_world", number(record.bias_constant_world)},
-            {"constant_texels", texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
-            {"slope", number(map.bias.slope)},
-            {"normal_offset_texels", number(map.bias.normal_offset_texels)},
-            {"receiver_plane", map.bias.receiver_plane}}},
-          {"filter", filter_json(map)},
-          {"texel_world",
-           {{"min", number(light.texel_world[0])},
-            {"median", number(light.texel_world[1])},
-            {"max", number(light.texel_world[2])}}}};
+  Json json{{"technique", technique_name(map.technique)},
+            {"size", record.map.view.size},
+            {"faces", record.map.view.face_count},
+            {"depth_format", depth_format_name(record.map.format)},
+            {"cull", cull_name(map.cull)},
+            {"bias",
+             {{"constant_world", number(record.bias_constant_world)},
+              {"constant_texels", texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
+              {"slope", number(map.bias.slope)},
+              {"normal_offset_texels", number(map.bias.normal_offset_texels)},
+              {"receiver_plane", map.bias.receiver_plane}}},
+            {"filter", filter_json(map)},
+            {"texel_world",
+             {{"min", number(light.texel_world[0])},
+              {"median", number(light.texel_world[1])},
+              {"max", number(light.texel_world[2])}}}};
+  if (record.external) json["hybrid"] = hybrid_json(*record.external);
+  return json;
 }
 
 Json pixels_json(const PixelCounts& p) {

@@ -69,11 +69,12 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
   const double texel = light.texel_world[1];
-  std::string text =
-      fmt::format("{}, {} x {}{} texels, {}, bias {}", technique_name(map.technique), record.map.view.size,
-                  record.map.view.size,
-                  record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "",
-                  depth_format_name(record.map.format), plain_number(record.bias_constant_world));
+  std::string text = fmt::format(
+      "{}, {} x {}{} texels", technique_name(map.technique), record.map.view.size, record.map.view.size,
+      record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
+  if (map.technique == raster::Technique::hybrid) return text;  // no depths, no bias
+  text += fmt::format(", {}, bias {}", depth_format_name(record.map.format),
+                      plain_number(record.bias_constant_world));
   if (texel > 0.0)
     text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
                         plain_number(texel));
@@ -83,6 +84,19 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   if (map.bias.receiver_plane) text += ", receiver plane";
   if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
   return text;
+}
+
+std::string hybrid_line(const raster::ExternalCosts& e) {
+  const auto share = [](std::uint64_t part, std::uint64_t whole) {
+    return percent(whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0);
+  };
+  return fmt::format(
+      "{} surely lit, {} surely shadowed, {} rays ({} of {}; {} of the triangle tests); sheets {} ms, "
+      "shadows {} "
+      "ms, {} KiB",
+      grouped(e.surely_lit), grouped(e.surely_shadowed), grouped(e.rays), share(e.rays, e.all_rays),
+      grouped(e.all_rays), share(e.triangle_tests, e.all_triangle_tests), plain_number(e.build.median()),
+      plain_number(e.shadow.median()), grouped(e.bytes / 1024));
 }
 
 std::string pixels_line(const PixelCounts& p) {
@@ -171,6 +185,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.field("map", map_line(c, light));
   const std::string filter = filter_text(c.raster.options.map);
   if (!filter.empty()) page.field("filter", filter);
+  if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));
   page.field("pixels", pixels_line(light.pixels));
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));

@@ -2,9 +2,11 @@
 // Pixel arrays are row-major, row 0 at the top. Map arrays are face by face, row 0 = lowest v (light_view.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "raster/external_visibility.h"
 #include "raster/options.h"
 #include "scene/image.h"
 #include "scene/light_view.h"
@@ -57,6 +59,7 @@ struct LightRecord {
   /// what the technique makes of it (blur, mipmaps ...).
   /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
   Times map_pass, shade_pass;
+  std::optional<ExternalCosts> external;  ///< Technique::hybrid
 };
 
 struct RasterFrame {

@@ -75,6 +75,11 @@ void Texture2D::read(GLenum components, GLenum type, std::span<std::byte> out) c
   }
 }
 
+void Texture2D::write(GLenum components, GLenum type, std::span<const std::byte> texels) {
+  gl()->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl()->TextureSubImage2D(id(), 0, 0, 0, size_.width, size_.height, components, type, texels.data());
+}
+
 Framebuffer::Framebuffer(const Gl& gl)
     : GlObject(gl, created([&](GLuint* id) { gl->CreateFramebuffers(1, id); })) {}
 

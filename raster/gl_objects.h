@@ -80,6 +80,8 @@ class Texture2D : public GlObject<GlKind::texture> {
   GLenum format() const { return format_; }
   /// All texels of level 0, all layers, row 0 first, tightly packed.
   void read(GLenum components, GLenum type, std::span<std::byte> out) const;
+  /// Replaces all texels of a 2D texture.
+  void write(GLenum components, GLenum type, std::span<const std::byte> texels);
 
  private:
   ImageSize size_;

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "raster/depth_map_pass.h"
+#include "raster/external_pass.h"
 #include "raster/light_block.h"
 #include "raster/options_check.h"
 #include "raster/shading_pass.h"
@@ -30,7 +31,8 @@ class GlRenderer final : public Renderer {
         buffers_(std::move(buffers)),
         map_pass_(*gl_, programs_),
         shading_(*gl_, programs_),
-        light_block_(*gl_) {
+        light_block_(*gl_),
+        external_(*gl_) {
     info_ = {context_->backend(), gl_->text(GL_VERSION), gl_->text(GL_RENDERER), max_map_size(*gl_)};
   }
   GlRenderer(const GlRenderer&) = delete;
@@ -40,6 +42,9 @@ class GlRenderer final : public Renderer {
   Expected<void> compile();
   Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) override;
   const ContextInfo& info() const override { return info_; }
+  void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) override {
+    external_.use(std::move(visibility));
+  }
 
  private:
   struct Job;  // one call of render()
@@ -48,7 +53,9 @@ class GlRenderer final : public Renderer {
   Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
   Expected<void> draw_map(const MapJob& map, bool with_ids);
   Expected<void> time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record);
-  Expected<void> shade(Job& job, std::uint32_t light, LightRecord* record);
+  Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
+  Expected<void> see(const Job& job, const VisibilityRequest* request);
+  Expected<void> shade(Job& job, const VisibilityRequest& request, LightRecord* record);
   Expected<void> shade_without_light(Job& job);
   Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass);
   void restore_state() const;
@@ -64,6 +71,7 @@ class GlRenderer final : public Renderer {
   Buffer light_block_;
   std::unique_ptr<TechniquePass> technique_pass_;
   Technique technique_ = Technique::hard;  ///< of technique_pass_
+  ExternalPass external_;
 };
 
 struct GlRenderer::Job {
@@ -84,6 +92,11 @@ ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bo
   p.receiver_plane = map.bias.receiver_plane;
   p.technique = technique_shader(map, light);
   return p;
+}
+
+std::uint64_t texels_of(const LightView& view) {
+  const auto side = static_cast<std::uint64_t>(view.size);
+  return static_cast<std::uint64_t>(view.face_count) * side * side;
 }
 
 // The permutations of the default options; others are linked when they are first asked for.
@@ -180,23 +193,36 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->map.format = map.depth_format;
   }
   const MapJob map_job{buffers_, light, *view, map_pass_, map};
+  const VisibilityRequest request{index, *view, job.view, job.options.shadow_samples, job.options.seed};
   const bool with_ids = record != nullptr && job.options.analysis;
+  if (map.technique == Technique::hybrid) {
+    if (auto ok = prepare_external(job, request, record); !ok) return ok;
+    if (!with_ids) return shade(job, request, record);
+  }
   if (auto ok = prepare_maps(job, map_job, with_ids); !ok) return ok;
   if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
-  return shade(job, index, record);
+  return shade(job, request, record);
+}
+
+// The comparison's rungs below V6 are those of a depth map, which is drawn for them alone.
+Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record) {
+  if (auto ok = external_.check(); !ok) return ok;
+  job.frame.map_texels += texels_of(request.map);
+  if (record != nullptr) {
+    auto ok = time_pass(job.options.runs, record->map_pass, [&] { return external_.prepare(request, true); });
+    if (!ok) return ok;
+  }
+  return external_.prepare(request, false);
 }
 
 Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {
-  const auto texels = [&] {
-    const auto side = static_cast<std::uint64_t>(map.view.size);
-    return static_cast<std::uint64_t>(map.view.face_count) * side * side;
-  };
   if (technique_ != map.options.technique) {
     technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
     technique_ = map.options.technique;
   }
   if (auto ok = map_pass_.prepare(map.view, map.options.depth_format, with_ids); !ok) return ok;
-  job.frame.map_texels += texels();
+  if (map.options.technique == Technique::hybrid) return {};  // drawn for the records alone
+  job.frame.map_texels += texels_of(map.view);
   std::uint64_t bytes = map_pass_.bytes();
   if (technique_pass_ != nullptr) {
     if (auto ok = technique_pass_->prepare(map); !ok) return ok;
@@ -213,7 +239,7 @@ Expected<void> GlRenderer::draw_map(const MapJob& map, bool with_ids) {
 }
 
 Expected<void> GlRenderer::time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record) {
-  if (record != nullptr) {
+  if (record != nullptr && map.options.technique != Technique::hybrid) {
     auto ok = time_pass(job.options.runs, record->map_pass, [&] { return draw_map(map, false); });
     if (!ok) return ok;
   }
@@ -223,28 +249,42 @@ Expected<void> GlRenderer::time_and_draw_map(const Job& job, const MapJob& map, 
   return gl_->check("drawing the shadow map");
 }
 
-Expected<void> GlRenderer::shade(Job& job, std::uint32_t index, LightRecord* record) {
-  const Light& light = world_->scene->lights[index];
+/// What the camera sees and, with a request, how much of the light that gets.
+Expected<void> GlRenderer::see(const Job& job, const VisibilityRequest* request) {
+  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  if (request == nullptr) return {};
+  if (auto ok = external_.find(*request, shading_); !ok) return ok;
+  external_.bind_for_lookup();
+  return {};
+}
+
+Expected<void> GlRenderer::shade(Job& job, const VisibilityRequest& request, LightRecord* record) {
+  const Light& light = world_->scene->lights[request.light];
   const MapOptions& map = job.options.map;
-  map_pass_.bind_for_lookup();
+  const VisibilityRequest* asked = map.technique == Technique::hybrid ? &request : nullptr;
+  const bool records = record != nullptr && job.options.analysis;
+  if (asked == nullptr || records) map_pass_.bind_for_lookup();
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr) {
     const ShadePermutation timed = shade_permutation(light, map, job.first_light, false);
     auto ok = time_pass(job.options.runs, record->shade_pass, [&]() -> Expected<void> {
-      if (auto drawn = shading_.draw_visibility(buffers_, job.view); !drawn) return drawn;
+      if (auto seen = see(job, asked); !seen) return seen;
       job.visibility_drawn = true;
       return shading_.draw_light(buffers_, timed, !job.first_light);
     });
     if (!ok) return ok;
   }
-  if (!job.visibility_drawn) {
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {
+    if (auto ok = see(job, asked); !ok) return ok;
     job.visibility_drawn = true;
   }
-  const bool records = record != nullptr && job.options.analysis;
   const ShadePermutation kept = shade_permutation(light, map, job.first_light, records);
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
   if (records) shading_.read_records(*record);
+  if (asked != nullptr && record != nullptr) {
+    record->external = external_.costs(request, records);
+    job.frame.map_bytes = std::max(job.frame.map_bytes, record->external->bytes);
+  }
   job.first_light = false;
   return gl_->check("shading");
 }

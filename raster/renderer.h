@@ -33,6 +33,8 @@ class Renderer {
   /// world's scene at each call, so a viewer may change them in between.
   virtual Expected<RasterFrame> render(const RasterOptions& options,
                                        std::span<const std::uint32_t> lights) = 0;
+  /// What Technique::hybrid asks; it is kept from frame to frame. Without it that technique is an error.
+  virtual void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) = 0;
   virtual const ContextInfo& info() const = 0;
 };
 

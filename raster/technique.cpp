@@ -85,6 +85,8 @@ TechniqueShader technique_shader(const MapOptions& options, const Light& light) 
       return moment_technique("evsm", options, light);
     case Technique::msm:
       return moment_technique("msm", options, light);
+    case Technique::hybrid:
+      return {"external", {"EXTERNAL"}};
     default:
       return {};  // the hard test
   }

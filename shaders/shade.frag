@@ -48,7 +48,11 @@ void main() {
 #endif
 #ifndef NO_LIGHT
   LightAtPoint at = light_at(r.position);
+#if defined(EXTERNAL) && !defined(RECORDS)
+  ShadowTest test;  // nothing of it is read
+#else
   ShadowTest test = shadow_test(r.position, r.normal, at.to_light);
+#endif
   float visibility = technique_visibility(test, r.position, r.normal, at.to_light);
   if (visibility > 0.0 && dot(r.normal, at.to_light) > 0.0)
     radiance.rgb += material.emission_and_local.w * visibility *

@@ -41,6 +41,7 @@ const int depth_map_unit = 1;
 const int texel_pages_unit = 2;
 const int present_unit = 3;
 const int moments_unit = 4;
+const int external_visibility_unit = 15;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -53,4 +53,8 @@ std::string bench_json(std::span<const BenchRow> rows);
 /// structures see different things.
 Expected<BenchResult> bench_structures(const BenchInput& input);
 
+/// Rays, triangle tests and time of the hybrid's hard shadows against ray tracing, for the scene's first
+/// light.
+Expected<BenchResult> bench_hybrid(const BenchInput& input);
+
 }  // namespace gnomon::app

@@ -41,8 +41,12 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
                          thread_count,
                          command.accels,
                          [&](const std::string& what, double done) { console.progress(what, done); }};
-  const auto result = bench_structures(input);
+  auto result = bench_structures(input);
   if (!result) return fail(result.error());
+  auto hybrid = bench_hybrid(input);
+  if (!hybrid) return fail(hybrid.error());
+  result->table += hybrid->table;
+  result->rows.insert(result->rows.end(), hybrid->rows.begin(), hybrid->rows.end());
   console.clear_progress();
   if (!command.quiet && command.json != "-") print_data(result->table);
   if (command.json.empty()) return ExitCode::done;

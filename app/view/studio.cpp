@@ -18,7 +18,7 @@ ImageSize preview_size(ImageSize full) {
 Expected<std::unique_ptr<raster::Renderer>> make_window_renderer(std::unique_ptr<raster::Context> context,
                                                                  const LoadedScene& loaded,
                                                                  const std::string& shader_folder) {
-  return raster::Renderer::create(std::move(context), *loaded.world, loaded.plan, shader_folder);
+  return make_renderer(std::move(context), loaded, shader_folder);
 }
 
 }  // namespace

@@ -115,7 +115,9 @@ struct Engine::Impl {
 
   Expected<void> draw(const Setting& setting) {
     drawn_for.reset();
-    auto frame = renderer.render(setting.raster, setting.compared);
+    raster::RasterOptions drawing = setting.raster;
+    drawing.seed = setting.raytrace.seed, drawing.shadow_samples = setting.raytrace.shadow_samples;
+    auto frame = renderer.render(drawing, setting.compared);
     if (!frame) return fail(frame.error());
     comparison.raster = std::move(*frame);
     drawn_for = setting;

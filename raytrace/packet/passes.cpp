@@ -217,4 +217,107 @@ std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& 
   return count;
 }
 
+namespace {
+
+/// Below this many rays a tile's packets cost more than they save.
+constexpr int few_rays = 6;
+
+template <class Lane>
+void for_each_set(const LaneMask& mask, const Lane& lane) {
+  for (std::size_t p = 0; p < tile_packets; ++p)
+    for (unsigned open = mask[p]; open != 0; open &= open - 1)
+      lane(p * packet_rays + static_cast<std::size_t>(std::countr_zero(open)));
+}
+
+void prepare_lanes(const Light& light, const Seen& seen, const TileRect& rect,
+                   const Image<SurfacePoint>& receivers, TileRays& rays, ShadowLanes& lanes) {
+  choose_axis(seen, rect, receivers, rays);
+  if (is_whole(rect) && light.type != LightType::spot)
+    prepare_shadows(light, seen, &receivers.at(rect.x0, rect.y0),
+                    static_cast<std::size_t>(receivers.size.width), rays, lanes);
+  else
+    prepare_partial(light, seen, rect, receivers, rays, lanes);
+}
+
+}  // namespace
+
+void shadow_lanes(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
+                  const LaneMask& asked, const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts) {
+  const auto trace = [&](std::size_t lane) {
+    const auto [dx, dy] = tile_place(lane);
+    const SurfacePoint& point = receivers.at(rect.x0 + dx, rect.y0 + dy);
+    verdicts.at(rect.x0 + dx, rect.y0 + dy) = tracer.light_verdict(point, light);
+  };
+  int count = 0;
+  for (const std::uint16_t bits : asked) count += std::popcount(bits);
+  if (count <= few_rays || seen.primitives == nullptr) {
+    for_each_set(asked, trace);
+    return;
+  }
+  TileRays rays;
+  ShadowLanes lanes;
+  prepare_lanes(light, seen, rect, receivers, rays, lanes);
+  for (std::size_t p = 0; p < tile_packets; ++p) rays.alive[p] &= asked[p];
+  TileShadows shadows;
+  shadows_in_tile(tracer.structures().bvh, seen, rays, shadows);
+  LaneMask open;
+  for (std::size_t p = 0; p < tile_packets; ++p)
+    open[p] = static_cast<std::uint16_t>(shadows.unsure[p] | (asked[p] & ~rays.alive[p]));
+  for_each_set(asked, [&](std::size_t lane) {
+    const auto [dx, dy] = tile_place(lane);
+    const bool dark = (shadows.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
+    verdicts.at(rect.x0 + dx, rect.y0 + dy) = dark ? Verdict::shadowed : Verdict::lit;
+  });
+  for_each_set(open, trace);
+}
+
+namespace {
+
+/// Where the ray meets the one primitive at this leaf position, if its mask is not a hole there.
+std::optional<Hit> known_hit(const Structures& s, const Ray& ray, std::uint32_t leaf) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame || leaf == nothing_hit) return std::nullopt;
+  Hit hit;
+  const bool met = leaf >= first_plane ? intersect_plane(s, *frame, s.planes[leaf - first_plane], hit)
+                                       : intersect_leaf(s, *frame, leaf, hit);
+  if (!met || (s.has_masks && !solid(s, *frame, hit))) return std::nullopt;
+  hit.t /= frame->kernel_t_from_t;
+  return hit;
+}
+
+}  // namespace
+
+std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
+                         const TileRect& rect, const Image<std::uint32_t>& primitives,
+                         Image<SurfacePoint>& receivers) {
+  std::array<std::uint16_t, tile_packets> left;
+  left.fill(0xffff);
+  const Structures& s = tracer.structures();
+  if (is_whole(rect) && packets_apply(s) && !s.has_masks) {
+    TileRays rays;
+    TileHits known;
+    choose_axis(pixel_ray(view, 0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1)).direction, rays);
+    prepare_primary(view, rect.x0, rect.y0, rays);
+    for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+      const std::uint32_t id = primitives.at(x, y);
+      known.leaf[lane] = id == no_id || !tracer.world().is_triangle(id) ? nothing_hit : leaf_of[id];
+    });
+    left = store_receivers(s.bvh, view, rect.x0, rect.y0, rays, known, &receivers.at(rect.x0, rect.y0),
+                           static_cast<std::size_t>(receivers.size.width));
+  }
+  std::uint64_t missed = 0;
+  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+    if ((left[lane / packet_rays] & bit_of(lane)) == 0) return;
+    SurfacePoint& out = receivers.at(x, y);
+    const std::uint32_t id = primitives.at(x, y);
+    out = SurfacePoint{};
+    if (id == no_id) return;
+    const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+    std::optional<Hit> hit = known_hit(s, ray, leaf_of[id]);
+    if (!hit) ++missed, hit = tracer.closest_hit(ray);
+    if (hit) out = tracer.surface_point(ray, *hit);
+  });
+  return missed;
+}
+
 }  // namespace gnomon::raytrace

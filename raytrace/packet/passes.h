@@ -2,6 +2,8 @@
 // bit for bit: the floats only say which primitive is hit, and which rays must be asked again in double.
 #pragma once
 
+#include <span>
+
 #include "raytrace/packet/tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
@@ -29,6 +31,21 @@ void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const
 /// cannot reach, and returns the number of rays.
 std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
                           const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts);
+
+/// Bits of a tile's packets.
+using LaneMask = std::array<std::uint16_t, tile_packets>;
+
+/// Fills the verdicts of the asked receivers alone, which exist and which the light reaches. `seen` may be
+/// empty where packets do not apply.
+void shadow_lanes(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
+                  const LaneMask& asked, const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts);
+
+/// Fills the tile's receivers from the primitives that its pixels are known to show (no_id: none), as
+/// primary_tile does where it finds the same ones. `leaf_of`: by primitive, as in TileHits. Returns the
+/// number of pixels whose ray misses their primitive; these get the nearest hit.
+std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
+                         const TileRect& rect, const Image<std::uint32_t>& primitives,
+                         Image<SurfacePoint>& receivers);
 
 /// The light as a common origin or direction.
 Seen seen_from(const Structures& structures, const Light& light);

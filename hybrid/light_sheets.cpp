@@ -1,0 +1,134 @@
+#include "hybrid/light_sheets.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "raytrace/error_bounds.h"
+#include "scene/timing.h"
+
+namespace gnomon::hybrid {
+namespace {
+
+constexpr std::uint64_t texels_per_tile = std::uint64_t{tile_texels} * tile_texels;
+
+std::vector<GridPoint> project(const World& world, const SheetGrid& grid, int face) {
+  constexpr std::size_t grain = 4096;  // vertices per task
+  std::vector<GridPoint> points(world.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      points[i] = grid.point(face, world.positions[i]);
+  });
+  return points;
+}
+
+}  // namespace
+
+LightSheets::LightSheets(const World& world, const raytrace::Topology& topology, const LightView& view)
+    : world_(world), topology_(topology), grid_(world, view) {
+  const Stopwatch watch;
+  const auto tile_count = static_cast<std::size_t>(grid_.tiles) * static_cast<std::size_t>(grid_.tiles) *
+                          static_cast<std::size_t>(view.face_count);
+  tiles_.resize(tile_count);
+  if (grid_.hopeless) {
+    for (SheetTile& tile : tiles_) tile.uniform = unsure_texel;
+  } else {
+    facing_ = find_facing(world, topology, view, grid_.bounds);
+    for (int face = 0; face < view.face_count; ++face) build_face(face);
+    lone_plane_ = find_lone_plane();
+  }
+  count_bytes();
+  stats_.build_ms = watch.elapsed_ms();
+}
+
+void LightSheets::build_face(int face) {
+  std::vector<GridPoint> points = project(world_, grid_, face);
+  TileBins bins(world_, grid_, points);
+  faces_.push_back({std::move(points), std::move(bins)});
+  const Face& made = faces_.back();
+  tbb::enumerable_thread_specific<TileBuilder> builders(
+      [&] { return TileBuilder(world_, topology_, grid_, facing_, face, made.points); });
+  tbb::parallel_for(0, grid_.tiles * grid_.tiles, [&](int i) {
+    const int x = i % grid_.tiles, y = i / grid_.tiles;
+    tiles_[grid_.tile_index(face, x, y)] =
+        builders.local().build(x, y, made.bins.triangles(static_cast<std::size_t>(i)));
+  });
+  for (const TileBuilder& builder : builders) stats_.pieces += builder.pieces();
+}
+
+void LightSheets::count_bytes() {
+  stats_.bytes = tiles_.size() * sizeof(SheetTile) + facing_.size() * sizeof(TriangleFacing);
+  for (const Face& face : faces_) stats_.bytes += face.points.size() * sizeof(GridPoint) + face.bins.bytes();
+  stats_.detailed_tiles = 0;
+  for (const SheetTile& tile : tiles_) {
+    stats_.detailed_tiles += tile.texels ? 1 : 0;
+    stats_.bytes += tile.bytes();
+  }
+}
+
+std::optional<std::uint64_t> LightSheets::texel_of(const Vec3& position) const {
+  const auto at = place_of(position);
+  const double size = grid_.view.size;
+  if (!at || !(at->u >= 0.0 && at->v >= 0.0 && at->u < size && at->v < size)) return std::nullopt;
+  const int x = static_cast<int>(at->u), y = static_cast<int>(at->v);
+  const auto in_tile = static_cast<std::uint64_t>(y % tile_texels * tile_texels + x % tile_texels);
+  return grid_.tile_index(at->face, x / tile_texels, y / tile_texels) * texels_per_tile + in_tile;
+}
+
+std::size_t LightSheets::refine(std::vector<std::uint64_t> texels) {
+  if (faces_.empty()) return 0;
+  const Stopwatch watch;
+  std::sort(texels.begin(), texels.end());
+  texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
+  std::erase_if(texels,
+                [&](std::uint64_t t) { return tiles_[t / texels_per_tile].is_refined(t % texels_per_tile); });
+  std::vector<std::size_t> first;  // of each tile's texels
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    if (i == 0 || texels[i] / texels_per_tile != texels[i - 1] / texels_per_tile) first.push_back(i);
+  first.push_back(texels.size());
+  const auto per_face = static_cast<std::size_t>(grid_.tiles) * static_cast<std::size_t>(grid_.tiles);
+  tbb::parallel_for(std::size_t{0}, first.size() - 1, [&](std::size_t k) {
+    const std::size_t tile = texels[first[k]] / texels_per_tile, on_face = tile % per_face;
+    std::vector<std::uint16_t> asked;
+    for (std::size_t i = first[k]; i < first[k + 1]; ++i)
+      asked.push_back(static_cast<std::uint16_t>(texels[i] % texels_per_tile));
+    const Face& face = faces_[tile / per_face];
+    TileBuilder builder(world_, topology_, grid_, facing_, static_cast<int>(tile / per_face), face.points);
+    builder.refine(static_cast<int>(on_face) % grid_.tiles, static_cast<int>(on_face) / grid_.tiles,
+                   face.bins.triangles(on_face), asked, tiles_[tile]);
+  });
+  count_bytes();
+  stats_.refine_ms += watch.elapsed_ms();
+  return texels.size();
+}
+
+// Light rays beside an orthographic map meet planes only, if everything finite lies on the map. Perspective
+// maps show all that their light reaches.
+std::uint32_t LightSheets::find_lone_plane() const {
+  const World& world = world_;
+  if (grid_.perspective) return no_id;
+  std::uint32_t plane = no_id;
+  const auto on_map = [&](const Vec3& p, double radius) {
+    const GridPoint at = grid_.point(0, p);
+    const double u = radius * glm::length(grid_.faces[0].u) - texel_slack;
+    const double v = radius * glm::length(grid_.faces[0].v) - texel_slack;
+    return at.u >= u && at.v >= v && at.u <= grid_.view.size - u && at.v <= grid_.view.size - v;
+  };
+  for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
+    const auto& geometry = world.shape(id).geometry;
+    if (std::holds_alternative<Plane>(geometry)) {
+      if (plane != no_id) return no_id;
+      plane = id;
+      continue;
+    }
+    const auto* sphere = std::get_if<Sphere>(&geometry);
+    const Sphere ball = sphere != nullptr ? *sphere : ball_around(geometry);
+    if (!on_map(ball.center, ball.radius)) return no_id;
+  }
+  if (plane == no_id) return no_id;
+  for (const auto& triangle : world.triangles)
+    for (const std::uint32_t v : triangle)
+      if (!on_map(world.positions[v], 0.0)) return no_id;
+  return plane;
+}
+
+}  // namespace gnomon::hybrid

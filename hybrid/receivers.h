@@ -1,0 +1,30 @@
+// The ray tracer's receivers from the rasterizer's visibility buffer: the rasterizer says which primitive a
+// pixel shows, and the pixel's ray is intersected with that one alone, by the very kernels of the tracer.
+// Where both renderers see the same primitive, the point is the tracer's own, bit for bit. Where the ray just
+// misses the primitive (the rasterizer's rounding at an outline), the tracer's nearest hit stands in.
+#pragma once
+
+#include "raytrace/tracer.h"
+#include "scene/camera.h"
+#include "scene/image.h"
+
+namespace gnomon::hybrid {
+
+struct ReceiverCounts {
+  std::uint64_t traced = 0;  ///< pixels whose ray misses their primitive
+};
+
+class ReceiverFinder {
+ public:
+  /// The tracer must outlive the finder.
+  explicit ReceiverFinder(const raytrace::Tracer& tracer);
+  /// `receivers` keeps its memory between calls; primitive is no_id where nothing is seen.
+  ReceiverCounts find(const View& view, const Image<std::uint32_t>& primitive,
+                      Image<raytrace::SurfacePoint>& receivers) const;
+
+ private:
+  const raytrace::Tracer& tracer_;
+  std::vector<std::uint32_t> leaf_of_;  ///< by primitive: as raytrace::TileHits has it
+};
+
+}  // namespace gnomon::hybrid

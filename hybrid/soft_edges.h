@@ -1,0 +1,46 @@
+// Where the visibility of a light with size can change at all. Seen from one point x, the occluders between x
+// and the light's points change only across edges that fold or end a surface on the way (Laine et al. 2005,
+// "Soft shadow volumes for ray tracing"): where both triangles of an edge have the whole light on the same
+// side, a segment that sweeps over the edge meets one instead of the other. Such edges are left out; the
+// others, and triangles that hold more than their outline (alpha-masked, or touching the light), are kept in
+// a tree.
+#pragma once
+
+#include "hybrid/light_facing.h"
+#include "hybrid/light_hull.h"
+
+namespace gnomon::hybrid {
+
+class SoftEdges {
+ public:
+  /// A segment, or with a radius a ball around a that stands for a whole triangle.
+  struct Edge {
+    Vec3 a, b;
+    double radius = 0.0;
+    bool may_meet(const LightCone& cone, double margin) const {
+      return radius > 0.0 ? cone.may_meet_ball(a, radius + margin) : cone.may_meet_segment(a, b, margin);
+    }
+  };
+  SoftEdges(const World& world, const raytrace::Topology& topology, const LightHull& hull,
+            double position_error);
+
+  /// Appends the edges whose boxes the cone may meet.
+  void find(const LightCone& cone, std::vector<std::uint32_t>& found) const;
+  const Edge& edge(std::uint32_t i) const { return edges_[i]; }
+  std::size_t size() const { return edges_.size(); }
+  std::uint64_t bytes() const { return edges_.size() * sizeof(Edge) + nodes_.size() * sizeof(Node); }
+
+ private:
+  struct Node {  // a ball
+    Vec3 center;
+    double radius;
+    std::uint32_t first, count;  // of its edges
+    std::uint32_t second;        // the children of an inner node: the next one and this; 0: a leaf
+  };
+  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+
+  std::vector<Edge> edges_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace gnomon::hybrid

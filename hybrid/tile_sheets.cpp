@@ -1,0 +1,324 @@
+#include "hybrid/tile_sheets.h"
+
+#include "raytrace/error_bounds.h"
+
+namespace gnomon::hybrid {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr std::size_t texel_count = std::size_t{tile_texels} * tile_texels;
+constexpr float slack = static_cast<float>(texel_slack);
+
+//// The texels' sample point, from their centres: off every line that scenes' own symmetry could lay through
+/// texels.
+constexpr float sample_x = 0.0137f, sample_y = -0.0291f;
+
+constexpr Cover anything{{}, inf, -inf, inf, Facing::edge_on, true};
+
+bool overlaps(const std::array<float, 4>& box, float x, float y, float half) {
+  return box[0] <= x + half && box[1] >= x - half && box[2] <= y + half && box[3] >= y - half;
+}
+
+/// The triangle in the square of 2 x half around (x, y), the column; nothing: it surely misses.
+std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
+  Piece piece{.low = t.low,
+              .high = t.high,
+              .facing = t.facing,
+              .boundary = (t.boundary & TriangleFacing::whole) != 0,
+              .covers = true,
+              .triangle = t.id,
+              .slot = t.slot};
+  const float reach = half + 2.0f * slack;
+  bool doubtful = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float edge = t.edge[k].at(x, y), margin = reach + t.error[k];
+    if (edge < -margin) return std::nullopt;
+    // Edge-on: nothing lies farther from the edge than the corner across it.
+    if (t.facing == Facing::edge_on && edge > t.depth[k] + margin) return std::nullopt;
+    if (edge <= margin && overlaps(t.box[k], x, y, half)) {
+      if ((t.boundary >> k & 1) != 0)
+        piece.boundary = true;
+      else
+        piece.crossing |= static_cast<std::uint8_t>(1U << k);
+    }
+    const float at_sample = edge + 2.0f * half * (t.edge[k].u * sample_x + t.edge[k].v * sample_y);
+    if (at_sample < -t.error[k])
+      piece.covers = false;
+    else if (!(at_sample > t.error[k]))
+      doubtful = true;
+  }
+  if (doubtful && piece.covers) piece.boundary = true;
+  if (!(t.nearness_error < inf)) return piece;
+  piece.middle = t.nearness.at(x, y);
+  piece.slope_u = t.nearness.u, piece.slope_v = t.nearness.v, piece.error = t.nearness_error;
+  const float spread = reach * (std::abs(t.nearness.u) + std::abs(t.nearness.v)) + t.nearness_error;
+  piece.low = std::max(piece.low, piece.middle - spread);
+  piece.high = std::min(piece.high, piece.middle + spread);
+  return piece;
+}
+
+struct Polygon {
+  std::array<Vec2, 8> corner;
+  std::size_t count = 0;
+};
+
+/// Sutherland and Hodgman 1974.
+Polygon clip_to_square(const std::array<Vec2, 3>& triangle, const Vec2& center, double half) {
+  Polygon part{{triangle[0], triangle[1], triangle[2]}, 3};
+  for (int plane = 0; plane < 4 && part.count > 0; ++plane) {
+    const int axis = plane / 2;
+    const double sign = plane % 2 == 0 ? 1.0 : -1.0;
+    const auto inside = [&](const Vec2& p) { return sign * (p[axis] - center[axis]) + half; };
+    Polygon next;
+    for (std::size_t i = 0; i < part.count; ++i) {
+      const Vec2 &a = part.corner[i], &b = part.corner[(i + 1) % part.count];
+      const double va = inside(a), vb = inside(b);
+      if (va >= 0.0 && next.count < next.corner.size()) next.corner[next.count++] = a;
+      if ((va >= 0.0) != (vb >= 0.0) && next.count < next.corner.size())
+        next.corner[next.count++] = a + (va / (va - vb)) * (b - a);
+    }
+    part = next;
+  }
+  return part;
+}
+
+}  // namespace
+
+std::uint64_t SheetTile::bytes() const {
+  return (texels ? texel_count * sizeof(TexelBounds) : 0) +
+         (split_of ? texel_count * sizeof(std::uint16_t) : 0) + parts.size() * sizeof(TexelBounds);
+}
+
+SheetTile TileBuilder::build(int tile_x, int tile_y, std::span<const std::uint32_t> triangles) {
+  collect(tile_x, tile_y, triangles);
+  piece_count_ += placed_.size() + covers_.size();
+  SheetTile tile;
+  if (placed_.empty()) {
+    const ColumnBounds all = covers_alone();
+    tile.uniform = all.bounds;
+    if (all.decisive || covers_.size() == 1) return tile;
+  }
+  finish(tile);
+  return tile;
+}
+
+void TileBuilder::collect(int tile_x, int tile_y, std::span<const std::uint32_t> triangles) {
+  placed_.clear(), covers_.clear(), kept_.clear();
+  const TileFrame frame(grid_, face_, tile_x, tile_y);
+  TileTriangle triangle;
+  for (const std::uint32_t id : triangles) {
+    const auto& v = world_.triangles[id];
+    if (!frame.set_up({points_[v[0]], points_[v[1]], points_[v[2]]}, facing_[id], triangle)) continue;
+    triangle.id = id;
+    if (TileFrame::covers_tile(triangle)) {
+      covers_.push_back({triangle.nearness, triangle.nearness_error, triangle.low, triangle.high,
+                         triangle.facing, (triangle.boundary & TriangleFacing::whole) != 0, id});
+      continue;
+    }
+    triangle.slot = static_cast<std::uint32_t>(kept_.size());
+    kept_.push_back(triangle);
+    add_triangle(triangle);
+  }
+  add_shapes(tile_x, tile_y);
+}
+
+void TileBuilder::add_triangle(const TileTriangle& t) {
+  for (int y = t.y0; y <= t.y1; ++y)
+    for (int x = t.x0; x <= t.x1; ++x) add_texel(t, x, y);
+}
+
+void TileBuilder::add_texel(const TileTriangle& t, int x, int y) {
+  const auto fx = static_cast<float>(x) + 0.5f, fy = static_cast<float>(y) + 0.5f;
+  if (const auto piece = meet(t, fx, fy, 0.5f)) place(x, y, *piece);
+}
+
+void TileBuilder::clip(Piece& piece, float slope_u, float slope_v) const {
+  const TileTriangle& t = kept_[piece.slot];
+  if (t.clipped) return;
+  const auto du = static_cast<double>(piece.slope_u - slope_u),
+             dv = static_cast<double>(piece.slope_v - slope_v);
+  const double x = static_cast<double>(column_x_), y = static_cast<double>(column_y_);
+  const auto inside = clip_to_square(t.corner, Vec2(x, y), static_cast<double>(column_reach_));
+  if (inside.count == 0) return;  // only rounding put it here
+  double low = infinity, high = -infinity;
+  for (std::size_t i = 0; i < inside.count; ++i) {
+    const double value = du * (inside.corner[i].x - x) + dv * (inside.corner[i].y - y);
+    low = std::min(low, value), high = std::max(high, value);
+  }
+  const double middle = static_cast<double>(piece.middle);
+  const double rounding = static_cast<double>(piece.error) +
+                          2.0 * texel_slack * (std::abs(du) + std::abs(dv)) + 0x1p-22 * std::abs(middle);
+  piece.low = std::max(piece.low, raytrace::float_below(middle + low - rounding));
+  piece.high = std::min(piece.high, raytrace::float_above(middle + high + rounding));
+}
+
+void TileBuilder::add_shapes(int tile_x, int tile_y) {
+  for (std::uint32_t id = world_.triangle_count(); id < world_.primitive_count(); ++id) {
+    const Shape& shape = world_.shape(id);
+    const bool masked = world_.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
+      if (const auto cover = plane_cover(grid_, face_, tile_x, tile_y, *plane, masked))
+        covers_.push_back(*cover);
+    } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+      add_sphere(SphereColumns(grid_, face_, tile_x, tile_y, *sphere, masked), false);
+    } else {
+      add_sphere(SphereColumns(grid_, face_, tile_x, tile_y, ball_around(shape.geometry), true), true);
+    }
+  }
+}
+
+void TileBuilder::add_sphere(const SphereColumns& sphere, bool anywhere_inside) {
+  if (sphere.is_everywhere()) covers_.push_back(anything);
+  if (sphere.misses_tile()) return;
+  for (int y = 0; y < tile_texels; ++y)
+    for (int x = 0; x < tile_texels; ++x) {
+      const auto sides = sphere.at(x, y);
+      if (!sides) continue;
+      if (!anywhere_inside) {
+        for (const Piece& side : *sides) place(x, y, side);
+        continue;
+      }
+      Piece inside{.low = (*sides)[1].low, .high = (*sides)[0].high};
+      inside.boundary = true;
+      place(x, y, inside);
+    }
+}
+
+// One triangle lies wholly on the outer side of an edge of the other. Corners that they share lie on it.
+bool TileBuilder::apart(std::uint32_t a, std::uint32_t b) const {
+  if (a == no_id || b == no_id) return false;
+  return lies_beside(a, b) || lies_beside(b, a);
+}
+
+bool TileBuilder::lies_beside(std::uint32_t a, std::uint32_t b) const {
+  const auto &va = world_.triangles[a], &vb = world_.triangles[b];
+  std::array<Vec2, 3> p, q;
+  double error = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GridPoint &i = points_[va[k]], &j = points_[vb[k]];
+    if (!(std::min(i.w, j.w) > grid_.near_limit)) return false;
+    p[k] = Vec2(i.u, i.v) / i.w, q[k] = Vec2(j.u, j.v) / j.w;
+    error = std::max(error, 2.0 * grid_.grid_error / std::min(i.w, j.w));
+  }
+  const double inside = -facing_[a].facing * grid_.faces[static_cast<std::size_t>(face_)].handedness;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = (k + 1) % 3;
+    const Vec2 edge = p[end] - p[k];
+    bool beside = true;
+    for (std::size_t c = 0; c < 3 && beside; ++c) {
+      const Vec3& corner = world_.positions[vb[c]];
+      if (corner == world_.positions[va[k]] || corner == world_.positions[va[end]]) continue;
+      const Vec2 to = q[c] - p[k];
+      const double value = edge.x * to.y - edge.y * to.x;
+      const double sizes = std::abs(edge.x) + std::abs(edge.y) + std::abs(to.x) + std::abs(to.y);
+      beside = inside * value < -(4.0 * error * (sizes + error) + 0x1p-50 * sizes * sizes);
+    }
+    if (beside) return true;
+  }
+  return false;
+}
+
+// The whole tile as one column.
+ColumnBounds TileBuilder::covers_alone() {
+  constexpr float middle = 0.5f * tile_texels;
+  column_.clear();
+  return solve(middle, middle, middle, false);
+}
+
+ColumnBounds TileBuilder::solve(float x, float y, float half, bool quick) {
+  column_x_ = x, column_y_ = y, column_reach_ = half + 2.0f * slack;
+  for (const Cover& cover : covers_) {
+    const Piece piece = cover.at(x, y, column_reach_);
+    if (piece.low <= piece.high) column_.push_back(piece);  // else: beyond a plane's horizon
+  }
+  ColumnBounds found =
+      quick ? quick_bounds_of(column_, column_reach_, *this) : bounds_of(column_, column_reach_, *this);
+  found.bounds = widened(found.bounds);
+  return found;
+}
+
+TexelBounds TileBuilder::widened(TexelBounds b) const {
+  // A receiver's place in the texel is known within the slack.
+  const float by_slope = 2.0f * slack * (std::abs(b.slope_u) + std::abs(b.slope_v));
+  b.lit_above += by_slope, b.dark_below -= by_slope;
+  if (std::isfinite(b.lit_above)) b.lit_above += static_cast<float>(grid_.nearness_error(b.lit_above));
+  if (std::isfinite(b.dark_below)) b.dark_below -= static_cast<float>(grid_.nearness_error(b.dark_below));
+  return b;
+}
+
+// A counting sort; afterwards first_[i] is where the texel's pieces end.
+void TileBuilder::sort_by_texel() {
+  first_.assign(texel_count + 1, 0);
+  for (const Placed& p : placed_) ++first_[p.texel + 1];
+  for (std::size_t i = 0; i < texel_count; ++i) first_[i + 1] += first_[i];
+  sorted_.resize(placed_.size());
+  for (const Placed& p : placed_) sorted_[first_[p.texel]++] = p.piece;
+}
+
+namespace {
+
+float middle_of(std::size_t texel) {
+  return static_cast<float>(texel) + 0.5f;
+}
+
+}  // namespace
+
+void TileBuilder::finish(SheetTile& tile) {
+  sort_by_texel();
+  tile.texels = std::unique_ptr<TexelBounds[]>(new TexelBounds[texel_count]);
+  std::uint32_t begin = 0;
+  for (std::size_t i = 0; i < texel_count; ++i) {
+    column_.assign(sorted_.begin() + begin, sorted_.begin() + first_[i]);
+    begin = first_[i];
+    tile.texels[i] = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds;
+  }
+}
+
+void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> triangles,
+                         std::span<const std::uint16_t> texels, SheetTile& tile) {
+  collect(tile_x, tile_y, triangles);
+  sort_by_texel();
+  if (!tile.texels) {
+    tile.texels = std::unique_ptr<TexelBounds[]>(new TexelBounds[texel_count]);
+    for (std::size_t i = 0; i < texel_count; ++i) {
+      column_.clear();
+      tile.texels[i] = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds;
+    }
+  }
+  if (!tile.split_of) {
+    tile.split_of = std::unique_ptr<std::uint16_t[]>(new std::uint16_t[texel_count]);
+    std::fill_n(tile.split_of.get(), texel_count, SheetTile::not_split);
+  }
+  for (const std::uint16_t i : texels) {
+    if (tile.is_refined(i)) continue;
+    const std::span<const Piece> pieces(sorted_.data() + (i > 0 ? first_[i - 1] : 0),
+                                        sorted_.data() + first_[i]);
+    column_.assign(pieces.begin(), pieces.end());
+    const ColumnBounds found = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, false);
+    tile.split_of[i] = SheetTile::refined;
+    tile.texels[i] = found.bounds;
+    if (!found.decisive) split(i, pieces, tile);
+  }
+}
+
+void TileBuilder::split(std::size_t texel, std::span<const Piece> pieces, SheetTile& tile) {
+  constexpr std::size_t parts = std::size_t{parts_per_side} * parts_per_side;
+  constexpr float half = 0.5f / parts_per_side;
+  tile.split_of[texel] = static_cast<std::uint16_t>(tile.parts.size() / parts);
+  for (std::size_t part = 0; part < parts; ++part) {
+    const float x = static_cast<float>(texel % tile_texels) +
+                    (2.0f * static_cast<float>(part % parts_per_side) + 1.0f) * half;
+    const float y = static_cast<float>(texel / tile_texels) +
+                    (2.0f * static_cast<float>(part / parts_per_side) + 1.0f) * half;
+    column_.clear();
+    for (const Piece& piece : pieces) {
+      if (piece.slot == Piece::no_slot)
+        column_.push_back(piece);
+      else if (const auto there = meet(kept_[piece.slot], x, y, half))
+        column_.push_back(*there);
+    }
+    tile.parts.push_back(solve(x, y, half, false).bounds);
+  }
+}
+
+}  // namespace gnomon::hybrid

@@ -1,0 +1,152 @@
+#include "hybrid/visibility.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <map>
+
+#include "hybrid/hard_shadows.h"
+#include "hybrid/receivers.h"
+#include "hybrid/soft_shadows.h"
+
+namespace gnomon::hybrid {
+namespace {
+
+using raster::ExternalCosts;
+using raster::VisibilityRequest;
+using raytrace::SurfacePoint;
+using raytrace::Tracer;
+using raytrace::Verdict;
+
+bool same(const LightView& a, const LightView& b) {
+  const auto same_face = [](const LightFace& p, const LightFace& q) {
+    return p.right == q.right && p.up == q.up && p.forward == q.forward && p.center == q.center &&
+           p.half_extent == q.half_extent && p.warp == q.warp;
+  };
+  bool faces = a.face_count == b.face_count;
+  for (std::size_t i = 0; faces && i < static_cast<std::size_t>(a.face_count); ++i)
+    faces = same_face(a.faces[i], b.faces[i]);
+  return faces && a.projection == b.projection && a.size == b.size && a.origin == b.origin;
+}
+
+class HybridVisibility final : public raster::ExternalVisibility {
+ public:
+  explicit HybridVisibility(const World& world) : world_(world) {}
+
+  Expected<void> prepare(const VisibilityRequest& request, bool anew) override {
+    start();
+    Kept& kept = kept_[request.light];
+    const Light& light = world_.scene->lights[request.light];
+    if (kept.cache && kept.cache->light == light && same(kept.cache->sheets.view(), request.map)) {
+      if (!anew) return {};
+    } else {
+      kept.build = {};
+    }
+    time_run(kept.build, [&] {
+      kept.cache.emplace(*tracer_, *topology_, light, request.map);
+      kept.soft.reset();
+      if (has_size(light)) kept.soft.emplace(*tracer_, *topology_, request.light);
+    });
+    kept.receivers_ms = kept.shadow = {};
+    return {};
+  }
+
+  Expected<void> find(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
+                      Image<float>& visibility) override {
+    Kept& kept = kept_.at(request.light);
+    time_run(kept.receivers_ms,
+             [&] { silhouette_ = finder_->find(request.camera, primitive, receivers_).traced; });
+    if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
+    time_run(kept.shadow, [&] {
+      counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, verdicts_, &decision_);
+      if (kept.soft) {
+        soft_counts_ =
+            kept.soft->find(receivers_, verdicts_, samples_of(request), request.seed, decision_, visibility);
+        return;
+      }
+      for (std::size_t i = 0; i < verdicts_.data.size(); ++i)
+        visibility.data[i] = verdicts_.data[i] == Verdict::shadowed ? 0.0f : 1.0f;
+    });
+    return {};
+  }
+
+  ExternalCosts costs(const VisibilityRequest& request, bool counted) override {
+    const Kept& kept = kept_.at(request.light);
+    ExternalCosts costs;
+    costs.receivers = counts_.asked;
+    costs.surely_lit = counts_.lit, costs.surely_shadowed = counts_.shadowed;
+    costs.rays = counts_.rays, costs.all_rays = counts_.asked;
+    costs.silhouette = silhouette_;
+    costs.bytes = kept.cache->bytes();
+    if (kept.soft) {
+      costs.penumbra = soft_counts_.penumbra;
+      costs.rays += soft_counts_.rays;
+      costs.all_rays = counts_.asked * static_cast<std::uint64_t>(samples_of(request));
+      costs.bytes += kept.soft->bytes();
+    }
+    costs.build = kept.build, costs.receivers_ms = kept.receivers_ms, costs.shadow = kept.shadow;
+    if (!counted) return costs;
+    costs.decision = Image<std::uint8_t>(decision_.size);
+    for (std::size_t i = 0; i < decision_.data.size(); ++i)
+      costs.decision.data[i] = static_cast<std::uint8_t>(decision_.data[i]);
+    count_tests(kept.cache->light, costs);
+    return costs;
+  }
+
+ private:
+  struct Kept {
+    std::optional<LightCache> cache;
+    std::optional<SoftLight> soft;  // of a light with size
+    Times build, receivers_ms, shadow;
+  };
+
+  void start() {
+    if (tracer_) return;
+    tracer_.emplace(world_, raytrace::Accel::bvh);
+    topology_.emplace(world_);
+    finder_.emplace(*tracer_);
+  }
+
+  int samples_of(const VisibilityRequest& request) const {
+    return request.shadow_samples > 0 ? request.shadow_samples
+                                      : world_.scene->lights[request.light].shadow_samples;
+  }
+
+  // To the light's centre: what single rays through the hierarchy would test, for those cast and for all.
+  void count_tests(const Light& light, ExternalCosts& costs) const {
+    std::atomic<std::uint64_t> cast = 0, all = 0;
+    tbb::parallel_for(0, receivers_.size.height, [&](int y) {
+      raytrace::WorkCounts cast_here, all_here;
+      for (int x = 0; x < receivers_.size.width; ++x) {
+        const Decision decision = decision_.at(x, y);
+        if (decision == Decision::not_asked) continue;
+        raytrace::WorkCounts work;
+        static_cast<void>(tracer_->occluded(tracer_->shadow_ray(receivers_.at(x, y), light), work));
+        all_here.primitives += work.primitives;
+        if (decision == Decision::traced) cast_here.primitives += work.primitives;
+      }
+      cast += cast_here.primitives, all += all_here.primitives;
+    });
+    costs.triangle_tests = cast, costs.all_triangle_tests = all;
+  }
+
+  const World& world_;
+  std::optional<Tracer> tracer_;
+  std::optional<raytrace::Topology> topology_;
+  std::optional<ReceiverFinder> finder_;
+  std::map<std::uint32_t, Kept> kept_;  // by light
+  Image<SurfacePoint> receivers_;       // of the last frame
+  Image<Verdict> verdicts_;
+  Image<Decision> decision_;
+  ShadowCounts counts_;
+  SoftCounts soft_counts_;
+  std::uint64_t silhouette_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<raster::ExternalVisibility> make_visibility(const World& world) {
+  return std::make_shared<HybridVisibility>(world);
+}
+
+}  // namespace gnomon::hybrid

@@ -1,0 +1,54 @@
+// Visibility that is worked out outside OpenGL, from what the camera sees, and shaded like any other
+// (Technique::hybrid). The rasterizer hands over its visibility buffer and gets back an image.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/camera.h"
+#include "scene/expected.h"
+#include "scene/image.h"
+#include "scene/light_view.h"
+#include "scene/timing.h"
+
+namespace gnomon::raster {
+
+/// One light of one frame. All must outlive the call only.
+struct VisibilityRequest {
+  std::uint32_t light = 0;  ///< index in Scene::lights
+  const LightView& map;     ///< fitted for the light at the map size asked for
+  const View& camera;
+  int shadow_samples = 0;  ///< to a light with size; 0: as the light says
+  std::uint64_t seed = 0;  ///< of the samples
+};
+
+/// What a light's visibility took. Shares are of `receivers`, the pixels that the light can reach.
+struct ExternalCosts {
+  std::uint64_t receivers = 0;
+  std::uint64_t surely_lit = 0, surely_shadowed = 0;
+  std::uint64_t penumbra = 0;    ///< receivers that were sampled, of a light with size
+  std::uint64_t rays = 0;        ///< cast
+  std::uint64_t all_rays = 0;    ///< that pure ray tracing casts for the same
+  std::uint64_t silhouette = 0;  ///< pixels whose ray misses the primitive that the rasterizer shows there
+  std::uint64_t bytes = 0;       ///< held for the light
+  Times build;                   ///< ms, of what is kept while light and world stand still
+  Times receivers_ms, shadow;    ///< ms, of each frame: the receivers; their visibility
+  /// Who decided each pixel: 0 surely shadowed, 1 surely lit, 2 traced, 3 not asked.
+  Image<std::uint8_t> decision;
+  /// Triangles tested for the rays cast, and for all rays, by a walk that counts; 0: not counted.
+  std::uint64_t triangle_tests = 0, all_triangle_tests = 0;
+};
+
+class ExternalVisibility {
+ public:
+  virtual ~ExternalVisibility() = default;
+  /// Makes what is kept for the light, anew or (when nothing changed) not at all.
+  virtual Expected<void> prepare(const VisibilityRequest& request, bool anew) = 0;
+  /// `primitive`: what each pixel shows, or no_id. `visibility` (of the same size): 1 lit, 0 shadowed; 1
+  /// where there is nothing to see.
+  virtual Expected<void> find(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
+                              Image<float>& visibility) = 0;
+  /// Of the last light asked for. `counted`: triangle tests too, which takes as long as tracing it all.
+  virtual ExternalCosts costs(const VisibilityRequest& request, bool counted) = 0;
+};
+
+}  // namespace gnomon::raster

@@ -1,0 +1,66 @@
+// A scene on stage for the hybrid's tests: its world, tracer, topology, and the truth by pure ray tracing.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hybrid/hard_shadows.h"
+#include "raytrace/frame.h"
+#include "raytrace_support.h"
+
+namespace gnomon::test {
+
+struct Stage {
+  /// `keep_sizes`: of the lights; else each is shrunk to its centre.
+  Stage(Scene s, ImageSize image_size, bool keep_sizes = false)
+      : scene(std::move(s)),
+        world(make_world(scene)),
+        tracer(world, raytrace::Accel::bvh),
+        topology(world),
+        size(image_size) {
+    std::vector<std::uint32_t> lights(scene.lights.size());
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+      lights[i] = i;
+      if (!keep_sizes) scene.lights[i].extent = {};
+    }
+    raytrace::RaytraceOptions options;
+    options.size = size, options.picture = false, options.seed = 5;
+    frame = trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+  }
+  LightView map(std::uint32_t light, int map_size) const {
+    return fit_light_view(world, scene.lights[light], scene.camera, double(size.width) / size.height,
+                          map_size)
+        .value();
+  }
+
+  Scene scene;
+  World world;
+  raytrace::Tracer tracer;
+  raytrace::Topology topology;
+  ImageSize size;
+  raytrace::RayTracedFrame frame;
+};
+
+/// A model of ../shared/data over a ground, with a point light, a sun and a spot; null where it is absent.
+inline std::unique_ptr<Stage> model_stage(const std::string& file, ImageSize size, bool soft = false) {
+  auto mesh = read_obj(std::string(GNOMON_SHARED_DATA) + file);
+  if (!mesh) return nullptr;
+  Mesh model = normalised(std::move(*mesh));
+  double low = infinity;
+  for (const Vec3& p : model.positions) low = std::min(low, p.y);
+  Scene scene = scene_of({std::move(model), quad({-1, low, -1}, {0, 0, 2}, {2, 0, 0})});
+  scene.name = file;
+  Light spot = point_light({0.7, 1.2, 0.9});
+  spot.type = LightType::spot, spot.outer_angle = 0.6;
+  spot.direction = glm::normalize(Vec3(-0.7, -1.2, -0.9));
+  scene.lights = {point_light({0.7, 1.2, 0.9}), sun(glm::normalize(Vec3(-0.5, -1, -0.4))), spot};
+  if (soft) {
+    scene.lights.resize(1);
+    scene.lights[0].extent = DiscLight{0.08, glm::normalize(Vec3(-0.7, -1.2, -0.9))};
+    scene.lights[0].shadow_samples = 16;
+  }
+  scene.camera.eye = {0.25, 0.375, 1.25}, scene.camera.target = {0, 0, 0};
+  return std::make_unique<Stage>(std::move(scene), size, soft);
+}
+
+}  // namespace gnomon::test
