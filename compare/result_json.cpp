@@ -273,7 +273,8 @@ Json costs_json(const Comparison& c) {
   return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
           {"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
           {"soft_shadow_rays", rays.soft_shadow}, {"reflection_rays", rays.reflection},
-          {"refraction_rays", rays.refraction}};
+          {"refraction_rays", rays.refraction},   {"glossy_rays", rays.glossy},
+          {"indirect_rays", rays.indirect}};
 }
 
 Json result_object(const Comparison& c, double report_ms, double total_ms) {

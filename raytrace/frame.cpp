@@ -95,19 +95,34 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
 
 }  // namespace
 
+RayCounts& RayCounts::operator+=(const RayCounts& other) {
+  primary += other.primary, shadow += other.shadow, soft_shadow += other.soft_shadow;
+  reflection += other.reflection, refraction += other.refraction, glossy += other.glossy;
+  indirect += other.indirect, antialiasing += other.antialiasing, interior += other.interior;
+  return *this;
+}
+
 RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                            std::span<const std::uint32_t> lights, const RaytraceOptions& options) {
   const View view = make_view(camera, options.size);
   RayTracedFrame frame;
-  trace_primary(tracer, view, options, frame);
+  const bool at_centres = options.records || options.samples_per_pixel == 1;
+  if (at_centres) trace_primary(tracer, view, options, frame);
   for (const std::uint32_t light : lights) {
-    frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver));
+    if (!at_centres) break;
+    const bool soft = has_size(tracer.world().scene->lights[light]);
+    if (options.records || !soft) {
+      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver));
+    } else {
+      frame.lights.emplace_back().light = light;
+    }
     LightTruth& truth = frame.lights.back();
     frame.rays.shadow += truth.rays;
-    if (!has_size(tracer.world().scene->lights[light])) continue;
+    if (!soft) continue;
     trace_soft_shadows(tracer, options, frame.receiver, truth);
     frame.rays.soft_shadow += truth.soft_rays;
   }
+  if (!at_centres) frame.rays.primary = options.size.pixels();
   if (options.picture) {
     frame.color = ColorImage(options.size);
     const Stopwatch watch;

@@ -21,6 +21,11 @@ struct RaytraceOptions {
   int shadow_samples =
       0;  ///< rays per point to a light with size, <= max_shadow_samples; 0: as the light says
   std::uint64_t seed = 0;  ///< of every sample
+  /// The picture's; a box filter. What else the frame holds is of pixel centres. 1: the picture too.
+  int samples_per_pixel = 1;
+  /// false: only the picture is wanted, so no ray is cast that it does not need. Lights with size then have
+  /// no verdicts, and with several samples per pixel there are neither receivers nor lights.
+  bool records = true;
   bool operator==(const RaytraceOptions&) const = default;
 };
 
@@ -28,7 +33,12 @@ struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t shadow = 0;       ///< to lights without size, and to the centres of those with one
   std::uint64_t soft_shadow = 0;  ///< to samples of lights with size
-  std::uint64_t reflection = 0, refraction = 0;
+  std::uint64_t reflection = 0, refraction = 0;  ///< sharp ones
+  std::uint64_t glossy = 0;                      ///< that leave rough mirrors and rough glass
+  std::uint64_t indirect = 0;                    ///< that gather light reflected once
+  std::uint64_t antialiasing = 0;                ///< from the eye, beyond `primary`
+  std::uint64_t interior = 0;                    ///< to find the glass that the eye is in
+  RayCounts& operator+=(const RayCounts& other);
 };
 
 struct LightTruth {
@@ -52,6 +62,8 @@ struct RayTracedFrame {
   RayCounts rays;
   Times primary_rays;
   double picture_ms = 0.0;  ///< shading and secondary rays
+  std::uint64_t non_finite =
+      0;  ///< samples of the picture whose radiance was NaN or infinite; they are black
 };
 
 /// Bit-identical for any number of threads (oneTBB's global limit decides how many).

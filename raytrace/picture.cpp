@@ -1,81 +1,32 @@
 #include "raytrace/picture.h"
 
 #include <limits>
+#include <map>
 
-#include "raytrace/shade.h"
-#include "raytrace/tiles.h"
+#include "raytrace/inside.h"
+#include "raytrace/picture/kernels.h"
 
 namespace gnomon::raytrace {
 namespace {
 
-/// For each light of the scene its place in RayTracedFrame::lights, or npos.
+PictureKernel kernel_for(const EffectPlan& plan, const RaytraceOptions& options) {
+  const bool soft = plan.simulates(Effect::soft_shadow);
+  if (plan.simulates(Effect::indirect_light))
+    return soft ? soft_indirect_kernel(plan, options) : indirect_kernel(plan, options);
+  return soft ? soft_kernel(plan, options) : plain_kernel(plan, options);
+}
+
+}  // namespace
+
 std::vector<std::size_t> truth_of_light(const Scene& scene, const RayTracedFrame& frame) {
   std::vector<std::size_t> index(scene.lights.size(), std::numeric_limits<std::size_t>::max());
   for (std::size_t i = 0; i < frame.lights.size(); ++i) index[frame.lights[i].light] = i;
   return index;
 }
 
-template <class Policy>
-void shade_pixels(const Tracer& tracer, const View& view, const RaytraceOptions& options,
-                  RayTracedFrame& frame) {
-  const Scene& scene = *tracer.world().scene;
-  const std::vector<std::size_t> truth = truth_of_light(scene, frame);
-  const TileGrid grid{options.size};
-  std::vector<RayCounts> counts(grid.count());
-  for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
-    const SurfacePoint& point = frame.receiver.at(x, y);
-    if (point.primitive == no_id) {
-      frame.color.at(x, y) = scene.background;
-      return;
-    }
-    Shader<Policy> shader(tracer, options, frame.receiver.index(x, y), counts[tile]);
-    // A verdict already known saves the ray, but for light that glass may let through and for doubtful
-    // pixels.
-    const auto shadow = [&](std::uint32_t i) {
-      if (truth[i] < frame.lights.size()) {
-        if constexpr (Policy::soft) {
-          const Image<float>& visibility = frame.lights[truth[i]].visibility;
-          if (!visibility.data.empty())
-            return Policy::refracts && visibility.at(x, y) < 1.0f ? shader.transmittance(point, i)
-                                                                  : Vec3f(visibility.at(x, y));
-        }
-        const Verdict verdict = frame.lights[truth[i]].verdict.at(x, y);
-        if (verdict == Verdict::lit) return Vec3f(1.0f);
-        if (verdict == Verdict::shadowed && !Policy::refracts) return Vec3f(0.0f);
-      }
-      return shader.transmittance(point, i);
-    };
-    frame.color.at(x, y) = shader.leaving(point, {pixel_ray(view, x + 0.5, y + 0.5).direction}, shadow);
-  });
-  for (const RayCounts& c : counts) {
-    frame.rays.shadow += c.shadow;
-    frame.rays.soft_shadow += c.soft_shadow;
-    frame.rays.reflection += c.reflection;
-    frame.rays.refraction += c.refraction;
-  }
+void add_counts(const std::vector<TileCounts>& tiles, RayTracedFrame& frame) {
+  for (const TileCounts& tile : tiles) frame.rays += tile.rays, frame.non_finite += tile.non_finite;
 }
-
-using PictureKernel = void (*)(const Tracer&, const View&, const RaytraceOptions&, RayTracedFrame&);
-
-template <Secondary secondary, bool soft>
-PictureKernel choose_local(const EffectPlan& plan) {
-  const bool textures = plan.simulates(Effect::textures), specular = plan.simulates(Effect::specular);
-  if (textures)
-    return specular ? shade_pixels<ShadePolicy<secondary, true, true, soft>>
-                    : shade_pixels<ShadePolicy<secondary, true, false, soft>>;
-  return specular ? shade_pixels<ShadePolicy<secondary, false, true, soft>>
-                  : shade_pixels<ShadePolicy<secondary, false, false, soft>>;
-}
-
-template <bool soft>
-PictureKernel choose_secondary(const EffectPlan& plan) {
-  if (plan.simulates(Effect::absorption)) return choose_local<Secondary::absorbing_glass, soft>(plan);
-  if (plan.simulates(Effect::refraction)) return choose_local<Secondary::glass, soft>(plan);
-  if (plan.simulates(Effect::reflection)) return choose_local<Secondary::mirror, soft>(plan);
-  return choose_local<Secondary::none, soft>(plan);
-}
-
-}  // namespace
 
 Vec3 shading_normal(const World& world, const SurfacePoint& point) {
   if (!world.is_triangle(point.primitive)) return point.normal;
@@ -88,11 +39,60 @@ Vec3 shading_normal(const World& world, const SurfacePoint& point) {
   return glm::dot(n, point.normal) < 0.0 ? -n / length : n / length;
 }
 
+namespace {
+
+bool is_body(const Material& material) {
+  return material.transmission > 0.0f && !material.thin;
+}
+
+struct Body {
+  std::uint32_t object, material;
+};
+
+/// Bodies of glass whose surfaces a ray from the place crosses an odd number of times, in the order of their
+/// first surfaces.
+std::vector<Body> bodies_ahead(const Tracer& tracer, const Vec3& place, std::uint64_t& rays) {
+  constexpr int most_surfaces = 4096;  // beyond them the place counts as outside
+  const World& world = tracer.world();
+  std::vector<Body> order;
+  std::map<std::uint32_t, bool> odd;  // by object
+  Ray ray{place, glm::normalize(Vec3(0.3178, 0.8367, 0.4461))};
+  for (int surface = 0; surface < most_surfaces; ++surface) {
+    ++rays;
+    const std::optional<Hit> hit = tracer.closest_hit(ray);
+    if (!hit) {
+      std::erase_if(order, [&](const Body& body) { return !odd[body.object]; });
+      return order;
+    }
+    const std::uint32_t material = world.material_of(hit->primitive);
+    if (is_body(world.scene->materials[material])) {
+      const std::uint32_t object = world.object_of(hit->primitive);
+      const auto [entry, first] = odd.emplace(object, false);
+      if (first) order.push_back({object, material});
+      entry->second = !entry->second;
+    }
+    ray = tracer.spawn_ray(tracer.surface_point(ray, *hit), ray.direction);
+  }
+  return {};
+}
+
+}  // namespace
+
+Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& rays) {
+  const std::vector<Body> ahead = bodies_ahead(tracer, place, rays);
+  Interior interior;
+  if (ahead.empty()) return interior;
+  const InsideTest test(tracer.world());                          // says no to what is not closed
+  for (auto body = ahead.rbegin(); body != ahead.rend(); ++body)  // what is left last was entered first
+    if (test.contains(body->object, place)) interior.enter(body->material);
+  return interior;
+}
+
 void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
                    const RaytraceOptions& options, RayTracedFrame& frame) {
-  const PictureKernel kernel =
-      plan.simulates(Effect::soft_shadow) ? choose_secondary<true>(plan) : choose_secondary<false>(plan);
-  kernel(tracer, view, options, frame);
+  PictureInput input{tracer, view, options};
+  if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
+  kernel_for(plan, options)(input, frame);
 }
 
 }  // namespace gnomon::raytrace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raytrace/frame.h"
+#include "raytrace/interior.h"
 #include "raytrace/sampling.h"
 
 namespace gnomon::raytrace {
@@ -11,6 +12,9 @@ namespace gnomon::raytrace {
 constexpr std::uint64_t pixel_key(std::uint64_t seed, std::size_t pixel, std::uint32_t light) {
   return sample_key(sample_key(seed, pixel), light);
 }
+
+/// The closed bodies of glass that hold a place. rays: adds those that it took to find them.
+Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& rays);
 
 /// Fills frame.color and adds the rays that it casts.
 void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,

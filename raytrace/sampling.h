@@ -65,4 +65,13 @@ inline Vec2 concentric_disc(const Vec2& square) {
   return radius * Vec2(std::cos(angle), std::sin(angle));
 }
 
+/// A direction of the hemisphere around the unit vector n, as likely as its cosine with n: the disc lifted
+/// onto the hemisphere (Malley's method; PBR 4th ed., section A.5.3).
+inline Vec3 cosine_direction(const Vec3& n, const Vec2& square) {
+  Vec3 tangent, bitangent;
+  orthonormal_basis(n, tangent, bitangent);
+  const Vec2 p = concentric_disc(square);
+  return p.x * tangent + p.y * bitangent + std::sqrt(std::max(0.0, 1.0 - glm::dot(p, p))) * n;
+}
+
 }  // namespace gnomon::raytrace

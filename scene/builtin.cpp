@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 12> scenes{{
+constexpr std::array<BuiltinScene, 13> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
@@ -25,6 +25,7 @@ constexpr std::array<BuiltinScene, 12> scenes{{
      "alone."},
     {"penumbra", "A disc light over a disc over a floor: umbra and penumbra have closed forms."},
     {"whitted", "Glass and mirror spheres over a checkered floor, after Whitted's picture of 1980."},
+    {"studio", "A drink with ice, brushed metal and frosted glass under a large soft light."},
     {"teapot", "Newell's teapot on a table."},
     {"courtyard",
      "A court with arcades, stairs, balustrades and a fountain: tens of thousands of triangles in the sun."},

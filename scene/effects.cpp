@@ -25,7 +25,7 @@ struct Remark {
   bool supported;
   std::string_view text;  ///< added to the reason of an effect that is called for
 };
-constexpr Remark simulated{true, ""}, not_simulated{false, "; this version does not simulate it"};
+constexpr Remark simulated{true, ""}, traced_only{true, "; only the ray tracer shows it"};
 
 // The first used material for which `needs` holds is the reason.
 EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& remark, std::string_view property,
@@ -37,6 +37,12 @@ EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& rema
             fmt::format("material '{}' has {}{}", material.name, property, remark.text)};
   }
   return {effect, false, false, fmt::format("no material has {}", property)};
+}
+
+// An effect that is asked for by a number of samples above `off`.
+EffectEntry sampled(Effect effect, int samples, int off, std::string reason, std::string_view reason_off) {
+  if (samples > off) return {effect, true, true, std::move(reason)};
+  return {effect, false, false, std::string(reason_off)};
 }
 
 // The lights that have a size, or those that have none; the first one is the reason.
@@ -62,7 +68,7 @@ EffectEntry shadow(const Scene& scene, bool soft) {
 std::string_view effect_name(Effect effect) {
   static constexpr std::array<std::string_view, effect_count> names{
       "hard_shadow",    "soft_shadow", "reflection", "refraction", "absorption", "glossy",
-      "indirect_light", "textures",    "alpha_mask", "emission",   "specular"};
+      "indirect_light", "textures",    "alpha_mask", "emission",   "specular",   "antialiasing"};
   return names[static_cast<std::size_t>(effect)];
 }
 
@@ -72,11 +78,12 @@ EffectPlan plan_effects(const Scene& scene) {
     return from_materials(scene, e, remark, property, needs);
   };
   using M = const Material&;
+  const int per_pixel = scene.camera.samples_per_pixel;
   return {{
       shadow(scene, false),
       shadow(scene, true),
-      material(Effect::reflection, Remark{true, "; only the ray tracer shows it"},
-               "mirror or transmission > 0", [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
+      material(Effect::reflection, traced_only, "mirror or transmission > 0",
+               [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
       material(Effect::refraction,
                Remark{true,
                       "; the ray tracer's picture lets light through it, the rasterizer and the comparison "
@@ -84,14 +91,23 @@ EffectPlan plan_effects(const Scene& scene) {
                "transmission > 0", [](M m) { return m.transmission > 0.0f; }),
       material(Effect::absorption, simulated, "transmission > 0 and absorption > 0",
                [&](M m) { return m.transmission > 0.0f && any(m.absorption); }),
-      material(Effect::glossy, not_simulated, "roughness > 0 on a mirror or transmissive surface",
+      material(Effect::glossy, traced_only, "roughness > 0 on a mirror or transmissive surface",
                [](M m) { return m.roughness > 0.0f && (m.mirror > 0.0f || m.transmission > 0.0f); }),
-      EffectEntry{Effect::indirect_light, false, false, "the scene does not ask for it"},
+      sampled(Effect::indirect_light, scene.indirect_samples, 0,
+              fmt::format("the scene asks for {} samples per point; only the ray tracer's picture shows it",
+                          scene.indirect_samples),
+              "the scene does not ask for it"),
       material(Effect::textures, simulated, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
       material(Effect::alpha_mask, simulated, "an alpha mask",
                [](M m) { return m.alpha_mode == AlphaMode::mask; }),
       material(Effect::emission, simulated, "emission > 0", [&](M m) { return any(m.emission); }),
       material(Effect::specular, simulated, "specular > 0", [&](M m) { return any(m.specular); }),
+      sampled(
+          Effect::antialiasing, per_pixel, 1,
+          fmt::format("the camera asks for {} samples per pixel; gnomon raytrace does it, everything else "
+                      "stays at pixel centres",
+                      per_pixel),
+          "the camera asks for one sample per pixel"),
   }};
 }
 

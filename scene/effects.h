@@ -22,9 +22,10 @@ enum class Effect : std::uint8_t {
   textures,
   alpha_mask,
   emission,
-  specular
+  specular,
+  antialiasing
 };
-inline constexpr std::size_t effect_count = 11;
+inline constexpr std::size_t effect_count = 12;
 
 std::string_view effect_name(Effect effect);
 

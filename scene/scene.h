@@ -51,7 +51,9 @@ struct Material {
   float transmission = 0.0f;
   float ior = 1.5f;        ///< > 0
   Vec3f absorption{0.0f};  ///< Beer-Lambert coefficient per world unit, >= 0
-  float roughness = 0.0f;  ///< of mirror and transmission (glossy); 0 is sharp
+  float roughness = 0.0f;  ///< of mirror and transmission (glossy); 0 is sharp; the GGX alpha's root
+  int priority = 0;  ///< where glass overlaps, the highest is there; of equals the one entered last
+  bool thin = false;  ///< transmission through a sheet without inside: straight on, or blurred by roughness
   std::uint32_t diffuse_texture = no_id;
   TextureTransform texture_transform{};
   AlphaMode alpha_mode = AlphaMode::opaque;
@@ -151,6 +153,7 @@ struct RectangleLight {
 using LightExtent = std::variant<std::monostate, SunDisc, SphereLight, DiscLight, RectangleLight>;
 
 inline constexpr int max_shadow_samples = 65536;
+inline constexpr int max_samples = 65536;  ///< of a pixel, a rough surface, or the light around a point
 
 struct Light {
   std::string name;
@@ -171,6 +174,7 @@ struct Camera {
   Vec3 target{0.0};
   Vec3 up{0.0, 1.0, 0.0};
   double vertical_fov = pi / 4.0;  ///< full angle, in (0, pi)
+  int samples_per_pixel = 1;       ///< antialiasing of the ray-traced picture; 1: the pixel's centre
   bool operator==(const Camera&) const = default;
 };
 
@@ -190,6 +194,8 @@ struct Scene {
   std::optional<double>
       exposure;       ///< linear factor for 8-bit pictures; none: chosen from the ray-traced picture
   int max_depth = 8;  ///< recursion limit of the ray tracer
+  int glossy_samples = 16;   ///< rays from each point of a rough mirror or glass, in [1, max_samples]
+  int indirect_samples = 0;  ///< rays from each point to gather light reflected once, <= max_samples; 0: none
   std::vector<std::string> notes;  ///< what the loader made up or could not use, one sentence each
 };
 

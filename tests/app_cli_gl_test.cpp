@@ -79,7 +79,7 @@ TEST(Usage, MissingAndSuperfluousWords) {
 TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
   expect_one_line(run_gnomon({"raytrace", "fence", "--map-size", "64"}), 2, "unknown option --map-size");
   expect_one_line(run_gnomon({"raster", "fence", "--accel", "bvh"}), 2, "unknown option --accel");
-  expect_one_line(run_gnomon({"plan", "fence", "--size", "1x1"}), 2, "unknown option --size");
+  expect_one_line(run_gnomon({"plan", "fence", "--map-size", "1"}), 2, "unknown option --map-size");
 }
 
 // A class that edits the shaders: what it leaves alone is the program's own, and a mistake is one line.
@@ -210,9 +210,14 @@ TEST(Json, ScenesAndPlanArePure) {
   for (const json& scene : scenes["scenes"]) {
     const ProcessResult plan = run_gnomon({"plan", scene["name"], "--json", "-"});
     EXPECT_EQ(plan.exit_code, 0) << plan.err;
-    const json effects = json::parse(plan.out)["effects"];
-    EXPECT_EQ(effects.size(), 11u);
+    const json document = json::parse(plan.out), effects = document["effects"];
+    EXPECT_EQ(effects.size(), 12u);
+    std::uint64_t total = document["rays"]["primary"];
+    for (const json& effect : effects) total += effect["rays"].get<std::uint64_t>();
+    EXPECT_EQ(document["rays"]["total"], total);
+    EXPECT_EQ(document["rays"]["primary"], 1280u * 720u);
     for (const json& effect : effects) {
+      EXPECT_TRUE(effect["simulated"] || effect["rays"] == 0);
       EXPECT_TRUE(effect["simulated"].is_boolean() && effect["called_for"].is_boolean());
       EXPECT_FALSE(effect["reason"].get<std::string>().empty());
     }

@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 12u);
+  ASSERT_EQ(scenes.size(), 13u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
@@ -24,7 +24,7 @@ TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
     EXPECT_NE(file->text.find(s.description), std::string_view::npos) << s.name;
   }
   for (const std::string_view name : {"acne-floor", "floating-box", "fence", "thin-wall", "whitted",
-                                      "courtyard", "teapot", "stadium", "field", "penumbra"}) {
+                                      "courtyard", "teapot", "stadium", "field", "penumbra", "studio"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(find_builtin_scene("no-such-scene"));

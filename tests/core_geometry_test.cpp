@@ -190,9 +190,12 @@ TEST(Effects, OnlyWhatTheSceneCallsFor) {
   scene.instances[1].material = 1;
   const EffectPlan plan = plan_effects(scene);
   EXPECT_TRUE(plan.simulates(Effect::reflection));
-  EXPECT_TRUE(plan[Effect::glossy].called_for);
-  EXPECT_FALSE(plan[Effect::glossy].simulated) << "and the plan says so";
+  EXPECT_TRUE(plan.simulates(Effect::glossy));
   EXPECT_NE(plan[Effect::glossy].reason.find("mirror"), std::string::npos);
+  EXPECT_FALSE(plan[Effect::indirect_light].called_for || plan[Effect::antialiasing].called_for);
+  scene.indirect_samples = 1, scene.camera.samples_per_pixel = 2;
+  EXPECT_TRUE(plan_effects(scene).simulates(Effect::indirect_light));
+  EXPECT_TRUE(plan_effects(scene).simulates(Effect::antialiasing));
 }
 
 }  // namespace

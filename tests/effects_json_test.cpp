@@ -93,5 +93,66 @@ TEST(SizedLights, ThePlanNamesThem) {
   EXPECT_EQ(plan_effects(*hard)[Effect::soft_shadow].reason, "no light has a size");
 }
 
+// The keys of the picture's samples, in line 2 from column 3 on.
+Expected<Scene> with_settings(const std::string& keys, const std::string& material = "") {
+  return load_json_scene("{ \"schema\": \"gnomon/scene/1\",\n  " + keys + R"(
+  "shapes": [{ "sphere": { "center": [0, 0, 0], "radius": 1 }, "material": "m" }],
+  "materials": [{ "name": "m")" +
+                             material + "}] }",
+                         "s.json", ".", {});
+}
+
+const std::string camera = R"("camera": {"eye": [0, 0, 4], "target": [0, 0, 0], "samples_per_pixel": )";
+
+TEST(PictureSamples, AreRead) {
+  const Expected<Scene> none = with_settings("");
+  ASSERT_TRUE(none) << none.error().message();
+  EXPECT_EQ(none->glossy_samples, 16);
+  EXPECT_EQ(none->indirect_samples, 0);
+  EXPECT_EQ(none->camera.samples_per_pixel, 1);
+  EXPECT_FALSE(none->materials[0].thin);
+  EXPECT_EQ(none->materials[0].priority, 0);
+  const Expected<Scene> all =
+      with_settings(R"("glossy": {"samples": 5}, "indirect": {"samples": 7}, )" + camera + "9},",
+                    R"(, "transmission": 1, "priority": -3, "thin": true, "roughness": 0.5)");
+  ASSERT_TRUE(all) << all.error().message();
+  EXPECT_EQ(all->glossy_samples, 5);
+  EXPECT_EQ(all->indirect_samples, 7);
+  EXPECT_EQ(all->camera.samples_per_pixel, 9);
+  EXPECT_TRUE(all->materials[0].thin);
+  EXPECT_EQ(all->materials[0].priority, -3);
+  const EffectPlan plan = plan_effects(*all);
+  EXPECT_EQ(
+      plan[Effect::glossy].reason,
+      "material 'm' has roughness > 0 on a mirror or transmissive surface; only the ray tracer shows it");
+  EXPECT_EQ(plan[Effect::indirect_light].reason,
+            "the scene asks for 7 samples per point; only the ray tracer's picture shows it");
+  EXPECT_EQ(
+      plan[Effect::antialiasing].reason,
+      "the camera asks for 9 samples per pixel; gnomon raytrace does it, everything else stays at pixel "
+      "centres");
+}
+
+TEST(PictureSamples, MistakesHaveTheirPlace) {
+  const struct {
+    std::string keys, material, message;
+  } mistakes[] = {
+      {R"("glossy": {"samples": 0},)", "",
+       "glossy.samples: out of range (got 0, allowed a whole number in [1, 65536])"},
+      {R"("indirect": {"samples": 1.5},)", "", "indirect.samples: "},
+      {R"("indirect": {},)", "", "indirect.samples: is missing"},
+      {R"("indirect": {"samples": 1, "bounces": 2},)", "", "indirect.bounces: unknown key"},
+      {camera + "65537},", "", "camera.samples_per_pixel: out of range (got 65537, allowed "},
+      {"", R"(, "priority": 0.5)", "materials[0].priority: "},
+      {"", R"(, "priority": 1001)", "materials[0].priority: out of range (got 1001, allowed "},
+      {"", R"(, "thin": 1)", "materials[0].thin: "},
+  };
+  for (const auto& [keys, material, message] : mistakes) {
+    const Expected<Scene> scene = with_settings(keys, material);
+    ASSERT_FALSE(scene) << keys << material;
+    EXPECT_NE(scene.error().message().find(": " + message), std::string::npos) << scene.error().message();
+  }
+}
+
 }  // namespace
 }  // namespace gnomon

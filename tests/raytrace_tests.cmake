@@ -33,3 +33,16 @@ target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::
 target_include_directories(gnomon_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_compile_definitions(gnomon_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
 add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
+
+# Whole processes against POV-Ray 3.7, where it is installed (it is no part of the set-up).
+add_executable(povray_bench bench/povray_bench.cpp bench/bench_scenes.cpp support/raytrace_support.cpp)
+target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raytrace CLI11::CLI11 fmt::fmt
+  nlohmann_json::nlohmann_json)
+target_include_directories(povray_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/support)
+target_compile_definitions(povray_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+find_program(GNOMON_POVRAY povray)
+mark_as_advanced(GNOMON_POVRAY)
+if(GNOMON_POVRAY)
+  add_test(NAME povray_bench_pictures_alike COMMAND povray_bench --gnomon $<TARGET_FILE:gnomon_program> --scene teapot --runs 1
+    --width 320 --height 180 --out ${CMAKE_CURRENT_BINARY_DIR}/povray)
+endif()

@@ -8,7 +8,9 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/picture_samples.h"
 #include "app/session.h"
+#include "raytrace/forecast.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -17,19 +19,65 @@ namespace {
 
 struct PlanCommand {
   std::string scene, json;
+  raytrace::RaytraceOptions options;
+  PictureSamples samples;
+  int threads = 0;
   bool quiet = false;
 };
 
-std::string plan_json(const EffectPlan& plan) {
+/// Effects that decide a ray's colour, not whether there is one, cost none.
+std::uint64_t rays_of(Effect effect, const raytrace::RayCounts& rays) {
+  switch (effect) {
+    case Effect::hard_shadow:
+      return rays.shadow;
+    case Effect::soft_shadow:
+      return rays.soft_shadow;
+    case Effect::reflection:
+      return rays.reflection;
+    case Effect::refraction:
+      return rays.refraction + rays.interior;
+    case Effect::glossy:
+      return rays.glossy;
+    case Effect::indirect_light:
+      return rays.indirect;
+    case Effect::antialiasing:
+      return rays.antialiasing;
+    case Effect::absorption:
+    case Effect::textures:
+    case Effect::alpha_mask:
+    case Effect::emission:
+    case Effect::specular:
+      break;
+  }
+  return 0;
+}
+
+std::uint64_t total_rays(const raytrace::RayCounts& rays) {
+  std::uint64_t total = rays.primary;
+  for (std::size_t i = 0; i < effect_count; ++i) total += rays_of(static_cast<Effect>(i), rays);
+  return total;
+}
+
+nlohmann::ordered_json size_json(const ImageSize& size) {
+  return {size.width, size.height};
+}
+
+std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
     effects.push_back({{"effect", effect_name(entry.effect)},
                        {"simulated", entry.simulated},
                        {"called_for", entry.called_for},
-                       {"reason", entry.reason}});
+                       {"reason", entry.reason},
+                       {"rays", rays_of(entry.effect, forecast.rays)}});
   }
-  return nlohmann::ordered_json{{"effects", effects}}.dump(2, ' ', false,
-                                                           nlohmann::ordered_json::error_handler_t::replace) +
+  const nlohmann::ordered_json rays{{"size", size_json(size)},
+                                    {"grid", size_json(forecast.grid)},
+                                    {"exact", forecast.exact},
+                                    {"primary", forecast.rays.primary},
+                                    {"total", total_rays(forecast.rays)}};
+  return nlohmann::ordered_json{{"effects", effects}, {"rays", rays}}.dump(
+             2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";
 }
 
@@ -38,28 +86,59 @@ std::string_view verdict(const EffectEntry& entry) {
   return entry.called_for ? "NOT YET" : "off";
 }
 
-std::string plan_table(const EffectPlan& plan) {
-  std::string text = fmt::format("{:<16}{:<12}{}\n", "effect", "", "why");
+/// Three digits are what a forecast is worth: 1.23 M.
+std::string short_count(std::uint64_t rays) {
+  constexpr std::array<std::string_view, 5> units{"", " k", " M", " G", " T"};
+  double value = static_cast<double>(rays);
+  std::size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < units.size()) value /= 1000.0, ++unit;
+  return unit == 0 ? std::to_string(rays) : fmt::format("{:.3g}{}", value, units[unit]);
+}
+
+std::string plan_row(std::string_view name, std::string_view state, const std::string& rays,
+                     std::string_view why) {
+  return fmt::format("{:<16}{:<11}{:>9}  {}\n", name, state, rays, why);
+}
+
+std::string plan_table(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
+  std::string text = plan_row("effect", "", "rays", "why");
   for (const EffectEntry& entry : plan.entries) {
-    text += fmt::format("{:<16}{:<12}{}\n", effect_name(entry.effect), verdict(entry), entry.reason);
+    const std::uint64_t rays = rays_of(entry.effect, forecast.rays);
+    text +=
+        plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-", entry.reason);
   }
+  text += plan_row("all", "", short_count(total_rays(forecast.rays)),
+                   fmt::format("with {} from the eye; gnomon raytrace at {}x{}, {}",
+                               short_count(forecast.rays.primary), size.width, size.height,
+                               forecast.exact ? "counted"
+                                              : fmt::format("forecast from {}x{} pixels", forecast.grid.width,
+                                                            forecast.grid.height)));
   return text;
 }
 
 Expected<ExitCode> run_plan(const PlanCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
-  const auto loaded = load(command.scene, console);
+  const ThreadLimit thread_limit(command.threads);
+  auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
+  apply_picture_samples(command.samples, *loaded->scene);
+  loaded->plan = plan_effects(*loaded->scene);
+  raytrace::RaytraceOptions options = command.options;
+  options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
+  console.progress("tracing a coarse grid", 0.5);
+  const raytrace::Tracer tracer(*loaded->world, raytrace::Accel::bvh);
+  const raytrace::Forecast forecast = forecast_rays(tracer, loaded->plan, loaded->scene->camera, options);
+  console.clear_progress();
+  const std::string json = plan_json(loaded->plan, options.size, forecast);
   if (!command.json.empty() && command.json != "-") {
     if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
-    if (const auto written = write_file(command.json, plan_json(loaded->plan)); !written)
-      return fail(written.error());
+    if (const auto written = write_file(command.json, json); !written) return fail(written.error());
   }
   if (command.json == "-") {
-    print_data(plan_json(loaded->plan));
+    print_data(json);
   } else if (!command.quiet) {
-    print_data(plan_table(loaded->plan));
+    print_data(plan_table(loaded->plan, options.size, forecast));
   }
   return ExitCode::done;
 }
@@ -68,12 +147,20 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
 
 void add_plan(CLI::App& program, Invocation& invocation) {
   CLI::App* app = program.add_subcommand(
-      "plan", "List the effects that a scene calls for, and which light or material does.");
+      "plan",
+      "List the effects that a scene calls for, which light or material does, and the rays that each will "
+      "cost.");
   app->footer(
       "gnomon plan whitted\n"
+      "gnomon plan penumbra --size 1920x1080 --samples 256 --aa 4\n"
       "gnomon plan model.glb --json - | jq '.effects[] | select(.simulated)'");
   const auto command = std::make_shared<PlanCommand>();
   add_scene(*app, command->scene);
+  add_size(*app, command->options.size);
+  add_samples(*app, command->options.shadow_samples);
+  add_picture_samples(*app, command->samples);
+  add_min_contribution(*app, command->options.min_contribution);
+  add_threads(*app, command->threads, "threads of the ray tracer");
   add_json(*app, command->json, "the plan");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation] { invocation.action = [command] { return run_plan(*command); }; });

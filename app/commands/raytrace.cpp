@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_file.h"
+#include "app/picture_samples.h"
 #include "app/pose_options.h"
 #include "app/session.h"
 
@@ -26,6 +27,7 @@ struct RaytraceCommand {
   std::optional<std::optional<double>> exposure;
   std::optional<HeatmapOf> heatmap;
   PoseOptions poses;
+  PictureSamples samples;
   int threads = 0;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
@@ -46,8 +48,12 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const bool records = command.image.ends_with(".exr");
   const double bytes = records ? exr_bytes_per_pixel : png_bytes_per_pixel;
   if (const auto fits = check_memory(command.options.size, bytes); !fits) return fail(fits.error());
-  const auto loaded = load(command.scene, console, command.tessellate);
+  auto loaded = load(command.scene, console, command.tessellate);
   if (!loaded) return fail(loaded.error());
+  apply_picture_samples(command.samples, *loaded->scene);
+  loaded->plan = plan_effects(*loaded->scene);
+  command.options.records = records;
+  command.options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
   const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
@@ -64,6 +70,8 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   }
   const raytrace::RayTracedFrame frame =
       raytrace::trace_frame(tracer, loaded->plan, loaded->scene->camera, *lights, command.options);
+  if (frame.non_finite > 0)
+    console.note(fmt::format("{} samples of the picture were not finite; they are black.", frame.non_finite));
 
   const OutputGuard whole_outputs;
   if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
@@ -83,6 +91,7 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   app->footer(
       "gnomon raytrace whitted -o whitted.png\n"
       "gnomon raytrace model.glb --size 1920x1080 -o model.exr\n"
+      "gnomon raytrace whitted --aa 16 --indirect-samples 64 -o soft.png\n"
       "gnomon raytrace stadium --accel grid --heatmap triangles -o heat.png");
   const auto command = std::make_shared<RaytraceCommand>();
   add_scene(*app, command->scene);
@@ -98,7 +107,8 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_heatmap(*app, command->heatmap);
   add_min_contribution(*app, command->options.min_contribution);
   add_samples(*app, command->options.shadow_samples);
-  add_seed(*app, command->options.seed, "of the samples of lights with size");
+  add_picture_samples(*app, command->samples);
+  add_seed(*app, command->options.seed, "of every sample");
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);

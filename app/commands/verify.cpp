@@ -149,9 +149,7 @@ void add_verify(CLI::App& program, Invocation& invocation) {
       "gnomon verify --rays 1e8\n"
       "gnomon verify --show-naive --case 1,5,10\n"
       "gnomon verify --case 1,25 --json -\n"
-      "Exits with 1 when a case falls short. Not in this version: case 40 (lights that have a size), and of "
-      "case "
-      "30 what\nneeds nested glass.");
+      "Exits with 1 when a case falls short.");
   const auto command = std::make_shared<VerifyCommand>();
   add_ray_count(*app, command->options.rays);
   add_checked(*app, "--case", "N[,N]", "run these cases only [numbers of the table; default all]",

@@ -77,6 +77,39 @@ void critical_angle(Run& run) {
       unit, ulps);
 }
 
+namespace {
+
+/// A marble wholly inside another of a higher priority, whatever its index and colour, is not there.
+void hidden_glass(Run& run) {
+  Scene plain = scene_of({quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0})}, {sphere({0.0, 1.2, 0.0}, 1.0)});
+  Material outer;
+  outer.transmission = 1.0f, outer.ior = 1.5f, outer.priority = 1, outer.absorption = Vec3f(0.3f);
+  Material inner = outer;
+  inner.ior = 2.4f, inner.priority = 0, inner.absorption = Vec3f(5.0f);
+  plain.materials.push_back(outer);
+  plain.materials.push_back(inner);
+  plain.shapes[0].material = 1;
+  plain.background = Vec3f(0.2f, 0.3f, 0.4f);
+  plain.lights = {point_light({3.0, 6.0, 2.0})};
+  plain.camera.eye = {0.25, 2.25, 6.0}, plain.camera.target = {0.0, 1.0, 0.0};
+  Scene hidden = plain;
+  hidden.shapes.push_back(sphere({0.2, 1.3, 0.1}, 0.5));
+  hidden.shapes[1].material = 2;
+  const SmallWorld w(plain), h(hidden);
+  const raytrace::Tracer without = run.tracer(w.world()), with = run.tracer(h.world());
+  raytrace::RaytraceOptions options;
+  const int side = static_cast<int>(std::sqrt(static_cast<double>(run.rays(0.01, 100'000))));
+  options.size = {side, side};
+  const auto a = trace_frame(without, plan_effects(plain), plain.camera, {}, options);
+  const auto b = trace_frame(with, plan_effects(hidden), hidden.camera, {}, options);
+  run.sample_each("hidden by priority", a.color.data.size(), [&](std::uint64_t i, Tally& tally) {
+    const Vec3f d = glm::abs(a.color.data[i] - b.color.data[i]);
+    tally.check(std::max({d.x, d.y, d.z}) <= 1e-5f);
+  });
+}
+
+}  // namespace
+
 void invisible_glass(Run& run) {
   Scene plain = scene_of({quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}), box({-2, 0, -2}, {-1, 2, -1})});
   plain.background = Vec3f(0.2f, 0.3f, 0.4f), plain.max_depth = 16;
@@ -101,6 +134,8 @@ void invisible_glass(Run& run) {
     const Vec3f d = glm::abs(seen_plain.color.data[i] - seen_glass.color.data[i]);
     tally.check(std::max({d.x, d.y, d.z}) <= 1e-5f);
   });
+  hidden_glass(run);
+  nested_glass(run);
 }
 
 }  // namespace gnomon::verify

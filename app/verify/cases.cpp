@@ -1,5 +1,4 @@
-// The list. Case 40 (area lights that shrink to nothing) needs lights with a size, which this version has
-// not.
+// The list.
 #include "app/verify/cases.h"
 
 #include <array>
@@ -40,9 +39,14 @@ std::span<const Case> all_cases() {
       Case{27, "contact_gap", "a box's shadow starts at its foot plus the gap", contact_gap},
       Case{28, "smooth_normals", "the geometric normal decides what faces the light", smooth_normals},
       Case{29, "critical_angle", "reflected and transmitted light add up to 1", critical_angle},
-      Case{30, "invisible_glass", "glass of index 1 is as good as absent", invisible_glass},
+      Case{30, "invisible_glass",
+           "glass of index 1 is as good as absent; overlapping glass is what its priority says",
+           invisible_glass},
       Case{37, "far_from_origin", "the scene and its camera at 1e7 give the picture of the origin",
            far_from_origin},
+      Case{39, "non_finite_radiance", "radiance that is not a number is black and counted",
+           non_finite_radiance},
+      Case{40, "shrinking_lights", "a light that shrinks to nothing becomes the hard one", shrinking_lights},
   };
   return cases;
 }

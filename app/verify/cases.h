@@ -35,8 +35,11 @@ void contact_gap(Run& run);
 void smooth_normals(Run& run);
 void critical_angle(Run& run);  // case_glass.cpp
 void invisible_glass(Run& run);
+void nested_glass(Run& run);            // case_nested_glass.cpp, a row of case 30
 void triangles_by_rationals(Run& run);  // case_rational.cpp, rows of case 1
 void verdicts_by_rationals(Run& run);
-void far_from_origin(Run& run);  // case_far.cpp
+void far_from_origin(Run& run);      // case_far.cpp
+void non_finite_radiance(Run& run);  // case_radiance.cpp
+void shrinking_lights(Run& run);     // case_small_lights.cpp
 
 }  // namespace gnomon::verify

@@ -1,6 +1,7 @@
 # The hard cases stand apart from the command line, so that their tests link nothing of the rasterizer.
 add_library(gnomon_verify STATIC
-  verify/case_boxes.cpp verify/case_far.cpp verify/case_glass.cpp verify/case_lights.cpp verify/case_offsets.cpp
+  verify/case_boxes.cpp verify/case_far.cpp verify/case_glass.cpp verify/case_lights.cpp verify/case_nested_glass.cpp verify/case_offsets.cpp
+  verify/case_radiance.cpp verify/case_small_lights.cpp
   verify/adversarial.cpp verify/case_rational.cpp verify/case_rays.cpp verify/case_shared_edges.cpp verify/case_spheres.cpp verify/case_structures.cpp
   verify/case_triangles.cpp verify/cases.cpp verify/oracle.cpp verify/rational.cpp verify/run.cpp verify/small_world.cpp)
 add_library(gnomon::verify ALIAS gnomon_verify)

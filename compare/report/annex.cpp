@@ -93,6 +93,9 @@ std::string work_table(const Comparison& c) {
   rows += plain_row("shadow rays", keyed_count("costs.shadow_rays", rays.shadow));
   rows += plain_row("reflection rays", keyed_count("costs.reflection_rays", rays.reflection));
   rows += plain_row("refraction rays", keyed_count("costs.refraction_rays", rays.refraction));
+  if (rays.glossy > 0) rows += plain_row("glossy rays", keyed_count("costs.glossy_rays", rays.glossy));
+  if (rays.indirect > 0)
+    rows += plain_row("indirect rays", keyed_count("costs.indirect_rays", rays.indirect));
   return "<table><caption>Work, the same on every machine</caption><tbody>\n" + rows + "</tbody></table>\n";
 }
 

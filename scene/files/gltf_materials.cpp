@@ -112,8 +112,12 @@ class MaterialReader {
     m.diffuse = base * (1.0f - metal);
     m.specular = glm::mix(Vec3f(0.04f), base * texture_mean, metal);
     m.shininess = static_cast<float>(std::max(1.0, 2.0 / (a * a) - 2.0));
-    if (metallic > 0.9 && roughness < 0.1)
+    if (metallic <= 0.9) return;
+    if (roughness < 0.1)
       m.mirror = fraction((m.specular.x + m.specular.y + m.specular.z) / 3.0f);
+    else if (roughness < 0.6)
+      unused_["Mirrored surroundings of metals with roughness 0.1 or more (their highlights are shown) are"]
+          .insert(m.name);
   }
 
   void map_emission(const tinygltf::Material& from, Material& m) {
@@ -131,6 +135,7 @@ class MaterialReader {
     m.mirror = fraction(transmission * reflected);
     m.transmission = transmission - m.mirror;
     m.ior = 1.0f;
+    m.thin = true;
   }
 
   void map_transmission(const tinygltf::Material& from, Material& m) {

@@ -47,9 +47,9 @@ void read_texture_of(SceneReader& reader, const JsonNode& node, Material& materi
 }
 
 Material read_material(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(
-      node, {"name", "diffuse", "specular", "shininess", "emission", "mirror", "transmission", "ior",
-             "absorption", "roughness", "texture", "alpha", "alpha_mode", "alpha_cutoff"});
+  const JsonObject object(node, {"name", "diffuse", "specular", "shininess", "emission", "mirror",
+                                 "transmission", "ior", "absorption", "roughness", "priority", "thin",
+                                 "texture", "alpha", "alpha_mode", "alpha_cutoff"});
   const auto number = [&](std::string_view key, float otherwise, const NumberRange& range) {
     return static_cast<float>(object.number(key, static_cast<double>(otherwise), range));
   };
@@ -64,6 +64,8 @@ Material read_material(SceneReader& reader, const JsonNode& node) {
   m.ior = number("ior", m.ior, {0.01, 100.0});
   m.absorption = object.color("absorption", m.absorption);
   m.roughness = number("roughness", m.roughness, unit_interval);
+  m.priority = static_cast<int>(object.number("priority", m.priority, {-1000.0, 1000.0, false, false, true}));
+  m.thin = object.boolean("thin", m.thin);
   m.alpha = number("alpha", m.alpha, unit_interval);
   if (const auto mode = object.find("alpha_mode"))
     m.alpha_mode = mode->as_choice({"opaque", "mask"}) == 1 ? AlphaMode::mask : AlphaMode::opaque;

@@ -12,6 +12,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::string_view schema_name = "gnomon/scene/1";
+constexpr NumberRange sample_range{1.0, max_samples, false, false, true};
 
 // The offset of a member of an object, for errors that are found after reading.
 std::size_t offset_of(const JsonValue& object, std::string_view key) {
@@ -94,6 +95,15 @@ void read_settings(SceneReader& reader, const JsonObject& top) {
   if (const auto node = top.find("exposure")) scene.exposure = node->as_number({0.0, max_radiance, true});
   scene.max_depth =
       static_cast<int>(top.number("max_depth", scene.max_depth, {0.0, 64.0, false, false, true}));
+  const auto samples = [&](std::string_view key, int& field) {
+    const auto node = top.find(key);
+    if (!node) return;
+    const JsonObject object(*node, {"samples"});
+    if (const auto count = object.require("samples"))
+      field = static_cast<int>(count->as_number(sample_range));
+  };
+  samples("glossy", scene.glossy_samples);
+  samples("indirect", scene.indirect_samples);
 }
 
 void note_unused_meshes(SceneReader& reader) {
@@ -104,9 +114,9 @@ void note_unused_meshes(SceneReader& reader) {
 
 // The order matters: what is named must be known before it is used.
 bool read_top(SceneReader& reader, const JsonNode& root) {
-  const JsonObject top(root,
-                       {"$schema", "schema", "name", "description", "camera", "lights", "materials", "meshes",
-                        "instances", "shapes", "include", "ambient", "background", "exposure", "max_depth"});
+  const JsonObject top(root, {"$schema", "schema", "name", "description", "camera", "lights", "materials",
+                              "meshes", "instances", "shapes", "include", "ambient", "background", "exposure",
+                              "max_depth", "glossy", "indirect"});
   check_schema(top);
   read_settings(reader, top);
   if (const auto list = top.find("include"))
@@ -152,12 +162,13 @@ std::string SceneReader::resolve(const JsonNode& named) {
 }
 
 Camera read_camera(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(node, {"eye", "target", "up", "vertical_fov_degrees"});
+  const JsonObject object(node, {"eye", "target", "up", "vertical_fov_degrees", "samples_per_pixel"});
   Camera camera;
   if (const auto eye = object.require("eye")) camera.eye = eye->as_vec3();
   if (const auto target = object.require("target")) camera.target = target->as_vec3();
   if (const auto up = object.find("up")) camera.up = up->as_vec3();
   camera.vertical_fov = object.number("vertical_fov_degrees", 40.0, {0.0, 180.0, true, true}) * pi / 180.0;
+  camera.samples_per_pixel = static_cast<int>(object.number("samples_per_pixel", 1.0, sample_range));
   if (reader.failed()) return camera;
   if (const auto defect = find_camera_defect(camera)) {
     const std::string key = defect->field.substr(defect->field.find('.') + 1);

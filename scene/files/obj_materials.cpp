@@ -35,6 +35,7 @@ void map_transparency(Scene& scene, const tinyobj::material_t& from, Material& m
     m.transmission = 1.0f - dissolve;
   else if (glass)
     m.transmission = std::clamp(mean(color(from.transmittance)), 0.0f, 1.0f);
+  m.thin = m.transmission > 0.0f && m.ior == 1.0f;  // files without Ni: windows, leaves, veils
   if (m.transmission > 0.0f)
     scene.notes.push_back(fmt::format(
         "Material '{}': dissolve {:g}, illum {} became transmission {:g} with index of refraction {:g}.",
