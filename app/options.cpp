@@ -255,6 +255,19 @@ void add_fail_above(CLI::App& command, std::optional<double>& share) {
             [&share](const std::string& value) { return assign(share, parse_share(value)); });
 }
 
+void add_report_max_mb(CLI::App& command, double& megabytes) {
+  add_number(
+      command, "--report-max-mb", megabytes, {0.0, 1e6}, "megabytes",
+      "largest report page that is one file; beyond it pictures and pixels become files beside the page");
+}
+
+std::string beside_note(double page_mb, double max_mb) {
+  return fmt::format(
+      "the page would weigh {:.0f} MB, more than --report-max-mb {:g}: its pictures and pixels are files "
+      "beside it; keep the folder together",
+      page_mb, max_mb);
+}
+
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
                 const std::string& what) {
   command.add_option(names, path, what)->type_name(type);

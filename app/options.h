@@ -54,6 +54,10 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
 /// Left alone: each light's own number.
 void add_samples(CLI::App& command, int& samples);
 void add_fail_above(CLI::App& command, std::optional<double>& share);
+/// --report-max-mb.
+void add_report_max_mb(CLI::App& command, double& megabytes);
+/// What is said of a page that grew larger than that.
+std::string beside_note(double page_mb, double max_mb);
 /// A file to be written; `what` says which, with its extensions.
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
                 const std::string& what);

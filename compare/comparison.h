@@ -160,6 +160,9 @@ struct LightComparison {
   std::array<Image<float>, rung_count>
       rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not compared and no receiver
   Image<Label> labels;
+  /// FLIP of each pixel, and SSIM of each window by its middle pixel (NaN where no window fits); empty where
+  /// not computed.
+  Image<float> flip_map, ssim_map;
 };
 
 struct MachineInfo {

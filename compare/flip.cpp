@@ -295,7 +295,10 @@ Image<float> flip_error(const ColorImage& reference_linear, const ColorImage& te
 
 double mean_flip(const ColorImage& reference_linear, const ColorImage& test_linear,
                  double pixels_per_degree) {
-  const Image<float> error = flip_error(reference_linear, test_linear, pixels_per_degree);
+  return mean_flip(flip_error(reference_linear, test_linear, pixels_per_degree));
+}
+
+double mean_flip(const Image<float>& error) {
   double sum = 0.0;
   for (const float e : error.data) sum += static_cast<double>(e);
   return error.data.empty() ? 0.0 : sum / static_cast<double>(error.data.size());

@@ -59,8 +59,11 @@ void measure_pixels(LightComparison& light) {
 void measure_perceptual(LightComparison& light) {
   const Image<float> truth = visibility_picture(light.rungs[0], light.labels);
   const Image<float> drawn = visibility_picture(light.rungs[6], light.labels);
-  light.error.flip = mean_flip(grey(truth), grey(drawn));
-  light.error.ssim = mean_ssim(truth, drawn);
+  light.flip_map = flip_error(grey(truth), grey(drawn));
+  light.error.flip = mean_flip(light.flip_map);
+  const Image<float> windows = ssim_map(truth, drawn);
+  light.error.ssim = mean_ssim(windows);
+  light.ssim_map = ssim_by_pixel(windows, truth.size);
 }
 
 LightComparison measure_light(const LadderInput& in, std::size_t record, Climb climbed,

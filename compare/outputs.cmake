@@ -3,8 +3,8 @@
 set(GNOMON_COMPARE_OUTPUT_SOURCES
   aov.cpp file_names.cpp flip.cpp labels.cpp number_text.cpp option_names.cpp palette.cpp picture_set.cpp pictures.cpp
   result_csv.cpp result_json.cpp summary.cpp text_layout.cpp verdict.cpp write_outputs.cpp
-  report/annex.cpp report/charts.cpp report/explanations.cpp report/html.cpp report/light_numbers.cpp report/light_section.cpp
-  report/overview.cpp report/packing.cpp report/page.cpp report/page_data.cpp)
+  report/annex.cpp report/charts.cpp report/explanations.cpp report/html.cpp report/lessons.cpp report/light_numbers.cpp report/light_section.cpp
+  report/overview.cpp report/packing.cpp report/page.cpp report/page_data.cpp report/shell.cpp)
 list(TRANSFORM GNOMON_COMPARE_OUTPUT_SOURCES PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/option_names.cpp"
@@ -13,6 +13,8 @@ set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/option_names.cpp"
 function(gnomon_compare_outputs target)
   set(report "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/report")
   gnomon_embed(${target} report "${report}/page/dist/page.html")  # built by npm run build in report/page, and checked in
+  file(GLOB lessons CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lessons/*.md")
+  gnomon_embed(${target} lessons ${lessons})
   target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json TBB::tbb ZLIB::ZLIB)
 endfunction()
 cmake_language(DEFER CALL gnomon_compare_outputs gnomon_compare)

@@ -9,6 +9,8 @@
 
 namespace gnomon::compare {
 
+struct PageIntroduction;  // report/page.h
+
 /// The result file (compare/report/result.schema.json), schema "gnomon/result/1".
 std::string result_json(const Comparison& comparison);
 /// One row per light: the numbers of result.json as a table; first row names the columns with units.
@@ -27,6 +29,11 @@ Rgb8Image raytraced_picture(const Comparison& comparison);
 /// The picture in grey with false shadow and missed shadow in two fixed colours.
 Rgb8Image difference_picture(const Comparison& comparison, const LightComparison& light);
 Rgb8Image label_picture(const Comparison& comparison, const LightComparison& light);
+/// |V6 - V0|, FLIP and 1 - SSIM of the visibility pictures, each on magma from 0 to 1; black where nothing is
+/// compared. FLIP and SSIM need the light's maps.
+Rgb8Image error_picture(const LightComparison& light);
+Rgb8Image flip_picture(const LightComparison& light);
+Rgb8Image ssim_picture(const LightComparison& light);
 /// Stored depths, near = bright, on one fixed scale over the map's depth range (logarithmic for a
 /// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);
@@ -37,9 +44,20 @@ Expected<void> write_aov(const Comparison& comparison, const std::string& path);
 /// The whole report page: one file, offline, readable without scripts.
 Expected<std::string> report_html(const Comparison& comparison);
 
-/// Writes report.html, result.json, result.csv and the PNG pictures into a folder; returns the paths. The
-/// times "report" and "total" in these files are the comparison's own plus the time spent here until their
-/// text is fixed.
-Expected<std::vector<std::string>> write_outputs(const Comparison& comparison, const std::string& folder);
+inline constexpr double default_report_max_mb = 40.0;  ///< megabytes, of a page that is one file
+
+struct WrittenOutputs {
+  std::vector<std::string> paths;
+  bool beside = false;  ///< the page's pictures and pixels are files beside it: it would have grown too large
+  double page_mb = 0.0;  ///< what the page, or the page with the files beside it, weighs
+};
+
+/// Writes report.html, result.json, result.csv and the PNG pictures into a folder. A page of more than
+/// `report_max_mb` keeps its pictures and pixels in files beside it. `introduction`: what stands before the
+/// comparison on the page. The times "report" and "total" in these
+/// files are the comparison's own plus the time spent here until their text is fixed.
+Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::string& folder,
+                                       double report_max_mb = default_report_max_mb,
+                                       const PageIntroduction* introduction = nullptr);
 
 }  // namespace gnomon::compare

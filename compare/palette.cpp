@@ -5,8 +5,23 @@
 
 namespace gnomon::compare {
 
+namespace {
+
+// Between the entries of an evenly spaced table, linear in sRGB.
+template <std::size_t count>
+glm::u8vec3 between(const std::array<glm::u8vec3, count>& table, double t) {
+  const double clamped = std::isnan(t) ? 0.0 : std::min(std::max(t, 0.0), 1.0);
+  const double x = clamped * static_cast<double>(count - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(x), count - 2);
+  const Vec3f mixed =
+      glm::mix(Vec3f(table[i]), Vec3f(table[i + 1]), static_cast<float>(x - static_cast<double>(i)));
+  return glm::u8vec3(mixed + 0.5f);
+}
+
+}  // namespace
+
 glm::u8vec3 viridis(double t) {
-  // Every sixteenth entry of matplotlib's table of 256, the last one included; between them linear in sRGB.
+  // Every sixteenth entry of matplotlib's table of 256, the last one included.
   static constexpr std::array<glm::u8vec3, 17> table{{{68, 1, 84},
                                                       {72, 26, 108},
                                                       {71, 47, 125},
@@ -24,12 +39,21 @@ glm::u8vec3 viridis(double t) {
                                                       {210, 226, 27},
                                                       {244, 230, 30},
                                                       {253, 231, 37}}};
-  const double clamped = std::isnan(t) ? 0.0 : std::min(std::max(t, 0.0), 1.0);
-  const double x = clamped * static_cast<double>(table.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(x), table.size() - 2);
-  const Vec3f mixed =
-      glm::mix(Vec3f(table[i]), Vec3f(table[i + 1]), static_cast<float>(x - static_cast<double>(i)));
-  return glm::u8vec3(mixed + 0.5f);
+  return between(table, t);
+}
+
+glm::u8vec3 magma(double t) {
+  // Nine evenly spaced entries of matplotlib's table.
+  static constexpr std::array<glm::u8vec3, 9> table{{{0, 0, 4},
+                                                     {29, 17, 71},
+                                                     {81, 18, 124},
+                                                     {130, 38, 129},
+                                                     {182, 54, 121},
+                                                     {230, 81, 100},
+                                                     {251, 136, 97},
+                                                     {254, 194, 135},
+                                                     {252, 253, 191}}};
+  return between(table, t);
 }
 
 }  // namespace gnomon::compare

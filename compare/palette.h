@@ -16,5 +16,7 @@ inline constexpr glm::u8vec3 nothing_stored_colour{0x3c, 0x42, 0x4c};
 
 /// Viridis (Smith & van der Walt 2015) at t in [0, 1]: dark purple to bright yellow; clamped.
 glm::u8vec3 viridis(double t);
+/// Magma, from black over purple and orange to pale yellow: for errors, 0 no error; clamped, NaN as 0.
+glm::u8vec3 magma(double t);
 
 }  // namespace gnomon::compare

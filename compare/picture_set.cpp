@@ -34,7 +34,9 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
   const raster::ShadowMap& map = drawn_record(c, light).map;
   out.difference.file_name = "difference" + suffix + ".png";
   out.labels.file_name = "labels" + suffix + ".png";
-  out.depth_map.file_name = out.depth_map_small.file_name = "depth-map" + suffix + ".png";
+  out.error.file_name = "error" + suffix + ".png";
+  out.depth_map.file_name = "depth-map" + suffix + ".png";
+  out.depth_map_small.file_name = "depth-map-small" + suffix + ".png";
   out.depth_map_step = step_for_width(map, folder_width);
   out.depth_map_small_step = step_for_width(map, page_width);
   const int small_step = out.depth_map_small_step, full_step = out.depth_map_step;
@@ -47,6 +49,12 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
                     [&map, small_step] { return depth_map_picture(reduced_map(map, small_step)); }});
   jobs.push_back({&out.difference, [&c, &light] { return difference_picture(c, light); }});
   jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
+  jobs.push_back({&out.error, [&light] { return error_picture(light); }});
+  if (light.flip_map.data.empty()) return;
+  out.flip.file_name = "flip" + suffix + ".png";
+  out.ssim.file_name = "ssim" + suffix + ".png";
+  jobs.push_back({&out.flip, [&light] { return flip_picture(light); }});
+  jobs.push_back({&out.ssim, [&light] { return ssim_picture(light); }});
 }
 
 }  // namespace

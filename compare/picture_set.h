@@ -17,8 +17,9 @@ struct EncodedPicture {
 
 struct LightPictures {
   EncodedPicture difference, labels;
-  EncodedPicture depth_map;        ///< as many pixels as texels, up to 4096 wide
-  EncodedPicture depth_map_small;  ///< for the page: up to 1024 wide
+  EncodedPicture error, flip, ssim;  ///< maps of the metrics; FLIP and SSIM only where computed
+  EncodedPicture depth_map;          ///< as many pixels as texels, up to 4096 wide
+  EncodedPicture depth_map_small;    ///< for the page: up to 1024 wide
   /// One pixel of the picture per step x step texels, which shows the nearest depth of them.
   int depth_map_step = 1, depth_map_small_step = 1;
 };

@@ -70,6 +70,24 @@ Rgb8Image label_picture(const Comparison&, const LightComparison& light) {
   });
 }
 
+Rgb8Image error_picture(const LightComparison& light) {
+  const Image<float>& truth = light.rungs.front();
+  const Image<float>& drawn = light.rungs.back();
+  return picture(light.labels.size, [&](std::size_t i) {
+    return magma(is_compared(light.labels.data[i]) ? std::abs(double{drawn.data[i]} - double{truth.data[i]})
+                                                   : 0.0);
+  });
+}
+
+Rgb8Image flip_picture(const LightComparison& light) {
+  return picture(light.flip_map.size, [&](std::size_t i) { return magma(double{light.flip_map.data[i]}); });
+}
+
+Rgb8Image ssim_picture(const LightComparison& light) {
+  return picture(light.ssim_map.size,
+                 [&](std::size_t i) { return magma(1.0 - double{light.ssim_map.data[i]}); });
+}
+
 Rgb8Image depth_map_picture(const raster::ShadowMap& map) {
   const int n = map.view.size, faces = map.view.face_count;
   const int across = std::min(faces, 3), down = (faces + across - 1) / across;  // +x -x +y over -y +z -z

@@ -68,7 +68,18 @@ Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
 }
 
 double mean_ssim(const Image<float>& reference, const Image<float>& test) {
-  const Image<float> map = ssim_map(reference, test);
+  return mean_ssim(ssim_map(reference, test));
+}
+
+Image<float> ssim_by_pixel(const Image<float>& map, ImageSize size) {
+  Image<float> out(size, std::numeric_limits<float>::quiet_NaN());
+  constexpr int middle = ssim_window / 2;
+  for (int y = 0; y < map.size.height; ++y)
+    for (int x = 0; x < map.size.width; ++x) out.at(x + middle, y + middle) = map.at(x, y);
+  return out;
+}
+
+double mean_ssim(const Image<float>& map) {
   if (map.data.empty()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0.0;
   for (const float value : map.data) sum += static_cast<double>(value);

@@ -14,6 +14,11 @@ inline constexpr int ssim_window = 11;  ///< pixels
 /// empty image when they are smaller than a window. Both images of one size, finite.
 Image<float> ssim_map(const Image<float>& reference, const Image<float>& test);
 
+/// A map's values at the middle pixels of their windows in a picture of `size`; NaN elsewhere.
+Image<float> ssim_by_pixel(const Image<float>& map, ImageSize size);
+
+/// Mean of a map; NaN of none.
+double mean_ssim(const Image<float>& map);
 /// Mean of ssim_map (the paper's MSSIM); NaN when no window fits.
 double mean_ssim(const Image<float>& reference, const Image<float>& test);
 

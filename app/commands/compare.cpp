@@ -31,6 +31,7 @@ struct CompareCommand {
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
   std::optional<double> fail_above;
+  double report_max_mb = compare::default_report_max_mb;
   std::uint64_t seed = 0;
   int threads = 0;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
@@ -93,13 +94,15 @@ Expected<void> write_json(const CompareCommand& command) {
   return write_file(command.json, *json);
 }
 
-Expected<void> write_all(const CompareCommand& command, const compare::Comparison& comparison) {
+Expected<void> write_all(const CompareCommand& command, const compare::Comparison& comparison,
+                         Console& console) {
   const OutputGuard whole_outputs;
-  if (const auto written = compare::write_outputs(comparison, command.folder); !written)
-    return fail(written.error());
+  const auto written = compare::write_outputs(comparison, command.folder, command.report_max_mb);
+  if (!written) return fail(written.error());
+  if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   if (!command.aov.empty()) {
     if (const auto made = make_folder_for(command.aov); !made) return made;
-    if (const auto written = compare::write_aov(comparison, command.aov); !written) return written;
+    if (const auto saved = compare::write_aov(comparison, command.aov); !saved) return saved;
   }
   return write_json(command);
 }
@@ -139,7 +142,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!comparison) return fail(comparison.error());
   comparison->total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
-  if (const auto written = write_all(command, *comparison); !written) return fail(written.error());
+  if (const auto written = write_all(command, *comparison, console); !written) return fail(written.error());
 
   if (!command.quiet && command.json != "-")
     print_data(compare::summary_table(*comparison, stdout_takes_colour()));
@@ -165,6 +168,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
                .c_str());
   add_exposure(app, command.exposure);
   add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
+  add_report_max_mb(app, command.report_max_mb);
   add_fail_above(app, command.fail_above);
   add_output(app, "--aov", command.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");

@@ -19,6 +19,7 @@ namespace {
 struct MergeCommand {
   std::vector<std::string> shards;
   std::string folder;
+  double report_max_mb = compare::default_report_max_mb;
   bool quiet = false;
 };
 
@@ -26,9 +27,10 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   const OutputGuard whole_outputs;
-  const auto cells = compare::merge_sweeps(command.shards, command.folder);
-  if (!cells) return fail(cells.error());
-  console.message(fmt::format("sweep: {}/report.html, {} cells from {} shards", command.folder, *cells,
+  const auto merged = compare::merge_sweeps(command.shards, command.folder, command.report_max_mb);
+  if (!merged) return fail(merged.error());
+  if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
+  console.message(fmt::format("sweep: {}/report.html, {} cells from {} shards", command.folder, merged->cells,
                               command.shards.size()));
   return ExitCode::done;
 }
@@ -41,6 +43,7 @@ void add_merge(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<MergeCommand>();
   app->add_option("SHARD", command->shards, "folders written by gnomon sweep --shard")->required();
   app->add_option("-o,--output", command->folder, "folder for the whole sweep")->required()->type_name("DIR");
+  add_report_max_mb(*app, command->report_max_mb);
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation] { invocation.action = [command] { return run_merge(*command); }; });
 }

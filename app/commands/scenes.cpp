@@ -10,6 +10,7 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "compare/report/lessons.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
 
@@ -25,7 +26,10 @@ std::string scenes_json() {
   for (const BuiltinScene& scene : builtin_scenes()) {
     scenes.push_back({{"name", scene.name}, {"description", scene.description}});
   }
-  return nlohmann::ordered_json{{"scenes", scenes}}.dump(2) + "\n";
+  nlohmann::ordered_json lessons = nlohmann::ordered_json::array();
+  for (const compare::Lesson& lesson : compare::all_lessons())
+    lessons.push_back({{"name", lesson.name}, {"title", lesson.title}, {"command", lesson.command}});
+  return nlohmann::ordered_json{{"scenes", scenes}, {"lessons", lessons}}.dump(2) + "\n";
 }
 
 std::string scenes_table() {
@@ -34,6 +38,10 @@ std::string scenes_table() {
     const std::string description = wrap(std::string(scene.description), name_column, table_width);
     text += fmt::format("{:<{}}{}", scene.name, name_column, description.substr(name_column));
   }
+  text += "\nLessons, in docs/lessons, each with a command to begin with:\n";
+  for (const compare::Lesson& lesson : compare::all_lessons())
+    text += fmt::format("{:<{}}{}\n{:{}}{}\n", lesson.name, name_column, lesson.title, "", name_column,
+                        lesson.command);
   return text;
 }
 
@@ -51,8 +59,8 @@ Expected<ExitCode> run_scenes(const std::string& json) {
 }  // namespace
 
 void add_scenes(CLI::App& program, Invocation& invocation) {
-  CLI::App* app =
-      program.add_subcommand("scenes", "List the built-in scenes; any of the names serves as SCENE.");
+  CLI::App* app = program.add_subcommand(
+      "scenes", "List the built-in scenes, any of whose names serves as SCENE, and the lessons.");
   app->footer("gnomon scenes\ngnomon compare courtyard");
   const auto json = std::make_shared<std::string>();
   add_json(*app, *json, "the list");

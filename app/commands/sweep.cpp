@@ -16,21 +16,20 @@
 #include "app/session.h"
 #include "app/shell.h"
 #include "app/sweep/axes.h"
+#include "app/sweep/cell_pictures.h"
 #include "app/sweep/slurm.h"
 #include "app/values.h"
 #include "compare/output_parts.h"
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/journal.h"
 #include "compare/sweep/merge.h"
 #include "compare/sweep/page.h"
-#include "scene/files/image_io.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
 
 namespace {
-
-constexpr int thumbnail_width = 256;  // pixels
 
 struct SweepCommand {
   std::string scene, folder;
@@ -42,6 +41,7 @@ struct SweepCommand {
   int threads = 0;
   compare::Shard shard;
   std::optional<int> slurm_tasks;
+  double report_max_mb = compare::default_report_max_mb;
   bool zip = false, perceptual = false, restart = false, quiet = false;
 };
 
@@ -136,15 +136,9 @@ struct Workshop {
   Scene given;  ///< camera and lights as loaded
   compare::MachineInfo machine;
   compare::Engine& engine;
+  CellPictureWriter pictures;
   Console& console;
 };
-
-Expected<void> write_thumbnail(const Workshop& shop, std::size_t cell) {
-  const Expected<std::string> png = encode_png(shop.engine.thumbnail(thumbnail_width));
-  if (!png) return fail(png.error());
-  const OutputGuard whole_file;
-  return write_file(compare::thumbnail_path(shop.command.folder, cell), *png);
-}
 
 Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t index) {
   const Stopwatch watch;
@@ -165,7 +159,7 @@ Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t 
   const std::string times =
       compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
   if (compare::has_thumbnail(cell, shop.plan.grid.cells())) {
-    if (auto written = write_thumbnail(shop, cell); !written) return written;
+    if (auto written = shop.pictures.write(cell, comparison); !written) return written;
   }
   const OutputGuard whole_lines;
   return journal.append(line, times);
@@ -189,9 +183,11 @@ Expected<void> discard(const std::string& folder) {
     std::filesystem::remove(std::filesystem::path(folder) / name, error);
     if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
   }
-  std::error_code error;
-  std::filesystem::remove_all(std::filesystem::path(folder) / "thumbnails", error);
-  if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
+  for (const char* name : {"thumbnails", "cells"}) {
+    std::error_code error;
+    std::filesystem::remove_all(std::filesystem::path(folder) / name, error);
+    if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
+  }
   return {};
 }
 
@@ -211,10 +207,10 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   const auto renderer = make_renderer(command.backend, loaded);
   if (!renderer) return fail(renderer.error());
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
-  Workshop shop{command, plan, loaded, {}, machine_info(), engine, console};
+  Workshop shop{command, plan, loaded, {}, machine_info(), engine, {command.folder, engine}, console};
   shop.given.camera = loaded.scene->camera;
   shop.given.lights = loaded.scene->lights;
-  if (auto made = make_output_folder(command.folder + "/thumbnails"); !made) return made;
+  if (auto made = shop.pictures.make_folders(); !made) return made;
   if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
   if (auto made = make_cells(shop, journal); !made) return made;
   const compare::EngineWork& work = engine.work();
@@ -262,9 +258,10 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (command.restart) {
     if (auto gone = discard(folder); !gone) return fail(gone.error());
   }
-  const auto cells = compare::merge_sweeps(shard_folders(folder, tasks), folder);
-  if (!cells) return fail(cells.error());
-  console.message(fmt::format("sweep: {}/report.html, {} cells", command.folder, *cells));
+  const auto merged = compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb);
+  if (!merged) return fail(merged.error());
+  if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
+  console.message(fmt::format("sweep: {}/report.html, {} cells", command.folder, merged->cells));
   return ExitCode::done;
 }
 
@@ -300,7 +297,9 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   }
   {
     const OutputGuard whole_page;
-    if (auto written = compare::write_sweep_page(command.folder); !written) return fail(written.error());
+    const auto written = compare::write_sweep_page(command.folder, command.report_max_mb);
+    if (!written) return fail(written.error());
+    if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   }
   console.message(fmt::format("sweep: {}/report.html, {} cells, {:.1f} s", command.folder, plan->cells.size(),
                               total.elapsed_ms() / 1000.0));
@@ -355,6 +354,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
   app.add_flag("--perceptual", command.perceptual,
                "also FLIP and SSIM for every cell, which cost more than all the rest [default off]");
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
+  add_report_max_mb(app, command.report_max_mb);
   add_backend(app, command.backend);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs, "1");

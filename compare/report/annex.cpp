@@ -150,11 +150,12 @@ std::string light_key(std::size_t index, std::string_view rest) {
   return fmt::format("lights.{}.{}", index, rest);
 }
 
-std::string picture(const EncodedPicture& encoded, std::string_view alt, std::string_view id) {
+std::string picture(const PageInput& in, const EncodedPicture& encoded, std::string_view alt,
+                    std::string_view id) {
   return fmt::format(R"(<img{} src="{}" width="{}" height="{}" alt="{}">)",
                      id.empty() ? std::string() : fmt::format(" id=\"{}\"", id),
-                     data_uri("image/png", encoded.png), encoded.size.width, encoded.size.height,
-                     escaped(alt));
+                     in.beside ? escaped(encoded.file_name) : data_uri("image/png", encoded.png),
+                     encoded.size.width, encoded.size.height, escaped(alt));
 }
 
 std::string scroll_region(std::string_view label, std::string_view content) {

@@ -7,6 +7,7 @@
 #include "compare/report/charts.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
+#include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
 
 namespace gnomon::compare {
@@ -101,6 +102,26 @@ std::string penumbra_facts(const LightBlock& b) {
   return text;
 }
 
+// The closed forms beside what was found.
+std::string theory_facts(const LightBlock& b) {
+  const TheoryStats& t = b.light.theory;
+  if (t.acne_free_bias.count == 0) return "";
+  return fact("Bias that theory asks for",
+              fact_value(b, "theory.acne_free_bias.median", t.acne_free_bias.median),
+              fmt::format("world units keep half of the pixels free of acne, {} keep 99 %",
+                          fact_value(b, "theory.acne_free_bias.p99", t.acne_free_bias.p99))) +
+         (t.aliasing.count == 0
+              ? std::string()
+              : fact("A texel on the screen",
+                     fact_value(b, "theory.aliasing.median", t.aliasing.median) + " pixels",
+                     fmt::format("wide in the median by its footprint, {} as measured; {} at the worst "
+                                 "hundredth. Perspective makes {} of it, the surface's tilt {}.",
+                                 fact_value(b, "theory.measured_aliasing.median", t.measured_aliasing.median),
+                                 fact_value(b, "theory.aliasing.p99", t.aliasing.p99),
+                                 fact_value(b, "theory.perspective.median", t.perspective.median),
+                                 fact_value(b, "theory.projection.median", t.projection.median))));
+}
+
 std::string texel_fact(const LightBlock& b) {
   const auto& [least, median, most] = b.light.texel_world;
   return fact("Texel width", fact_value(b, "map.texel_world.median", median),
@@ -135,7 +156,8 @@ std::string ladder_block(const LightBlock& b) {
 <p>Each rung changes one thing. The signed steps add up to the whole difference, exactly; an
 absolute step much larger than its signed one is error that cancels out on average, but not in the
 picture.</p>
-)" + scroll_region("The ladder of light " + std::to_string(b.index + 1), table);
+)" + scroll_region("The ladder of light " + std::to_string(b.index + 1), table) +
+         lesson_details(lesson("error-budget"));
 }
 
 std::string bias_block(const LightBlock& b) {
@@ -144,7 +166,8 @@ std::string bias_block(const LightBlock& b) {
   if (chart.empty()) return "";
   return "<h3>Every constant bias, from this one render</h3>\n<p>" + bias_words(b) + "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
-                       chart);
+                       chart) +
+         lesson_details(lesson("bias"));
 }
 
 std::string facts_block(const LightBlock& b) {
@@ -152,7 +175,7 @@ std::string facts_block(const LightBlock& b) {
   return R"(<h3>How far, how visible</h3>
 <dl class="facts">
 )" + edge_facts(b) +
-         detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) + texel_fact(b) +
+         detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) + texel_fact(b) + theory_facts(b) +
          fact("FLIP", fact_value(b, "error.flip", error.flip),
               "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
               "entirely") +
@@ -175,7 +198,7 @@ std::string depth_map_block(const LightBlock& b) {
 <figure class="depth">{}<figcaption><span class="scale-row"><span>far {}</span>{}<span>near {}</span></span>
 Depth from the light in world units{}; dark grey where nothing is stored.{}{}</figcaption></figure>
 )",
-      picture(pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
+      picture(b.in, pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
               ""),
       plain_number(view.depth_range().max), depth_scale(fmt::format("depth-scale-{}", b.index)),
       plain_number(view.depth_range().min),

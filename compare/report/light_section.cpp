@@ -10,6 +10,7 @@
 #include "compare/palette.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
+#include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
 
 namespace gnomon::compare {
@@ -31,32 +32,14 @@ std::string viewer(const LightBlock& b) {
   add("picture-raytraced", "ray traced");
   add(fmt::format("picture-difference-{}", b.index), "difference");
   add(fmt::format("picture-labels-{}", b.index), "labels");
-  return fmt::format(
-      R"(<div class="viewer" hidden>
-<div class="viewer-bar" role="group" aria-label="Compare two pictures">
-<label>Left <select class="pick">{0}</select></label> <label>Right <select
-class="pick">{0}</select></label>
-<span class="modes" role="group" aria-label="How"><button type="button"
-data-mode="swipe">Swipe</button><button type="button" data-mode="side">Side by side</button><button
-type="button" data-mode="flip">Flip</button></span>
-<span class="modes" role="group" aria-label="Zoom"><button type="button" data-zoom="out"
-aria-label="Zoom out">−</button><output class="zoom-value">1×</output><button type="button" data-zoom="in"
-aria-label="Zoom in">+</button><button type="button" data-zoom="fit">Fit</button></span>
-<label class="exposure">Exposure <input type="range" min="-6" max="6" step="0.25" value="0"></label>
-</div>
-<div class="stage" tabindex="0" role="group" aria-label="Two pictures of the scene"
-aria-describedby="hint-{1}"><div class="pane"><img alt=""><span class="tag"></span></div><div
-class="pane"><img alt=""><span class="tag"></span></div><div class="divider"></div></div>
-<label class="slider">Divider <input type="range" min="0" max="100" value="50"></label>
-<p class="probe" role="status">Point at a pixel to read it.</p>
-<p class="hint" id="hint-{1}">Point at a pixel to read it, click to pin it; its story is below. Drag to
-move the divider, or the picture once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips,
-<kbd>+</kbd> <kbd>−</kbd> <kbd>0</kbd> zoom, arrows move, <kbd>Shift</kbd> with arrows steps from pixel to
-pixel, <kbd>Esc</kbd> lets go. Exposure is in stops and works on the 8-bit pictures: what is clipped stays
-white. Gap: light blue nearer than stored, orange beyond, full colour at 4 texels.</p>
-</div>
-)",
-      options, b.index);
+  return viewer_block(
+      options, std::to_string(b.index),
+      R"(Point at a pixel to read it, click to pin it; its story is below. Drag to move the divider, or the
+picture once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips, <kbd>+</kbd> <kbd>−</kbd>
+<kbd>0</kbd> zoom, arrows move, <kbd>Shift</kbd> with arrows steps from pixel to pixel, <kbd>Esc</kbd> lets
+go. Exposure is in stops, on linear light, of both pictures. Scales are fixed: the same colour means the same
+in every picture.)",
+      true);
 }
 
 std::string difference_figure(const LightBlock& b) {
@@ -66,7 +49,7 @@ std::string difference_figure(const LightBlock& b) {
       "shadow</b>: drawn lit, "
       "truly dark, {} pixels.</figcaption></figure>\n",
       picture(
-          b.in.pictures.lights[b.index].difference,
+          b.in, b.in.pictures.lights[b.index].difference,
           "The picture in grey; pixels with a false shadow in orange, with a missed shadow in light blue.",
           fmt::format("picture-difference-{}", b.index)),
       swatch(false_shadow_colour, "\u2212"), keyed_count(b.key("error.false_shadow"), e.false_shadow),
@@ -77,7 +60,7 @@ std::string label_figure(const LightBlock& b) {
   return fmt::format(
       "<figure>{}<figcaption>Each wrong pixel in the colour of its label; grey means right: light where "
       "lit, darker where in shadow.</figcaption></figure>\n",
-      picture(b.in.pictures.lights[b.index].labels, "Every wrong pixel in the colour of its label.",
+      picture(b.in, b.in.pictures.lights[b.index].labels, "Every wrong pixel in the colour of its label.",
               fmt::format("picture-labels-{}", b.index)));
 }
 
@@ -142,12 +125,18 @@ scope="col" class="n">pixels</th><th scope="col" class="n">share</th></tr></thea
 
 std::string explanations(const LightBlock& b) {
   std::string items;
+  std::vector<std::string_view> given;  // each lesson once
   for (const std::size_t k : occurring_classes(b.light)) {
     const Label label = static_cast<Label>(k + 1);
     const LabelText& text = label_text(label);
-    items += fmt::format(R"(<div><dt>{}{}</dt><dd>{}</dd><dd class="cure"><b>Cure.</b> {}</dd></div>
+    const Lesson& lesson = lesson_of(label);
+    const bool first = std::find(given.begin(), given.end(), lesson.name) == given.end();
+    given.push_back(lesson.name);
+    items += fmt::format(
+        R"(<div><dt>{}{}</dt><dd>{}</dd><dd class="cure"><b>Cure.</b> {}</dd><dd>{}</dd></div>
 )",
-                         swatch(label_colour(label), text.letter), text.name, text.cause, text.cure);
+        swatch(label_colour(label), text.letter), text.name, text.cause, text.cure,
+        first ? lesson_details(lesson) : fmt::format("Lesson: {}, above.", escaped(lesson.title)));
   }
   return items.empty() ? "" : R"(<h3>What causes it, what cures it</h3>
 <dl class="explain">
@@ -164,6 +153,32 @@ std::string where(const Light& light) {
 }
 
 }  // namespace
+
+std::string viewer_block(const std::string& options, std::string_view id, std::string_view hint,
+                         bool exposure) {
+  return fmt::format(
+      R"(<div class="viewer" hidden>
+<div class="viewer-bar" role="group" aria-label="Compare two pictures">
+<label>Left <select class="pick">{0}</select></label> <label>Right <select
+class="pick">{0}</select></label>
+<span class="modes" role="group" aria-label="How"><button type="button"
+data-mode="swipe">Swipe</button><button type="button" data-mode="side">Side by side</button><button
+type="button" data-mode="flip">Flip</button></span>
+<span class="modes" role="group" aria-label="Zoom"><button type="button" data-zoom="out"
+aria-label="Zoom out">−</button><output class="zoom-value">1×</output><button type="button" data-zoom="in"
+aria-label="Zoom in">+</button><button type="button" data-zoom="fit">Fit</button></span>
+<label class="exposure"{3}>Exposure <input type="range" min="-6" max="6" step="0.25" value="0"></label>
+</div>
+<div class="stage" tabindex="0" role="group" aria-label="Two pictures of the scene"
+aria-describedby="hint-{1}"><div class="pane"><img alt=""><span class="tag"></span></div><div
+class="pane"><img alt=""><span class="tag"></span></div><div class="divider"></div></div>
+<label class="slider">Divider <input type="range" min="0" max="100" value="50"></label>
+<p class="probe" role="status">Point at a pixel to read it.</p>
+<p class="hint" id="hint-{1}">{2}</p>
+</div>
+)",
+      options, id, hint, exposure ? "" : " hidden");
+}
 
 std::string light_section(const PageInput& in, std::size_t i) {
   const LightBlock b{in, i, in.comparison.lights[i]};

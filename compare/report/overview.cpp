@@ -59,9 +59,10 @@ std::string raytraced_caption(const Comparison& c) {
                      timed("times_ms.primary_rays", c.raytraced.primary_rays));
 }
 
-std::string figure(const EncodedPicture& encoded, std::string_view id, std::string_view alt,
-                   const std::string& caption) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture(encoded, alt, id), caption);
+std::string figure(const PageInput& in, const EncodedPicture& encoded, std::string_view id,
+                   std::string_view alt, const std::string& caption) {
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture(in, encoded, alt, id),
+                     caption);
 }
 
 std::string map_text(const Comparison& c) {
@@ -81,15 +82,21 @@ std::string map_text(const Comparison& c) {
   return text;
 }
 
-std::string setting_line(const Comparison& c) {
+std::string setting_line(const PageInput& in) {
+  const Comparison& c = in.comparison;
   const ImageSize size = c.raster.options.size;
+  const std::string_view beside =
+      in.beside ? R"(<p class="setting beside">The pixels would make this page too large for one file: its
+pictures and data lie beside it, in its folder and in <code>report-data</code>. Keep them together.</p>
+)"
+                : "";
   return fmt::format(
       R"(<p class="setting">{} × {} pixels <span aria-hidden="true">·</span> {} <span
 aria-hidden="true">·</span> {} triangle{}, {} shape{}</p>
-)",
+{})",
       size.width, size.height, escaped(map_text(c)),
       keyed_count("scene.triangles", c.world->triangle_count()), c.world->triangle_count() == 1 ? "" : "s",
-      keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s");
+      keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s", beside);
 }
 
 std::string card(const PageInput& in, std::size_t i) {
@@ -150,13 +157,13 @@ std::string overview_section(const PageInput& in) {
   std::string out = fmt::format(R"(<section id="overview" aria-labelledby="title">
 <h1 id="title">{}</h1>
 {})",
-                                escaped(name.empty() ? "Scene without a name" : name), setting_line(c));
+                                escaped(name.empty() ? "Scene without a name" : name), setting_line(in));
   out += R"(<div class="pair">
 )";
-  out += figure(in.pictures.raster, "picture-raster",
+  out += figure(in, in.pictures.raster, "picture-raster",
                 "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c));
-  out += figure(in.pictures.raytraced, "picture-raytraced", "The same view ray traced, with exact shadows.",
-                raytraced_caption(c));
+  out += figure(in, in.pictures.raytraced, "picture-raytraced",
+                "The same view ray traced, with exact shadows.", raytraced_caption(c));
   out += "</div>\n";
   for (std::size_t i = 0; i < c.lights.size(); ++i) out += card(in, i);
   if (c.lights.empty())

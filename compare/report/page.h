@@ -1,6 +1,6 @@
-// The report page: one HTML file that needs nothing but itself. What can be read without scripts is written
-// in C++ (sections, charts) into page/dist/page.html, the built and embedded style and script (TypeScript in
-// page/); page_data.h adds what the scripts read. Every number on the page carries its key in result.json
+// The report page: one HTML file that needs nothing but itself, or, where it would grow too large, the files
+// beside it. What can be read without scripts is written in C++ (sections, charts) into the built page
+// (shell.h); page_data.h adds what the scripts read. Every number on the page carries its key in result.json
 // (<data data-key="lights.0.error.wrong">), which the browser test compares.
 #pragma once
 
@@ -9,8 +9,16 @@
 
 #include "compare/comparison.h"
 #include "compare/picture_set.h"
+#include "compare/report/shell.h"
 
 namespace gnomon::compare {
+
+/// What stands before a comparison on a page that is about more than that: the page of the tuner.
+struct PageIntroduction {
+  std::string title;  ///< of the document, not escaped
+  std::string links;  ///< <li> items
+  std::string html;   ///< sections
+};
 
 struct PageInput {
   const Comparison& comparison;
@@ -18,16 +26,12 @@ struct PageInput {
   std::string_view json;  ///< result.json's text, embedded in the page and offered for saving
   std::string_view csv;
   double total_ms = 0.0;
+  const PageIntroduction* introduction = nullptr;
+  bool beside = false;  ///< pictures and pixels are files beside the page; set by report_page
 };
 
-/// The content-security policy of a page with this style and script, each in one inline block: nothing may be
-/// loaded, sent or run but these and the page's own images.
-std::string page_security_policy(std::string_view style, std::string_view script);
-
-/// The style of the built page, for other pages to share.
-std::string_view page_style();
-
-/// The whole page.
-std::string report_page(const PageInput& input);
+/// The whole page; of more than `max_mb` megabytes its data, and the set's pictures by their file names, are
+/// beside it.
+BuiltPage report_page(PageInput input, double max_mb);
 
 }  // namespace gnomon::compare

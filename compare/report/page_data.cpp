@@ -1,7 +1,7 @@
 // Numbers are exact (gap: the bits of the 32-bit float that the shader tested; labels; ids) or rounded to a
 // step that is written beside them: map positions to 1/256 texel downwards, so that the texel stays the same,
 // visibilities to 1/25200 (exact for filters of up to 7 x 7 samples), distances and depths to a power of two
-// of about 2^-22 of the map's depth range, normals to 1/32767.
+// of about 2^-22 of the map's depth range, normals to 1/32767, colours to 16-bit floats.
 #include "compare/report/page_data.h"
 
 #include <fmt/format.h>
@@ -10,14 +10,17 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
 
+#include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
 #include "compare/report/packing.h"
 #include "compare/report/sections.h"
+#include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
 namespace {
@@ -25,8 +28,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double position_steps = 256.0, visibility_steps = 25200.0, normal_steps = 32767.0;
-// A page carries about 15 bytes for each pixel and light; beyond this many, lights go without.
-constexpr std::size_t most_pixels = std::size_t{1} << 22;
 constexpr std::size_t most_map_texels = std::size_t{1} << 21;  // larger maps are reduced
 
 std::uint32_t integer(double value) {
@@ -137,6 +138,26 @@ void add_lookup(Channels& channels, const Comparison& c, const LightComparison& 
                [&record](std::size_t i) { return std::bit_cast<std::uint32_t>(record.gap.data[i]); });
 }
 
+// Linear light as 16-bit floats, before exposure.
+void add_picture(Channels& channels, const ColorImage& image, std::string_view prefix) {
+  for (int k = 0; k < 3; ++k)
+    channels.add(fmt::format("{}{}", prefix, "RGB"[k]), image.data.size(), {2, true},
+                 [&image, k](std::size_t i) { return std::uint32_t{glm::packHalf1x16(image.data[i][k])}; });
+}
+
+// The metrics' maps: FLIP in steps of 1/255, SSIM in steps of 1/127 with -128 where no window fits.
+void add_metrics(Channels& channels, const LightComparison& light) {
+  const std::size_t n = light.flip_map.data.size();
+  if (n == 0) return;
+  channels.add("flip", n, {1, false}, [&light](std::size_t i) {
+    return integer(std::round(255.0 * double{light.flip_map.data[i]}));
+  });
+  channels.add("ssim", n, {1, false}, [&light](std::size_t i) {
+    const double value = light.ssim_map.data[i];
+    return std::isnan(value) ? integer(-128.0) : integer(std::round(127.0 * value));
+  });
+}
+
 void add_receiver(Channels& channels, const Comparison& c) {
   const auto& points = c.raytraced.receiver.data;
   channels.add("primitive", points.size(), {4, true},
@@ -202,8 +223,12 @@ Json light_data(const PageInput& in, std::size_t index) {
   Channels channels;
   add_ladder(channels, light);
   add_lookup(channels, c, light);
+  add_metrics(channels, light);
+  const raster::MapOptions& map = c.raster.options.map;
   return {{"name", shown_light_name(c, index)},
           {"view", view_json(record.map.view)},
+          {"technique", technique_name(map.technique)},
+          {"gaps_decide", biases_follow_from_gaps(map)},
           {"bias",
            {{"constant", record.bias_constant_world},
             {"slope", bias.slope},
@@ -213,6 +238,15 @@ Json light_data(const PageInput& in, std::size_t index) {
           {"depth_step", depth_step(record.map.view)},
           {"channels", channels.json()},
           {"map", map_json(record.map)}};
+}
+
+// What all lights share: what is seen at each pixel, and both pictures.
+Json pixels_json(const Comparison& c) {
+  Channels channels;
+  add_receiver(channels, c);
+  add_picture(channels, c.raster.color, "raster");
+  add_picture(channels, c.raytraced.color, "raytraced");
+  return channels.json();
 }
 
 // --- geometry ---
@@ -252,24 +286,29 @@ Json geometry_json(const World& world) {
 
 }  // namespace
 
-std::string page_data(const PageInput& in) {
+std::string label_words() {
+  return labels_json().dump();
+}
+
+PageData page_data(const PageInput& in) {
   const Comparison& c = in.comparison;
-  const std::size_t pixels = c.raytraced.receiver.data.size();
-  Channels receivers;
-  if (!c.lights.empty() && pixels <= most_pixels) add_receiver(receivers, c);
-  Json lights = Json::array();
+  PageData out;
+  Json head{{"kind", "compare"},
+            {"labels", labels_json()},
+            {"rungs", rungs_json()},
+            {"width", c.raytraced.receiver.size.width},
+            {"height", c.raytraced.receiver.size.height},
+            {"position_steps", position_steps},
+            {"visibility_steps", visibility_steps},
+            {"exposure", c.exposure},
+            {"lights", c.lights.size()}};
+  out.head = head.dump();
+  if (c.lights.empty()) return out;
+  out.parts.push_back({"pixels", pixels_json(c).dump()});
+  out.parts.push_back({"geometry", geometry_json(*c.world).dump()});
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    lights.push_back((i + 1) * pixels <= most_pixels ? light_data(in, i) : Json(nullptr));
-  return Json{{"labels", labels_json()},
-              {"rungs", rungs_json()},
-              {"width", c.raytraced.receiver.size.width},
-              {"height", c.raytraced.receiver.size.height},
-              {"position_steps", position_steps},
-              {"visibility_steps", visibility_steps},
-              {"channels", receivers.json()},
-              {"geometry", geometry_json(*c.world)},
-              {"lights", std::move(lights)}}
-      .dump();
+    out.parts.push_back({fmt::format("light-{}", i), light_data(in, i).dump()});
+  return out;
 }
 
 }  // namespace gnomon::compare

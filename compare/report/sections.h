@@ -24,8 +24,14 @@ std::string shown_light_name(const Comparison& comparison, std::size_t index);
 /// "lights.0.error.wrong": a key in result.json.
 std::string light_key(std::size_t index, std::string_view rest);
 
-/// <img> with its size, so that the page does not jump. `id` may be empty.
-std::string picture(const EncodedPicture& encoded, std::string_view alt, std::string_view id);
+/// <img> with its size, so that the page does not jump; its file where the page's pictures are beside it.
+/// `id` may be empty.
+std::string picture(const PageInput& input, const EncodedPicture& encoded, std::string_view alt,
+                    std::string_view id);
+/// The viewer, hidden until the script brings it to life. `options`: <option>s of its menus; `id` sets its
+/// hint apart; `hint` is HTML; `exposure`: with a slider for it.
+std::string viewer_block(const std::string& options, std::string_view id, std::string_view hint,
+                         bool exposure);
 /// A block that scrolls sideways where the page is narrow, by keyboard too; `label` must be unique on the
 /// page.
 std::string scroll_region(std::string_view label, std::string_view content);

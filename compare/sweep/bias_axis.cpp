@@ -44,6 +44,7 @@ struct Gap {
 struct Share {
   std::vector<Counts> changes;
   std::vector<Gap> gaps;
+  std::vector<WrongSpan> spans;
 };
 
 struct Biases {
@@ -74,7 +75,7 @@ class BiasAxis {
  public:
   BiasAxis(const LowerClimb& lower, const LadderInput& in, std::span<const double> asked)
       : lower_(lower), in_(in), biases_(asked), shares_([this] {
-          return Share{std::vector<Counts>(biases_.count() + std::size_t{1}), {}};
+          return Share{std::vector<Counts>(biases_.count() + std::size_t{1}), {}, {}};
         }) {}
 
   void run() {
@@ -86,6 +87,7 @@ class BiasAxis {
     for (const Share& share : shares_) {
       for (std::size_t i = 0; i < totals_.size(); ++i) totals_[i].add(share.changes[i], 1);
       gaps_.insert(gaps_.end(), share.gaps.begin(), share.gaps.end());
+      spans_.insert(spans_.end(), share.spans.begin(), share.spans.end());
     }
     for (std::size_t i = 1; i < totals_.size(); ++i) totals_[i].add(totals_[i - 1], 1);
     tbb::parallel_sort(gaps_, [](const Gap& a, const Gap& b) {
@@ -94,6 +96,7 @@ class BiasAxis {
   }
 
   const Biases& biases() const { return biases_; }
+  std::vector<WrongSpan> take_spans() { return std::move(spans_); }
   const Counts& counts(std::size_t bias) const { return totals_[bias]; }
   Detachment detachment(std::size_t bias) const {
     Detachment out;
@@ -127,7 +130,8 @@ class BiasAxis {
   }
 
   // Counts of a pixel in one state, for biases from `from` to `to` (excluded).
-  void add_state(const std::array<float, rung_count>& v, Label label, std::uint32_t from, std::uint32_t to) {
+  void add_state(std::uint32_t pixel, const std::array<float, rung_count>& v, Label label, std::uint32_t from,
+                 std::uint32_t to) {
     Counts counts;
     counts.false_shadow = v[6] < v[0];
     counts.missed_shadow = v[6] > v[0];
@@ -140,6 +144,7 @@ class BiasAxis {
     Share& share = shares_.local();
     share.changes[from].add(counts, 1);
     share.changes[to].add(counts, -1);
+    if (is_wrong(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
   }
 
   void add_outside(std::uint32_t pixel) {
@@ -150,7 +155,8 @@ class BiasAxis {
                           to = drawn == 0.0f ? lit_from : biases_.count();
       if (from == to) continue;
       const Label label = drawn == truth ? Label::right : Label::outside_map;
-      add_state({truth, lower_.rungs[1].data[pixel], drawn, drawn, drawn, drawn, drawn}, label, from, to);
+      add_state(pixel, {truth, lower_.rungs[1].data[pixel], drawn, drawn, drawn, drawn, drawn}, label, from,
+                to);
     }
   }
 
@@ -174,7 +180,7 @@ class BiasAxis {
           if (!column) column = lower_.columns->column(group);
           label = label_wrong_pixel(in_, *column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
         }
-        add_state(v, label, ends[s], ends[s + 1]);
+        add_state(pixel, v, label, ends[s], ends[s + 1]);
         if (label == Label::peter_panning) add_gap(pixel, ends[s], ends[s + 1]);
       }
     }
@@ -191,6 +197,7 @@ class BiasAxis {
   tbb::enumerable_thread_specific<Share> shares_;
   std::vector<Counts> totals_;
   std::vector<Gap> gaps_;
+  std::vector<WrongSpan> spans_;
 };
 
 // As measure_pixels has it, from counts instead of images.
@@ -236,14 +243,14 @@ bool biases_add_up(const LowerClimb& lower) {
   return true;
 }
 
-std::vector<LightComparison> compare_biases(const LowerClimb& lower, const LadderInput& in,
-                                            const LightComparison& drawn, std::span<const double> asked,
-                                            int bias_curve_points) {
+BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const LightComparison& drawn,
+                         std::span<const double> asked, int bias_curve_points) {
   BiasAxis axis(lower, in, asked);
   axis.run();
   const EdgePaths edges(in.drawn, in.record, lower.rungs[0], lower.sorted, in.world);
   const GapLists gaps = sort_gaps(in.record, lower.rungs[0], lower.sorted);
-  std::vector<LightComparison> lights(asked.size());
+  BiasTable out{std::vector<LightComparison>(asked.size()), axis.biases().place, axis.take_spans()};
+  std::vector<LightComparison>& lights = out.lights;
   tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
     const std::size_t place = axis.biases().place[i];
     lights[i] = without_images(drawn);
@@ -253,7 +260,7 @@ std::vector<LightComparison> compare_biases(const LowerClimb& lower, const Ladde
     lights[i].bias_curve = draw_bias_curve(gaps, drawn.texel_world[1], asked[i],
                                            drawn.best_bias.constant_world, bias_curve_points);
   });
-  return lights;
+  return out;
 }
 
 }  // namespace gnomon::compare

@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/light_comparison.h"
-#include "compare/outputs.h"
-#include "compare/palette.h"
-#include "compare/sweep/bias_axis.h"
+#include "compare/sweep/engine_impl.h"
 #include "scene/exposure.h"
 
 namespace gnomon::compare {
@@ -38,6 +35,18 @@ bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::s
          x.face.data == y.face.data && a.primitive.data == b.primitive.data;
 }
 
+// Errors and, where asked for, gaps of one light's compared pixels.
+void count(const LadderInput& in, bool with_gaps, Probe& probe) {
+  const Image<Label> labels = sort_pixels(in);
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    if (!is_compared(labels.data[i])) continue;
+    const bool lit = in.truth.verdict.data[i] == raytrace::Verdict::lit;
+    ++probe.compared;
+    probe.wrong += std::abs(in.record.visibility.data[i] - (lit ? 1.0f : 0.0f)) > 0.5f;
+    if (with_gaps) (lit ? probe.gaps.lit : probe.gaps.shadowed).push_back(in.record.gap.data[i]);
+  }
+}
+
 }  // namespace
 
 bool biases_follow_from_gaps(const raster::MapOptions& map) {
@@ -58,220 +67,162 @@ void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster
   });
 }
 
-struct Engine::Impl {
-  Scene& scene;
-  const World& world;
-  raster::Renderer& renderer;
-  bool perceptual;
-  raytrace::Topology topology;
-  std::unique_ptr<raytrace::Tracer> tracer;
-  Comparison comparison;
-  std::optional<Setting> truth_of, drawn_for;
-  /// The drawing that the lower climbs were made from, and one climb per light compared.
-  std::unique_ptr<raster::RasterFrame> lower_frame;
-  std::vector<std::unique_ptr<LowerClimb>> lower;
-  Rgb8Image backdrop;  ///< the ray-traced picture in grey; empty: not made yet
-  bool has_images = false;
-  std::vector<raster::Bias> expected;
-  std::vector<std::vector<LightComparison>> table;  ///< by light and expected bias; empty: not made yet
-  EngineWork work;
-  bool derived = false;
+LadderInput Engine::Impl::input(const raster::RasterFrame& frame, std::size_t i) const {
+  const Light& light = scene.lights[frame.lights[i].light];
+  return {world,
+          *tracer,
+          topology,
+          light,
+          frame,
+          frame.lights[i],
+          comparison.raytraced,
+          comparison.raytraced.lights[i]};
+}
 
-  Impl(Scene& s, const World& w, raster::Renderer& r, bool p)
-      : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
-
-  LadderInput input(const raster::RasterFrame& frame, std::size_t i) const {
-    const Light& light = scene.lights[frame.lights[i].light];
-    return {world,
-            *tracer,
-            topology,
-            light,
-            frame,
-            frame.lights[i],
-            comparison.raytraced,
-            comparison.raytraced.lights[i]};
+void Engine::Impl::trace(const Setting& setting) {
+  if (truth_of && same_truth(*truth_of, setting)) return;
+  lower.clear();
+  table.clear();
+  backdrop = {};
+  drawn_for.reset();
+  if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
+    tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
+    comparison.precision = setting.precision;
+    comparison.accel_build_ms = tracer->stats().build_ms;
   }
+  scene.camera = setting.camera;
+  scene.lights = setting.lights;
+  comparison.plan = plan_effects(scene);
+  comparison.raytraced =
+      raytrace::trace_frame(*tracer, comparison.plan, scene.camera, setting.compared, setting.raytrace);
+  comparison.exposure = scene.exposure ? *scene.exposure : auto_exposure(comparison.raytraced.color);
+  truth_of = setting;
+  ++work.truths;
+}
 
-  void trace(const Setting& setting) {
-    if (truth_of && same_truth(*truth_of, setting)) return;
-    lower.clear();
+Expected<void> Engine::Impl::draw(const Setting& setting) {
+  drawn_for.reset();
+  raster::RasterOptions drawing = setting.raster;
+  drawing.seed = setting.raytrace.seed, drawing.shadow_samples = setting.raytrace.shadow_samples;
+  auto frame = renderer.render(drawing, setting.compared);
+  if (!frame) return fail(frame.error());
+  comparison.raster = std::move(*frame);
+  drawn_for = setting;
+  ++work.renders;
+  return {};
+}
+
+void Engine::Impl::derive(const Setting& setting, Detail detail) {
+  comparison.raster.options = setting.raster;
+  for (raster::LightRecord& record : comparison.raster.lights) {
+    const double world_units = bias_in_world_units(setting.raster.map.bias, record.map.view, world);
+    record.bias_constant_world = world_units;
+    if (detail == Detail::images) rebias(comparison.raster.primitive, world_units, record);
+  }
+  ++work.derived;
+}
+
+void Engine::Impl::climb_lower() {
+  const raster::RasterFrame& frame = comparison.raster;
+  bool same = lower.size() == frame.lights.size();
+  for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
+  if (same) return;
+  lower.clear();
+  lower_frame = std::make_unique<raster::RasterFrame>(frame);
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const LadderInput in = input(*lower_frame, i);
+    lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
+    ++work.lower_climbs;
+  }
+}
+
+MeasureOptions Engine::Impl::measure_options() const {
+  MeasureOptions options;
+  options.perceptual = perceptual;
+  return options;
+}
+
+std::size_t Engine::Impl::expected_place(const raster::Bias& bias) const {
+  const auto same = [&](const raster::Bias& b) { return b.constant == bias.constant && b.unit == bias.unit; };
+  return static_cast<std::size_t>(std::find_if(expected.begin(), expected.end(), same) - expected.begin());
+}
+
+bool Engine::Impl::fill_table() {
+  if (!table.empty()) return true;
+  if (perceptual || comparison.lights.size() != lower.size()) return false;
+  for (const auto& light : lower)
+    if (!biases_add_up(*light)) return false;
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const LadderInput in = input(comparison.raster, i);
+    std::vector<double> biases;
+    for (const raster::Bias& bias : expected)
+      biases.push_back(bias_in_world_units(bias, in.record.map.view, world));
+    table.push_back(
+        compare_biases(*lower[i], in, comparison.lights[i], biases, measure_options().bias_curve_points));
+  }
+  return true;
+}
+
+bool Engine::Impl::measure_from_table(const raster::Bias& bias) {
+  const std::size_t place = expected_place(bias);
+  if (place == expected.size() || !fill_table()) return false;
+  for (std::size_t i = 0; i < table.size(); ++i) comparison.lights[i] = table[i].lights[place];
+  table_place = place;
+  return true;
+}
+
+void Engine::Impl::measure() {
+  if (!derived) climb_lower();
+  has_images = true;
+  comparison.lights.clear();
+  for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i) {
+    const LadderInput in = input(comparison.raster, i);
+    Times classify;
+    Climb climbed;
+    time_run(classify, [&] { climbed = climb_up(*lower[i], in); });
+    comparison.lights.push_back(measure_light(in, i, std::move(climbed), measure_options()));
+    comparison.lights.back().classify = classify;
+  }
+}
+
+Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
+  trace(setting);
+  derived = drawn_for && biases_follow_from_gaps(setting.raster.map) &&
+            same_but_bias(drawn_for->raster, setting.raster);
+  if (!derived) {
+    if (auto drawn = draw(setting); !drawn) return drawn;
     table.clear();
-    backdrop = {};
-    drawn_for.reset();
-    if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
-      tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
-      comparison.precision = setting.precision;
-      comparison.accel_build_ms = tracer->stats().build_ms;
-    }
-    scene.camera = setting.camera;
-    scene.lights = setting.lights;
-    comparison.plan = plan_effects(scene);
-    comparison.raytraced =
-        raytrace::trace_frame(*tracer, comparison.plan, scene.camera, setting.compared, setting.raytrace);
-    comparison.exposure = scene.exposure ? *scene.exposure : auto_exposure(comparison.raytraced.color);
-    truth_of = setting;
-    ++work.truths;
-  }
-
-  Expected<void> draw(const Setting& setting) {
-    drawn_for.reset();
-    raster::RasterOptions drawing = setting.raster;
-    drawing.seed = setting.raytrace.seed, drawing.shadow_samples = setting.raytrace.shadow_samples;
-    auto frame = renderer.render(drawing, setting.compared);
-    if (!frame) return fail(frame.error());
-    comparison.raster = std::move(*frame);
-    drawn_for = setting;
-    ++work.renders;
-    return {};
-  }
-
-  /// The bias alone, or the images with it.
-  void derive(const Setting& setting, Detail detail) {
-    comparison.raster.options = setting.raster;
-    for (raster::LightRecord& record : comparison.raster.lights) {
-      const double world_units = bias_in_world_units(setting.raster.map.bias, record.map.view, world);
-      record.bias_constant_world = world_units;
-      if (detail == Detail::images) rebias(comparison.raster.primitive, world_units, record);
-    }
-    ++work.derived;
-  }
-
-  /// The lower rungs of all lights, kept where the maps are the same as before.
-  void climb_lower() {
-    const raster::RasterFrame& frame = comparison.raster;
-    bool same = lower.size() == frame.lights.size();
-    for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
-    if (same) return;
-    lower.clear();
-    lower_frame = std::make_unique<raster::RasterFrame>(frame);
-    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      const LadderInput in = input(*lower_frame, i);
-      lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
-      ++work.lower_climbs;
-    }
-  }
-
-  MeasureOptions measure_options() const {
-    MeasureOptions options;
-    options.perceptual = perceptual;
-    return options;
-  }
-
-  /// Place of the bias among those expected, or their count.
-  std::size_t expected_place(const raster::Bias& bias) const {
-    const auto same = [&](const raster::Bias& b) {
-      return b.constant == bias.constant && b.unit == bias.unit;
-    };
-    return static_cast<std::size_t>(std::find_if(expected.begin(), expected.end(), same) - expected.begin());
-  }
-
-  /// The numbers of all expected biases, once per drawing; false where they cannot be made together.
-  bool fill_table() {
-    if (!table.empty()) return true;
-    if (perceptual || comparison.lights.size() != lower.size()) return false;
-    for (const auto& light : lower)
-      if (!biases_add_up(*light)) return false;
-    for (std::size_t i = 0; i < lower.size(); ++i) {
-      const LadderInput in = input(comparison.raster, i);
-      std::vector<double> biases;
-      for (const raster::Bias& bias : expected)
-        biases.push_back(bias_in_world_units(bias, in.record.map.view, world));
-      table.push_back(
-          compare_biases(*lower[i], in, comparison.lights[i], biases, measure_options().bias_curve_points));
-    }
-    return true;
-  }
-
-  bool measure_from_table(const raster::Bias& bias) {
-    const std::size_t place = expected_place(bias);
-    if (place == expected.size() || !fill_table()) return false;
-    for (std::size_t i = 0; i < table.size(); ++i) comparison.lights[i] = table[i][place];
-    return true;
-  }
-
-  static void count(const LadderInput& in, bool with_gaps, Probe& probe) {
-    const Image<Label> labels = sort_pixels(in);
-    for (std::size_t i = 0; i < labels.data.size(); ++i) {
-      if (!is_compared(labels.data[i])) continue;
-      const bool lit = in.truth.verdict.data[i] == raytrace::Verdict::lit;
-      ++probe.compared;
-      probe.wrong += std::abs(in.record.visibility.data[i] - (lit ? 1.0f : 0.0f)) > 0.5f;
-      if (with_gaps) (lit ? probe.gaps.lit : probe.gaps.shadowed).push_back(in.record.gap.data[i]);
-    }
-  }
-
-  // V6 - V0 of the light that is most wrong at a pixel.
-  float worst_error(std::size_t pixel) const {
-    float worst = 0.0f;
-    for (std::size_t i = 0; i < lower.size(); ++i) {
-      if (!is_compared(lower[i]->sorted.data[pixel])) continue;
-      const raster::LightRecord& record = comparison.raster.lights[i];
-      const bool lit = !(record.gap.data[pixel] > static_cast<float>(record.bias_constant_world));
-      const float drawn = has_images ? record.visibility.data[pixel] : (lit ? 1.0f : 0.0f);
-      const float error = drawn - lower[i]->rungs[0].data[pixel];
-      if (std::abs(error) > std::abs(worst)) worst = error;
-    }
-    return worst;
-  }
-
-  // Grey between 64 and 232, so that both error colours stand out from it.
-  void make_backdrop() {
-    if (!backdrop.data.empty()) return;
-    backdrop = raytraced_picture(comparison);
-    for (glm::u8vec3& c : backdrop.data) {
-      const float luma = 0.2126f * float(c.r) + 0.7152f * float(c.g) + 0.0722f * float(c.b);
-      c = glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
-    }
-  }
-
-  // The mean colour of the pixels x0 … x1, y0 … y1 (ends excluded).
-  glm::u8vec3 mean_colour(int x0, int x1, int y0, int y1) const {
-    Vec3f sum(0.0f);
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) {
-        const std::size_t pixel = backdrop.index(x, y);
-        const float error = worst_error(pixel);
-        const Vec3f mark(error < 0.0f ? false_shadow_colour : missed_shadow_colour);
-        sum += glm::mix(Vec3f(backdrop.data[pixel]), mark, std::min(std::abs(error), 1.0f));
-      }
-    return glm::u8vec3(sum / static_cast<float>((x1 - x0) * (y1 - y0)) + 0.5f);
-  }
-
-  void measure() {
-    if (!derived) climb_lower();
-    has_images = true;
-    comparison.lights.clear();
-    for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i) {
-      const LadderInput in = input(comparison.raster, i);
-      Times classify;
-      Climb climbed;
-      time_run(classify, [&] { climbed = climb_up(*lower[i], in); });
-      comparison.lights.push_back(measure_light(in, i, std::move(climbed), measure_options()));
-      comparison.lights.back().classify = classify;
-    }
-  }
-
-  Expected<void> compare(const Setting& setting, Detail detail) {
-    trace(setting);
-    derived = drawn_for && biases_follow_from_gaps(setting.raster.map) &&
-              same_but_bias(drawn_for->raster, setting.raster);
-    if (!derived) {
-      if (auto drawn = draw(setting); !drawn) return drawn;
-      table.clear();
-      measure();
-      return {};
-    }
-    if (detail == Detail::numbers && expected_place(setting.raster.map.bias) < expected.size()) {
-      derive(setting, Detail::numbers);
-      has_images = false;
-      if (measure_from_table(setting.raster.map.bias)) return {};
-      --work.derived;
-    }
-    derive(setting, Detail::images);
     measure();
     return {};
   }
-};
+  if (detail == Detail::numbers && expected_place(setting.raster.map.bias) < expected.size()) {
+    derive(setting, Detail::numbers);
+    has_images = false;
+    if (measure_from_table(setting.raster.map.bias)) return {};
+    --work.derived;
+  }
+  derive(setting, Detail::images);
+  measure();
+  return {};
+}
+
+Expected<Probe> Engine::Impl::probe(const Setting& setting) {
+  trace(setting);
+  if (auto drawn = draw(setting); !drawn) return fail(drawn.error());
+  table.clear();
+  lower.clear();
+  drawn_for.reset();
+  Probe probe;
+  const raster::RasterFrame& frame = comparison.raster;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    count(input(frame, i), biases_follow_from_gaps(setting.raster.map), probe);
+    probe.raster_ms += frame.lights[i].map_pass.median() + frame.lights[i].shade_pass.median();
+  }
+  if (!frame.lights.empty()) probe.bias_world = frame.lights.front().bias_constant_world;
+  std::sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
+  std::sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
+  return probe;
+}
 
 Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual)
     : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {
@@ -283,38 +234,7 @@ Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, boo
 Engine::~Engine() = default;
 
 Expected<Probe> Engine::probe(const Setting& setting) {
-  impl_->trace(setting);
-  if (auto drawn = impl_->draw(setting); !drawn) return fail(drawn.error());
-  impl_->table.clear();
-  impl_->lower.clear();
-  impl_->drawn_for.reset();
-  Probe probe;
-  const raster::RasterFrame& frame = impl_->comparison.raster;
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-    impl_->count(impl_->input(frame, i), biases_follow_from_gaps(setting.raster.map), probe);
-    probe.raster_ms += frame.lights[i].map_pass.median() + frame.lights[i].shade_pass.median();
-  }
-  if (!frame.lights.empty()) probe.bias_world = frame.lights.front().bias_constant_world;
-  std::sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
-  std::sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
-  return probe;
-}
-
-Rgb8Image Engine::thumbnail(int width) const {
-  impl_->make_backdrop();
-  const ImageSize full = impl_->backdrop.size;
-  const int columns = std::min(width, full.width);
-  const int rows = std::max(1, static_cast<int>(std::lround(double(columns) * full.height / full.width)));
-  Rgb8Image small({columns, rows});
-  const auto edge = [](int i, int count, int pixels) {
-    return static_cast<int>(static_cast<std::int64_t>(i) * pixels / count);
-  };
-  tbb::parallel_for(0, rows, [&](int y) {
-    for (int x = 0; x < columns; ++x)
-      small.at(x, y) = impl_->mean_colour(edge(x, columns, full.width), edge(x + 1, columns, full.width),
-                                          edge(y, rows, full.height), edge(y + 1, rows, full.height));
-  });
-  return small;
+  return impl_->probe(setting);
 }
 
 bool Engine::last_was_derived() const {

@@ -67,6 +67,14 @@ class Engine {
   /// colours.
   Rgb8Image thumbnail(int width) const;
 
+  /// The last comparison's rasterized picture, `width` pixels wide at most; of a derived one that of the
+  /// frame that it was made from.
+  Rgb8Image drawing(int width) const;
+
+  /// The last comparison's labels, all lights together: the first wrong label of a pixel, else right where a
+  /// light is compared, else why it is not. Codes as below.
+  Image<std::uint8_t> class_codes() const;
+
   /// The last comparison was derived.
   bool last_was_derived() const;
   const EngineWork& work() const;
@@ -75,6 +83,11 @@ class Engine {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// A class code: the label's value, counted from Label::uncertain, and what the error is.
+inline constexpr std::uint8_t code_label_mask = 0x1f;
+inline constexpr std::uint8_t code_true_shadow = 0x20;   ///< truly in shadow, of the light that counts
+inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than the truth
 
 /// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
 /// constant bias follows from it.

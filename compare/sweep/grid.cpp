@@ -6,6 +6,7 @@
 
 #include "compare/number_text.h"
 #include "compare/report/html.h"
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/page.h"
 
 namespace gnomon::compare {
@@ -37,25 +38,27 @@ std::string rest_of(const CellSummary& cell, const Layout& layout) {
   return text;
 }
 
-std::string cell_html(const CellSummary& cell, const Thumbnails& thumbnails) {
-  const auto thumbnail = thumbnails.find(cell.cell);
+std::string cell_html(const SweepPageInput& in, const CellSummary& cell) {
+  const auto pictures = in.pictures.find(cell.cell);
   const std::string share = percent(cell.wrong_fraction);
   std::string picture;
-  if (thumbnail != thumbnails.end())
+  if (pictures != in.pictures.end())
     picture = fmt::format("<img loading=\"lazy\" alt=\"{} wrong\" src=\"{}\">", escaped(share),
-                          data_uri("image/png", thumbnail->second));
+                          in.beside ? fmt::format("thumbnails/{}.png", cell_name(cell.cell))
+                                    : data_uri("image/png", pictures->second.thumbnail));
   return fmt::format("<td><a href=\"#cell-{}\">{}<span>{}</span></a></td>", cell.cell, picture,
                      escaped(share));
 }
 
-std::string grid_html(const std::vector<const CellSummary*>& cells, const Layout& layout,
-                      const std::string& rest, const Thumbnails& thumbnails) {
+std::string grid_html(const SweepPageInput& in, const std::vector<const CellSummary*>& cells,
+                      const Layout& layout, const std::string& rest) {
   const std::string row_name = cells.front()->axes[layout.row_axis].first;
   const std::string column_name = cells.front()->axes[layout.column_axis].first;
   const bool one_axis = layout.row_axis == layout.column_axis;
-  std::string out =
-      fmt::format("<div class=\"scroll\"><table class=\"grid\"><caption>{}</caption><thead><tr>",
-                  escaped(rest.empty() ? (one_axis ? column_name : row_name + " by " + column_name) : rest));
+  std::string out = fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Grid: {0}\"><table "
+      "class=\"grid\"><caption>{0}</caption><thead><tr>",
+      escaped(rest.empty() ? (one_axis ? column_name : row_name + " by " + column_name) : rest));
   if (!one_axis) out += fmt::format("<td>{} \\ {}</td>", escaped(row_name), escaped(column_name));
   for (const std::string& value : layout.columns)
     out += fmt::format("<th scope=\"col\">{}</th>", escaped(value));
@@ -67,7 +70,7 @@ std::string grid_html(const std::vector<const CellSummary*>& cells, const Layout
         return cell->axes[layout.column_axis].second == column &&
                (one_axis || cell->axes[layout.row_axis].second == row);
       });
-      out += found == cells.end() ? "<td></td>" : cell_html(**found, thumbnails);
+      out += found == cells.end() ? "<td></td>" : cell_html(in, **found);
     }
     out += "</tr>";
   }
@@ -76,11 +79,11 @@ std::string grid_html(const std::vector<const CellSummary*>& cells, const Layout
 
 }  // namespace
 
-std::string thumbnail_grids(const std::vector<CellSummary>& all, const Thumbnails& thumbnails) {
+std::string thumbnail_grids(const SweepPageInput& in) {
   // Of a long axis only the cells with a thumbnail are shown.
   std::vector<CellSummary> cells;
-  for (const CellSummary& cell : all)
-    if (thumbnails.empty() || thumbnails.contains(cell.cell)) cells.push_back(cell);
+  for (const CellSummary& cell : in.cells)
+    if (in.pictures.empty() || in.pictures.contains(cell.cell)) cells.push_back(cell);
   if (cells.empty() || cells.front().axes.empty()) return {};
   Layout layout;
   layout.column_axis = cells.front().axes.size() - 1;
@@ -99,7 +102,7 @@ std::string thumbnail_grids(const std::vector<CellSummary>& all, const Thumbnail
   }
   std::string out;
   for (std::size_t i = 0; i < groups.size() && i < max_grids; ++i)
-    out += grid_html(groups[i], layout, rests[i], thumbnails);
+    out += grid_html(in, groups[i], layout, rests[i]);
   if (groups.size() > max_grids)
     out += fmt::format("<p class=\"hint\">{} more combinations are in the table.</p>\n",
                        groups.size() - max_grids);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/journal.h"
 #include "compare/sweep/page.h"
 #include "scene/files/write_file.h"
@@ -30,13 +31,35 @@ Expected<void> add_shard(const std::string& folder, const SweepLines& shard, Cel
   return {};
 }
 
-Expected<void> copy_thumbnail(const Cell& cell, std::size_t index, const std::string& target) {
-  const std::string from = thumbnail_path(cell.folder, index);
+Expected<void> copy_existing(const fs::path& from, const fs::path& to) {
   std::error_code error;
   if (!fs::exists(from, error)) return {};
-  fs::copy_file(from, thumbnail_path(target, index), fs::copy_options::overwrite_existing, error);
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
   if (error)
-    return fail(Error{ErrorKind::cannot_write, "cannot copy a thumbnail: " + error.message(), target});
+    return fail(Error{ErrorKind::cannot_write, "cannot copy a picture: " + error.message(), to.string()});
+  return {};
+}
+
+/// The ray-traced pictures, whose names tell them apart.
+Expected<void> copy_truths(const std::string& folder, const std::string& target) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(cells_folder(folder), error))
+    if (entry.path().filename().string().starts_with("truth-"))
+      if (auto copied = copy_existing(entry.path(), fs::path(cells_folder(target)) / entry.path().filename());
+          !copied)
+        return copied;
+  return {};
+}
+
+Expected<void> copy_pictures(const Cell& cell, std::size_t index, const std::string& target) {
+  const std::string from = cells_folder(cell.folder) + "/" + cell_name(index),
+                    to = cells_folder(target) + "/" + cell_name(index);
+  const std::vector<std::pair<std::string, std::string>> files{
+      {thumbnail_path(cell.folder, index), thumbnail_path(target, index)},
+      {from + ".js", to + ".js"},
+      {from + ".png", to + ".png"}};
+  for (const auto& [source, copy] : files)
+    if (auto copied = copy_existing(source, copy); !copied) return copied;
   return {};
 }
 
@@ -50,10 +73,11 @@ Expected<void> write_whole(const Cells& cells, const SweepHeader& header, const 
   auto journal =
       Journal::open(target, make_header(header.configuration, header.cells, {}), axes, std::move(indices));
   if (!journal) return fail(journal.error());
-  if (auto made = make_output_folder(target + "/thumbnails"); !made) return made;
+  for (const std::string& made_for : {target + "/thumbnails", cells_folder(target)})
+    if (auto made = make_output_folder(made_for); !made) return made;
   std::size_t next = 0;
   for (const auto& [index, cell] : cells) {
-    if (auto copied = copy_thumbnail(cell, index, target); !copied) return copied;
+    if (auto copied = copy_pictures(cell, index, target); !copied) return copied;
     if (next++ < journal->lines().size()) continue;
     if (auto appended = journal->append(cell.line, cell.times); !appended) return appended;
   }
@@ -62,7 +86,8 @@ Expected<void> write_whole(const Cells& cells, const SweepHeader& header, const 
 
 }  // namespace
 
-Expected<std::size_t> merge_sweeps(const std::vector<std::string>& folders, const std::string& target) {
+Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
+                                   double report_max_mb) {
   Cells cells;
   std::optional<SweepHeader> header;
   for (const std::string& folder : folders) {
@@ -78,8 +103,11 @@ Expected<std::size_t> merge_sweeps(const std::vector<std::string>& folders, cons
     return fail(ErrorKind::usage, fmt::format("{} of {} cells are there: a shard is missing or not finished",
                                               cells.size(), header->cells));
   if (auto written = write_whole(cells, *header, target); !written) return fail(written.error());
-  if (auto page = write_sweep_page(target); !page) return fail(page.error());
-  return cells.size();
+  for (const std::string& folder : folders)
+    if (auto copied = copy_truths(folder, target); !copied) return fail(copied.error());
+  const auto page = write_sweep_page(target, report_max_mb);
+  if (!page) return fail(page.error());
+  return MergedSweep{cells.size(), *page};
 }
 
 }  // namespace gnomon::compare

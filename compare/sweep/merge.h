@@ -5,13 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "compare/sweep/page.h"
 #include "scene/expected.h"
 
 namespace gnomon::compare {
 
-/// `folders`: every shard of one sweep, each finished, in any order. Returns the number of cells. Errors:
+struct MergedSweep {
+  std::size_t cells = 0;
+  WrittenPage page;
+};
+
+/// `folders`: every shard of one sweep, each finished, in any order. Errors:
 /// usage for shards that do not belong together, are missing or are not finished; those of reading and
 /// writing.
-Expected<std::size_t> merge_sweeps(const std::vector<std::string>& folders, const std::string& target);
+Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
+                                   double report_max_mb = default_report_max_mb);
 
 }  // namespace gnomon::compare

@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include <embedded/sweep.h>
-
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/report/html.h"
-#include "compare/report/page.h"
+#include "compare/report/sections.h"
+#include "compare/report/shell.h"
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/charts.h"
 #include "scene/files/write_file.h"
 
@@ -21,20 +22,6 @@ namespace gnomon::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string style() {
-  return std::string(page_style()) + std::string(embedded::sweep("sweep.css"));
-}
-
-std::string head(const std::string& title) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<style>{}</style>\n</head>\n",
-      page_security_policy(style(), embedded::sweep("sweep.js")), escaped(title), style());
-}
 
 // "The 24 cells leave between 0.1 % and 12 % wrong; …"
 std::string sentence(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
@@ -51,10 +38,12 @@ std::string sentence(const std::vector<CellSummary>& cells, const std::vector<st
 }
 
 std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
-  std::string out = "<section id=\"cost\"><h2>What accuracy costs</h2>\n";
+  std::string out =
+      "<section id=\"cost\" aria-labelledby=\"cost-title\"><h2 id=\"cost-title\">What accuracy costs</h2>\n";
   if (const std::string chart = pareto_chart(cells, front); !chart.empty()) {
-    out += "<h3>Wrong pixels against time</h3>\n<figure><div class=\"scroll\">" + chart +
-           "</div><figcaption>Each cell is a point and leads to its row in the table; the line joins those "
+    out += "<h3>Wrong pixels against time</h3>\n<figure>" +
+           scroll_region("Wrong pixels against time", chart) +
+           "<figcaption>Each cell is a point and opens its pictures; the line joins those "
            "that no "
            "other beats in both. The diamond is the ray tracer, whose verdicts are the truth here.";
     if (std::any_of(cells.begin(), cells.end(), [](const CellSummary& c) { return c.derived; }))
@@ -62,59 +51,11 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
     out += "</figcaption></figure>\n";
   }
   if (const std::string chart = size_chart(cells); !chart.empty())
-    out +=
-        "<h3>Wrong pixels against map size</h3>\n<figure><div class=\"scroll\">" + chart +
-        "</div><figcaption>The best cell of each size. An error that is all sampling falls along the dotted "
-        "line.</figcaption></figure>\n";
+    out += "<h3>Wrong pixels against map size</h3>\n<figure>" +
+           scroll_region("Wrong pixels against map size", chart) +
+           "<figcaption>The best cell of each size. An error that is all sampling falls along the dotted "
+           "line.</figcaption></figure>\n";
   return out + "</section>\n";
-}
-
-std::string shown(double value) {
-  return std::isfinite(value) ? plain_number(value) : std::string("\u2013");
-}
-
-// <td> with the number that sorting goes by.
-std::string number_cell(double value, const std::string& text) {
-  return fmt::format("<td class=\"n\" data-sort=\"{}\">{}</td>",
-                     std::isfinite(value) ? fmt::to_string(value) : "", escaped(text));
-}
-
-std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
-  std::string out =
-      fmt::format("<tr id=\"cell-{}\"{}><th scope=\"row\" class=\"n\" data-sort=\"{}\">{}{}</th>", cell.cell,
-                  on_front ? " class=\"front-row\"" : "", cell.cell, cell.cell,
-                  on_front ? " <abbr title=\"on the Pareto front\">\u2605</abbr>" : "");
-  for (const auto& [name, value] : cell.axes)
-    out += fmt::format("<td class=\"n\" data-sort=\"{0}\">{0}</td>", escaped(value));
-  out += number_cell(cell.wrong_fraction, percent(cell.wrong_fraction));
-  out += number_cell(double(cell.false_shadow), grouped(cell.false_shadow));
-  out += number_cell(double(cell.missed_shadow), grouped(cell.missed_shadow));
-  out += fmt::format("<td>{}</td>", escaped(cell.main_label));
-  out += number_cell(cell.rms, shown(cell.rms));
-  if (perceptual) out += number_cell(cell.flip, shown(cell.flip)) + number_cell(cell.ssim, shown(cell.ssim));
-  out += number_cell(cell.edge_rms_texels, shown(cell.edge_rms_texels));
-  out += number_cell(cell.raster_ms, std::isfinite(cell.raster_ms) ? milliseconds(cell.raster_ms) : "\u2013");
-  out += number_cell(double(cell.map_texels), grouped(cell.map_texels));
-  out += number_cell(double(cell.map_bytes), byte_count(cell.map_bytes));
-  return out + fmt::format("<td class=\"run\"><code>{}</code></td></tr>\n", escaped(cell.command));
-}
-
-std::string table(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
-  const bool perceptual = std::isfinite(cells.front().flip);
-  std::vector<std::string> columns{"cell"};
-  for (const auto& [name, value] : cells.front().axes) columns.push_back(name);
-  for (const char* name : {"wrong", "false shadow", "missed shadow", "mostly", "RMS"})
-    columns.emplace_back(name);
-  if (perceptual) columns.emplace_back("FLIP"), columns.emplace_back("SSIM");
-  for (const char* name : {"edge RMS, texels", "time", "texels", "map", "command"})
-    columns.emplace_back(name);
-  std::string out =
-      "<section id=\"cells\"><h2>Cells</h2>\n<div class=\"scroll\"><table class=\"cells\"><thead><tr>";
-  for (const std::string& name : columns) out += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
-  out += "</tr></thead><tbody>\n";
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    out += table_row(cells[i], std::find(front.begin(), front.end(), i) != front.end(), perceptual);
-  return out + "</tbody></table></div></section>\n";
 }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -123,7 +64,9 @@ std::string fact(std::string_view name, const std::string& value) {
 
 std::string provenance(const SweepHeader& header) {
   const Json json = Json::parse(header.configuration);
-  std::string out = "<section id=\"provenance\"><h2>Provenance</h2>\n<dl class=\"provenance\">\n";
+  std::string out =
+      "<section id=\"provenance\" aria-labelledby=\"provenance-title\"><h2 id=\"provenance-title\">Where "
+      "this comes from</h2>\n<dl class=\"provenance\">\n";
   out += fact("Program", fmt::format("gnomon {}", program_version()));
   for (const auto& [key, value] : json.items()) {
     if (key == "axes" || value.is_null()) continue;
@@ -142,60 +85,115 @@ std::string provenance(const SweepHeader& header) {
          "href=\"sweep_times.jsonl\">sweep_times.jsonl</a></p></section>\n";
 }
 
+std::string grid_section(const SweepPageInput& in) {
+  const std::string grids = thumbnail_grids(in);
+  if (grids.empty()) return {};
+  return "<section id=\"grid\" aria-labelledby=\"grid-title\"><h2 id=\"grid-title\">Grid</h2>\n<p "
+         "class=\"hint\">The ray-traced picture in grey; <b class=\"false-text\">orange</b>: drawn dark, "
+         "truly "
+         "lit; <b class=\"missed-text\">blue</b>: drawn lit, truly dark. The number is the share of wrong "
+         "pixels.</p>\n<div id=\"grids\">" +
+         grids + "</div></section>\n";
+}
+
+// Brought to life, and shown, by the script.
+std::string cell_section() {
+  return "<section id=\"cell\" aria-labelledby=\"cell-title\" hidden><h2 id=\"cell-title\">One cell</h2>\n<p "
+         "class=\"lead cell-line\"></p>\n" +
+         viewer_block(
+             "", "cell",
+             "Point at a pixel to read its label. Drag to move the divider, or the picture once it is "
+             "enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips, <kbd>+</kbd> <kbd>−</kbd> "
+             "<kbd>0</kbd> zoom, arrows move, <kbd>Shift</kbd> with arrows steps from pixel to pixel.",
+             false) +
+         "<p class=\"cell-labels\"></p>\n<p class=\"command\"><code "
+         "class=\"cell-command\"></code></p></section>\n";
+}
+
+std::string beside_line(const SweepPageInput& in) {
+  return in.beside
+             ? "<p class=\"setting beside\">The pictures would make this page too large for one file: they "
+               "lie "
+               "beside it, in <code>cells</code> and <code>thumbnails</code>. Keep the folder together.</p>\n"
+             : "";
+}
+
 std::string read_all(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::map<std::string, std::string> read_truths(const std::string& folder) {
+  std::map<std::string, std::string> truths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(cells_folder(folder), error))
+    if (const std::string name = entry.path().stem().string();
+        name.starts_with("truth-") && entry.path().extension() == ".png")
+      truths[name] = read_all(entry.path().string());
+  return truths;
+}
+
+std::map<std::size_t, CellPictures> read_pictures(const std::string& folder,
+                                                  const std::vector<CellSummary>& cells) {
+  std::map<std::size_t, CellPictures> pictures;
+  for (const CellSummary& cell : cells) {
+    const std::string name = cells_folder(folder) + "/" + cell_name(cell.cell);
+    CellPictures found{read_all(thumbnail_path(folder, cell.cell)), read_all(name + ".js"),
+                       read_all(name + ".png")};
+    found.data = std::string(data_in_file(found.data));
+    if (!found.thumbnail.empty()) pictures[cell.cell] = std::move(found);
+  }
+  return pictures;
+}
+
 }  // namespace
 
-std::string sweep_page(const SweepHeader& header, const std::vector<CellSummary>& cells,
-                       const Thumbnails& thumbnails) {
-  const std::string scene = Json::parse(header.configuration).value("/scene/name"_json_pointer, "");
-  const std::vector<std::size_t> front = pareto_front(cells);
-  std::string page = head("Sweep of " + scene + " \u2013 Gnomon") +
-                     "<body>\n<a class=\"skip\" href=\"#top\">Skip to "
-                     "the report</a>\n<header class=\"bar-top\"><span class=\"brand\">Gnomon</span>\n<nav "
-                     "aria-label=\"Sections\"><ul>"
-                     "<li><a href=\"#cost\">Cost</a></li><li><a href=\"#grid\">Grid</a></li><li><a "
-                     "href=\"#cells\">Cells</a></li>"
-                     "<li><a href=\"#provenance\">Provenance</a></li></ul></nav></header>\n<main>\n";
-  page += fmt::format("<section id=\"top\"><h1>Sweep of {}</h1>\n<p class=\"verdict\">{}</p></section>\n",
-                      escaped(scene), escaped(sentence(cells, front)));
-  page += cost_charts(cells, front);
-  if (const std::string grids = thumbnail_grids(cells, thumbnails); !grids.empty())
-    page +=
-        "<section id=\"grid\"><h2>Grid</h2>\n<p class=\"hint\">The ray-traced picture in grey; "
-        "<b class=\"false-text\">orange</b>: drawn dark, truly lit; <b class=\"missed-text\">blue</b>: drawn "
-        "lit, "
-        "truly dark. The number is the share of wrong pixels.</p>\n" +
-        grids + "</section>\n";
-  page += table(cells, front) + provenance(header) + "</main>\n";
-  return page.append("<script>").append(embedded::sweep("sweep.js")).append("</script>\n</body>\n</html>\n");
+std::string sweep_page(const SweepPageInput& in) {
+  const std::string scene = Json::parse(in.header.configuration).value("/scene/name"_json_pointer, "");
+  const std::vector<std::size_t> front = pareto_front(in.cells);
+  PageShell shell;
+  shell.title = "Sweep of " + scene + " \u2013 Gnomon";
+  shell.links =
+      R"(<li><a href="#cost">Cost</a></li><li><a href="#grid">Grid</a></li><li><a href="#cells">Cells</a></li><li><a
+href="#provenance">Provenance</a></li>)";
+  shell.main = fmt::format(
+      "<section id=\"overview\" aria-labelledby=\"title\"><h1 id=\"title\">Sweep of {}</h1>\n{}<p "
+      "class=\"verdict\">{}</p></section>\n",
+      escaped(scene), beside_line(in), escaped(sentence(in.cells, front)));
+  shell.main += cost_charts(in.cells, front) + grid_section(in) + cell_section() +
+                cell_table(in.cells, front) + provenance(in.header);
+  shell.data = sweep_page_data(in, front);
+  shell.beside = in.beside;
+  shell.folder = "cells";
+  if (!in.beside) {
+    const auto add_picture = [&shell](const std::string& name, const std::string& png) {
+      shell.parts.push_back({name + ".png", fmt::format("\"{}\"", data_uri("image/png", png))});
+    };
+    for (const auto& [cell, pictures] : in.pictures) {
+      if (!pictures.data.empty()) shell.parts.push_back({cell_name(cell), pictures.data});
+      if (!pictures.drawing.empty()) add_picture(cell_name(cell), pictures.drawing);
+    }
+    for (const auto& [name, png] : in.truths) add_picture(name, png);
+  }
+  return build_page(shell).html;
 }
 
-std::string thumbnail_path(const std::string& folder, std::size_t cell) {
-  return fmt::format("{}/thumbnails/cell-{:06}.png", folder, cell);
-}
-
-bool has_thumbnail(std::size_t cell, std::size_t cells) {
-  if (cells <= max_thumbnails) return true;
-  // Cell i is the k-th chosen where floor(k * cells / max) = i.
-  const std::size_t k = (cell * max_thumbnails + cells - 1) / cells;
-  return k < max_thumbnails && k * cells / max_thumbnails == cell;
-}
-
-Expected<void> write_sweep_page(const std::string& folder) {
+Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb) {
   const auto sweep = read_sweep(folder);
   if (!sweep) return fail(sweep.error());
   const auto cells = summarise(*sweep);
   if (!cells) return fail(cells.error());
-  if (cells->empty()) return {};
-  Thumbnails thumbnails;
-  for (const CellSummary& cell : *cells)
-    if (std::string png = read_all(thumbnail_path(folder, cell.cell)); !png.empty())
-      thumbnails[cell.cell] = std::move(png);
-  return write_file(folder + "/report.html", sweep_page(sweep->header, *cells, thumbnails));
+  WrittenPage written;
+  if (cells->empty()) return written;
+  const std::map<std::size_t, CellPictures> pictures = read_pictures(folder, *cells);
+  const std::map<std::string, std::string> truths = read_truths(folder);
+  SweepPageInput input{sweep->header, *cells, pictures, truths};
+  std::string page = sweep_page(input);
+  written.page_mb = static_cast<double>(page.size()) / 1e6;
+  written.beside = input.beside = written.page_mb > report_max_mb;
+  if (input.beside) page = sweep_page(input);
+  if (auto saved = write_file(folder + "/report.html", page); !saved) return fail(saved.error());
+  return written;
 }
 
 }  // namespace gnomon::compare

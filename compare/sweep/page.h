@@ -1,30 +1,48 @@
-// The page of a sweep: one HTML file, offline, readable without scripts. Charts, a grid of thumbnails, and a
-// table of all cells with the command of each.
+// The page of a sweep, from the same built page as that of a comparison: charts, a grid of thumbnails, the
+// cells in the viewer, and a table of all cells with the command of each. Readable without scripts.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "compare/outputs.h"
 #include "compare/sweep/summary.h"
 
 namespace gnomon::compare {
 
-/// PNG files by cell.
-using Thumbnails = std::map<std::size_t, std::string>;
+/// What the folder holds of a cell's pictures (cell_files.h).
+struct CellPictures {
+  std::string thumbnail;  ///< PNG
+  std::string data;       ///< JSON text
+  std::string drawing;    ///< PNG; empty: the cell was not drawn
+};
 
-std::string sweep_page(const SweepHeader& header, const std::vector<CellSummary>& cells,
-                       const Thumbnails& thumbnails);
+/// What the page is made of.
+struct SweepPageInput {
+  const SweepHeader& header;
+  const std::vector<CellSummary>& cells;
+  const std::map<std::size_t, CellPictures>& pictures;  ///< by cell
+  const std::map<std::string, std::string>& truths;     ///< PNG by name
+  bool beside = false;                                  ///< the pictures are files beside the page
+};
 
-/// One grid of thumbnails per combination of the other axes: rows by the first axis, columns by the last one.
-std::string thumbnail_grids(const std::vector<CellSummary>& cells, const Thumbnails& thumbnails);
+/// The page as one file, or with the folder's files beside it.
+std::string sweep_page(const SweepPageInput& input);
 
+/// Tables of thumbnails, one per combination of the other axes: rows by the first axis, columns by the last.
+std::string thumbnail_grids(const SweepPageInput& input);
+/// The table of all cells; `front`: indices of those on the Pareto front.
+std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front);
+/// What the page's script reads, and the parts of it that hold the cells' pictures.
+std::string sweep_page_data(const SweepPageInput& input, const std::vector<std::size_t>& front);
+
+struct WrittenPage {
+  double page_mb = 0.0;  ///< what it weighs as one file
+  bool beside = false;   ///< it was more than allowed
+};
 /// Writes DIR/report.html from what the folder holds. Errors are those of reading and writing.
-Expected<void> write_sweep_page(const std::string& folder);
-
-/// Where a cell's thumbnail is kept, and which cells of a sweep have one: all of them up to `max_thumbnails`,
-/// else that many, evenly spread.
-std::string thumbnail_path(const std::string& folder, std::size_t cell);
-inline constexpr std::size_t max_thumbnails = 144;
-bool has_thumbnail(std::size_t cell, std::size_t cells);
+Expected<WrittenPage> write_sweep_page(const std::string& folder,
+                                       double report_max_mb = default_report_max_mb);
 
 }  // namespace gnomon::compare

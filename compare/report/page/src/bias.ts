@@ -1,7 +1,7 @@
 // Every constant bias from one render: a hard test shadows a pixel exactly when its gap exceeds the bias, so moving the
 // slider (or the line in the chart) recolours the picture and counts again without rendering.
 import { page, type Light } from "./data";
-import { backdropOf, byId, recolour } from "./pictures";
+import { backdropOf, recolour } from "./pictures";
 import { GapHistogram } from "./histogram";
 import { grouped, html, number, percent, svg } from "./svg";
 
@@ -34,7 +34,7 @@ export class BiasPanel {
     this.canvas.width = page.width;
     this.canvas.height = page.height;
     this.image = new ImageData(page.width, page.height);
-    this.backdrop = backdropOf(byId("picture-raytraced"));
+    this.backdrop = backdropOf(light.pixels);
     this.compared = light.label.reduce((sum, label) => sum + (label >= 0 ? 1 : 0), 0);
     this.histogram = new GapHistogram(light, Number(chart.dataset.to), light.json.name);
     const button = (name: string, bias: number) => {
@@ -56,6 +56,11 @@ export class BiasPanel {
   static make(light: Light, index: number, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
     const chart = document.getElementById(`bias-${index}-title`)?.closest("svg");
     if (!chart) return null;
+    if (!light.json.gaps_decide) {
+      hostAfter(chart).append(html("p", { class: "hint" }, `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +
+        "gnomon sweep SCENE --bias 0:0.1:16 draws each bias by itself."));
+      return null;
+    }
     return new BiasPanel(light, chart, hostAfter(chart), best, chosen, pin);
   }
 

@@ -1,6 +1,7 @@
 // What the page knows: words, and each light's pixels, map and geometry (../../page_data.cpp), unpacked on first use.
 import { alongRay, texelRay, add, type LightView, type MapPoint, type Vec3 } from "./light_view";
 import { unpack, type Packed } from "./packed";
+import { pageData, part } from "./parts";
 
 export interface LabelWords {
   value: number;
@@ -22,6 +23,8 @@ type Shape = { name: string } & ({ center: Vec3; radius: number } | { point: Vec
 export interface LightJson {
   name: string;
   view: LightView;
+  technique: string;
+  gaps_decide: boolean;  // a pixel is drawn dark exactly when its gap exceeds the constant bias
   bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean };
   texel_world: number;
   depth_step: number;
@@ -36,16 +39,17 @@ interface PageJson {
   height: number;
   position_steps: number;
   visibility_steps: number;
-  channels: Record<string, Packed>;
-  geometry: {
-    shapes: Shape[];
-    triangle_count: number;
-    triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
-  };
-  lights: (LightJson | null)[];  // null: the page would grow too large
+  exposure: number;  // linear factor of both pictures
+  lights: number;
 }
 
-export const page: PageJson = JSON.parse(document.getElementById("page-data")!.textContent!);
+interface GeometryJson {
+  shapes: Shape[];
+  triangle_count: number;
+  triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
+}
+
+export const page = pageData<PageJson>();
 const labelWords = new Map(page.labels.map((label) => [label.value, label]));
 export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
 
@@ -56,7 +60,19 @@ async function unpackAll(channels: Record<string, Packed>): Promise<Record<strin
   return Object.fromEntries(names.map((name, i) => [name, arrays[i]!]));
 }
 
-const receivers = unpackAll(page.channels);
+/** What both renderers see, and their linear pictures. */
+export class Pixels {
+  private static loading: Promise<Pixels> | null = null;
+  private constructor(readonly channels: Record<string, Numbers>) {}
+  static load(): Promise<Pixels> {
+    return Pixels.loading ??= part<Record<string, Packed>>("pixels").then(unpackAll).then((channels) => new Pixels(channels));
+  }
+  /** Red, green and blue of a picture as 16-bit floats. */
+  picture(name: PictureName): Int16Array[] {
+    return ["R", "G", "B"].map((c) => this.channels[name + c] as Int16Array);
+  }
+}
+export type PictureName = "raster" | "raytraced";
 
 export interface Geometry {
   shapes: Shape[];
@@ -66,7 +82,7 @@ export interface Geometry {
 }
 
 async function loadGeometry(): Promise<Geometry> {
-  const { shapes, triangles, triangle_count } = page.geometry;
+  const { shapes, triangles, triangle_count } = await part<GeometryJson>("geometry");
   if (!triangles)
     return { shapes, positions: new Float64Array(), corners: new Int32Array(), complete: triangle_count === 0 };
   const { x, y, z, corner } = await unpackAll(triangles.channels);
@@ -75,7 +91,8 @@ async function loadGeometry(): Promise<Geometry> {
     axis.forEach((value, i) => { positions[3 * i + k] = triangles.low[k]! + value * triangles.step; }));
   return { shapes, positions, corners: corner as Int32Array, complete: true };
 }
-export const geometry = loadGeometry();
+let loading: Promise<Geometry> | null = null;
+export const geometry = (): Promise<Geometry> => loading ??= loadGeometry();
 
 /** One pixel as one light sees it. */
 export interface Pixel {
@@ -112,35 +129,45 @@ export class Light {
   readonly gap: Float32Array;
   readonly label: Int8Array;
   readonly truth: Int16Array;
+  readonly drawn: Int16Array;
+  readonly flip: Uint8Array | null;  // in steps of 1/255
+  readonly ssim: Int8Array | null;   // in steps of 1/127; -128 where no window fits
   private readonly us: Numbers;
   private readonly vs: Numbers;
   private readonly faces: Numbers;
   private constructor(readonly json: LightJson, private readonly channels: Record<string, Numbers>,
-                      private readonly seenBy: Record<string, Numbers>, readonly map: DepthMap) {
+                      readonly pixels: Pixels, readonly map: DepthMap) {
     this.gap = new Float32Array((channels.gap as Int32Array).buffer);
     this.label = channels.label as Int8Array;
     this.truth = channels.V0 as Int16Array;
+    this.drawn = channels.V6 as Int16Array;
+    this.flip = channels.flip ? new Uint8Array(channels.flip.buffer) : null;
+    this.ssim = (channels.ssim as Int8Array | undefined) ?? null;
     this.us = channels.u!;
     this.vs = channels.v!;
     this.faces = channels.face!;
   }
-  static async load(json: LightJson): Promise<Light> {
-    const [channels, seenBy, map] = await Promise.all([unpackAll(json.channels), receivers, unpack(json.map)]);
-    return new Light(json, channels, seenBy, new DepthMap(json, json.map.step, map));
+  static async load(index: number): Promise<Light> {
+    const json = await part<LightJson>(`light-${index}`);
+    const [channels, pixels, map] = await Promise.all([unpackAll(json.channels), Pixels.load(), unpack(json.map)]);
+    return new Light(json, channels, pixels, new DepthMap(json, json.map.step, map));
   }
 
   lit(index: number): boolean { return this.truth[index]! > 0.5 * page.visibility_steps; }
   u(index: number): number { return this.us[index]! / page.position_steps; }
   v(index: number): number { return this.vs[index]! / page.position_steps; }
   face(index: number): number { return this.faces[index]!; }
-  primitive(index: number): number { return this.seenBy.primitive![index]!; }
+  primitive(index: number): number { return this.pixels.channels.primitive![index]!; }
   /** Depth along the face's forward axis. */
   depth(index: number): number {
     const distance = this.channels.distance![index]! * this.json.depth_step;
     return distance / alongRay(this.json.view, this.face(index), this.u(index), this.v(index));
   }
-  /** Whether a hard test draws the pixel lit at a constant bias; the test is on 32-bit floats, as in the shader. */
-  litAt(index: number, bias: number): boolean { return !(this.gap[index]! > Math.fround(bias)); }
+  /** Whether the pixel is drawn lit at a constant bias: by a hard test, on 32-bit floats as in the shader; or, where gaps
+      do not decide, as it was drawn. */
+  litAt(index: number, bias: number): boolean {
+    return this.json.gaps_decide ? !(this.gap[index]! > Math.fround(bias)) : this.drawn[index]! > 0.5 * page.visibility_steps;
+  }
 
   /** The compared pixels that look up a row (axis 0) or column (axis 1) of the map, at positions in [from, to) on it. */
   pixelsOfLine(face: number, axis: 0 | 1, line: number, from: number, to: number): number[] {
@@ -164,7 +191,7 @@ export class Light {
       rungs: page.rungs.map((_, k) => this.channels[`V${k}`]![index]! / page.visibility_steps),
       gap: this.gap[index]!,
       position: add(ray.origin, ray.direction, distance),
-      normal: ["nx", "ny", "nz"].map((n) => this.seenBy[n]![index]! / 32767) as unknown as Vec3,
+      normal: ["nx", "ny", "nz"].map((n) => this.pixels.channels[n]![index]! / 32767) as unknown as Vec3,
       primitive: this.primitive(index),
     };
   }

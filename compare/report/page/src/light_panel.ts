@@ -1,17 +1,18 @@
 // One light's section brought to life: viewer, probe, label table and bias act on one state, which the URL keeps.
 import { BiasPanel } from "./bias";
-import { page, wordsOf, type Light, type Pixel } from "./data";
+import { page, wordsOf, type Light, type PictureName, type Pixel } from "./data";
 import { LabelTable } from "./labels";
 import { MapMarker } from "./map_marker";
-import { byId, colourAt, dataUrl, gapPicture, truthPicture } from "./pictures";
+import { colourAt, exposed, linearAt } from "./linear";
+import { byId, hex, isolatedLabel, lightPicture, lightPictureNames } from "./pictures";
 import { Probe } from "./probe";
-import { initial, saveHash, type ViewState } from "./state";
-import { html } from "./svg";
-import { Viewer } from "./viewer";
+import { initialLight, saveLight, type LightState } from "./state";
+import { html, number } from "./svg";
+import { Viewer, type Source } from "./viewer";
 
 export class LightPanel {
-  private readonly state: ViewState = { ...initial };
-  private readonly made = new Map<string, string>();
+  private readonly state: LightState = { ...initialLight };
+  private readonly made = new Map<string, ImageData | null>();
   private readonly viewer: Viewer;
   private readonly probe: Probe;
   private readonly labels: LabelTable;
@@ -27,17 +28,17 @@ export class LightPanel {
     const root = section.querySelector<HTMLElement>(".viewer")!;
     this.line = root.querySelector(".probe")!;
     for (const pick of root.querySelectorAll("select"))
-      for (const name of ["truth", "gap"]) pick.append(html("option", { value: name }, name));
+      for (const name of lightPictureNames(light)) pick.append(html("option", { value: name }, name));
     const host = html("div", { class: "pixel-probe" });
     root.after(host);
     this.probe = new Probe(light, index, host, this.state, () => this.redraw());
-    this.labels = new LabelTable(section, (label) => this.choose(label));
+    this.labels = new LabelTable(section, light.label, (label) => this.choose(label));
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
     this.map = new MapMarker(light, section.querySelector<HTMLImageElement>(".depth img")!);
     this.shown = this.example();
-    this.viewer = new Viewer(root, this.state, {
+    this.viewer = new Viewer(root, this.state, page, {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
-      unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveHash(this.index, this.state),
+      unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveLight(this.index, this.state),
     });
     this.probe.show(this.shown, light.json.bias.constant);
     this.map.show(this.shown);
@@ -45,9 +46,8 @@ export class LightPanel {
     this.bias?.show(this.coloured);
   }
 
-  restore(state: ViewState): void {
+  restore(state: LightState): void {
     Object.assign(this.state, state);
-    for (const slope of document.querySelectorAll("#exposure [slope]")) slope.setAttribute("slope", String(2 ** state.exposure));
     this.passing = false;
     if (state.pixel) this.read(Math.min(state.pixel[0], page.width - 1), Math.min(state.pixel[1], page.height - 1));
     this.labels.show(state.label);
@@ -80,16 +80,30 @@ export class LightPanel {
     this.redraw();
   }
 
-  private source(name: string): string | null {
-    if (name !== "truth" && name !== "gap") return Viewer.onPage(name);
-    if (!this.made.has(name)) this.made.set(name, dataUrl(name === "truth" ? truthPicture(this.light) : gapPicture(this.light)));
-    return this.made.get(name)!;
+  // Pictures that were made are kept, of those with an exposure or a label the last one.
+  private source(name: string): Source | null {
+    const { exposure, label } = this.state, linear = /^picture-(raster|raytraced)$/.exec(name)?.[1] as PictureName | undefined;
+    const alone = /^picture-labels/.test(name) && label !== null ? page.labels.find((words) => words.name === label)?.value : undefined;
+    const key = linear ? `${name} ${exposure}` : alone !== undefined ? `labels ${alone}` : name;
+    if (!this.made.has(key)) {
+      for (const old of [...this.made.keys()]) if (linear ? old.startsWith(name) : old.startsWith("labels ")) this.made.delete(old);
+      this.made.set(key, linear ? exposed(this.light.pixels, linear, exposure)
+        : alone !== undefined ? isolatedLabel(this.light.label, alone) : lightPicture(this.light, name));
+    }
+    const image = byId(name);
+    return this.made.get(key) ?? (image && { url: image.getAttribute("src")! });
+  }
+
+  // "rasterized #8a8a8a, linear 0.254 0.254 0.254"
+  private colour(name: PictureName, index: number): string {
+    return `${hex(colourAt(this.light.pixels, name, index))}, linear ${linearAt(this.light.pixels, name, index).map((v) => number(v, 3)).join(" ")}`;
   }
 
   private read(x: number, y: number): void {
     this.shown = this.light.pixel(x, y);
-    this.line.textContent = `Pixel ${x}, ${y}: ${wordsOf(this.shown.label).name}; rasterized ${colourAt(byId("picture-raster"), x, y)}, ` +
-      `ray traced ${colourAt(byId("picture-raytraced"), x, y)}`;
+    const { index, label } = this.shown, { flip, ssim } = this.light;
+    this.line.textContent = `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour("raytraced", index)}` +
+      (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 255, 2)}` : "") + (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 127, 2)}` : "");
   }
 
   private hover(x: number, y: number): void {
@@ -106,7 +120,7 @@ export class LightPanel {
   }
 
   private redraw(): void {
-    saveHash(this.index, this.state);
+    saveLight(this.index, this.state);
     this.later();
   }
 

@@ -7,13 +7,17 @@ export class MapMarker {
   private readonly side: number;  // of a face, in pixels of the picture
   private readonly gap: number;
   private readonly across: number;
+  private readonly width: number;  // of the picture, in its pixels
+  private readonly height: number;
 
-  constructor(private readonly light: Light, private readonly image: HTMLImageElement) {
+  constructor(private readonly light: Light, image: HTMLImageElement) {
+    this.width = Number(image.getAttribute("width"));
+    this.height = Number(image.getAttribute("height"));
     const faces = light.json.view.faces.length;
     this.across = Math.min(faces, 3);
     const gapOf = (side: number) => (faces > 1 ? Math.max(1, Math.floor(side / 64)) : 0);
-    let side = Math.floor(image.naturalWidth / this.across);
-    while (side > 1 && this.across * side + (this.across - 1) * gapOf(side) > image.naturalWidth) --side;
+    let side = Math.floor(this.width / this.across);
+    while (side > 1 && this.across * side + (this.across - 1) * gapOf(side) > this.width) --side;
     this.side = side;
     this.gap = gapOf(side);
     const frame = html("div", { class: "map-frame" });
@@ -23,10 +27,10 @@ export class MapMarker {
 
   show(pixel: Pixel): void {
     this.marker.hidden = !pixel.seen;
-    const scale = this.side / this.light.json.view.size, { naturalWidth, naturalHeight } = this.image;
+    const scale = this.side / this.light.json.view.size;
     const x = (pixel.face % this.across) * (this.side + this.gap) + pixel.at.u * scale;
     const y = Math.floor(pixel.face / this.across) * (this.side + this.gap) + this.side - pixel.at.v * scale;
-    this.marker.style.left = `${(100 * x) / naturalWidth}%`;
-    this.marker.style.top = `${(100 * y) / naturalHeight}%`;
+    this.marker.style.left = `${(100 * x) / this.width}%`;
+    this.marker.style.top = `${(100 * y) / this.height}%`;
   }
 }

@@ -1,35 +1,13 @@
-// The pixels of the page's pictures, and pictures drawn from the pixels' numbers. Fixed scales: the same colours mean
-// the same in every picture (compare/palette.cpp).
-import type { Light } from "./data";
-import { page } from "./data";
+// Pictures drawn from the pixels' numbers. Fixed scales: the same colours mean the same in every picture.
+import { falseShadow, magma, missedShadow, type Rgb } from "./colour_maps";
+import { page, wordsOf, type Light, type Pixels } from "./data";
+import { exposed } from "./linear";
 
-export type Rgb = readonly [number, number, number];
-export const falseShadow: Rgb = [213, 94, 0], missedShadow: Rgb = [86, 180, 233];
+export const byId = (id: string): HTMLImageElement | null => document.getElementById(id) as HTMLImageElement | null;
 
-export const byId = (id: string): HTMLImageElement => document.getElementById(id) as HTMLImageElement;
-
-const cache = new Map<string, ImageData>();
-/** The pixels of an <img>, read once, from its first source. */
-export function pixelsOf(image: HTMLImageElement): ImageData {
-  const known = cache.get(image.id);
-  if (known) return known;
-  const canvas = document.createElement("canvas");
-  canvas.width = image.naturalWidth;
-  canvas.height = image.naturalHeight;
-  const context = canvas.getContext("2d", { willReadFrequently: true })!;
-  context.drawImage(image, 0, 0);
-  const data = context.getImageData(0, 0, canvas.width, canvas.height);
-  cache.set(image.id, data);
-  return data;
-}
-
-export const hex = (colour: ArrayLike<number>, at = 0): string =>
-  "#" + [0, 1, 2].map((k) => colour[at + k]!.toString(16).padStart(2, "0")).join("");
-
-export function colourAt(image: HTMLImageElement, x: number, y: number): string {
-  const pixels = pixelsOf(image);
-  return hex(pixels.data, 4 * (y * pixels.width + x));
-}
+export const hex = (colour: ArrayLike<number>): string =>
+  "#" + [0, 1, 2].map((k) => colour[k]!.toString(16).padStart(2, "0")).join("");
+export const rgbOf = (colour: string): Rgb => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16)) as unknown as Rgb;
 
 export function dataUrl(pixels: ImageData): string {
   const canvas = document.createElement("canvas");
@@ -40,8 +18,8 @@ export function dataUrl(pixels: ImageData): string {
 }
 
 /** A picture of the frame's size from a colour for each pixel. */
-export function painted(colour: (index: number) => Rgb): ImageData {
-  const out = new ImageData(page.width, page.height);
+export function painted(colour: (index: number) => Rgb, size = { width: page.width, height: page.height }): ImageData {
+  const out = new ImageData(size.width, size.height);
   for (let i = 0, o = 0; o < out.data.length; ++i, o += 4) {
     const c = colour(i);
     out.data[o] = c[0];
@@ -53,22 +31,43 @@ export function painted(colour: (index: number) => Rgb): ImageData {
 }
 
 const unseen: Rgb = [60, 62, 66];
-export function truthPicture(light: Light): ImageData {
-  return painted((i) => {
-    if (light.label[i]! < 0) return unseen;
-    const grey = Math.round((255 * light.truth[i]!) / page.visibility_steps);
-    return [grey, grey, grey];
-  });
+
+/** A picture of a light by its name in the viewer; null: none of these. */
+export function lightPicture(light: Light, name: string): ImageData | null {
+  const steps = page.visibility_steps, compared = (colour: (i: number) => Rgb) => painted((i) => (light.label[i]! < 0 ? unseen : colour(i)));
+  const grey = (v: number): Rgb => [v, v, v];
+  const mix = (c: Rgb, t: number): Rgb => c.map((v) => Math.round(255 + (v - 255) * t)) as unknown as Rgb;
+  switch (name) {
+    case "truth": return compared((i) => grey(Math.round((255 * light.truth[i]!) / steps)));
+    case "drawn": return compared((i) => grey(Math.round((255 * light.drawn[i]!) / steps)));
+    case "gap": return compared((i) => {
+      const texels = light.gap[i]! / light.json.texel_world;
+      return texels < 0 ? mix(missedShadow, Math.min(1, -texels / 4)) : mix(falseShadow, Math.min(1, texels / 4));
+    });
+    case "absolute error": return compared((i) => magma(Math.abs(light.drawn[i]! - light.truth[i]!) / steps));
+    case "FLIP": return light.flip && painted((i) => magma(light.flip![i]! / 255));
+    case "1 − SSIM": return light.ssim && painted((i) => (light.ssim![i] === -128 ? unseen : magma(1 - light.ssim![i]! / 127)));
+    default: return null;
+  }
 }
 
-/** Gap in texel widths, from -4 (light blue) over 0 (white) to 4 (orange). */
-export function gapPicture(light: Light): ImageData {
-  const mix = (c: Rgb, t: number): Rgb => c.map((v) => Math.round(255 + (v - 255) * t)) as unknown as Rgb;
+/** The names of these pictures, with a sign for what the page does not know of this light left out. */
+export const lightPictureNames = (light: Light): string[] =>
+  ["truth", "drawn", "gap", "absolute error", ...(light.flip ? ["FLIP"] : []), ...(light.ssim ? ["1 − SSIM"] : [])];
+
+/** The label picture with every other label faded towards white. */
+export function isolatedLabel(labels: ArrayLike<number>, wanted: number, size?: { width: number; height: number }): ImageData {
+  const faded = new Map<number, Rgb>(), whole = rgbOf(wordsOf(wanted).colour);
   return painted((i) => {
-    if (light.label[i]! < 0) return unseen;
-    const texels = light.gap[i]! / light.json.texel_world;
-    return texels < 0 ? mix(missedShadow, Math.min(1, -texels / 4)) : mix(falseShadow, Math.min(1, texels / 4));
-  });
+    const label = labels[i]!;
+    if (label === wanted) return whole;
+    let colour = faded.get(label);
+    if (!colour) {
+      const [r, g, b] = rgbOf(wordsOf(label).colour), grey = Math.round(200 + 0.2 * (0.3 * r + 0.6 * g + 0.1 * b));
+      faded.set(label, colour = [grey, grey, grey]);
+    }
+    return colour;
+  }, size);
 }
 
 export interface Recoloured {
@@ -99,9 +98,9 @@ export function recolour(light: Light, bias: number, backdrop: Uint32Array, out:
   return counts;
 }
 
-/** Grey of a picture, between 64 and 232, so that both error colours stand out from it. */
-export function backdropOf(image: HTMLImageElement): Uint32Array {
-  const { data } = pixelsOf(image), backdrop = new Uint32Array(data.length / 4);
+/** Grey of the ray-traced picture, between 64 and 232, so that both error colours stand out from it. */
+export function backdropOf(pixels: Pixels): Uint32Array {
+  const { data } = exposed(pixels, "raytraced", 0), backdrop = new Uint32Array(data.length / 4);
   for (let i = 0, o = 0; i < backdrop.length; ++i, o += 4) {
     const grey = Math.floor(64.5 + ((0.2126 * data[o]! + 0.7152 * data[o + 1]! + 0.0722 * data[o + 2]!) * 168) / 255);
     backdrop[i] = pixelOf([grey, grey, grey]);

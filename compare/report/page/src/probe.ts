@@ -2,7 +2,7 @@
 import { page, wordsOf, geometry, type Geometry, type Light, type Pixel } from "./data";
 import { html, number } from "./svg";
 import { sectionAxis, sectionDrawing } from "./section_drawing";
-import type { ViewState } from "./state";
+import type { LightState } from "./state";
 import { texelDrawing } from "./texel_drawing";
 import { decidingStep, story } from "./words";
 
@@ -61,7 +61,7 @@ export class Probe {
   private shown: { pixel: Pixel; bias: number } | null = null;
 
   constructor(private readonly light: Light, private readonly index: number, host: Element,
-              private readonly state: ViewState, changed: () => void) {
+              private readonly state: LightState, changed: () => void) {
     const size = light.json.view.size;
     const widths = [8, 16, 64, 256, size].filter((t, i, all) => t <= size && all.indexOf(t) === i);
     this.widths = choice("Width of the cross-section", "texels", widths.map((t) => [String(t), t === size ? "all" : `± ${t}`]),
@@ -69,7 +69,7 @@ export class Probe {
     this.ways = choice("Way across the map", "cut", [["row", "row"], ["column", "column"]], (value) => { state.cut = value; changed(); });
     host.append(html("h3", {}, "One pixel, in light space"), this.body,
       html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths), this.below);
-    void geometry.then((scene) => { this.scene = scene; this.redraw(); });
+    void geometry().then((scene) => { this.scene = scene; this.redraw(); });
   }
 
   /** The cross-section of a pixel only passed over waits until the pointer rests. */

@@ -1,6 +1,7 @@
-// What the reader looks at, kept in the URL's hash so that a view can be linked to: "#light-0?pixel=12,40&bias=0.05".
-// A hash without "?" is an ordinary link to a section.
+// What the reader looks at, kept in the URL's hash so that a view can be linked to: "#light-0?pixel=12,40&bias=0.05",
+// "#sweep?cell=12&rows=map_size". A hash without "?" is an ordinary link to a section.
 
+/** Of the viewer. */
 export interface ViewState {
   left: string;   // pictures, by their names in the viewer
   right: string;
@@ -12,55 +13,92 @@ export interface ViewState {
   front: number;  // which picture flipping shows
   exposure: number;  // in stops
   pixel: readonly [number, number] | null;  // pinned
-  bias: number | null;  // constant, world units; null: as rendered
   label: string | null;  // shown alone
+}
+
+/** Of one light of a comparison. */
+export interface LightState extends ViewState {
+  bias: number | null;  // constant, world units; null: as rendered
   cut: string;  // the cross-section's way across the map: auto, row, column
   texels: number;  // half the width of the cross-section
 }
 
-export const initial: ViewState = {
-  left: "rasterized", right: "ray traced", mode: "swipe", split: 0.5, zoom: 1, x: 0, y: 0, front: 0, exposure: 0,
-  pixel: null, bias: null, label: null, cut: "auto", texels: 16,
+const initialView: ViewState = {
+  left: "rasterized", right: "ray traced", mode: "swipe", split: 0.5, zoom: 1, x: 0, y: 0, front: 0, exposure: 0, pixel: null, label: null,
+};
+export const initialLight: LightState = { ...initialView, bias: null, cut: "auto", texels: 16 };
+
+/** Of a sweep. */
+export interface SweepState extends ViewState {
+  cell: number | null;
+  held: number | null;  // a cell kept for comparison
+  rows: string;     // axes; empty: none
+  columns: string;
+  slice: string;    // values of the other axes, with "|" between
+  sort: string;     // a column of the table, with "-" before it when descending
+}
+export const initialSweep: SweepState = {
+  ...initialView, left: "ray traced", right: "difference", cell: null, held: null, rows: "", columns: "", slice: "", sort: "",
 };
 
-export function hashOf(light: number, state: ViewState): string {
-  const parts = new URLSearchParams();
-  for (const [key, value] of Object.entries(state))
-    if (String(value) !== String(initial[key as keyof ViewState])) parts.set(key, String(value));
-  return `#light-${light}?${parts.toString().replaceAll("%2C", ",").replaceAll("+", "%20")}`;
-}
-
-const inRange = (text: string, low: number, high: number): number | undefined => {
+export const inRange = (text: string, low: number, high: number): number | undefined => {
   const value = Number(text);
   return text !== "" && isFinite(value) ? Math.min(Math.max(value, low), high) : undefined;
 };
 
-const readers: { [K in keyof ViewState]: (text: string) => ViewState[K] | undefined } = {
-  left: (t) => t, right: (t) => t, label: (t) => t,
+type Readers<State> = { [K in keyof State]: (text: string) => State[K] | undefined };
+const word = (text: string): string => text;
+const index = (text: string): number | undefined => (/^\d+$/.test(text) ? Number(text) : undefined);
+
+const viewReaders: Readers<ViewState> = {
+  left: word, right: word, label: word,
   mode: (t) => (["swipe", "side", "flip"].includes(t) ? t : undefined),
   split: (t) => inRange(t, 0, 1), zoom: (t) => inRange(t, 1, 64), x: (t) => inRange(t, -63, 0), y: (t) => inRange(t, -63, 0),
-  cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined),
-  front: (t) => (t === "1" ? 1 : 0), exposure: (t) => inRange(t, -6, 6), texels: (t) => inRange(t, 4, 1e6),
-  bias: (t) => inRange(t, -1e30, 1e30),
+  front: (t) => (t === "1" ? 1 : 0), exposure: (t) => inRange(t, -6, 6),
   pixel: (t) => {
     const match = /^(\d+),(\d+)$/.exec(t);
     return match ? [Number(match[1]), Number(match[2])] : undefined;
   },
 };
+const lightReaders: Readers<LightState> = {
+  ...viewReaders, cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined), texels: (t) => inRange(t, 4, 1e6),
+  bias: (t) => inRange(t, -1e30, 1e30),
+};
+const sweepReaders: Readers<SweepState> = {
+  ...viewReaders, cell: index, held: index, rows: word, columns: word, slice: word, sort: word,
+};
 
-/** The light and its state, or nothing when the hash is not one of ours; what cannot be read keeps its default. */
-export function readHash(hash: string): { light: number; state: ViewState } | null {
+function hashOf<State extends object>(place: string, state: State, initial: State): string {
+  const parts = new URLSearchParams();
+  for (const [key, value] of Object.entries(state))
+    if (String(value) !== String(initial[key as keyof State])) parts.set(key, String(value));
+  return `#${place}?${parts.toString().replaceAll("%2C", ",").replaceAll("+", "%20")}`;
+}
+
+// What cannot be read keeps its default.
+function parse<State extends object>(text: string, initial: State, readers: Readers<State>): State {
+  const state: State = { ...initial };
+  for (const [key, value] of new URLSearchParams(text))
+    if (key in readers) state[key as keyof State] = readers[key as keyof State](value) ?? initial[key as keyof State];
+  return state;
+}
+
+/** The light and its state, or nothing when the hash is not one of ours. */
+export function readLight(hash: string): { light: number; state: LightState } | null {
   const match = /^#light-(\d+)\?(.*)$/.exec(hash);
-  if (!match) return null;
-  const state: Record<string, unknown> = { ...initial };
-  for (const [key, text] of new URLSearchParams(match[2]))
-    if (key in readers) state[key] = readers[key as keyof ViewState](text) ?? initial[key as keyof ViewState];
-  return { light: Number(match[1]), state: state as unknown as ViewState };
+  return match && { light: Number(match[1]), state: parse(match[2]!, initialLight, lightReaders) };
+}
+
+export function readSweep(hash: string): SweepState | null {
+  const match = /^#sweep\?(.*)$/.exec(hash);
+  return match && parse(match[1]!, initialSweep, sweepReaders);
 }
 
 let pending = 0;
-/** Writes the hash soon; many changes in a row become one. */
-export function saveHash(light: number, state: ViewState): void {
+function saveSoon(hash: () => string): void {
   window.clearTimeout(pending);
-  pending = window.setTimeout(() => history.replaceState(null, "", hashOf(light, state)), 150);
+  pending = window.setTimeout(() => history.replaceState(null, "", hash()), 150);
 }
+/** Writes the hash soon; many changes in a row become one. */
+export const saveLight = (light: number, state: LightState): void => saveSoon(() => hashOf(`light-${light}`, state, initialLight));
+export const saveSweep = (state: SweepState): void => saveSoon(() => hashOf("sweep", state, initialSweep));

@@ -1,6 +1,5 @@
 // Two pictures over each other or side by side, with one zoom and one position: swipe, flip, enlarge, point at pixels.
-import { page } from "./data";
-import { byId } from "./pictures";
+import { legend } from "./colour_maps";
 import type { ViewState } from "./state";
 
 const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
@@ -10,8 +9,11 @@ export interface ViewerEvents {
   pin: (x: number, y: number) => void;
   unpin: () => void;
   changed: () => void;  // anything of the state
-  source: (name: string) => string | null;  // of a picture, by its name in the menus
+  source: (name: string) => Source | null;  // of a picture, by its value in the menus; null: not there yet
 }
+
+/** A picture by its address, as pixels, or drawn already. */
+export type Source = { url: string } | ImageData | HTMLCanvasElement;
 
 const steps: Record<string, readonly [number, number]> = {
   ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
@@ -24,10 +26,14 @@ export class Viewer {
   private readonly slider: HTMLInputElement;
   private readonly exposure: HTMLInputElement;
   private readonly markers: HTMLElement[];
+  private readonly canvases: HTMLCanvasElement[];
+  private readonly painted: (Source | null)[] = [null, null];
+  private readonly legends = document.createElement("div");
   private last: readonly [number, number] | null = null;  // the pixel read last
   private drag: { divider: boolean; moved: boolean; x: number; y: number } | null = null;
 
-  constructor(private readonly root: HTMLElement, private readonly state: ViewState, private readonly events: ViewerEvents) {
+  constructor(private readonly root: HTMLElement, private readonly state: ViewState,
+              private readonly size: { width: number; height: number }, private readonly events: ViewerEvents) {
     this.stage = root.querySelector(".stage")!;
     this.panes = [...this.stage.querySelectorAll<HTMLElement>(".pane")];
     this.picks = [...root.querySelectorAll<HTMLSelectElement>(".pick")];
@@ -39,6 +45,15 @@ export class Viewer {
       pane.append(marker);
       return marker;
     });
+    this.canvases = this.panes.map((pane) => {
+      const canvas = document.createElement("canvas");
+      canvas.hidden = true;
+      pane.querySelector("img")!.after(canvas);
+      return canvas;
+    });
+    this.legends.className = "legends";
+    this.stage.after(this.legends);
+    this.stage.style.aspectRatio = "";
     this.listen();
     this.show();
     root.hidden = false;
@@ -49,17 +64,34 @@ export class Viewer {
     [this.state.left, this.state.right].forEach((name, i) => {
       const pick = this.picks[i]!, option = [...pick.options].find((o) => o.textContent === name) ?? pick.options[i]!;
       pick.value = option.value;
-      const image = this.image(i), source = this.events.source(option.value);
-      if (source && image.src !== source) image.src = source;
-      const linear = option.value === "picture-raster" || option.value === "picture-raytraced";
-      image.style.filter = linear && this.state.exposure !== 0 ? "url(#exposure)" : "";
+      this.put(i, this.events.source(option.value), option.textContent!);
       this.panes[i]!.querySelector(".tag")!.textContent = option.textContent;
     });
+    this.legends.replaceChildren(...[...new Set([this.state.left, this.state.right])].flatMap((name) => legend(name) ?? []));
     this.draw();
   }
 
-  private image(pane: number): HTMLImageElement {
-    return this.panes[pane]!.querySelector("img")!;
+  // Pixels go onto the canvas, anything else into the image; of the two one is seen.
+  private put(pane: number, source: Source | null, name: string): void {
+    const image = this.panes[pane]!.querySelector("img")!, canvas = this.canvases[pane]!;
+    image.hidden = source === null || source instanceof ImageData || source instanceof HTMLCanvasElement;
+    canvas.hidden = !image.hidden;
+    if (source === null) {
+      canvas.width = this.size.width;
+      canvas.height = this.size.height;
+      this.painted[pane] = null;
+    } else if ("url" in source) {
+      if (image.getAttribute("src") !== source.url) image.src = source.url;
+    } else if (this.painted[pane] !== source) {
+      canvas.width = source.width;
+      canvas.height = source.height;
+      const context = canvas.getContext("2d")!;
+      if (source instanceof ImageData) context.putImageData(source, 0, 0);
+      else context.drawImage(source, 0, 0);
+      this.painted[pane] = source;
+    }
+    canvas.setAttribute("aria-label", name);
+    canvas.setAttribute("role", "img");
   }
 
   private draw(): void {
@@ -69,7 +101,8 @@ export class Viewer {
     this.stage.dataset.mode = s.mode;
     this.stage.classList.toggle("enlarged", s.zoom > 1);
     this.panes.forEach((pane, i) => {
-      this.image(i).style.transform = `translate(${100 * s.x}%, ${100 * s.y}%) scale(${s.zoom})`;
+      for (const picture of pane.querySelectorAll<HTMLElement>("img, canvas"))
+        picture.style.transform = `translate(${100 * s.x}%, ${100 * s.y}%) scale(${s.zoom})`;
       pane.classList.toggle("away", i !== s.front);
     });
     this.panes[1]!.style.clipPath = s.mode === "swipe" ? `inset(0 0 0 ${100 * s.split}%)` : "";
@@ -86,7 +119,7 @@ export class Viewer {
   }
 
   private mark(): void {
-    const { pixel, zoom, x, y } = this.state;
+    const { pixel, zoom, x, y } = this.state, page = this.size;
     for (const marker of this.markers) {
       marker.hidden = pixel === null;
       if (!pixel) continue;
@@ -121,7 +154,7 @@ export class Viewer {
   }
 
   private pixelAt(event: MouseEvent): readonly [number, number] | null {
-    const at = this.paneAt(event), s = this.state;
+    const at = this.paneAt(event), s = this.state, page = this.size;
     const x = Math.floor(((at.x - s.x) / s.zoom) * page.width), y = Math.floor(((at.y - s.y) / s.zoom) * page.height);
     return x >= 0 && y >= 0 && x < page.width && y < page.height ? [x, y] : null;
   }
@@ -185,7 +218,6 @@ export class Viewer {
     this.slider.addEventListener("input", () => { state.split = Number(this.slider.value) / 100; this.changed(); });
     this.exposure.addEventListener("input", () => {
       state.exposure = Number(this.exposure.value);
-      for (const slope of document.querySelectorAll("#exposure [slope]")) slope.setAttribute("slope", String(2 ** state.exposure));
       this.show();
       this.events.changed();
     });
@@ -198,7 +230,7 @@ export class Viewer {
 
   /** Whether the key meant something here. */
   private key(event: KeyboardEvent): boolean {
-    const s = this.state, step = steps[event.key];
+    const s = this.state, step = steps[event.key], page = this.size;
     if (step && event.shiftKey) {
       const from = this.last ?? s.pixel ?? [Math.floor(page.width / 2), Math.floor(page.height / 2)];
       this.last = [clamp(from[0] + step[0], 0, page.width - 1), clamp(from[1] + step[1], 0, page.height - 1)];
@@ -220,10 +252,5 @@ export class Viewer {
     else if (event.key === "Escape" && s.pixel) this.events.unpin();
     else return false;
     return true;
-  }
-
-  /** The source of a picture that is on the page already. */
-  static onPage(id: string): string | null {
-    return byId(id)?.src ?? null;
   }
 }

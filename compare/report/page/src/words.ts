@@ -25,9 +25,22 @@ function mapTest(light: Light, pixel: Pixel, bias: number): string {
                                    : `That is no more than the bias of ${number(bias, 3)}: the test draws it lit.`);
 }
 
+/** Where more than the one texel decides: the single test (V5) first, then what the technique makes of it (V6). */
+function filtered(light: Light, pixel: Pixel, bias: number): string {
+  const [truth, single, drawn] = [pixel.rungs[0]!, pixel.rungs[5]!, pixel.rungs[6]!], words = wordsOf(pixel.label);
+  const looked = isFinite(pixel.gap) ? `${mapTest(light, pixel, bias)} ` : "";
+  const test = `${looked}A single test at this bias gives ${number(single, 3)}; ` +
+    (drawn === single ? `${light.json.technique} changes nothing here: drawn ${number(drawn, 3)}.` : `${light.json.technique} reads more of the map than that and draws ${number(drawn, 3)}.`) +
+    ` The exact rays give ${number(truth, 3)}.`;
+  if (pixel.label === 0) return `${test} So it is right to within one half.`;
+  const step = decidingStep(pixel.rungs);
+  return `${test} It went wrong on the step V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+}
+
 export function story(light: Light, pixel: Pixel, bias: number): string {
   const words = wordsOf(pixel.label);
   if (pixel.label < 0) return `Not compared: ${words.what}.`;
+  if (!light.json.gaps_decide) return filtered(light, pixel, bias);
   const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
   const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel.rungs[0]!)}.`;
   if (bias !== light.json.bias.constant) return `${test} With this bias it is drawn ${lit === drawn ? "right" : "wrong"}.`;

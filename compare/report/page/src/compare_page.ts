@@ -1,0 +1,45 @@
+// The page of a comparison: each light's section comes to life when its data is there. Data beside the page is loaded
+// when the reader comes near the light that it belongs to.
+import { Light, page } from "./data";
+import { LightPanel } from "./light_panel";
+import { isBeside } from "./parts";
+import { readLight } from "./state";
+import { html } from "./svg";
+
+const panels: (Promise<LightPanel | null> | undefined)[] = [];
+
+async function load(index: number): Promise<LightPanel | null> {
+  const result = JSON.parse(document.getElementById("result")!.textContent!), section = document.getElementById(`light-${index}`)!;
+  try {
+    return new LightPanel(await Light.load(index), index, section, result.lights[index].best_bias.constant_world ?? 0);
+  } catch (error) {
+    section.querySelector(".viewer")!.after(html("p", { class: "left-out" }, `The viewer and the pixel probe of this light are missing: ${(error as Error).message}.`));
+    return null;
+  }
+}
+
+const panel = (index: number): Promise<LightPanel | null> => panels[index] ??= load(index);
+
+function loadWhenNear(index: number): void {
+  const near = new IntersectionObserver((entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    near.disconnect();
+    void panel(index);
+  }, { rootMargin: "100%" });
+  near.observe(document.getElementById(`light-${index}`)!);
+}
+
+async function restore(): Promise<void> {
+  const wanted = readLight(location.hash);
+  if (!wanted || wanted.light >= page.lights) return;
+  (await panel(wanted.light))?.restore(wanted.state);
+  document.querySelector(`#light-${wanted.light} .viewer`)!.scrollIntoView({ block: "start" });
+}
+
+export async function startComparison(): Promise<void> {
+  for (let i = 0; i < page.lights; ++i)
+    if (isBeside && i > 0) loadWhenNear(i);
+    else await panel(i);
+  await restore();
+  window.addEventListener("hashchange", () => void restore());
+}

@@ -1,0 +1,41 @@
+// The large parts of the page's data: in the page itself, or in files beside it. A page from disk may fetch nothing, so
+// that these files are scripts that leave their value in gnomonFiles (../../shell.h).
+
+interface Parted {
+  kind: "compare" | "sweep";
+  parts?: Record<string, unknown>;
+  folder?: string;
+}
+
+const data = JSON.parse(document.getElementById("page-data")!.textContent!) as Parted;
+
+/** What the page's data says beside its parts. */
+export const pageData = <T>(): T => data as unknown as T;
+export const pageKind = data.kind;
+/** The parts are files beside the page. */
+export const isBeside = data.folder !== undefined;
+
+declare global {
+  var gnomonFiles: Record<string, unknown> | undefined;  // eslint-disable-line no-var
+}
+
+/** Loads a data file; its value is forgotten by the page as soon as it is handed on. */
+export function fromFile<T>(path: string, name: string): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.src = path;
+    script.onload = () => {
+      const value = globalThis.gnomonFiles?.[name];
+      delete globalThis.gnomonFiles?.[name];
+      script.remove();
+      if (value === undefined) reject(new Error(`${path} does not hold ${name}`));
+      else resolve(value as T);
+    };
+    script.onerror = () => { script.remove(); reject(new Error(`${path} is missing: it belongs beside this page`)); };
+    document.head.append(script);
+  });
+}
+
+export function part<T>(name: string): Promise<T> {
+  return data.parts ? Promise.resolve(data.parts[name] as T) : fromFile(`${data.folder}/${name}.js`, name);
+}

@@ -1,0 +1,97 @@
+// The grid of thumbnails, by any two axes; the others stand still at values that the reader chooses.
+import type { CellJson } from "./cell";
+import { number } from "./svg";
+import { html } from "./svg";
+import type { SweepState } from "./state";
+
+interface Axis {
+  name: string;
+  values: string[];
+}
+
+const distinct = (cells: CellJson[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
+
+function pick(label: string, values: string[], chosen: string, change: (value: string) => void): HTMLLabelElement {
+  const select = html("select", {}, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : value)));
+  select.value = chosen;
+  select.addEventListener("change", () => change(select.value));
+  return html("label", {}, `${label} `, select);
+}
+
+export class SweepGrid {
+  private readonly axes: Axis[];
+  private readonly links = new Map<number, HTMLAnchorElement>();  // with their thumbnails, as the writer made them
+  private readonly bar = html("div", { class: "viewer-bar grid-bar", role: "group", "aria-label": "Which parameters the grid shows" });
+  private readonly table = html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": "Grid of cells" });
+
+  constructor(host: HTMLElement, axes: string[], private readonly cells: CellJson[], private readonly state: SweepState,
+              private readonly changed: () => void) {
+    this.axes = axes.map((name, k) => ({ name, values: distinct(cells, k) }));
+    for (const link of host.querySelectorAll<HTMLAnchorElement>("a[href^='#cell-']")) this.links.set(Number(link.hash.slice(6)), link);
+    host.replaceChildren(this.bar, this.table);
+  }
+
+  /** The axes that have something to show, and where they stand. */
+  private settle(): { rows: number; columns: number; rest: string[] } {
+    const varying = this.axes.map((axis, k) => ({ axis, k })).filter(({ axis }) => axis.values.length > 1).map(({ k }) => k);
+    const named = (name: string) => this.axes.findIndex((axis) => axis.name === name);
+    let columns = named(this.state.columns), rows = named(this.state.rows);
+    if (columns < 0) columns = varying.filter((k) => k !== rows).at(-1) ?? 0;
+    if (rows < 0 || rows === columns) rows = varying.find((k) => k !== columns) ?? -1;
+    const wanted = this.state.slice.split("|"), others = this.axes.map((_, k) => k).filter((k) => k !== rows && k !== columns);
+    const rest = this.axes.map(() => "");
+    others.forEach((k, i) => { rest[k] = this.axes[k]!.values.includes(wanted[i] ?? "") ? wanted[i]! : this.axes[k]!.values[0]!; });
+    return { rows, columns, rest };
+  }
+
+  show(): void {
+    const { rows, columns, rest } = this.settle(), names = this.axes.map((axis) => axis.name);
+    const change = (update: () => void) => { update(); this.show(); this.changed(); };
+    const slice = () => rest.filter((_, k) => k !== rows && k !== columns).join("|");
+    this.bar.replaceChildren(
+      ...(rows >= 0 ? [pick("Rows", names, names[rows]!, (name) => change(() => {
+        if (name === names[columns]) this.state.columns = names[rows]!;
+        this.state.rows = name;
+      }))] : []),
+      pick("Columns", names, names[columns]!, (name) => change(() => {
+        if (rows >= 0 && name === names[rows]) this.state.rows = names[columns]!;
+        this.state.columns = name;
+      })),
+      ...this.axes.flatMap((axis, k) => (k === rows || k === columns || axis.values.length < 2 ? [] : [pick(axis.name, axis.values, rest[k]!, (value) =>
+        change(() => { rest[k] = value; this.state.slice = slice(); }))])));
+    const shown = this.cells.filter((cell) => cell.values.every((value, k) => k === rows || k === columns || value === rest[k]));
+    this.table.replaceChildren(this.grid(shown, rows, columns));
+  }
+
+  private grid(cells: CellJson[], rows: number, columns: number): HTMLTableElement {
+    const across = this.axes[columns]!, down = rows >= 0 ? this.axes[rows]! : { name: "", values: [""] };
+    const used = (axis: Axis, k: number) => axis.values.filter((value) => k < 0 || cells.some((cell) => cell.values[k] === value));
+    const at = new Map(cells.map((cell) => [`${rows >= 0 ? cell.values[rows] : ""}|${cell.values[columns]}`, cell]));
+    const head = html("tr", {}, ...(rows >= 0 ? [html("td", {}, `${down.name} ↓ ${across.name} →`)] : []),
+      ...used(across, columns).map((value) => html("th", { scope: "col" }, value)));
+    const body = used(down, rows).map((row) => html("tr", {}, ...(rows >= 0 ? [html("th", { scope: "row" }, row)] : []),
+      ...used(across, columns).map((value) => {
+        const cell = at.get(`${row}|${value}`);
+        return html("td", {}, ...(cell ? [this.link(cell)] : []));
+      })));
+    return html("table", { class: "grid" }, html("caption", {}, rows >= 0 ? `${down.name} by ${across.name}` : across.name), html("thead", {}, head), html("tbody", {}, ...body));
+  }
+
+  private link(cell: CellJson): HTMLAnchorElement {
+    let link = this.links.get(cell.cell);
+    if (!link) {
+      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${number(100 * cell.wrong, 2)} %`));
+      this.links.set(cell.cell, link);
+    }
+    if (cell.cell === this.state.cell) link.setAttribute("aria-current", "true");
+    else link.removeAttribute("aria-current");
+    return link;
+  }
+
+  /** After another cell was chosen. */
+  mark(): void {
+    for (const [cell, link] of this.links)
+      if (cell === this.state.cell) link.setAttribute("aria-current", "true");
+      else link.removeAttribute("aria-current");
+  }
+}

@@ -1,0 +1,116 @@
+#include "compare/report/shell.h"
+
+#include <fmt/format.h>
+
+#include <embedded/report.h>
+
+#include "compare/report/html.h"
+#include "scene/files/sha256.h"
+
+namespace gnomon::compare {
+namespace {
+
+// The built page: style and script inline, with two places left for what is written here.
+struct Template {
+  std::string_view before_head, after_head, after_body, style, script;
+};
+
+// Text between the end of the tag that `opening` starts and `closing`.
+std::string_view inline_block(std::string_view html, std::string_view opening, std::string_view closing) {
+  const std::size_t tag = html.find(opening), start = html.find('>', tag) + 1;
+  return html.substr(start, html.find(closing, start) - start);
+}
+
+Template page_template() {
+  constexpr std::string_view head_mark = "<!--gnomon:head-->", body_mark = "<!--gnomon:body-->";
+  const std::string_view html = embedded::report("page.html");
+  const std::size_t head = html.find(head_mark), body = html.find(body_mark);
+  const std::size_t after_head = head + head_mark.size();
+  return {html.substr(0, head), html.substr(after_head, body - after_head),
+          html.substr(body + body_mark.size()), inline_block(html, "<style", "</style>"),
+          inline_block(html, "<script", "</script>")};
+}
+
+// A content-security-policy source for one inline block: the base64 of its SHA-256.
+std::string hash_source(std::string_view block) {
+  const std::string hex = sha256_hex(block);
+  std::string digest;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    digest += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  return "'sha256-" + base64(digest) + "'";
+}
+
+// Nothing may be loaded, sent or run but the page's own style and script and its pictures; and, where it has
+// files beside it, these.
+std::string security_policy(const Template& page, bool beside) {
+  return fmt::format(
+      "default-src 'none'; img-src data:{0}; style-src {1}; script-src {2}{0}; base-uri 'none'; form-action "
+      "'none'",
+      beside ? " 'self'" : "", hash_source(page.style), hash_source(page.script));
+}
+
+std::string head(const PageShell& shell, const Template& page) {
+  return fmt::format(
+      R"(<meta http-equiv="Content-Security-Policy" content="{}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{}</title>
+<link rel="icon" href="data:,">)",
+      security_policy(page, shell.beside), escaped(shell.title));
+}
+
+constexpr std::string_view data_file_head = "(globalThis.gnomonFiles=globalThis.gnomonFiles||{})",
+                           data_file_value = "]=";
+
+// The data with its parts, or with the folder that holds them.
+std::string whole_data(const PageShell& shell) {
+  std::string text(shell.data.substr(0, shell.data.rfind('}')));
+  text += shell.data.find(':') == std::string::npos ? "" : ",";
+  if (shell.beside) return text + fmt::format("\"folder\":\"{}\"}}", shell.folder);
+  text += "\"parts\":{";
+  for (std::size_t i = 0; i < shell.parts.size(); ++i)
+    text.append(i > 0 ? ",\"" : "\"").append(shell.parts[i].name).append("\":").append(shell.parts[i].json);
+  return text + "}}";
+}
+
+}  // namespace
+
+double BuiltPage::megabytes() const {
+  std::size_t bytes = html.size();
+  for (const PageFile& file : files) bytes += file.bytes.size();
+  return static_cast<double>(bytes) / 1e6;
+}
+
+std::string data_file(const DataPart& part) {
+  return fmt::format("{}[\"{}\"{}{};\n", data_file_head, part.name, data_file_value, part.json);
+}
+
+std::string_view data_in_file(std::string_view file) {
+  const std::size_t value = file.find(data_file_value);
+  if (!file.starts_with(data_file_head) || value == std::string_view::npos || !file.ends_with(";\n"))
+    return {};
+  const std::size_t start = value + data_file_value.size();
+  return file.substr(start, file.size() - 2 - start);
+}
+
+BuiltPage build_page(const PageShell& shell) {
+  const Template built = page_template();
+  BuiltPage out;
+  out.html = built.before_head;
+  out.html.append(head(shell, built)).append(built.after_head);
+  out.html += R"(<a class="skip" href="#overview">Skip to the report</a>
+<header class="bar-top"><span class="brand">Gnomon</span>
+<nav aria-label="Sections"><ul>)" +
+              shell.links + "</ul></nav></header>\n<main>\n" + shell.main + "</main>\n";
+  if (!shell.result.empty())
+    out.html += R"(<script type="application/json" id="result">)" + script_safe(shell.result) + "</script>\n";
+  out.html +=
+      R"(<script type="application/json" id="page-data">)" + script_safe(whole_data(shell)) + "</script>\n";
+  out.html.append(built.after_body);
+  if (shell.beside)
+    for (const DataPart& part : shell.parts)
+      out.files.push_back({fmt::format("{}/{}.js", shell.folder, part.name), data_file(part)});
+  return out;
+}
+
+}  // namespace gnomon::compare

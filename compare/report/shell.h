@@ -1,0 +1,45 @@
+// What every page has, whatever it is about: the built page (page/dist/page.html) with its style and script,
+// the content-security policy, the bar on top, and the data that the script reads. The data's large parts and
+// the pictures stand in the page itself, or, where it would grow too large, in files beside it, which work
+// from disk as well: pictures by <img>, data by <script> (a page from disk may fetch nothing).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gnomon::compare {
+
+/// A file beside report.html; the name is relative to its folder.
+struct PageFile {
+  std::string name, bytes;
+};
+
+struct BuiltPage {
+  std::string html;
+  std::vector<PageFile> files;  ///< of the data; pictures beside the page are the caller's
+  double megabytes() const;
+};
+
+/// A part of the page's data that may stand in a file of its own: JSON text.
+struct DataPart {
+  std::string name, json;
+};
+
+struct PageShell {
+  std::string title;            ///< not escaped
+  std::string links;            ///< <li> items of the bar on top
+  std::string main;             ///< what <main> holds
+  std::string result;           ///< JSON text that other programs know, under id "result"; may be empty
+  std::string data;             ///< JSON object that the script reads
+  std::vector<DataPart> parts;  ///< added to it
+  bool beside = false;          ///< the parts go into files
+  std::string folder = "report-data";  ///< of these files
+};
+
+BuiltPage build_page(const PageShell& shell);
+
+/// What a data file holds, and the JSON text in such a file.
+std::string data_file(const DataPart& part);
+std::string_view data_in_file(std::string_view file);
+
+}  // namespace gnomon::compare

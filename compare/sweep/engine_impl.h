@@ -1,0 +1,64 @@
+// The engine's insides: what it keeps from one setting to the next. Parts: engine.cpp (one comparison after
+// another), engine_pictures.cpp (a cell in small).
+#pragma once
+
+#include <optional>
+
+#include "compare/light_comparison.h"
+#include "compare/sweep/bias_axis.h"
+#include "compare/sweep/engine.h"
+
+namespace gnomon::compare {
+
+struct Engine::Impl {
+  Scene& scene;
+  const World& world;
+  raster::Renderer& renderer;
+  bool perceptual;
+  raytrace::Topology topology;
+  std::unique_ptr<raytrace::Tracer> tracer;
+  Comparison comparison;
+  std::optional<Setting> truth_of, drawn_for;
+  /// The drawing that the lower climbs were made from, and one climb per light compared.
+  std::unique_ptr<raster::RasterFrame> lower_frame;
+  std::vector<std::unique_ptr<LowerClimb>> lower;
+  Rgb8Image backdrop;  ///< the ray-traced picture in grey; empty: not made yet
+  bool has_images = false;
+  std::vector<raster::Bias> expected;
+  std::vector<BiasTable> table;  ///< by light; empty: not made yet
+  std::size_t table_place = 0;   ///< of the bias that the comparison's numbers were last taken from it for
+  EngineWork work;
+  bool derived = false;
+
+  Impl(Scene& s, const World& w, raster::Renderer& r, bool p)
+      : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
+
+  Expected<void> compare(const Setting& setting, Detail detail);
+  Expected<Probe> probe(const Setting& setting);
+
+  /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
+  void make_backdrop();
+  /// The mean colour of the pixels x0 … x1, y0 … y1 (ends excluded), with the errors' colours.
+  glm::u8vec3 mean_colour(int x0, int x1, int y0, int y1) const;
+  Image<std::uint8_t> class_codes() const;
+
+ private:
+  LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
+  void trace(const Setting& setting);
+  Expected<void> draw(const Setting& setting);
+  /// The bias alone, or the images with it.
+  void derive(const Setting& setting, Detail detail);
+  /// The lower rungs of all lights, kept where the maps are the same as before.
+  void climb_lower();
+  MeasureOptions measure_options() const;
+  /// Place of the bias among those expected, or their count.
+  std::size_t expected_place(const raster::Bias& bias) const;
+  /// The numbers of all expected biases, once per drawing; false where they cannot be made together.
+  bool fill_table();
+  bool measure_from_table(const raster::Bias& bias);
+  void measure();
+  /// V6 - V0 of the light that is most wrong at a pixel.
+  float worst_error(std::size_t pixel) const;
+};
+
+}  // namespace gnomon::compare
