@@ -159,11 +159,12 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   ASSERT_TRUE(paths) << paths.error().message();
   std::set<std::string> expected{"report.html", "result.json", "result.csv", "raster.png", "raytrace.png"},
       found;
-  for (const char* kind : {"difference", "labels", "depth-map"})
+  for (const char* kind : {"difference", "labels", "error", "depth-map"})
     for (const char* light : {"sun", "lamp-2"}) expected.insert(std::string(kind) + "-" + light + ".png");
   for (const auto& entry : fs::directory_iterator(folder)) found.insert(entry.path().filename().string());
   EXPECT_EQ(found, expected);
-  EXPECT_EQ(paths->size(), expected.size());
+  EXPECT_EQ(paths->paths.size(), expected.size());
+  EXPECT_FALSE(paths->beside);
   const std::string page = file_text(folder / "report.html"), json = file_text(folder / "result.json");
   EXPECT_NE(page.find("ball &amp; &lt;floor&gt;"), std::string::npos);
   EXPECT_EQ(page.find("<floor>"), std::string::npos);

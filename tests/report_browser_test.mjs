@@ -76,7 +76,7 @@ async function checkPolicy(page) {
 async function checkViewer() {
   const page = await open("one");
   const viewer = page.locator(".viewer").first(), stage = viewer.locator(".stage"), probe = viewer.locator(".probe");
-  const transform = () => stage.locator("img").first().evaluate((e) => e.style.transform);
+  const transform = () => stage.locator("canvas").first().evaluate((e) => e.style.transform);
   await stage.focus();
   await page.keyboard.press("ArrowRight");
   assert.equal(await viewer.locator(".slider input").inputValue(), "52");
@@ -93,7 +93,7 @@ async function checkViewer() {
   // Pixel (10, 120) of the hand-made picture is acne: (10 + 120) is even, in the first patch.
   const box = await stage.boundingBox();
   await stage.hover({ position: { x: (10.5 / 320) * box.width, y: (120.5 / 180) * box.height } });
-  assert.match(await probe.textContent(), /^Pixel 10, 120: acne; rasterized #[0-9a-f]{6}, ray traced #[0-9a-f]{6}$/);
+  assert.match(await probe.textContent(), /^Pixel 10, 120: acne; rasterized #[0-9a-f]{6}, linear [\d. e-]+; ray traced #[0-9a-f]{6}, linear [\d. e-]+/);
   await page.keyboard.press("Shift+ArrowRight");
   assert.match(await probe.textContent(), /^Pixel 11, 120: right/);
   await viewer.getByRole("button", { name: "Side by side" }).click();

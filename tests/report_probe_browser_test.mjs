@@ -3,8 +3,8 @@
 // Needs what report_browser_test needs, OpenGL in software, and oiiotool. Usage: node report_probe_browser_test.mjs
 // GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync } from "node:fs";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
 import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
@@ -48,8 +48,8 @@ function unpack({ bytes, difference, data }) {
 }
 
 async function checkData(page, aov) {
-  const data = JSON.parse(await page.locator("#page-data").textContent()), light = data.lights[0];
-  const numbers = Object.fromEntries(Object.entries({ ...light.channels, ...data.channels }).map(([name, packed]) => [name, unpack(packed)]));
+  const data = JSON.parse(await page.locator("#page-data").textContent()), light = data.parts["light-0"];
+  const numbers = Object.fromEntries(Object.entries({ ...light.channels, ...data.parts.pixels }).map(([name, packed]) => [name, unpack(packed)]));
   const gaps = new Float32Array(numbers.gap.buffer);
   aov.forEach(([label, gap, u, v, primitive, ...ladder], i) => {
     assert.equal(numbers.label[i], label, `label of pixel ${i}`);
@@ -77,7 +77,7 @@ async function shown(page) {
 
 // The ring in the depth map's picture: six faces of 64 texels with a gap of one, rows upwards.
 async function checkMarker(page, pixel, u, v) {
-  const face = unpack(JSON.parse(await page.locator("#page-data").textContent()).lights[0].channels.face)[pixel];
+  const face = unpack(JSON.parse(await page.locator("#page-data").textContent()).parts["light-0"].channels.face)[pixel];
   const [left, top] = await page.locator(".map-marker").evaluate((e) => [e.style.left, e.style.top].map(parseFloat));
   assert.ok(Math.abs(left - (100 * ((face % 3) * 65 + u)) / 194) < 0.01, `marker at ${left} % from the left, face ${face}, u ${u}`);
   assert.ok(Math.abs(top - (100 * ((face > 2 ? 65 : 0) + 64 - v)) / 129) < 0.01, `marker at ${top} % from the top, face ${face}, v ${v}`);
@@ -177,7 +177,7 @@ async function checkUrl() {
   await first.waitForFunction(() => location.hash.includes("bias=0.125"));
   const view = (page) => page.evaluate(() => ({
     mode: document.querySelector(".stage").dataset.mode, zoom: document.querySelector(".zoom-value").textContent,
-    moved: [...document.querySelectorAll(".stage img")].map((e) => e.style.transform),
+    moved: [...document.querySelectorAll(".stage img, .stage canvas")].map((e) => e.style.transform),
     pictures: [...document.querySelectorAll(".tag")].map((e) => e.textContent), title: document.querySelector(".pixel-title").textContent,
     story: document.querySelector(".story").textContent, counts: document.querySelector(".bias-counts").textContent,
     cut: document.querySelector("[data-cut][aria-pressed=true]").textContent, exposure: document.querySelector(".exposure input").value,
@@ -192,13 +192,70 @@ async function checkUrl() {
   await close(strange);
 }
 
-async function checkControls(page) {
-  const image = page.locator(".stage img").first();
-  assert.equal(await image.evaluate((e) => e.style.filter), "");
-  await page.locator(".exposure input").fill("1");
-  assert.match(await image.evaluate((e) => e.style.filter), /exposure/);
+// The picture on a pane's canvas, as bytes.
+const canvasOf = (page, pane) => page.locator(".pane canvas").nth(pane).evaluate((canvas) => {
+  const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+  const context = copy.getContext("2d", { willReadFrequently: true });
+  context.drawImage(canvas, 0, 0);
+  return [...context.getImageData(0, 0, copy.width, copy.height).data];
+});
+const redrawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+const srgb = (v) => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+
+// Exposure multiplies linear light: against the EXR file's own colours, to one level of 8 bits (16-bit floats keep 11 bits
+// of a value, less than one level).
+async function checkExposure(page) {
+  const text = execFileSync("oiiotool", [join(folder, `bias-${biases[0]}.exr`), "--ch", "R,G,B", "-o", join(folder, "rgb.exr")]) &&
+    execFileSync("oiiotool", ["--dumpdata", join(folder, "rgb.exr")], { encoding: "utf8", maxBuffer: 1 << 28 });
+  const linear = [...text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g)].map(([, , , values]) => values.trim().split(/\s+/).map(Number).reverse());
+  const blueFirst = /channel list: B, G, R/.test(execFileSync("oiiotool", ["-v", "--info", join(folder, "rgb.exr")], { encoding: "utf8" }));
+  const { exposure } = JSON.parse(readFileSync(join(folderOf(biases[0]), "result.json"), "utf8"));
+  for (const stops of [0, 2, -3]) {
+    await page.locator(".exposure input").fill(String(stops));
+    await redrawn(page);
+    const shown = await canvasOf(page, 1);  // ray traced
+    let worst = 0;
+    linear.forEach((values, i) => (blueFirst ? values : [...values].reverse()).forEach((v, k) => {
+      const expected = Math.floor(255 * srgb(Math.min(v * exposure * 2 ** stops, 1)) + 0.5);
+      worst = Math.max(worst, Math.abs(expected - shown[4 * i + k]));
+    }));
+    assert.ok(worst <= 1, `at ${stops} stops a pixel is off by ${worst} levels`);
+  }
   await page.locator(".exposure input").fill("0");
-  assert.equal(await image.evaluate((e) => e.style.filter), "");
+}
+
+// Maps of the metrics: their means are those of result.json, to the step that they are kept in.
+async function checkMetrics(page) {
+  const data = JSON.parse(await page.locator("#page-data").textContent()), { channels } = data.parts["light-0"], { error } = resultOf(biases[0]);
+  const mean = (values) => values.reduce((a, b) => a + b, 0) / values.length;
+  const flip = [...unpack(channels.flip)].map((v) => (v & 255) / 255), ssim = [...unpack(channels.ssim)].filter((v) => v !== -128).map((v) => v / 127);
+  assert.equal(ssim.length, (width - 10) * (height - 10));
+  assert.ok(Math.abs(mean(flip) - error.flip) < 0.5 / 255, `FLIP ${mean(flip)}, not ${error.flip}`);
+  assert.ok(Math.abs(mean(ssim) - error.ssim) < 0.5 / 127, `SSIM ${mean(ssim)}, not ${error.ssim}`);
+  for (const name of ["absolute error", "FLIP", "1 − SSIM", "truth", "drawn", "gap"]) {
+    await page.locator(".pick").first().selectOption({ label: name });
+    await redrawn(page);
+    assert.match(await page.locator(".legends").textContent(), new RegExp(name.replace("|", ".")), `the scale of ${name}`);
+    const picture = await canvasOf(page, 0);
+    assert.ok(picture.some((v, i) => i % 4 !== 3 && v !== picture[i % 4]), `${name} is one colour`);
+    if (name === "absolute error") {
+      // Hard shadows: wrong pixels are magma's 1, right ones its 0.
+      const wrong = picture.reduce((n, v, i) => n + (i % 4 === 0 && v === 252 && picture[i + 1] === 253 && picture[i + 2] === 191), 0);
+      assert.equal(wrong, error.wrong);
+    }
+  }
+  await page.locator(".pick").first().selectOption({ label: "rasterized" });
+}
+
+async function checkLessons(page) {
+  const lessons = page.locator("details.lesson");
+  assert.ok((await lessons.count()) >= 3);
+  await lessons.first().locator("summary").click();
+  assert.match(await lessons.first().textContent(), /^Lesson: [A-Z][\s\S]*docs\/lessons\/[a-z-]+\.md/);
+}
+
+async function checkControls(page) {
   await page.getByRole("button", { name: "Copy the command" }).click();
   await page.getByRole("button", { name: "Copied" }).waitFor();
   const stage = page.locator(".stage"), box = await stage.boundingBox();
@@ -209,14 +266,48 @@ async function checkControls(page) {
   await page.locator(".marker").first().waitFor({ state: "hidden" });
 }
 
-// A picture too large for the page's pixels: the page says so and shows the rest.
-async function checkLeftOut() {
-  const large = join(folder, "large");
-  execFileSync(program, ["compare", "acne-floor", "--size", "2100x2000", "--map-size", "64", "--runs", "1", "--quiet", "-o", large], { stdio: "inherit" });
-  const page = await open(large);
-  assert.match(await page.locator(".left-out").textContent(), /^The viewer and the pixel probe of this light are left out/);
-  assert.equal(await page.locator(".viewer:visible").count(), 0);
-  assert.equal(await page.locator("#picture-labels-0").isVisible(), true);
+// A page larger than allowed keeps pictures and pixels in files beside it, says so, and does all the same.
+async function checkBeside() {
+  const large = join(folder, "beside"), run = [program, ["compare", "sphere-plane", "--size", `${width}x${height}`, "--map-size", "64", "--runs", "1",
+    "--bias", biases[0], "--report-max-mb", "0.1", "-o", large]];
+  const { stderr } = spawnSync(...run, { encoding: "utf8" });
+  assert.match(stderr, /note: the page would weigh \d+ MB, more than --report-max-mb 0.1: its pictures and pixels are files/);
+  assert.ok(statSync(join(large, "report.html")).size < 0.2e6);
+  const page = await open(large, { beside: true }, "#light-0?pixel=100,80&exposure=1");
+  assert.match(await page.locator(".beside").textContent(), /lie beside it/);
+  for (const image of await page.locator("main img:visible").all()) assert.ok(await image.evaluate((e) => e.naturalWidth > 0));
+  const single = await open(folderOf(biases[0]), {}, "#light-0?pixel=100,80&exposure=1");
+  assert.deepEqual(await shown(page), await shown(single));
+  assert.deepEqual(await canvasOf(page, 0), await canvasOf(single, 0));
+  const { false_shadow, missed_shadow } = resultOf(biases[1]).error;
+  assert.deepEqual(await countsAt(page, Number(biases[1])), { false_shadow, missed_shadow, orange: false_shadow, blue: missed_shadow });
+  assert.ok(page.requests.some((url) => url.endsWith("report-data/light-0.js")), "no data file was asked for");
+  await close(page);
+  await close(single);
+  await checkAccessibility(large, { beside: true });
+}
+
+// Printed, not judged: machines differ.
+async function printSpeed() {
+  const large = join(folder, "hd");
+  execFileSync(program, ["compare", "sphere-plane", "--size", "1280x720", "--runs", "1", "--quiet", "-o", large], { stdio: "inherit" });
+  const page = await open(large), said = await page.evaluate(async () => {
+    const [paint] = performance.getEntriesByName("first-contentful-paint"), slider = document.querySelector(".bias-bar input[type=range]");
+    const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    const timed = async (act) => {
+      await frame();
+      const start = performance.now();
+      act();
+      await frame();
+      return Math.round(performance.now() - start);
+    };
+    const exposure = document.querySelector(".exposure input");
+    const bias = await timed(() => { slider.value = 300; slider.dispatchEvent(new Event("input")); });
+    const stops = await timed(() => { exposure.value = 1; exposure.dispatchEvent(new Event("input")); });
+    return { firstPaint: Math.round(paint?.startTime ?? NaN), bias, stops };
+  });
+  const weight = (statSync(join(large, "report.html")).size / 1e6).toFixed(1);
+  console.log(`1280x720, ${weight} MB: first paint after ${said.firstPaint} ms; until the next frame but one, a dragged bias ${said.bias} ms, an exposure ${said.stops} ms`);
   await close(page);
 }
 
@@ -228,13 +319,18 @@ try {
   console.log(`${await checkProbe(aov, names)} labels probed`);
   await checkDrawing(page);
   console.log(`${await checkBias(page)} biases counted and coloured as by a fresh comparison`);
+  await checkExposure(page);
+  await checkMetrics(page);
+  await checkLessons(page);
   await checkControls(page);
+  assert.deepEqual([...new Set(page.requests.filter((url) => !url.startsWith("data:")))].length, 1);
   await close(page);
   await checkUrl();
-  await checkLeftOut();
+  await checkBeside();
   await checkPhone(folderOf(biases[0]));
   await checkAccessibility(folderOf(biases[0]));
-  console.log("the URL restores the view; controls, phone and accessibility are right");
+  console.log("the URL restores the view; controls, files beside the page, phone and accessibility are right");
+  await printSpeed();
 } finally {
   await browser.close();
 }

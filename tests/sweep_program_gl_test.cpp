@@ -168,11 +168,47 @@ TEST_F(SweepProgram, SlurmScriptMakesTheShards) {
   expect_same("whole", "array");
 }
 
+/// A real Slurm of one node, for as long as this lives; not running where it cannot.
+class PrivateSlurm {
+ public:
+  explicit PrivateSlurm(const fs::path& folder) : folder_(folder.string()) {
+    const int status =
+        std::system((command("start") + " >" + folder_ + ".conf 2>" + folder_ + ".log").c_str());
+    std::ifstream conf(folder_ + ".conf");
+    std::string path;
+    running = status == 0 && std::getline(conf, path);
+    if (running) setenv("SLURM_CONF", path.c_str(), 1);
+  }
+  ~PrivateSlurm() {
+    unsetenv("SLURM_CONF");
+    if (std::system(command("stop").c_str()) != 0) std::perror("private_slurm.sh stop");
+  }
+  PrivateSlurm(const PrivateSlurm&) = delete;
+  PrivateSlurm& operator=(const PrivateSlurm&) = delete;
+  std::string why_not() const { return bytes(folder_ + ".log"); }
+  bool running = false;
+
+ private:
+  std::string command(const std::string& action) const {
+    return "sh " GNOMON_SOURCE_DIR "/tests/support/private_slurm.sh " + action + " " + folder_;
+  }
+  std::string folder_;
+};
+
 TEST_F(SweepProgram, SlurmTakesTheArray) {
-  if (std::system("sinfo -h -o %a 2>/dev/null | grep -q up") != 0) GTEST_SKIP() << "no Slurm is running here";
+  const PrivateSlurm slurm(root / "slurm");
+  if (!slurm.running) GTEST_SKIP() << slurm.why_not();
   ASSERT_EQ(run(words("whole")), 0) << said();
   ASSERT_EQ(run(words("array", {"--slurm", "2"})), 0) << said();
   expect_same("whole", "array");
+  EXPECT_TRUE(fs::exists(root / "array/slurm-1.log"));
+
+  // A task that fails is told apart from one that is done.
+  EXPECT_EQ(run({"sweep", (root / "none.json").string(), "--bias", "0,1", "--slurm", "2", "-o",
+                 (root / "broken").string()}),
+            5)
+      << said();
+  EXPECT_NE(said().find("the job array failed"), std::string::npos) << said();
 }
 
 TEST_F(SweepProgram, TornLastLineIsMadeAnew) {

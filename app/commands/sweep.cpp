@@ -17,6 +17,7 @@
 #include "app/shell.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/cell_pictures.h"
+#include "app/sweep/plan.h"
 #include "app/sweep/slurm.h"
 #include "app/values.h"
 #include "compare/output_parts.h"
@@ -45,45 +46,10 @@ struct SweepCommand {
   bool zip = false, perceptual = false, restart = false, quiet = false;
 };
 
-/// The cells of a shard, and what the journal must know of each.
-struct Plan {
-  compare::Grid grid;
-  std::vector<std::size_t> cells;
-  std::vector<std::string> axes;
-};
-
-compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell) {
-  compare::AxisValues values;
-  const std::vector<std::size_t> at = grid.position(cell);
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    std::string name = grid.axes()[k].name;
-    std::replace(name.begin(), name.end(), '-', '_');
-    values.emplace_back(std::move(name), grid.axes()[k].values[at[k]]);
-  }
-  return values;
-}
-
-/// Cells that differ from the one before in the constant bias alone stay with it: they come from one drawing.
-bool shares_drawing(const compare::Grid& grid, std::size_t cell) {
-  if (cell == 0) return false;
-  const std::vector<std::size_t> a = grid.position(cell - 1), b = grid.position(cell);
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (grid.axes()[k].name != "bias" && a[k] != b[k]) return false;
-  return true;
-}
-
-Expected<Plan> make_plan(const SweepCommand& command) {
+Expected<Plan> plan_of(const SweepCommand& command) {
   auto grid = command.options.grid(command.zip);
   if (!grid) return fail(grid.error());
-  Plan plan{std::move(*grid), {}, {}};
-  int drawing = -1;
-  for (std::size_t cell = 0; cell < plan.grid.cells(); ++cell) {
-    if (!shares_drawing(plan.grid, cell)) ++drawing;
-    if (drawing % command.shard.of + 1 != command.shard.part) continue;
-    plan.cells.push_back(cell);
-    plan.axes.push_back(compare::axes_text(axis_values(plan.grid, cell)));
-  }
-  return plan;
+  return make_plan(std::move(*grid), command.shard);
 }
 
 /// Everything that the lines hang on.
@@ -241,7 +207,7 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   Console console(command.quiet);
   if (command.shard.of != 1)
     return fail(ErrorKind::usage, "--slurm: it makes the shards itself; leave out --shard");
-  if (const auto plan = make_plan(command); !plan) return fail(plan.error());
+  if (const auto plan = plan_of(command); !plan) return fail(plan.error());
   if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
   std::error_code error;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).string();
@@ -275,7 +241,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (command.folder.empty()) command.folder = default_output(command.scene) + "-sweep";
-  auto plan = make_plan(command);
+  auto plan = plan_of(command);
   if (!plan) return fail(plan.error());
   if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   auto loaded = load(command.scene, console);

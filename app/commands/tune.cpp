@@ -10,6 +10,7 @@
 
 #include "app/interrupt.h"
 #include "app/invocation.h"
+#include "app/machine.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
@@ -17,7 +18,10 @@
 #include "app/sweep/axes.h"
 #include "app/values.h"
 #include "compare/number_text.h"
+#include "compare/outputs.h"
+#include "compare/tune/page.h"
 #include "scene/files/write_file.h"
+#include "scene/timing.h"
 
 namespace gnomon::app {
 
@@ -28,7 +32,8 @@ using Values = std::vector<std::pair<std::string, std::string>>;
 constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 
 struct TuneCommand {
-  std::string scene, json;
+  std::string scene, json, folder;
+  double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
   raster::Backend backend = raster::Backend::automatic;
@@ -64,7 +69,8 @@ std::string family_name(const Values& values) {
     name +=
         (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
   }
-  return kind ? name : name + ", constant bias alone";
+  if (kind) return name;
+  return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
 
 /// Everything fixed, with the values of one family.
@@ -216,6 +222,39 @@ std::string json_answer(const Answer& answer) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// The comparison at the answer: what the page shows.
+Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const Answer& answer,
+                                                 compare::Setting setting) {
+  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
+  const compare::Attempt& attempt = attempt_of(winner);
+  setting.raster.map = winner.family.map;
+  setting.raster.map.size = attempt.size;
+  setting.raster.map.bias.constant = attempt.bias_world;
+  setting.raster.map.bias.unit = raster::BiasUnit::world;
+  auto compared = engine.compare(setting);
+  if (!compared) return compared;
+  (*compared)->command = answer.line(answer.result.winner);
+  (*compared)->machine = machine_info();
+  (*compared)->peak_memory_bytes = peak_memory_bytes();
+  return compared;
+}
+
+Expected<void> write_page(const TuneCommand& command, const Answer& answer,
+                          const compare::Comparison& comparison, Console& console) {
+  std::vector<std::string> commands;
+  for (std::size_t i = 0; i < answer.families.size(); ++i) commands.push_back(answer.line(i));
+  const compare::PageIntroduction introduction = compare::tune_introduction(
+      {comparison.world->scene->name, command.goal, answer.result, commands, answer.others()});
+  const OutputGuard whole_outputs;
+  const auto written =
+      compare::write_outputs(comparison, command.folder, command.report_max_mb, &introduction);
+  if (!written) return fail(written.error());
+  if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
+  if (const auto saved = write_file(command.folder + "/tune.json", json_answer(answer)); !saved) return saved;
+  console.message(fmt::format("report: {}/report.html", command.folder));
+  return {};
+}
+
 Expected<void> hand_out(const TuneCommand& command, const Answer& answer) {
   if (command.json == "-") {
     print_data(json_answer(answer));
@@ -228,12 +267,15 @@ Expected<void> hand_out(const TuneCommand& command, const Answer& answer) {
 }
 
 Expected<ExitCode> run_tune(TuneCommand& command) {
+  const Stopwatch total;
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
   const auto families = make_families(command);
   if (!families) return fail(families.error());
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
+  if (!command.folder.empty())
+    if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
   const auto parsed = parse_setting(command.options.fixed());
@@ -241,21 +283,30 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   auto setting = resolve_setting(*parsed, *loaded->scene, *loaded->world);
   if (!setting) return fail(setting.error());
   setting->raster.runs = command.runs.value_or(setting->raster.runs);
-  setting->raytrace.picture = false;
+  const bool with_page = !command.folder.empty();
+  setting->raytrace.picture = with_page;
   const auto renderer = make_renderer(command.backend, *loaded);
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());
   compare::TuneOptions options{command.goal, {}, *sizes};
   for (const Family& family : *families) options.families.push_back(family.tuned);
-  compare::Engine engine(*loaded->scene, *loaded->world, **renderer, false);
+  compare::Engine engine(*loaded->scene, *loaded->world, **renderer, with_page);
   const auto result = compare::tune(
       engine, *setting, options, [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
         const double share = double(renders) / double(3 * options.families.size() + 1);
         console.progress(fmt::format("{}, {} texels", family.name, size), share);
       });
   if (!result) return fail(result.error());
-  if (const auto out = hand_out(command, {command, *families, *result}); !out) return fail(out.error());
+  const Answer answer{command, *families, *result};
+  if (with_page) {
+    const auto compared = compare_at_answer(engine, answer, *setting);
+    if (!compared) return fail(compared.error());
+    (*compared)->load_ms = loaded->load_ms;
+    (*compared)->total_ms = total.elapsed_ms();
+    if (const auto page = write_page(command, answer, **compared, console); !page) return fail(page.error());
+  }
+  if (const auto out = hand_out(command, answer); !out) return fail(out.error());
   return result->feasible ? ExitCode::done : ExitCode::threshold_exceeded;
 }
 
@@ -284,7 +335,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                                          "goal cannot be met.");
   app->footer(
       "gnomon tune fence --max-error 0.5%\n"
-      "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2\n"
+      "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
@@ -297,6 +348,11 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                        range_text(time_range)),
            command->goal.max_time_ms, [](const std::string& text) { return parse_number(text, time_range); });
   command->options.add_to(*app);
+  add_output(
+      *app, "-o,--output", command->folder, "DIR",
+      "also write report.html there, with the answer, the runners-up and the comparison at the answer, and "
+      "tune.json [default off]");
+  add_report_max_mb(*app, command->report_max_mb);
   add_backend(*app, command->backend);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(*app, command->runs, std::to_string(raster::RasterOptions{}.runs).c_str());

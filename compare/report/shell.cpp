@@ -98,10 +98,10 @@ BuiltPage build_page(const PageShell& shell) {
   BuiltPage out;
   out.html = built.before_head;
   out.html.append(head(shell, built)).append(built.after_head);
-  out.html += R"(<a class="skip" href="#overview">Skip to the report</a>
+  out.html += R"(<a class="skip" href="#main">Skip to the report</a>
 <header class="bar-top"><span class="brand">Gnomon</span>
 <nav aria-label="Sections"><ul>)" +
-              shell.links + "</ul></nav></header>\n<main>\n" + shell.main + "</main>\n";
+              shell.links + "</ul></nav></header>\n<main id=\"main\">\n" + shell.main + "</main>\n";
   if (!shell.result.empty())
     out.html += R"(<script type="application/json" id="result">)" + script_safe(shell.result) + "</script>\n";
   out.html +=

@@ -55,7 +55,7 @@ std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<
     columns.emplace_back(name);
   std::string out =
       "<section id=\"cells\" aria-labelledby=\"cells-title\"><h2 id=\"cells-title\">Cells</h2>\n<div "
-      "class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Cells\"><table "
+      "class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Table of cells\"><table "
       "class=\"cells\"><thead><tr>";
   for (const std::string& name : columns) out += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
   out += "</tr></thead><tbody>\n";

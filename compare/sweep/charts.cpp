@@ -46,7 +46,7 @@ std::string text(double x, double y, std::string_view kind, std::string_view con
 
 std::string frame(const Plot& plot, const std::vector<double>& ticks_x, std::string_view unit_x) {
   std::string out;
-  for (const double v : log_ticks(plot.min_y * 1.001, plot.max_y)) {
+  for (const double v : log_ticks(plot.min_y * 1.6, plot.max_y)) {  // above the word at the bottom
     out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
                        width - right, plot.y(v), plot.y(v));
     out += text(left - 8, plot.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
@@ -62,15 +62,15 @@ std::string frame(const Plot& plot, const std::vector<double>& ticks_x, std::str
 
 std::string svg(std::string_view title, const std::string& content) {
   return fmt::format(
-      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}</svg>\n", width,
+      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"group\" aria-label=\"{}\">{}</svg>\n", width,
       height, escaped(title), content);
 }
 
-// Half a pixel of all: what a logarithmic scale takes for none.
+// What a logarithmic scale takes for none: well below the least error that there is.
 double least_error(const std::vector<CellSummary>& cells) {
   double least = 1.0;
   for (const CellSummary& cell : cells)
-    least = std::min(least, 0.5 / static_cast<double>(std::max<std::uint64_t>(cell.compared, 1)));
+    if (cell.wrong > 0) least = std::min(least, cell.wrong_fraction / 4.0);
   return least;
 }
 
@@ -85,6 +85,16 @@ std::string axes_text(const CellSummary& cell) {
   for (const auto& [name, value] : cell.axes)
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
   return out.empty() ? "the only cell" : out;
+}
+
+// A cell as a point that leads to it.
+std::string point(const CellSummary& cell, std::string_view kind, double x, double y, double radius,
+                  const std::string& title) {
+  return fmt::format(
+      "<a href=\"#cell-{0}\" aria-label=\"Cell {0}, {5}\"><circle class=\"{1}\" cx=\"{2:.1f}\" "
+      "cy=\"{3:.1f}\" "
+      "r=\"{4}\"><title>{5}</title></circle></a>",
+      cell.cell, kind, x, y, radius, escaped(title));
 }
 
 }  // namespace
@@ -108,11 +118,10 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
     const CellSummary& cell = cells[i];
     if (!std::isfinite(cell.raster_ms)) continue;
     const bool best = std::find(front.begin(), front.end(), i) != front.end();
-    out += fmt::format(
-        "<a href=\"#cell-{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {} wrong, "
-        "{}</title></circle></a>",
-        cell.cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.wrong_fraction),
-        best ? 5 : 3.5, escaped(axes_text(cell)), percent(cell.wrong_fraction), milliseconds(cell.raster_ms));
+    out += point(cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.wrong_fraction),
+                 best ? 5.0 : 3.5,
+                 fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
+                             milliseconds(cell.raster_ms)));
   }
   if (rays > 0.0) {
     const double x = plot.x(rays), y = plot.y(least);
@@ -126,10 +135,10 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
 }
 
 std::string size_chart(const std::vector<CellSummary>& cells) {
-  std::map<double, double> best;  // size -> least wrong fraction
+  std::map<double, const CellSummary*> best;  // size -> cell with the least wrong fraction
   for (const CellSummary& cell : cells) {
-    const auto [entry, first] = best.emplace(cell.map_size, cell.wrong_fraction);
-    if (!first) entry->second = std::min(entry->second, cell.wrong_fraction);
+    const auto [entry, first] = best.emplace(cell.map_size, &cell);
+    if (!first && cell.wrong_fraction < entry->second->wrong_fraction) entry->second = &cell;
   }
   if (best.size() < 3) return {};
   const double least = least_error(cells);
@@ -137,16 +146,14 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
                   std::max(4.0 * least, 1.5 * largest_error(cells))};
   std::vector<double> sizes;
   std::string line, dots;
-  for (const auto& [size, error] : best) {
+  for (const auto& [size, cell] : best) {
     sizes.push_back(size);
-    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(size), plot.y(error));
-    dots += fmt::format(
-        "<circle class=\"dot best-dot\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{:g} texels: {} "
-        "wrong</title></circle>",
-        plot.x(size), plot.y(error), size, percent(error));
+    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(size), plot.y(cell->wrong_fraction));
+    dots += point(*cell, "dot best-dot", plot.x(size), plot.y(cell->wrong_fraction), 4.0,
+                  fmt::format("{:g} texels: {} wrong", size, percent(cell->wrong_fraction)));
   }
   std::string out = frame(plot, sizes, "texels on a side");
-  const double start = std::max(best.begin()->second, least), last = best.rbegin()->first;
+  const double start = std::max(best.begin()->second->wrong_fraction, least), last = best.rbegin()->first;
   const double end = start * best.begin()->first / last;
   out += fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
                      plot.x(best.begin()->first), plot.y(start), plot.x(last), plot.y(std::max(end, least)));

@@ -218,7 +218,10 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting) {
     count(input(frame, i), biases_follow_from_gaps(setting.raster.map), probe);
     probe.raster_ms += frame.lights[i].map_pass.median() + frame.lights[i].shade_pass.median();
   }
-  if (!frame.lights.empty()) probe.bias_world = frame.lights.front().bias_constant_world;
+  if (!frame.lights.empty()) {
+    probe.bias_world = frame.lights.front().bias_constant_world;
+    probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
+  }
   std::sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
   std::sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
   return probe;

@@ -34,9 +34,10 @@ struct EngineWork {
 /// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
 struct Probe {
   std::uint64_t compared = 0, wrong = 0;  ///< pixels, all lights together
-  GapLists gaps;            ///< of all lights together; empty where biases do not follow from gaps
-  double bias_world = 0.0;  ///< the constant bias drawn with, of the first light
-  double raster_ms = 0.0;   ///< median times of the map and the shading passes, all lights
+  GapLists gaps;             ///< of all lights together; empty where biases do not follow from gaps
+  double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
+  double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
+  double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
 };
 
 class Engine {

@@ -68,16 +68,22 @@ std::string provenance(const SweepHeader& header) {
       "<section id=\"provenance\" aria-labelledby=\"provenance-title\"><h2 id=\"provenance-title\">Where "
       "this comes from</h2>\n<dl class=\"provenance\">\n";
   out += fact("Program", fmt::format("gnomon {}", program_version()));
-  for (const auto& [key, value] : json.items()) {
-    if (key == "axes" || value.is_null()) continue;
-    out += fact(key, value.is_string() ? value.get<std::string>() : value.dump());
-  }
+  const Json& scene = json.at("scene");
+  for (const char* key : {"path", "sha256"})
+    if (const std::string text = scene.value(key, std::string()); !text.empty())
+      out += fact(key == std::string_view("path") ? "Scene" : "SHA-256 of the scene file", text);
+  for (const auto& [name, value] : json.at("options").items())
+    out += fact("--" + name, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const char* key : {"runs", "seed", "exposure"})
+    if (json.contains(key) && !json.at(key).is_null()) out += fact(key, json.at(key).dump());
   for (const Json& axis : json.value("axes", Json::array())) {
     const Json& values = axis.at("values");
-    const std::string list = values.size() <= 12 ? values.dump()
-                                                 : fmt::format("{} values from {} to {}", values.size(),
-                                                               values.front().dump(), values.back().dump());
-    out += fact("axis " + axis.at("name").get<std::string>(), list);
+    std::string list;
+    for (const Json& value : values) list += (list.empty() ? "" : ", ") + value.get<std::string>();
+    if (values.size() > 12)
+      list = fmt::format("{} values from {} to {}", values.size(), values.front().get<std::string>(),
+                         values.back().get<std::string>());
+    out += fact("Axis --" + axis.at("name").get<std::string>(), list);
   }
   return out +
          "</dl>\n<p class=\"save\"><a class=\"button\" href=\"sweep.csv\">sweep.csv</a> <a class=\"button\" "
@@ -154,13 +160,13 @@ std::string sweep_page(const SweepPageInput& in) {
   PageShell shell;
   shell.title = "Sweep of " + scene + " \u2013 Gnomon";
   shell.links =
-      R"(<li><a href="#cost">Cost</a></li><li><a href="#grid">Grid</a></li><li><a href="#cells">Cells</a></li><li><a
+      R"(<li><a href="#grid">Grid</a></li><li><a href="#cost">Cost</a></li><li><a href="#cells">Cells</a></li><li><a
 href="#provenance">Provenance</a></li>)";
   shell.main = fmt::format(
       "<section id=\"overview\" aria-labelledby=\"title\"><h1 id=\"title\">Sweep of {}</h1>\n{}<p "
       "class=\"verdict\">{}</p></section>\n",
       escaped(scene), beside_line(in), escaped(sentence(in.cells, front)));
-  shell.main += cost_charts(in.cells, front) + grid_section(in) + cell_section() +
+  shell.main += grid_section(in) + cell_section() + cost_charts(in.cells, front) +
                 cell_table(in.cells, front) + provenance(in.header);
   shell.data = sweep_page_data(in, front);
   shell.beside = in.beside;

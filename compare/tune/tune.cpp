@@ -64,6 +64,10 @@ Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
   attempt.bias_world = attempt.best.constant_world;
   attempt.error = attempt.best.wrong_fraction;
   attempt.time_ms = probe->raster_ms;
+  attempt.compared = probe->compared;
+  attempt.texel_world = probe->texel_world;
+  attempt.curve =
+      draw_bias_curve(probe->gaps, probe->texel_world, probe->bias_world, attempt.bias_world, 129);
   if (family.map.bias.slope == 0.0) hard_bias_.emplace(size, attempt.bias_world);
   return attempt;
 }
@@ -86,6 +90,8 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
     attempt.bias_world = probe->bias_world;
     attempt.error = double(probe->wrong) / double(std::max<std::uint64_t>(probe->compared, 1));
     attempt.time_ms = probe->raster_ms;
+    attempt.compared = probe->compared;
+    attempt.texel_world = probe->texel_world;
     if (!best || attempt.error < best->error) best = attempt;
   }
   return *best;

@@ -38,7 +38,10 @@ struct TuneOptions {
 struct Attempt {
   int size = 0;
   double bias_world = 0.0, error = 0.0, time_ms = 0.0;
-  BestBias best;  ///< with the proof, where no constant bias is right everywhere
+  BestBias best;                      ///< with the proof, where no constant bias is right everywhere
+  std::uint64_t compared = 0;         ///< pixels, all lights
+  std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
+  double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
 };
 
 struct FamilyResult {

@@ -23,14 +23,19 @@ export const browser = await chromium.launch({ executablePath: browserPath });
 
 /** Opens FOLDER/report.html and collects everything that it must not do. `hash` begins with #. */
 export async function open(folder, options = {}, hash = "") {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const { beside, ...contextOptions } = options;
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...contextOptions });
   const page = await context.newPage();
   const url = pathToFileURL(resolve(folder, "report.html")).href;
   page.offences = [];
+  page.requests = [];
   page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
   page.on("request", (request) => {
-    if (request.url().split("#")[0] !== url && !request.url().startsWith("data:")) page.offences.push(`request: ${request.url()}`);
+    // A page may ask for nothing but itself, or, where it says so, for the files beside it.
+    const asked = request.url().split("#")[0], besideIt = beside && asked.startsWith(new URL(".", url).href);
+    page.requests.push(asked);
+    if (asked !== url && !asked.startsWith("data:") && !besideIt) page.offences.push(`request: ${asked}`);
   });
   await page.goto(url + hash);
   if (options.javaScriptEnabled !== false)
@@ -43,9 +48,9 @@ export async function close(page) {
   await page.context().close();
 }
 
-export async function checkAccessibility(folder) {
+export async function checkAccessibility(folder, options = {}, hash = "") {
   for (const colorScheme of ["light", "dark"]) {
-    const page = await open(folder, { colorScheme });
+    const page = await open(folder, { colorScheme, ...options }, hash);
     await page.evaluate(axeSource);
     const { violations } = await page.evaluate(() => window.axe.run());
     assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${folder}, ${colorScheme}`);
@@ -54,8 +59,8 @@ export async function checkAccessibility(folder) {
 }
 
 /** Nothing may be wider than a phone. */
-export async function checkPhone(folder) {
-  const page = await open(folder, { viewport: { width: 390, height: 844 } });
+export async function checkPhone(folder, options = {}, hash = "") {
+  const page = await open(folder, { viewport: { width: 390, height: 844 }, ...options }, hash);
   const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
   assert.ok(width <= 390, `${folder} is ${width} pixels wide on a phone`);
   await close(page);

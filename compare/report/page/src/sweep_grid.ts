@@ -12,7 +12,7 @@ interface Axis {
 const distinct = (cells: CellJson[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
 
 function pick(label: string, values: string[], chosen: string, change: (value: string) => void): HTMLLabelElement {
-  const select = html("select", {}, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : value)));
+  const select = html("select", { "aria-label": label }, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : value)));
   select.value = chosen;
   select.addEventListener("change", () => change(select.value));
   return html("label", {}, `${label} `, select);

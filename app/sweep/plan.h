@@ -1,0 +1,25 @@
+// Which cells of a sweep a process makes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/output_parts.h"
+#include "compare/sweep/axis.h"
+#include "compare/sweep/journal.h"
+
+namespace gnomon::app {
+
+/// The cells of a shard, and what the journal must know of each.
+struct Plan {
+  compare::Grid grid;
+  std::vector<std::size_t> cells;
+  std::vector<std::string> axes;
+};
+
+/// Names and values of a cell.
+compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell);
+
+Plan make_plan(compare::Grid grid, compare::Shard shard);
+
+}  // namespace gnomon::app

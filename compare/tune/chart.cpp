@@ -1,0 +1,125 @@
+// The bias curves of all kinds in one drawing: lines told apart by colour, dashes and their names.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "compare/report/charts.h"
+#include "compare/report/html.h"
+#include "compare/tune/page.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double width = 900.0, height = 360.0;  // SVG units
+constexpr double left = 58.0, right = 262.0, top = 20.0, bottom = 48.0;
+constexpr double most_texels = 4.0;  // of bias, on the chart
+constexpr std::size_t styles = 6;    // line-0 … in report.css
+
+struct Line {
+  const FamilyResult* family;
+  const Attempt* attempt;
+  double label_y;
+};
+
+double share(const Attempt& a, const BiasCurvePoint& p) {
+  return static_cast<double>(p.false_shadow + p.missed_shadow) /
+         static_cast<double>(std::max<std::uint64_t>(a.compared, 1));
+}
+
+class Chart {
+ public:
+  explicit Chart(const TuneResult& result) {
+    for (const FamilyResult& family : result.families) {
+      const Attempt& attempt = family.answer ? *family.answer : family.closest;
+      if (attempt.curve.size() < 2 || !(attempt.texel_world > 0.0)) continue;
+      lines_.push_back({&family, &attempt, 0.0});
+      // The worst that stands on a curve beyond its beginning sets the scale: a bias of 0 would flatten all.
+      for (const BiasCurvePoint& p : attempt.curve)
+        if (p.bias >= 0.25 * attempt.texel_world) highest_ = std::max(highest_, share(attempt, p));
+    }
+    highest_ = std::max(1.05 * highest_, 1e-9);
+  }
+
+  std::string text() {
+    if (lines_.empty()) return {};
+    place_labels();
+    std::string svg = fmt::format(
+        R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="Wrong pixels against the constant bias, a line for each kind">)",
+        width, height);
+    svg +=
+        R"(<defs><clipPath id="tune-clip"><rect x="58" y="20" width="580" height="292"/></clipPath></defs>)";
+    svg += axes();
+    for (std::size_t i = 0; i < lines_.size(); ++i) svg += line(i);
+    return svg + "</svg>";
+  }
+
+ private:
+  double x(double texels) const { return left + texels / most_texels * (width - left - right); }
+  double y(double wrong) const {
+    return height - bottom - std::min(wrong / highest_, 2.0) * (height - top - bottom);
+  }
+
+  std::string axes() const {
+    std::string out;
+    for (const double v : nice_ticks(0.0, highest_, 4))
+      out += fmt::format(
+          R"(<line class="grid" x1="{:.0f}" x2="{:.0f}" y1="{:.1f}" y2="{:.1f}"/><text class="tick end" x="{:.0f}" y="{:.1f}">{:.3g} %</text>)",
+          left, width - right, y(v), y(v), left - 8, y(v) + 4, 100.0 * v);
+    for (const double v : nice_ticks(0.0, most_texels, 4))
+      out += fmt::format(R"(<text class="tick middle" x="{:.1f}" y="{:.0f}">{:.3g}</text>)", x(v),
+                         height - bottom + 20, v);
+    return out + fmt::format(R"(<text class="tick middle" x="{:.0f}" y="{:.0f}">bias, texels</text>)",
+                             (left + width - right) / 2, height - 8);
+  }
+
+  // The names stand at the lines' right ends, moved apart.
+  void place_labels() {
+    std::vector<Line*> order;
+    for (Line& l : lines_) {
+      l.label_y = y(share(*l.attempt, last_shown(*l.attempt)));
+      order.push_back(&l);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Line* a, const Line* b) { return a->label_y < b->label_y; });
+    constexpr double spacing = 17.0;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      order[i]->label_y = std::max(order[i]->label_y, i == 0 ? top + 8 : order[i - 1]->label_y + spacing);
+    const double excess = std::max(0.0, order.back()->label_y - (height - bottom));
+    for (Line* l : order) l->label_y -= excess;
+  }
+
+  static const BiasCurvePoint& last_shown(const Attempt& a) {
+    const auto beyond = std::find_if(a.curve.begin() + 1, a.curve.end(), [&a](const BiasCurvePoint& p) {
+      return p.bias > most_texels * a.texel_world;
+    });
+    return *(beyond - 1);
+  }
+
+  std::string line(std::size_t i) const {
+    const Line& l = lines_[i];
+    std::string points;
+    for (const BiasCurvePoint& p : l.attempt->curve)
+      if (p.bias <= most_texels * l.attempt->texel_world * (1.0 + 1e-9))
+        fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", x(p.bias / l.attempt->texel_world),
+                       y(share(*l.attempt, p)));
+    const std::string style = fmt::format("line-{}", i % styles);
+    return fmt::format(
+        R"svg(<g clip-path="url(#tune-clip)"><polyline class="curve {0}" points="{1}"/></g><circle class="{0}" cx="{2:.1f}" cy="{3:.1f}" r="4"/><text class="name {0}" x="{4:.0f}" y="{5:.1f}">{6}</text>)svg",
+        style, points,
+        x(std::clamp(l.attempt->best.constant_world / l.attempt->texel_world, 0.0, most_texels)),
+        y(l.attempt->best.wrong_fraction), width - right + 8, l.label_y + 4,
+        escaped(fmt::format("{} ({})", l.family->family.name, l.attempt->size)));
+  }
+
+  std::vector<Line> lines_;
+  double highest_ = 0.0;
+};
+
+}  // namespace
+
+std::string tune_chart(const TuneResult& result) {
+  return Chart(result).text();
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,99 @@
+#include "compare/tune/page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "compare/number_text.h"
+#include "compare/report/html.h"
+#include "compare/report/sections.h"
+
+namespace gnomon::compare {
+namespace {
+
+const Attempt& attempt_of(const FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+
+std::string goal_text(const TuneGoal& goal) {
+  return goal.max_error ? "at most " + percent(*goal.max_error) + " wrong"
+                        : "at most " + milliseconds(*goal.max_time_ms) + " for map and shading";
+}
+
+std::string verdict(const TunePageInput& in) {
+  const FamilyResult& winner = in.result.families[in.result.winner];
+  const Attempt& a = attempt_of(winner);
+  const std::string answer =
+      fmt::format("{}, {} \u00d7 {} texels, bias {}. It leaves {} wrong and takes {}.", winner.family.name,
+                  a.size, a.size, plain_number(a.bias_world), percent(a.error), milliseconds(a.time_ms));
+  const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
+  if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
+  return wanted + (in.goal.max_error ? "The cheapest map that gives it: " : "The best map within it: ") +
+         answer;
+}
+
+// Why no constant bias can be right everywhere, with the two sets of pixels.
+std::string proof(const TunePageInput& in) {
+  const BestBias& best = attempt_of(in.result.families[in.result.winner]).best;
+  if (in.result.feasible || best.feasible || best.lit_pixels_above == 0) return {};
+  return fmt::format(
+      R"(<p class="lead">No constant bias is right everywhere with this map: {} lit pixels need {} or more,
+{} shadowed pixels need less than {}. In the picture of differences below the first are those that turn
+<b class="false-text">orange</b> when the bias is dragged to the left of that, the second those that turn
+<b class="missed-text">blue</b> to the right of it.</p>
+)",
+      grouped(best.lit_pixels_above), plain_number(best.needs_more_than), grouped(best.shadowed_pixels_below),
+      plain_number(best.needs_less_than));
+}
+
+std::string family_row(const TunePageInput& in, std::size_t i) {
+  const FamilyResult& family = in.result.families[i];
+  const Attempt& a = attempt_of(family);
+  const bool winner = i == in.result.winner;
+  return fmt::format(
+      R"(<tr{}><th scope="row">{}{}<small>{}</small></th><td class="n">{}</td><td class="n">{}</td><td
+class="n">{}</td><td class="n">{}</td><td class="command"><code>{}</code></td></tr>
+)",
+      winner ? " class=\"front-row\"" : "", escaped(family.family.name),
+      winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
+      a.size, plain_number(a.bias_world), percent(a.error), milliseconds(a.time_ms), escaped(in.commands[i]));
+}
+
+std::string family_table(const TunePageInput& in) {
+  std::string rows = family_row(in, in.result.winner);
+  for (const std::size_t i : in.order) rows += family_row(in, i);
+  return scroll_region("What was tried",
+                       R"(<table class="families"><thead><tr><th scope="col">technique and bias</th><th
+scope="col" class="n">texels</th><th scope="col" class="n">bias</th><th scope="col" class="n">wrong</th><th
+scope="col" class="n">time</th><th scope="col">command</th></tr></thead><tbody>
+)" + rows + "</tbody></table>");
+}
+
+}  // namespace
+
+PageIntroduction tune_introduction(const TunePageInput& in) {
+  PageIntroduction out;
+  out.title = "Tuning " + in.scene + " \u2013 Gnomon";
+  out.links = R"(<li><a href="#tune">Answer</a></li>)";
+  out.html = fmt::format(R"(<section id="tune" aria-labelledby="tune-title">
+<h1 id="tune-title">Tuning {}</h1>
+<p class="verdict">{}</p>
+<p class="command"><code>{}</code></p>
+)",
+                         escaped(in.scene), flowing(verdict(in)), escaped(in.commands[in.result.winner]));
+  out.html += proof(in);
+  out.html += fmt::format(R"(<h2>What was tried</h2>
+<p>{} drawings: each kind of bias was searched over map sizes, and one drawing tells the error of every
+constant bias. The star is the answer; beside each of the others stands why it is not.</p>
+{})",
+                          in.result.renders, family_table(in));
+  if (const std::string chart = tune_chart(in.result); !chart.empty())
+    out.html += "<h3>How the error hangs on the bias</h3>\n<figure>" +
+                scroll_region("Wrong pixels against the bias of each kind", chart) +
+                "<figcaption>Each kind at the map size of its row above; a dot marks the best constant bias. "
+                "Texels of the one map are not as wide as those of another.</figcaption></figure>\n";
+  out.html += "<p>What follows is the comparison at that answer.</p></section>\n";
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,38 @@
+#!/bin/sh
+# Makes the lessons' pictures (docs/images/lesson-*.png) with the program itself: docs/make_images.sh PROGRAM
+# PROGRAM: the gnomon to run [default build/release/app/gnomon]. Needs oiiotool to put pictures side by side.
+set -eu
+program=${1:-build/release/app/gnomon}
+images=$(cd "$(dirname "$0")" && pwd)/images
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# picture NAME FILE SCENE OPTIONS…: one picture of a comparison
+picture() {
+  name=$1 file=$2
+  shift 2
+  "$program" compare "$@" --size 480x270 --runs 1 --quiet -o "$work/$name"
+  cp "$work/$name/$file.png" "$images/lesson-$name.png"
+}
+
+# pair NAME FILE_A FILE_B SCENE OPTIONS…: two pictures of one comparison side by side
+pair() {
+  name=$1 left=$2 right=$3
+  shift 3
+  "$program" compare "$@" --size 320x180 --runs 1 --quiet -o "$work/$name"
+  oiiotool "$work/$name/$left.png" "$work/$name/$right.png" --mosaic:pad=8 2x1 -o "$images/lesson-$name.png"
+}
+
+pair acne raster difference acne-floor --bias 0 --map-size 64
+pair peter-panning raster difference floating-box --bias 0.6
+pair light-leaks raster difference thin-wall --bias 0.5
+pair aliasing raster difference fence --map-size 256
+pair soft-shadows raster raytrace penumbra --slope-bias 1
+pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --bias 0 --map-size 4096
+pair error-budget raytrace labels courtyard --map-size 512
+
+# Two biases of one scene.
+for bias in 0.25texel 4texel; do
+  "$program" compare courtyard --bias $bias --size 320x180 --runs 1 --quiet -o "$work/bias-$bias"
+done
+oiiotool "$work/bias-0.25texel/difference.png" "$work/bias-4texel/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-bias.png"
