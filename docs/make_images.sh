@@ -28,6 +28,7 @@ pair peter-panning raster difference floating-box --bias 0.6
 pair light-leaks raster difference thin-wall --bias 0.5
 pair aliasing raster difference fence --map-size 256
 pair soft-shadows raster raytrace penumbra --slope-bias 1
+pair filtering difference error fence --technique pcf --filter-radius 2 --map-size 512 --slope-bias 2
 pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --bias 0 --map-size 4096
 pair error-budget raytrace labels courtyard --map-size 512
 

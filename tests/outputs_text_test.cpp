@@ -6,6 +6,8 @@
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
+#include "compare/report/lessons.h"
+#include "compare/report/shell.h"
 #include "compare/text_layout.h"
 #include "tests/synthetic_comparison.h"
 
@@ -143,6 +145,34 @@ TEST(FileNames, KeepLightsApart) {
   EXPECT_EQ(aov_path(two->comparison, two->comparison.lights[0], "d.x/aov"), "d.x/aov-sun");
   EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[1]), "lamp-2-1");
   EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[2]), "lamp-2-2");
+}
+
+TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
+  ASSERT_EQ(all_lessons().size(), 11u);
+  for (const Lesson& one : all_lessons()) {
+    EXPECT_FALSE(one.title.empty()) << one.name;
+    EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;
+    const std::string html = lesson_html(one);
+    EXPECT_TRUE(html.starts_with("<p>")) << one.name;
+    EXPECT_EQ(html.find("!["), std::string::npos) << one.name;
+    for (const char* tag : {"p", "b", "em", "code"}) {
+      const auto count = [&html](const std::string& text) {
+        std::size_t n = 0;
+        for (std::size_t at = html.find(text); at != std::string::npos; at = html.find(text, at + 1)) ++n;
+        return n;
+      };
+      EXPECT_EQ(count(std::string("<") + tag + ">"), count(std::string("</") + tag + ">"))
+          << one.name << " " << tag;
+    }
+  }
+  for (std::size_t k = 1; k <= class_count; ++k)
+    EXPECT_NE(lesson_of(static_cast<Label>(k)).name, "error-budget") << k;
+}
+
+TEST(PageShell, DataFilesHoldWhatWasPutIn) {
+  const DataPart part{"light-0", R"({"a":[1,"]="],"b":";\n"})"};
+  EXPECT_EQ(data_in_file(data_file(part)), part.json);
+  EXPECT_EQ(data_in_file("something else"), "");
 }
 
 }  // namespace

@@ -198,12 +198,15 @@ std::string depth_map_block(const LightBlock& b) {
 <figure class="depth">{}<figcaption><span class="scale-row"><span>far {}</span>{}<span>near {}</span></span>
 Depth from the light in world units{}; dark grey where nothing is stored.{}{}</figcaption></figure>
 )",
-      picture(b.in, pictures.depth_map_small, "The depth map: near surfaces bright yellow, far ones dark purple.",
-              ""),
+      picture(b.in, pictures.depth_map_small,
+              "The depth map: near surfaces bright yellow, far ones dark purple.", ""),
       plain_number(view.depth_range().max), depth_scale(fmt::format("depth-scale-{}", b.index)),
       plain_number(view.depth_range().min),
       view.projection == LightProjection::perspective ? ", on a logarithmic scale" : "",
-      view.face_count > 1 ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z." : "",
+      view.face_count == 1 ? ""
+      : view.projection == LightProjection::perspective
+          ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z."
+          : " Each cascade's own map, the finest first.",
       step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "");
 }
 

@@ -190,7 +190,8 @@ std::string light_section(const PageInput& in, std::size_t i) {
 <p class="setting">{2}, {3}; map of {4} × {4}{5} texels, bias {6} world units</p>
 {7})",
       i, escaped(shown_light_name(in.comparison, i)), light_type_name(light.type), where(light),
-      map.view.size, map.view.face_count > 1 ? "\u202f\u00d7\u202f6" : "",
+      map.view.size,
+      map.view.face_count > 1 ? fmt::format("\u202f\u00d7\u202f{}", map.view.face_count) : std::string(),
       plain_number(drawn_record(in.comparison, b.light).bias_constant_world),
       // A single light's verdict stands right above, on the first screen.
       in.comparison.lights.size() == 1 ? ""

@@ -183,7 +183,7 @@ Json view_json(const LightView& view) {
           {"size", view.size},
           {"faces", std::move(faces)},
           {"origin", vector3(view.origin)},
-          {"half_extent", Json::array({view.face(0).half_extent.x, view.face(0).half_extent.y})},
+
           {"near", view.depth_range().min},
           {"far", view.depth_range().max}};
 }

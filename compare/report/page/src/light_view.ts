@@ -7,6 +7,19 @@ export interface Face {
   right: Vec3;
   up: Vec3;
   forward: Vec3;
+  center: readonly [number, number];       // of an orthographic face, along right and up from the view's origin
+  half_extent: readonly [number, number];  // along right and up
+  warp: number;                            // of an orthographic face along up; 0: none
+}
+
+/** Where light-space perspective shows a height, and back (see scene/light_view.h). */
+const warped = (f: Face, y: number): number => (y + f.warp * f.half_extent[1] ** 2) / (1 + f.warp * y);
+const unwarped = (f: Face, shown: number): number => (shown - f.warp * f.half_extent[1] ** 2) / (1 - f.warp * shown);
+
+/** Position along right and up from the view's origin, at depth 1 of a perspective map. */
+export function place(view: LightView, face: number, u: number, v: number): [number, number] {
+  const f = view.faces[face]!, y = unwarped(f, ((2 * v) / view.size - 1) * f.half_extent[1]);
+  return [f.center[0] + ((2 * u) / view.size - 1) * f.half_extent[0] * (1 + f.warp * y), f.center[1] + y];
 }
 
 export interface LightView {
@@ -14,7 +27,6 @@ export interface LightView {
   size: number;
   faces: Face[];
   origin: Vec3;
-  half_extent: readonly [number, number];
   near: number;
   far: number;
 }
@@ -34,9 +46,7 @@ export interface Ray {
 }
 
 export function texelRay(view: LightView, face: number, u: number, v: number): Ray {
-  const f = view.faces[face]!;
-  const offset = add(
-    scaled(f.right, ((2 * u) / view.size - 1) * view.half_extent[0]), f.up, ((2 * v) / view.size - 1) * view.half_extent[1]);
+  const f = view.faces[face]!, [x, y] = place(view, face, u, v), offset = add(scaled(f.right, x), f.up, y);
   if (!view.perspective) return { origin: add(view.origin, offset), direction: f.forward };
   return { origin: view.origin, direction: unit(add(f.forward, offset)) };
 }
@@ -48,17 +58,22 @@ export interface MapPoint {
 }
 
 export function project(view: LightView, face: number, point: Vec3): MapPoint {
-  const f = view.faces[face]!, d = sub(point, view.origin), depth = dot(d, f.forward), w = view.perspective ? depth : 1;
+  const f = view.faces[face]!, d = sub(point, view.origin), depth = dot(d, f.forward), up = dot(d, f.up) - f.center[1];
+  const [x, y] = view.perspective ? [dot(d, f.right) / depth, up / depth] : [(dot(d, f.right) - f.center[0]) / (1 + f.warp * up), warped(f, up)];
   return {
-    u: 0.5 * (dot(d, f.right) / (w * view.half_extent[0]) + 1) * view.size,
-    v: 0.5 * (dot(d, f.up) / (w * view.half_extent[1]) + 1) * view.size,
+    u: 0.5 * (x / f.half_extent[0] + 1) * view.size,
+    v: 0.5 * (y / f.half_extent[1] + 1) * view.size,
     depth,
   };
 }
 
-/** World width of a texel along u (axis 0) or v (axis 1) at a depth. */
-export const texelWidth = (view: LightView, axis: 0 | 1, depth: number): number =>
-  (2 * view.half_extent[axis] * (view.perspective ? depth : 1)) / view.size;
+/** World width of a texel along u (axis 0) or v (axis 1) where a point falls. */
+export function texelWidth(view: LightView, axis: 0 | 1, at: MapPoint & { face: number }): number {
+  const f = view.faces[at.face]!;
+  if (f.warp === 0) return (2 * f.half_extent[axis] * (view.perspective ? at.depth : 1)) / view.size;
+  const [near, far] = axis === 0 ? [place(view, at.face, at.u - 0.5, at.v), place(view, at.face, at.u + 0.5, at.v)] : [place(view, at.face, at.u, at.v - 0.5), place(view, at.face, at.u, at.v + 0.5)];
+  return Math.hypot(far[0] - near[0], far[1] - near[1]);
+}
 
 /** How much longer the way along the ray through (u, v) is than its depth. */
 export function alongRay(view: LightView, face: number, u: number, v: number): number {

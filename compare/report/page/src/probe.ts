@@ -26,7 +26,7 @@ function ladder(pixel: Pixel): HTMLElement {
 function facts(light: Light, pixel: Pixel): HTMLElement {
   const rows: [string, string, string][] = [
     ["gap", number(pixel.gap, 6), "world units"],
-    ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length > 1 ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : "u, v"],
+    ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length === 1 ? "u, v" : light.json.view.perspective ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : `u, v in cascade ${pixel.face + 1}`],
     ["distance", number(pixel.distance, 6), light.json.view.perspective ? "from the light" : "along the light, from the map's origin"],
     ["primitive", String(pixel.primitive), ""],
   ];

@@ -1,7 +1,7 @@
 // The scene cut by the plane of light rays through one row or column of the map: exact for spheres and planes, and for triangles
 // up to the rounding of the corners that the page carries (2^-24 of the scene's size).
 import type { Geometry } from "./data";
-import { add, cross, dot, length, project, scaled, sub, texelRay, unit, type LightView, type MapPoint, type Vec3 } from "./light_view";
+import { add, cross, dot, length, place, project, scaled, sub, texelRay, unit, type LightView, type MapPoint, type Vec3 } from "./light_view";
 
 /** A curve in the plane, as map positions with depths; behind a perspective light there is none. */
 export type Curve = MapPoint[];
@@ -18,10 +18,13 @@ export interface Line {
 }
 
 function cutAt(view: LightView, face: number, line: Line): Cut {
-  const f = view.faces[face]!, fixed = line.axis === 0 ? f.up : f.right;
-  const y = ((2 * line.at) / view.size - 1) * view.half_extent[1 - line.axis]!;
-  if (!view.perspective) return { normal: fixed, offset: y };
-  return { normal: unit(add(fixed, f.forward, -y)), offset: 0 };
+  const f = view.faces[face]!, middle = view.size / 2;
+  const [x, y] = line.axis === 0 ? place(view, face, middle, line.at) : place(view, face, line.at, middle);
+  if (view.perspective) return { normal: unit(line.axis === 0 ? add(f.up, f.forward, -y) : add(f.right, f.forward, -x)), offset: 0 };
+  if (line.axis === 0) return { normal: f.up, offset: y };
+  // On a warped face x = c (1 + s y) with both from its centre: still a plane of parallel rays.
+  const c = (x - f.center[0]) / (1 + f.warp * (y - f.center[1])), normal = add(f.right, f.up, -c * f.warp), size = length(normal);
+  return { normal: scaled(normal, 1 / size), offset: (f.center[0] + c * (1 - f.warp * f.center[1])) / size };
 }
 
 const ahead = (view: LightView, point: MapPoint): boolean => !view.perspective || point.depth > 1e-3 * view.near;
@@ -30,7 +33,7 @@ function circle(view: LightView, face: number, axis: 0 | 1, cut: Cut, center: Ve
   const away = dot(cut.normal, sub(center, view.origin)) - cut.offset;
   if (Math.abs(away) >= radius) return [];
   const middle = add(center, cut.normal, -away), r = Math.sqrt(radius * radius - away * away);
-  const f = view.faces[face]!, a = axis === 0 ? f.right : f.up, b = cross(cut.normal, a), bu = scaled(b, 1 / length(b)), curve: Curve = [];
+  const f = view.faces[face]!, a = !view.perspective ? f.forward : axis === 0 ? f.right : f.up, b = cross(cut.normal, a), bu = scaled(b, 1 / length(b)), curve: Curve = [];
   for (let i = 0; i <= 180; ++i) {
     const t = (i * Math.PI) / 90, p = project(view, face, add(add(middle, a, r * Math.cos(t)), bu, r * Math.sin(t)));
     if (ahead(view, p)) curve.push(p);

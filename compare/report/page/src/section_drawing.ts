@@ -76,7 +76,7 @@ function frameFor(light: Light, pixel: Pixel, axis: 0 | 1, from: number, to: num
     const depth = depthAt(light, pixel, axis, k);
     if (isFinite(depth)) widen(depth);
   }
-  const margin = Math.max(0.08 * (high - low), texelWidth(light.json.view, axis, pixel.at.depth));
+  const margin = Math.max(0.08 * (high - low), texelWidth(light.json.view, axis, { ...pixel.at, face: pixel.face }));
   low -= margin;
   high += margin;
   return {
@@ -155,7 +155,7 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
   const clip = `${id}-clip`, x = frame.x(t), y = frame.y(pixel.at.depth);
   const dotSize = Math.round(100 * Math.min(1, Math.max(0.5, Math.sqrt(700 / Math.max(1, dots.length))))) / 100;
   const stretch = ((height - top - bottom) / (frame.high - frame.low)) /
-    ((width - left - right) / ((to - from) * texelWidth(light.json.view, axis, pixel.at.depth)));
+    ((width - left - right) / ((to - from) * texelWidth(light.json.view, axis, { ...pixel.at, face: pixel.face })));
   const drawing = svg("svg", { class: "section", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-labelledby": `${id}-title` },
     svg("title", { id: `${id}-title` }, `Cross-section along ${line} of the map through pixel ${pixel.x}, ${pixel.y}`),
     svg("defs", {}, svg("clipPath", { id: clip }, svg("rect", { x: left, y: top, width: width - left - right, height: height - top - bottom }))),

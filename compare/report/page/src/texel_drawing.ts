@@ -36,7 +36,7 @@ function biasDepth(light: Light, pixel: Pixel, constant: number): number {
 
 function frameFor(light: Light, pixel: Pixel, stored: number, bias: number): Frame {
   const view = light.json.view, [su, sv] = halfSlopes(view, pixel.face, pixel.at, pixel.position, pixel.normal);
-  const axis = sv > su ? 1 : 0, texel = texelWidth(view, axis, pixel.at.depth);
+  const axis = sv > su ? 1 : 0, texel = texelWidth(view, axis, { ...pixel.at, face: pixel.face });
   const room = height - top - bottom, tested = stored + bias;
   const least = Math.min(pixel.at.depth, isFinite(stored) ? stored : Infinity, isFinite(tested) ? tested : Infinity);
   const most = Math.max(pixel.at.depth, isFinite(tested) ? tested : -Infinity, isFinite(stored) ? stored : -Infinity);
@@ -126,7 +126,7 @@ function offScale(frame: Frame, x: number, stored: number, pixel: Pixel): SVGEle
 // Where the normal offset moves the point before it looks up the map.
 function movedPoint(light: Light, frame: Frame, pixel: Pixel): SVGElement {
   const { view, bias } = light.json, ray = texelRay(view, pixel.face, pixel.at.u, pixel.at.v);
-  const widest = Math.max(texelWidth(view, 0, pixel.at.depth), texelWidth(view, 1, pixel.at.depth));
+  const widest = Math.max(...([0, 1] as const).map((k) => texelWidth(view, k, { ...pixel.at, face: pixel.face })));
   const sine = length(cross(pixel.normal, ray.direction));
   const moved = project(view, pixel.face, add(pixel.position, pixel.normal, bias.normal_offset * widest * sine));
   return svg("circle", { class: "moved", cx: frame.x(frame.axis === 0 ? moved.u : moved.v), cy: frame.y(moved.depth), r: 4 });
