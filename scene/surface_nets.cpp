@@ -31,6 +31,7 @@ class Nets {
       for (int k = 0; k <= cells_; ++k)
         for (int j = 0; j <= cells_; ++j)
           for (int i = 0; i <= cells_; ++i) add_quad({i, j, k}, axis);
+    mend_normals();
   }
 
  private:
@@ -105,6 +106,24 @@ class Nets {
     if (!inside(at)) std::swap(quad[1], quad[3]);
     mesh_.triangles.push_back({quad[0], quad[1], quad[2]});
     mesh_.triangles.push_back({quad[0], quad[2], quad[3]});
+  }
+
+  // Where the function's gradient is no guide to the surface (it nearly vanishes, or the corner lies off the
+  // surface by a kink), the triangles' own normal is.
+  void mend_normals() {
+    constexpr float least_agreement = 0.5f;  // cosine
+    std::vector<Vec3> of_triangles(mesh_.positions.size(), Vec3(0.0));
+    for (const auto& t : mesh_.triangles) {
+      const Vec3& a = mesh_.positions[t[0]];
+      const Vec3 area = glm::cross(mesh_.positions[t[1]] - a, mesh_.positions[t[2]] - a);
+      for (const std::uint32_t corner : t) of_triangles[corner] += area;
+    }
+    for (std::size_t i = 0; i < of_triangles.size(); ++i) {
+      const double length = glm::length(of_triangles[i]);
+      if (!(length > 0.0)) continue;
+      const Vec3f flat(of_triangles[i] / length);
+      if (!(glm::dot(mesh_.normals[i], flat) > least_agreement)) mesh_.normals[i] = flat;
+    }
   }
 
   const ShapeGeometry geometry_;

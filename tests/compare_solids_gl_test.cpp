@@ -115,12 +115,13 @@ void expect_right(const Tally& tally, const std::string& what) {
 }
 
 TEST(SolidImpostors, AreWhereTheRaysMeetThem) {
-  raster::RasterOptions options = small_options(64);
-  options.size = {96, 64};
+  raster::RasterOptions options = small_options(48);
+  options.size = {72, 48};
   std::size_t next = 0;
   for (const Shape& solid : solid_samples()) {
-    const bool marched = solid.geometry.index() > 2;  // tori and implicit surfaces meet every kind of light
-    for (std::size_t k = 0; k < (marched ? 3 : 1); ++k) {
+    const bool marched =
+        solid.geometry.index() > 2;  // tori and implicit surfaces meet two kinds of light each
+    for (std::size_t k = 0; k < (marched ? 2 : 1); ++k) {
       const Light light = all_lights()[next++ % 3];
       const Drawn drawn = draw(with_floor(solid, light), options);
       ASSERT_NE(drawn.renderer, nullptr);
@@ -133,10 +134,12 @@ TEST(SolidImpostors, AreWhereTheRaysMeetThem) {
 
 // Culling keeps the first surface that faces away from the light, or towards it.
 TEST(SolidImpostors, CullingChoosesTheSide) {
-  raster::RasterOptions options = small_options(64);
-  options.size = {32, 32};
+  raster::RasterOptions options = small_options(48);
+  options.size = {16, 16};
   for (const Shape& solid : solid_samples())
     for (const raster::Cull cull : {raster::Cull::front, raster::Cull::back}) {
+      const bool every_second = (solid.name.size() % 2 == 0) == (cull == raster::Cull::front);
+      if (!every_second && solid.geometry.index() > 2) continue;           // the marched ones take their time
       if (solid.name == "heart" || solid.name == "double cone") continue;  // singular places of many sides
       options.map.cull = cull;
       const Drawn drawn = draw(with_floor(solid, all_lights()[1]), options);
@@ -177,24 +180,24 @@ TEST(SolidImpostors, CullingChoosesTheSide) {
         }
       // Rims, where a step of 1e-3 may cross another side: a few in a hundred.
       EXPECT_LE(wrong, kept / 50) << solid.name << " of " << kept;
-      EXPECT_GT(kept, 50) << solid.name;
+      EXPECT_GT(kept, 20) << solid.name;
     }
 }
 
 TEST(SolidImpostors, TheShapesSceneDiffersAtEdgesAlone) {
   auto scene = load_scene("shapes");
   ASSERT_TRUE(scene) << scene.error().message();
-  raster::RasterOptions options = small_options(512);
-  options.size = {320, 180};
+  raster::RasterOptions options = small_options(64);
+  options.size = {256, 144};
   const Drawn drawn = draw(std::move(*scene), options);
   ASSERT_NE(drawn.renderer, nullptr);
   const Tracer tracer(*drawn.world, Accel::bvh);
   const View view = drawn.view();
   int silhouettes = 0, inner = 0;
-  for (int y = 0; y < 180; ++y)
-    for (int x = 0; x < 320; ++x) {
+  for (int y = 0; y < 144; ++y)
+    for (int x = 0; x < 256; ++x) {
       const auto hit = tracer.closest_hit(pixel_ray(view, x + 0.5, y + 0.5));
-      if (drawn.frame.primitive.data[static_cast<std::size_t>(y * 320 + x)] == (hit ? hit->primitive : no_id))
+      if (drawn.frame.primitive.data[static_cast<std::size_t>(y * 256 + x)] == (hit ? hit->primitive : no_id))
         continue;
       ++silhouettes;
       std::optional<raytrace::Hit> again;
