@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "raytrace/along_ray.h"
+#include "raytrace/frame.h"
 #include "raytrace/inside.h"
 #include "raytrace/shape_sheets.h"
 #include "raytrace/sheets.h"
@@ -318,6 +319,40 @@ TEST(Solids, VerdictsAgreeWithRaysAndAreSeldomUncertain) {
     EXPECT_LE(unsure, asked / 500) << shape.name << " of " << asked;
     EXPECT_GT(shadowed, 20) << shape.name;
     EXPECT_GT(asked, 500) << shape.name;
+  }
+}
+
+// Frames are traced in packets where that is sure; solids, and spheres seen from within, shadow themselves.
+TEST(Solids, FramesShadowAsSingleRaysDo) {
+  std::vector<Shape> shapes = test::solid_samples();
+  shapes.push_back(test::implicit(
+      "gyroid ball", "max(x^2+y^2+z^2-1, abs(sin(5*x)*cos(5*y)+sin(5*y)*cos(5*z)+sin(5*z)*cos(5*x))-0.4)",
+      {Vec3(-1.01), Vec3(1.01)}));
+  shapes.push_back(test::sphere({0, 0, 3.5}, 4.0));  // about the eye
+  for (const Shape& shape : shapes) {
+    Scene scene = test::scene_of({}, {shape, test::plane({0, -1.2, 0}, {0, 1, 0})});
+    scene.camera.eye = Vec3(0.6, 1.2, 4.0);
+    scene.camera.target = Vec3(0.0, -0.2, 0.0);
+    scene.lights = {test::sun({-0.5, -0.8, -0.6}), test::point_light({1.5, 6.0, 1.0})};
+    const TestWorld w(scene);
+    const Tracer tracer(w.world(), Accel::bvh);
+    RaytraceOptions options;
+    options.size = {100, 70};  // whole tiles and partial ones
+    const std::vector<std::uint32_t> lights{0, 1};
+    const RayTracedFrame frame = trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+    for (std::size_t l = 0; l < 2; ++l) {
+      const Light& light = scene.lights[l];
+      int wrong = 0, dark = 0;
+      for (std::size_t i = 0; i < frame.receiver.data.size(); ++i) {
+        const SurfacePoint& p = frame.receiver.data[i];
+        if (p.primitive == no_id || light_cannot_reach(light, p.position, p.normal)) continue;
+        const Verdict truth = tracer.light_verdict(p, light);
+        dark += truth == Verdict::shadowed ? 1 : 0;
+        wrong += frame.lights[l].verdict.data[i] != truth ? 1 : 0;
+      }
+      EXPECT_EQ(wrong, 0) << shape.name << ", light " << l;
+      EXPECT_GT(dark, 20) << shape.name << ", light " << l;
+    }
   }
 }
 

@@ -188,6 +188,29 @@ void store_verdicts(const TileRect& rect, const std::array<unsigned, tile_packet
 
 }  // namespace
 
+namespace {
+
+/// Whether a shape can be in the way of rays that leave it at this point: a sphere seen from within, a solid
+/// that is not convex.
+bool may_shadow_itself(const ShapeGeometry& geometry, const SurfacePoint& point) {
+  if (std::holds_alternative<Plane>(geometry)) return false;
+  if (const auto* sphere = std::get_if<Sphere>(&geometry))
+    return glm::dot(point.normal, point.position - sphere->center) < 0.0;
+  return !is_convex(geometry) || glm::dot(point.normal, solid_normal(geometry, point.position)) < 0.0;
+}
+
+/// A ray's own primitive is passed over, which is right of what is flat or convex and seen from outside.
+void keep_bent_owners(const World& world, const TileRect& rect, const Image<SurfacePoint>& receivers,
+                      TileRays& rays) {
+  for_each_lane(rect, [&](int x, int y, std::size_t lane) {
+    const SurfacePoint& point = receivers.at(x, y);
+    if (point.primitive == no_id || world.is_triangle(point.primitive)) return;
+    if (may_shadow_itself(world.shape(point.primitive).geometry, point)) rays.own[lane] = no_id;
+  });
+}
+
+}  // namespace
+
 std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
                           const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts) {
   TileRays rays;
@@ -198,6 +221,7 @@ std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& 
                     static_cast<std::size_t>(receivers.size.width), rays, lanes);
   else
     prepare_partial(light, seen, rect, receivers, rays, lanes);
+  if (tracer.structures().has_shapes) keep_bent_owners(tracer.world(), rect, receivers, rays);
   prefetch_right_of(rect, receivers);
   TileShadows shadows;
   shadows_in_tile(tracer.structures().bvh, seen, rays, shadows);
@@ -257,6 +281,7 @@ void shadow_lanes(const Tracer& tracer, const Light& light, const Seen& seen, co
   TileRays rays;
   ShadowLanes lanes;
   prepare_lanes(light, seen, rect, receivers, rays, lanes);
+  if (tracer.structures().has_shapes) keep_bent_owners(tracer.world(), rect, receivers, rays);
   for (std::size_t p = 0; p < tile_packets; ++p) rays.alive[p] &= asked[p];
   TileShadows shadows;
   shadows_in_tile(tracer.structures().bvh, seen, rays, shadows);
