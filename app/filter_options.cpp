@@ -17,6 +17,8 @@ void add_pcf_options(CLI::App& command, raster::FilterOptions& filter) {
              "pcf: N x N texels alike, 2 x 2 bilinear, a disc turned at every pixel, or a sliding square");
   add_number(command, "--filter-radius", filter.radius_texels, {0.001, 64.0}, "texels",
              "pcf: half the kernel's width, of all kernels but hardware; box covers 2 floor(radius) + 1");
+  add_choice(command, "--filter-plane", filter.receiver_plane, switches, "on|off",
+             "pcf, pcss: compare each texel with the receiver's plane at its centre, not with its own depth");
   add_integer(command, "--filter-samples", filter.samples, 1, 1024, "lookups",
               "pcf with the vogel kernel, and pcss: points of the filter");
   add_integer(command, "--blocker-samples", filter.blocker_samples, 1, 1024, "lookups",
@@ -65,6 +67,7 @@ std::string filter_options_text(const raster::FilterOptions& filter) {
   for (const auto& [name, kernel] : kernels)
     if (kernel == filter.kernel) add("--filter-kernel", kernel, plain.kernel, std::string(name));
   number("--filter-radius", &raster::FilterOptions::radius_texels);
+  add("--filter-plane", filter.receiver_plane, plain.receiver_plane, filter.receiver_plane ? "on" : "off");
   integer("--filter-samples", &raster::FilterOptions::samples);
   integer("--blocker-samples", &raster::FilterOptions::blocker_samples);
   number("--search-radius", &raster::FilterOptions::search_radius_texels);

@@ -46,6 +46,9 @@ Expected<void> MomentPass::prepare(const MapJob& job) {
   const int levels = filter.mipmaps ? moment_max_level(filter, job.light.type, job.view.size) + 1 : 1;
   const GLenum format = moment_format(job.options.technique);
   const ImageSize size{side, side};
+  // Converted once, blurred along rows and along columns; mipmaps are not counted.
+  texels_ = size.pixels() * static_cast<std::uint64_t>(job.view.face_count) *
+            (filter.blur_radius_texels > 0 ? 3 : 1);
   const bool same = moments_ && moments_.size() == size && moments_.layers() == job.view.face_count &&
                     moments_.format() == format && moments_.levels() == levels;
   if (same && !faces_.empty()) return {};
@@ -96,12 +99,7 @@ Expected<void> MomentPass::draw(const MapJob& job) {
     gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[face].id());
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
   }
-  const std::uint64_t drawn = moments_.size().pixels() * faces_.size();
-  texels_ = drawn;
-  if (job.options.filter.blur_radius_texels > 0) {
-    blur(**blur_program, job.options.filter.blur_radius_texels);
-    texels_ += 2 * drawn;
-  }
+  if (job.options.filter.blur_radius_texels > 0) blur(**blur_program, job.options.filter.blur_radius_texels);
   if (moments_.levels() > 1) gl->GenerateTextureMipmap(moments_.id());
   return {};
 }

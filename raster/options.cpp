@@ -74,7 +74,8 @@ bool uses_moments(Technique technique) {
 
 MapOptions effective_options(const MapOptions& options) {
   MapOptions out = options;
-  if (options.technique == Technique::pcss) out.bias.receiver_plane = true;
+  const bool filters = options.technique == Technique::pcf || options.technique == Technique::pcss;
+  out.bias.receiver_plane = options.bias.receiver_plane || (filters && options.filter.receiver_plane);
   return out;
 }
 

@@ -65,6 +65,9 @@ struct FilterOptions {
   FilterKernel kernel = FilterKernel::box;  ///< pcf
   /// pcf (box, vogel, optimised): half the kernel's width, texels, in (0, 64]; 1.5 covers 3 texels.
   double radius_texels = 1.5;
+  /// pcf, pcss: compare each texel with the receiver's plane at its centre, as Bias::receiver_plane does for
+  /// one. Off, a kernel shadows every slope that rises by more than the bias over its width.
+  bool receiver_plane = true;
   int samples = 32;          ///< pcf vogel, pcss: taps of the filter, in [1, 1024]
   int blocker_samples = 32;  ///< pcss: taps of the search for blockers, in [1, 1024]
   /// pcss: the search for blockers goes no farther than this, texels, in (0, 1024].
@@ -99,8 +102,8 @@ struct MapOptions {
 /// Draws from filtered moments of the depth: vsm, esm, evsm, msm.
 bool uses_moments(Technique technique);
 
-/// What a technique really does with the options: pcss always compares with the receiver's plane, since a
-/// kernel as wide as a penumbra shadows every slope otherwise.
+/// What a technique really does with the options: FilterOptions::receiver_plane turns Bias::receiver_plane
+/// on.
 MapOptions effective_options(const MapOptions& options);
 
 /// Error (usage): choices that exclude each other, or a value outside its range.

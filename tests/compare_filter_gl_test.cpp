@@ -47,6 +47,8 @@ Scene coaxial_discs() {
 compare::CompareOptions technique_options(Technique technique, ImageSize size, int map_size) {
   compare::CompareOptions options = test_options(size, map_size);
   options.raster.map.technique = technique;
+  options.raster.map.filter.receiver_plane =
+      technique == Technique::pcss;  // pcf: V5 is that of the plain hard test
   options.raster.map.bias.constant = 1.0;
   options.raster.map.bias.unit = raster::BiasUnit::texel;
   return options;

@@ -24,6 +24,7 @@ raster::RasterOptions technique_options(Technique technique) {
   options.map.technique = technique;
   options.map.bias.constant = 1.5;
   options.map.filter.mipmaps = false;
+  options.map.filter.receiver_plane = technique == Technique::pcss;
   return options;
 }
 
@@ -326,6 +327,17 @@ TEST(FilterScenes, CubeEdgesDoNotShow) {
     EXPECT_GT(elsewhere, 0.9f) << int(technique);
     EXPECT_GT(at_edge, elsewhere - 0.03f) << int(technique);
   }
+}
+
+// What blur and moments cost is counted with the map: two floats a texel, and once more for the rows' means.
+TEST(FilterScenes, CostsOfTheFilterAreCounted) {
+  const Drawn hard = draw(lit_still_life(LightType::directional), technique_options(Technique::hard));
+  const Drawn vsm = draw(lit_still_life(LightType::directional), technique_options(Technique::vsm));
+  const std::uint64_t texels = 128 * 128;
+  EXPECT_EQ(hard.frame.map_texels, texels);
+  EXPECT_EQ(hard.frame.map_bytes, 4 * texels);
+  EXPECT_EQ(vsm.frame.map_texels, 4 * texels);
+  EXPECT_EQ(vsm.frame.map_bytes, 4 * texels + 2 * 8 * texels);
 }
 
 /// A world on a device with one light's depth map drawn: the passes without the renderer around them.
