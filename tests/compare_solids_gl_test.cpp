@@ -109,7 +109,7 @@ Tally check_map(const Drawn& drawn, const Tracer& tracer) {
 }
 
 void expect_right(const Tally& tally, const std::string& what) {
-  EXPECT_GT(tally.seen, 1000) << what;
+  EXPECT_GT(tally.seen, 500) << what;
   EXPECT_EQ(tally.wrong_id, 0) << what << " of " << tally.seen;
   EXPECT_EQ(tally.wrong_place, 0) << what << ", worst " << tally.worst;
 }
