@@ -11,14 +11,18 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::pair<std::string_view, raster::Technique> techniques[] = {
-    {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf},
-    {"pcss", raster::Technique::pcss}, {"vsm", raster::Technique::vsm},
-    {"esm", raster::Technique::esm},   {"evsm", raster::Technique::evsm},
-    {"msm", raster::Technique::msm},   {"hybrid", raster::Technique::hybrid}};
+    {"hard", raster::Technique::hard},         {"pcf", raster::Technique::pcf},
+    {"pcss", raster::Technique::pcss},         {"vsm", raster::Technique::vsm},
+    {"esm", raster::Technique::esm},           {"evsm", raster::Technique::evsm},
+    {"msm", raster::Technique::msm},           {"second-depth", raster::Technique::second_depth},
+    {"midpoint", raster::Technique::midpoint}, {"csm", raster::Technique::csm},
+    {"lispsm", raster::Technique::lispsm},     {"cube", raster::Technique::cube},
+    {"izb", raster::Technique::izb},           {"hybrid", raster::Technique::hybrid}};
 constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
     {"d16", raster::DepthFormat::d16},
     {"d24", raster::DepthFormat::d24},
-    {"d32f", raster::DepthFormat::d32f}};
+    {"d32f", raster::DepthFormat::d32f},
+    {"d32f-reversed", raster::DepthFormat::d32f_reversed}};
 constexpr std::pair<std::string_view, raster::Cull> culls[] = {
     {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
 constexpr std::pair<std::string_view, raster::Backend> backends[] = {
@@ -63,6 +67,23 @@ void add_bias_options(CLI::App& command, raster::Bias& bias) {
              "moves the receiver along its normal, scaled by the sine of the light's angle");
   command.add_flag("--receiver-plane", bias.receiver_plane,
                    "compare with the depth of the receiver's plane at the texel's centre [default off]");
+  command.add_flag(
+      "--adaptive-bias", bias.adaptive,
+      "as much bias as the receiver's plane rises up to the texel's centre, and 1e-4 of the scene's "
+      "size; with --bias 0 it stands alone [default off]");
+}
+
+void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
+  add_integer(command, "--cascades", cascades.count, 1, 6, "of technique csm",
+              "slices of the view, one map each");
+  add_number(command, "--cascade-lambda", cascades.lambda, {0.0, 1.0}, "of technique csm",
+             "how the view's depth is split: 0 evenly, 1 evenly in its logarithm");
+  command.add_flag(
+      "--no-snap", [&cascades](std::int64_t) { cascades.snap = false; },
+      "csm: fit each cascade tightly instead of moving it by whole texels; shadows then swim [default off]");
+  command.add_flag("--cascade-fit", cascades.fit_samples,
+                   "csm: fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
+                   "[default off]");
 }
 
 }  // namespace
@@ -101,6 +122,7 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
              "number format of the stored depth");
   add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
   add_filter_options(command, map.filter);
+  add_cascade_options(command, map.cascades);
 }
 
 std::vector<std::string> technique_names() {

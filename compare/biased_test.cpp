@@ -48,11 +48,22 @@ double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, c
   const double stored = record.map.depth[texel];
   if (!holds_caster(view, stored)) return -infinity;
 
-  const double receiver_depth = bias.receiver_plane ? plane_depth(view, key.face(), key.column() + 0.5,
-                                                                  key.row() + 0.5, position, normal)
-                                                    : at.depth;
+  const double centre_v = key.row() + 0.5;
+  const auto plane = [&] {
+    return plane_depth(view, key.face(), key.column() + 0.5, centre_v, position, normal);
+  };
+  const double stored_depth = depth_from_stored(view, key.face(), centre_v, stored);
+  double receiver_depth = at.depth;
+  if (bias.receiver_plane) {
+    const double next = depth_from_stored(view, key.face(), centre_v, stored + record.rounding.stored_step);
+    receiver_depth = plane() - record.rounding.float_world - std::abs(next - stored_depth);
+  }
+  if (bias.adaptive)
+    receiver_depth -= std::max(0.0, at.depth - plane()) + record.rounding.adaptive_epsilon_world;
   const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
-  double gap = (receiver_depth - depth_from_stored(view, key.face(), key.row() + 0.5, stored)) * along_ray;
+  double gap = (receiver_depth - stored_depth) * along_ray;
+  if (const double base = record.rounding.constant_texel_world; base > 0.0)
+    gap -= record.bias_constant_world * (texel_world_size(view, at) / base - 1.0);
   if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, position, normal);
   return gap;
 }

@@ -106,11 +106,13 @@ float flat_rung(const LadderInput& in, const SurfacePoint& receiver, const Texel
 }
 
 // V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
-// doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference.
+// doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
+// does where the map stores the midpoint between two surfaces.
 float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre,
                   raytrace::TexelKey key, float flat) {
   const raster::ShadowMap& map = in.record.map;
   const std::size_t texel = map.texel_index(key.face(), key.column(), key.row());
+  if (in.drawn.options.map.technique == raster::Technique::midpoint) return flat;
   if (in.drawn.options.map.cull != raster::Cull::none &&
       (!centre.hit || map.primitive[texel] != centre.hit->primitive))
     return flat;
@@ -228,7 +230,8 @@ LowerClimb::~LowerClimb() = default;
 
 Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
   Climb out{lower.rungs, lower.sorted};
-  if (in.drawn.options.map.technique == raster::Technique::hybrid)
+  const raster::Technique technique = in.drawn.options.map.technique;
+  if (technique == raster::Technique::hybrid || technique == raster::Technique::izb)
     return climb_without_map(in, std::move(out));
   tbb::parallel_for(std::size_t{0}, lower.outside.size(),
                     [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });

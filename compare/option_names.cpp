@@ -56,6 +56,8 @@ std::string_view depth_format_name(raster::DepthFormat format) {
       return "d24";
     case raster::DepthFormat::d32f:
       return "d32f";
+    case raster::DepthFormat::d32f_reversed:
+      return "d32f-reversed";
   }
   return "unknown";
 }

@@ -47,6 +47,7 @@ void add_setting(Row& row, const Comparison& c, const LightComparison& light) {
   row.emplace_back("bias_slope", number(map.bias.slope));
   row.emplace_back("bias_normal_offset_texels", number(map.bias.normal_offset_texels));
   row.emplace_back("bias_receiver_plane", map.bias.receiver_plane ? "true" : "false");
+  row.emplace_back("bias_adaptive", map.bias.adaptive ? "true" : "false");
   row.emplace_back("texel_world_median", number(light.texel_world[1]));
 }
 

@@ -88,6 +88,23 @@ Json hybrid_json(const raster::ExternalCosts& e) {
            {{"build", times(e.build)}, {"receivers", times(e.receivers_ms)}, {"shadow", times(e.shadow)}}}};
 }
 
+// null for a technique without cascades.
+Json cascades_json(const raster::MapOptions& map, const LightView& view) {
+  if (map.technique != raster::Technique::csm) return nullptr;
+  Json faces = Json::array();
+  for (int i = 0; i < view.face_count; ++i) {
+    const LightFace& face = view.face(i);
+    faces.push_back({{"texel_world", number(texel_world_size(view, i, 1.0))},
+                     {"near", number(face.near_depth)},
+                     {"far", number(face.far_depth)}});
+  }
+  return {{"count", map.cascades.count},
+          {"lambda", number(map.cascades.lambda)},
+          {"snap", map.cascades.snap && !map.cascades.fit_samples},
+          {"fit_samples", map.cascades.fit_samples},
+          {"faces", std::move(faces)}};
+}
+
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
@@ -102,7 +119,12 @@ Json map_json(const Comparison& c, const LightComparison& light) {
               {"constant_texels", texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
               {"slope", number(map.bias.slope)},
               {"normal_offset_texels", number(map.bias.normal_offset_texels)},
-              {"receiver_plane", map.bias.receiver_plane}}},
+              {"receiver_plane", map.bias.receiver_plane},
+              {"adaptive", map.bias.adaptive},
+              {"adaptive_epsilon_world",
+               map.bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}}},
+            {"cascades", cascades_json(map, record.map.view)},
+            {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(map)},
             {"texel_world",
              {{"min", number(light.texel_world[0])},

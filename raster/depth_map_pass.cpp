@@ -16,9 +16,18 @@ GLenum gl_format(DepthFormat format) {
     case DepthFormat::d24:
       return GL_DEPTH_COMPONENT24;
     case DepthFormat::d32f:
+    case DepthFormat::d32f_reversed:
       break;
   }
   return GL_DEPTH_COMPONENT32F;
+}
+
+}  // namespace
+
+namespace {
+
+bool face_warps(const LightView& view) {
+  return view.face(0).warp != 0.0;
 }
 
 }  // namespace
@@ -56,15 +65,15 @@ Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, 
   return {};
 }
 
-void DepthMapPass::set_state(int size, Cull cull) const {
+void DepthMapPass::set_state(const LightView& view, Cull cull) const {
   const Gl& gl = *gl_;
   gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // row 0 of the map is the lowest v
-  gl->Viewport(0, 0, size, size);
+  gl->Viewport(0, 0, view.size, view.size);
   gl->Disable(GL_BLEND);
   gl->Disable(GL_SCISSOR_TEST);
   gl->Enable(GL_DEPTH_TEST);
   gl->DepthMask(GL_TRUE);
-  gl->DepthFunc(GL_LESS);
+  gl->DepthFunc(view.reversed ? GL_GREATER : GL_LESS);
   gl->Enable(GL_DEPTH_CLAMP);  // a caster before the near depth is stored at it rather than cut away
   if (cull == Cull::none) {
     gl->Disable(GL_CULL_FACE);
@@ -75,37 +84,51 @@ void DepthMapPass::set_state(int size, Cull cull) const {
   }
 }
 
-Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull,
-                                  bool with_ids) {
+float DepthMapPass::format_step() const {
+  const int bits = depth_.format() == GL_DEPTH_COMPONENT16 ? 16 : 23;
+  return std::exp2(-static_cast<float>(bits));
+}
+
+Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids,
+                                  const DepthMapPass* first) {
   const Gl& gl = *gl_;
-  const auto opaque = programs_->triangles(with_ids, false);
+  const Drawing drawing{view, cull, with_ids, first != nullptr};
+  const auto program = [&](bool alpha_mask) {
+    return programs_->triangles({.primitive_ids = with_ids,
+                                 .alpha_mask = alpha_mask,
+                                 .peel = drawing.peel,
+                                 .reversed = drawing.peel && view.reversed});
+  };
+  const auto opaque = program(false);
   if (!opaque) return fail(opaque.error());
-  const auto masked = programs_->features().alpha_mask ? programs_->triangles(with_ids, true) : opaque;
+  const auto masked = programs_->features().alpha_mask ? program(true) : opaque;
   if (!masked) return fail(masked.error());
   world.bind();
-  set_state(view.size, cull);
+  set_state(view, cull);
   std::array<GLint, 4> viewport{};
   gl->GetIntegerv(GL_VIEWPORT, viewport.data());
   if (viewport[2] != view.size || viewport[3] != view.size)
     return fail(ErrorKind::graphics, fmt::format("map size: the viewport was cut to {} x {} (got {} texels)",
                                                  viewport[2], viewport[3], view.size));
+  if (first != nullptr) first->bind(shaders::first_layer_unit);
   for (int face = 0; face < view.face_count; ++face) {
+    if (first != nullptr) (*opaque)->set_peel(face, format_step()), (*masked)->set_peel(face, format_step());
     const Face& target = faces_[static_cast<std::size_t>(face)];
     const Framebuffer& framebuffer = with_ids ? target.depth_and_ids : target.depth;
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-    const float clear_depth = shaders::map_clear_depth;
+    const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
     gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
     if (with_ids) gl->ClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &no_id);
     world.draw_triangles(**opaque, **masked, light_clip_from_relative(view, face, world.reference()));
     gl->Disable(GL_CULL_FACE);
-    if (auto ok = draw_shapes(world, view, face, cull, with_ids); !ok) return ok;
+    if (auto ok = draw_shapes(world, drawing, face); !ok) return ok;
     if (cull != Cull::none) gl->Enable(GL_CULL_FACE);
   }
   return {};
 }
 
-Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const LightView& view, int face,
-                                         Cull cull, bool with_ids) {
+Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Drawing& drawing, int face) {
+  const LightView& view = drawing.view;
   const World& world = buffers.world();
   const bool perspective = view.projection == LightProjection::perspective;
   const Projection projection = face_projection(view, face);
@@ -117,7 +140,10 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
     const auto program = programs_->impostor(world, i,
                                              {.camera = false,
                                               .perspective = perspective,
-                                              .primitive_ids = with_ids,
+                                              .warp = face_warps(view),
+                                              .reversed = view.reversed,
+                                              .peel = drawing.peel,
+                                              .primitive_ids = drawing.with_ids,
                                               .alpha_mask = masked && programs_->features().alpha_mask});
     if (!program) return fail(program.error());
     (*program)->use();
@@ -125,7 +151,8 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Ligh
                           shape_in_frame(projection.origin, projection.frame, shape));
     if (is_solid(shape.geometry))
       (*program)->set_solid(solid_from_frame(projection.origin, projection.frame, shape.geometry));
-    (*program)->set_face(face, cull);
+    (*program)->set_face(face, drawing.cull);
+    if (drawing.peel) (*program)->set_peel(face, format_step());
     (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   return {};

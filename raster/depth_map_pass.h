@@ -16,19 +16,27 @@ class DepthMapPass {
   /// Makes (or keeps) the textures. Error (graphics): out of memory.
   Expected<void> prepare(const LightView& view, DepthFormat format, bool with_ids);
   /// Clears and draws every face; the light's block must be bound.
-  Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids);
+  /// With `first`, another map of the same shape: only what lies behind what that one holds.
+  Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids,
+                      const DepthMapPass* first = nullptr);
   /// Reads the last map drawn; primitive ids only if it was drawn with them.
   void read(ShadowMap& map, bool with_ids) const;
   void bind_for_lookup() const;
+  void bind(int unit) const { depth_.bind(unit); }
   std::uint64_t bytes() const;
 
  private:
   struct Face {
     Framebuffer depth, depth_and_ids;
   };
-  Expected<void> draw_shapes(const WorldBuffers& world, const LightView& view, int face, Cull cull,
-                             bool with_ids);
-  void set_state(int size, Cull cull) const;
+  struct Drawing {
+    const LightView& view;
+    Cull cull;
+    bool with_ids, peel;
+  };
+  Expected<void> draw_shapes(const WorldBuffers& world, const Drawing& drawing, int face);
+  float format_step() const;
+  void set_state(const LightView& view, Cull cull) const;
 
   Gl* gl_;
   ProgramCache* programs_;

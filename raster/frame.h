@@ -39,11 +39,24 @@ struct ShadowMap {
 /// before the light.
 double texel_world(const LightView& view, const World& world);
 
+/// What a bias that follows the receiver's plane leaves to rounding, so that a plane does not shadow itself.
+struct BiasRounding {
+  double float_world = 0.0;  ///< of the shaders' floats, world units
+  double stored_step = 0.0;  ///< of the depth format, stored depth
+  /// Bias::adaptive: 1e-4 of the scene's diagonal (Dou et al. 2014).
+  double adaptive_epsilon_world = 0.0;
+  /// Where a map's texels differ in size by design (csm, lispsm) and the constant bias is in texels: the
+  /// texel that the constant was converted with; a lookup's bias is the constant times its own texel over
+  /// this. Else 0.
+  double constant_texel_world = 0.0;
+};
+
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
 /// The images, map.depth and map.primitive are empty unless RasterOptions::analysis.
 struct LightRecord {
   std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
+  BiasRounding rounding;
   double bias_constant_world = 0.0;  ///< the constant bias in world units, after unit conversion
   Image<float> visibility;   ///< what was drawn, in [0, 1]: 1 lit, 0 shadowed (rung V6). Not times n.l
   Image<Vec2f> texel_uv;     ///< the receiver's own map position in texels, before any offset

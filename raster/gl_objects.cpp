@@ -59,6 +59,11 @@ void Texture2D::set_linear_filtering() {
   gl()->TextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
+void Buffer::reserve(std::size_t size) {
+  size_ = size;
+  gl()->NamedBufferData(id(), static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_DRAW);
+}
+
 void Texture2D::bind(int unit) const {
   gl()->BindTextureUnit(static_cast<GLuint>(unit), id());
 }

@@ -59,6 +59,9 @@ class Buffer : public GlObject<GlKind::buffer> {
   void write_one(const T& value) {
     write_bytes(&value, sizeof(T));
   }
+  /// So many bytes, of no particular value.
+  void reserve(std::size_t size);
+  std::size_t size() const { return size_; }
   void bind(GLenum target, int binding) const;
 
  private:

@@ -25,7 +25,7 @@ std::pair<Vec3, Vec3> light_area(const Light& light, const LightView& view) {
 }  // namespace
 
 LightBlock make_light_block(const Light& light, const LightView& view, const MapOptions& map,
-                            double constant_world, const Vec3& reference) {
+                            double constant_world, const BiasRounding& rounding, const Vec3& reference) {
   LightBlock block{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(view.face_count); ++i) {
     block.right[i] = Vec4f(Vec4(view.faces[i].right, 0.0));
@@ -41,6 +41,8 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   const double ramp = std::max(1e-9, std::cos(light.inner_angle) - cos_outer);  // as in scene/light.cpp
   block.direction_and_cos_outer = Vec4f(Vec4(light.direction, cos_outer));
   block.intensity_and_cone = Vec4f(light.intensity, static_cast<float>(1.0 / ramp));
+  block.rounding = Vec4f(Vec4(rounding.float_world, rounding.stored_step, rounding.adaptive_epsilon_world,
+                              rounding.constant_texel_world));
   block.counts = glm::ivec4(view.face_count, 0, 0, 0);
   const auto [u, v] = light_area(light, view);
   block.area_u = Vec4f(Vec4(u, 0.0));

@@ -54,6 +54,15 @@ Expected<void> check_filter(const FilterOptions& f) {
   return {};
 }
 
+Expected<void> check_cascades(const CascadeOptions& cascades) {
+  if (cascades.count < 1 || cascades.count > 6)
+    return fail(usage("cascades", fmt::format("is out of range (got {}, allowed 1 to 6)", cascades.count)));
+  if (!(cascades.lambda >= 0.0 && cascades.lambda <= 1.0))
+    return fail(
+        usage("cascade lambda", fmt::format("is out of range (got {}, allowed 0 to 1)", cascades.lambda)));
+  return {};
+}
+
 Expected<void> check_size(std::string field, std::string_view unit, int size, int limit,
                           std::string_view limit_name) {
   if (size < 1)
@@ -75,13 +84,22 @@ bool uses_moments(Technique technique) {
 MapOptions effective_options(const MapOptions& options) {
   MapOptions out = options;
   const bool filters = options.technique == Technique::pcf || options.technique == Technique::pcss;
-  out.bias.receiver_plane = options.bias.receiver_plane || (filters && options.filter.receiver_plane);
+  out.bias.receiver_plane =
+      options.bias.receiver_plane || (filters && options.filter.receiver_plane && !options.bias.adaptive);
+  if (options.technique == Technique::second_depth) out.cull = Cull::front;
   return out;
 }
 
 Expected<void> check_map_options(const MapOptions& options) {
   if (auto ok = check_bias(options.bias); !ok) return ok;
   if (auto ok = check_filter(options.filter); !ok) return ok;
+  if (auto ok = check_cascades(options.cascades); !ok) return ok;
+  if (options.technique == Technique::second_depth && options.cull == Cull::back)
+    return fail(
+        usage("technique second-depth", "leaves out front faces (got --cull back, allowed none, front)"));
+  if (options.bias.adaptive && uses_moments(options.technique))
+    return fail(
+        usage("adaptive bias", "does not go with vsm, esm, evsm and msm: they compare with no single texel"));
   if (options.bias.receiver_plane && uses_moments(options.technique))
     return fail(usage("receiver plane",
                       "does not go with vsm, esm, evsm and msm: they compare with no single texel"));
@@ -99,12 +117,35 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   return check_map_options(options.map);
 }
 
+bool scales_bias(const MapOptions& map) {
+  return (map.technique == Technique::csm || map.technique == Technique::lispsm) &&
+         map.bias.unit == BiasUnit::texel;
+}
+
 double texel_world(const LightView& view, const World& world) {
   TexelCoordinate at;
   if (!world.finite_bounds.empty()) at = project_to_texel(view, world.finite_bounds.center());
   const LightFace& face = view.face(at.face);
   if (!(at.depth > 0.0)) at.depth = std::sqrt(std::max(0.0, face.near_depth * face.far_depth));
   return texel_world_size(view, at.face, at.depth);
+}
+
+BiasRounding bias_rounding(const MapOptions& map, const LightView& view, const World& world,
+                           const Vec3& reference) {
+  // Vertices, planes and projections are rounded to floats of this size, some eight times over.
+  double reach = glm::length(view.origin - reference);
+  const Aabb& box = world.finite_bounds;
+  if (!box.empty()) reach += glm::length(box.center() - reference) + 0.5 * box.diagonal();
+  for (int i = 0; i < view.face_count; ++i)
+    if (view.projection == LightProjection::orthographic)
+      reach = std::max(reach, glm::length(view.face(i).half_extent));
+  const int bits = map.depth_format == DepthFormat::d16 ? 16 : 24;
+  const double scene = box.empty() ? reach : box.diagonal();
+  const bool by_texel = scales_bias(map);
+  return {.float_world = 8.0 * std::exp2(-24.0) * reach,
+          .stored_step = std::exp2(-bits),
+          .adaptive_epsilon_world = adaptive_epsilon * scene,
+          .constant_texel_world = by_texel ? texel_world(view, world) : 0.0};
 }
 
 double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {

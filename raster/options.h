@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "scene/cascade_fit.h"
 #include "scene/expected.h"
 #include "scene/image.h"
 
@@ -27,7 +28,8 @@ enum class Technique : std::uint8_t {
   izb,
   hybrid
 };
-enum class DepthFormat : std::uint8_t { d16, d24, d32f };
+/// d32f_reversed: 1 near, 0 far, so that a float's fine steps near 0 meet perspective's coarse far end.
+enum class DepthFormat : std::uint8_t { d16, d24, d32f, d32f_reversed };
 /// Which triangles the map leaves out, by their winding as the light sees it; of a shape, which side.
 enum class Cull : std::uint8_t { none, front, back };
 
@@ -49,6 +51,9 @@ struct Bias {
   /// between normal and light) (Holbein 2010).
   double normal_offset_texels = 0.0;
   bool receiver_plane = false;  ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
+  /// Dou et al. 2014, "Adaptive Depth Bias for Shadow Maps": less what the receiver's plane rises towards the
+  /// light between the receiver and the texel's centre, and less adaptive_epsilon of the scene's size.
+  bool adaptive = false;
   bool operator==(const Bias&) const = default;
 };
 
@@ -89,6 +94,9 @@ struct FilterOptions {
   bool operator==(const FilterOptions&) const = default;
 };
 
+/// Of Bias::adaptive, as a share of the scene's diagonal.
+inline constexpr double adaptive_epsilon = 1e-4;
+
 struct MapOptions {
   Technique technique = Technique::hard;
   int size = 1024;  ///< texels on a side, >= 1, at most the context's limit
@@ -96,14 +104,22 @@ struct MapOptions {
   Cull cull = Cull::none;
   Bias bias;
   FilterOptions filter;
+  CascadeOptions cascades;  ///< csm
   bool operator==(const MapOptions&) const = default;
 };
+
+/// Whether the technique has a map for such a light: csm and lispsm are for directional ones, cube for point
+/// lights.
+bool has_map_for(Technique technique, LightType type);
+
+/// A bias in texels is taken by the texel looked up, not by the texel at the scene's centre: csm and lispsm.
+bool scales_bias(const MapOptions& map);
 
 /// Draws from filtered moments of the depth: vsm, esm, evsm, msm.
 bool uses_moments(Technique technique);
 
 /// What a technique really does with the options: FilterOptions::receiver_plane turns Bias::receiver_plane
-/// on.
+/// on, unless the adaptive bias is asked for; second-depth culls front faces.
 MapOptions effective_options(const MapOptions& options);
 
 /// Error (usage): choices that exclude each other, or a value outside its range.

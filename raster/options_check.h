@@ -10,6 +10,9 @@ namespace gnomon::raster {
 /// limit.
 Expected<void> check_options(const RasterOptions& options, const ContextInfo& context);
 
+BiasRounding bias_rounding(const MapOptions& map, const LightView& view, const World& world,
+                           const Vec3& reference);
+
 /// The constant bias in world units (texel_world() says how wide a texel is).
 double constant_bias_world(const Bias& bias, const LightView& view, const World& world);
 

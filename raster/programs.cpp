@@ -57,11 +57,13 @@ Expected<TriangleProgram> TriangleProgram::link(const Gl& gl, const Permutation&
   const auto defines = Defines()
                            .add(p.primitive_ids, "PRIMITIVE_IDS")
                            .add(p.alpha_mask, "ALPHA_MASK")
-                           .add(p.textures && p.alpha_mask, "TEXTURES");
-  const bool has_fragments = p.primitive_ids || p.alpha_mask;
+                           .add(p.textures && p.alpha_mask, "TEXTURES")
+                           .add(p.peel, "PEEL")
+                           .add(p.reversed, "REVERSED");
+  const bool has_fragments = p.primitive_ids || p.alpha_mask || p.peel;
   auto program = typed<TriangleProgram>(
       Program::link(gl, "triangle.vert", has_fragments ? "triangle.frag" : "", defines));
-  if (program) program->reads_primitive_ = has_fragments;
+  if (program) program->reads_primitive_ = p.primitive_ids || p.alpha_mask;
   return program;
 }
 
@@ -73,6 +75,14 @@ void TriangleProgram::set_clip_from_relative(const Mat4& matrix) const {
 
 void TriangleProgram::set_first_primitive(std::uint32_t primitive) const {
   if (reads_primitive_) gl()->ProgramUniform1ui(id(), shaders::first_primitive_uniform, primitive);
+}
+
+void TriangleProgram::set_peel(int face, float step) const {
+  gl()->ProgramUniform2f(id(), shaders::peel_uniform, static_cast<float>(face), step);
+}
+
+void ImpostorProgram::set_peel(int face, float step) const {
+  gl()->ProgramUniform2f(id(), shaders::peel_uniform, static_cast<float>(face), step);
 }
 
 ImpostorKind impostor_kind(const Shape& shape) {
@@ -92,6 +102,9 @@ Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation&
                            .add(implicit, "IMPLICIT")
                            .add(implicit, text)
                            .add(p.perspective, "PERSPECTIVE")
+                           .add(p.warp, "WARP")
+                           .add(p.reversed, "REVERSED")
+                           .add(p.peel, "PEEL")
                            .add(p.primitive_ids, "PRIMITIVE_IDS")
                            .add(p.alpha_mask, "ALPHA_MASK")
                            .add(p.textures && p.alpha_mask, "TEXTURES");
@@ -165,7 +178,11 @@ Expected<const Value*> find_or_link(std::map<Key, Value>& cache, const std::type
 }  // namespace
 
 Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, bool alpha_mask) {
-  const TriangleProgram::Permutation key{primitive_ids, alpha_mask, features_.textures};
+  return triangles({.primitive_ids = primitive_ids, .alpha_mask = alpha_mask});
+}
+
+Expected<const TriangleProgram*> ProgramCache::triangles(TriangleProgram::Permutation key) {
+  key.textures = features_.textures;
   return find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
 }
 

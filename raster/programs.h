@@ -21,7 +21,7 @@ namespace gnomon::raster {
 struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
   bool quadrics = false, tori = false;
-  FunctionTable functions;  ///< of the implicit surfaces
+  FunctionTable functions{};  ///< of the implicit surfaces
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 
@@ -31,13 +31,16 @@ class TriangleProgram : public Program {
   struct Permutation {
     bool primitive_ids = false;
     bool alpha_mask = false;
-    bool textures = false;  ///< of the alpha mask
+    bool textures = false;                ///< of the alpha mask
+    bool peel = false, reversed = false;  ///< only what lies behind a map's first layer
     auto operator<=>(const Permutation&) const = default;
   };
   static Expected<TriangleProgram> link(const Gl& gl, const Permutation& permutation);
   void set_clip_from_relative(const Mat4& matrix) const;
   /// The primitive id of the next draw call's first triangle.
   void set_first_primitive(std::uint32_t primitive) const;
+  /// Of a program that peels: the face of the first layer, and a step of its number format.
+  void set_peel(int face, float step) const;
 
  private:
   bool reads_primitive_ = false;
@@ -55,7 +58,9 @@ class ImpostorProgram : public Program {
     ImpostorKind kind = ImpostorKind::plane;
     std::uint32_t function = 0;  ///< of an implicit surface
     bool perspective = false;
-    bool primitive_ids = false;  ///< always in the camera's pass
+    bool warp = false, reversed = false;  ///< of a map (light_map.glsl)
+    bool peel = false;                    ///< only what lies behind a map's first layer
+    bool primitive_ids = false;           ///< always in the camera's pass
     bool alpha_mask = false;
     bool textures = false;
     auto operator<=>(const Permutation&) const = default;
@@ -68,6 +73,7 @@ class ImpostorProgram : public Program {
   void set_solid(const Mat4& solid_from_frame) const;
   /// Of a map.
   void set_face(int face, Cull cull) const;
+  void set_peel(int face, float step) const;
 };
 
 /// One light's share of the picture.
@@ -89,6 +95,8 @@ class ProgramCache {
   ProgramCache(const Gl& gl, const SceneFeatures& features) : gl_(&gl), features_(features) {}
   const SceneFeatures& features() const { return features_; }
   Expected<const TriangleProgram*> triangles(bool primitive_ids, bool alpha_mask);
+  /// `permutation.textures` is filled in here.
+  Expected<const TriangleProgram*> triangles(TriangleProgram::Permutation permutation);
   /// For the world's i-th shape; `permutation.textures`, `kind` and `function` are filled in here.
   Expected<const ImpostorProgram*> impostor(const World& world, std::size_t shape,
                                             ImpostorProgram::Permutation permutation);

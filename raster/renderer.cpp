@@ -12,6 +12,7 @@
 #include "raster/depth_map_pass.h"
 #include "raster/external_pass.h"
 #include "raster/light_block.h"
+#include "raster/map_shape.h"
 #include "raster/options_check.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"
@@ -52,10 +53,12 @@ class GlRenderer final : public Renderer {
   Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
   Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
   Expected<void> draw_map(const MapJob& map, bool with_ids);
-  Expected<void> time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record);
+  Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
+  Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
   Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
   Expected<void> see(const Job& job, const VisibilityRequest* request);
-  Expected<void> shade(Job& job, const VisibilityRequest& request, LightRecord* record);
+  Expected<void> shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
+                       LightRecord* record);
   Expected<void> shade_without_light(Job& job);
   Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass);
   void restore_state() const;
@@ -91,6 +94,7 @@ ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bo
   p.normal_offset = map.bias.normal_offset_texels > 0.0;
   p.receiver_plane = map.bias.receiver_plane;
   p.technique = technique_shader(map, light);
+  for (std::string& define : map_defines(map)) p.technique.defines.push_back(std::move(define));
   return p;
 }
 
@@ -179,29 +183,35 @@ Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function
 
 Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {
   const Light& light = world_->scene->lights[index];
-  const MapOptions& map = job.options.map;
-  const auto view = fit_light_view(*world_, light, world_->scene->camera,
-                                   double(job.options.size.width) / job.options.size.height, map.size);
+  MapOptions map = job.options.map;
+  if (record != nullptr) {
+    if (auto ok = check_light(map.technique, light); !ok) return ok;
+  } else if (!has_map_for(map.technique, light.type)) {
+    map.technique = Technique::hard;  // lights the picture, and is not compared
+  }
+  const auto view = fit(job, light, map);
   if (!view) return fail(view.error());
   const double constant = constant_bias_world(map.bias, *view, *world_);
-  light_block_.write_one(make_light_block(light, *view, map, constant, buffers_.reference()));
+  const BiasRounding rounding = bias_rounding(map, *view, *world_, buffers_.reference());
+  light_block_.write_one(make_light_block(light, *view, map, constant, rounding, buffers_.reference()));
   light_block_.bind(GL_UNIFORM_BUFFER, shaders::light_block);
   if (record != nullptr) {
     record->light = index;
     record->bias_constant_world = constant;
+    record->rounding = rounding;
     record->map.view = *view;
     record->map.format = map.depth_format;
   }
-  const MapJob map_job{buffers_, light, *view, map_pass_, map};
+  const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
   const VisibilityRequest request{index, *view, job.view, job.options.shadow_samples, job.options.seed};
   const bool with_ids = record != nullptr && job.options.analysis;
   if (map.technique == Technique::hybrid) {
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
-    if (!with_ids) return shade(job, request, record);
+    if (!with_ids) return shade(job, map_job, request, record);
   }
   if (auto ok = prepare_maps(job, map_job, with_ids); !ok) return ok;
   if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
-  return shade(job, request, record);
+  return shade(job, map_job, request, record);
 }
 
 // The comparison's rungs below V6 are those of a depth map, which is drawn for them alone.
@@ -215,6 +225,17 @@ Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& r
   return external_.prepare(request, false);
 }
 
+// The surfaces that the camera sees are read back where the technique fits its map to them.
+Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptions& map) {
+  std::vector<Vec3> visible;
+  if (fits_to_samples(map)) {
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return fail(ok.error());
+    job.visibility_drawn = true;
+    visible = shading_.read_positions(*world_, job.view);
+  }
+  return fit_map(*world_, light, double(job.options.size.width) / job.options.size.height, map, visible);
+}
+
 Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {
   if (technique_ != map.options.technique) {
     technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
@@ -222,8 +243,9 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_i
   }
   if (auto ok = map_pass_.prepare(map.view, map.options.depth_format, with_ids); !ok) return ok;
   if (map.options.technique == Technique::hybrid) return {};  // drawn for the records alone
-  job.frame.map_texels += texels_of(map.view);
-  std::uint64_t bytes = map_pass_.bytes();
+  const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
+  if (!replaced) job.frame.map_texels += texels_of(map.view);
+  std::uint64_t bytes = replaced ? 0 : map_pass_.bytes();
   if (technique_pass_ != nullptr) {
     if (auto ok = technique_pass_->prepare(map); !ok) return ok;
     job.frame.map_texels += technique_pass_->texels();
@@ -234,18 +256,31 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_i
 }
 
 Expected<void> GlRenderer::draw_map(const MapJob& map, bool with_ids) {
-  auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, with_ids);
-  return ok && technique_pass_ != nullptr ? technique_pass_->draw(map) : ok;
+  const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
+  if (!replaced || with_ids) {
+    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, with_ids); !ok) return ok;
+  }
+  return technique_pass_ != nullptr ? technique_pass_->draw(map) : Expected<void>{};
 }
 
-Expected<void> GlRenderer::time_and_draw_map(const Job& job, const MapJob& map, LightRecord* record) {
+Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
+  if (technique_pass_ != nullptr && technique_pass_->replaces_map() && !job.visibility_drawn) {
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    job.visibility_drawn = true;
+  }
   if (record != nullptr && map.options.technique != Technique::hybrid) {
-    auto ok = time_pass(job.options.runs, record->map_pass, [&] { return draw_map(map, false); });
+    auto ok = time_pass(job.options.runs, record->map_pass, [&]() -> Expected<void> {
+      if (fits_to_samples(map.options)) {
+        if (auto fitted = fit(job, map.light, map.options); !fitted) return fail(fitted.error());
+      }
+      return draw_map(map, false);
+    });
     if (!ok) return ok;
   }
   const bool with_ids = record != nullptr && job.options.analysis;
   if (auto ok = draw_map(map, with_ids); !ok) return ok;
   if (with_ids) map_pass_.read(record->map, true);
+  if (with_ids && technique_pass_ != nullptr) technique_pass_->read(record->map);
   return gl_->check("drawing the shadow map");
 }
 
@@ -258,9 +293,10 @@ Expected<void> GlRenderer::see(const Job& job, const VisibilityRequest* request)
   return {};
 }
 
-Expected<void> GlRenderer::shade(Job& job, const VisibilityRequest& request, LightRecord* record) {
-  const Light& light = world_->scene->lights[request.light];
-  const MapOptions& map = job.options.map;
+Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
+                                 LightRecord* record) {
+  const Light& light = map_job.light;
+  const MapOptions& map = map_job.options;
   const VisibilityRequest* asked = map.technique == Technique::hybrid ? &request : nullptr;
   const bool records = record != nullptr && job.options.analysis;
   if (asked == nullptr || records) map_pass_.bind_for_lookup();

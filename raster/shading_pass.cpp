@@ -168,9 +168,29 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   return {};
 }
 
+void ShadingPass::bind_visibility() const {
+  visibility_.bind(shaders::visibility_unit);
+}
+
 void ShadingPass::read_color(ColorImage& out) const {
   out = ColorImage(size_);
   color_.read(GL_RGB, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
+}
+
+std::vector<Vec3> ShadingPass::read_positions(const World& world, const View& view) const {
+  Image<float> depth(size_);
+  depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(depth.data)));
+  const double near = near_distance(world, view.eye);
+  std::vector<Vec3> positions;
+  for (int y = 0; y < size_.height; ++y) {
+    for (int x = 0; x < size_.width; ++x) {
+      const double stored = depth.at(x, y);
+      if (!(stored > 0.0)) continue;
+      const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+      positions.push_back(ray.at(near / stored / glm::dot(ray.direction, view.forward)));
+    }
+  }
+  return positions;
 }
 
 void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {

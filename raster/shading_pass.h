@@ -20,7 +20,11 @@ class ShadingPass {
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
 
+  void bind_visibility() const;
+  ImageSize size() const { return size_; }
   void read_color(ColorImage& out) const;
+  /// Of everything that the visibility buffer shows, in world space.
+  std::vector<Vec3> read_positions(const World& world, const View& view) const;
   void read_primitives(Image<std::uint32_t>& out) const;
   /// What the last light drawn with ShadePermutation::records wrote.
   void read_records(LightRecord& record) const;

@@ -115,6 +115,12 @@ Projection face_projection(const LightView& view, int face) {
 
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere_bounds(projection, *sphere);
+  if (is_solid(shape.geometry) && projection.frame.warp != 0.0) {
+    const Vec3 d = solid_center(shape.geometry) - projection.origin;
+    return warped_bounds(projection,
+                         Vec2(glm::dot(d, projection.frame.right), glm::dot(d, projection.frame.up)),
+                         0.5 * local_box(shape.geometry).diagonal());
+  }
   if (is_solid(shape.geometry)) return solid_bounds(projection, shape.geometry);
   return plane_bounds(projection, std::get<Plane>(shape.geometry));
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "raster/izb_pass.h"
+#include "raster/midpoint_pass.h"
 #include "raster/moment_pass.h"
 #include "raster/technique_pass.h"
 #include "raster/technique_shader.h"
@@ -87,6 +89,8 @@ TechniqueShader technique_shader(const MapOptions& options, const Light& light) 
       return moment_technique("msm", options, light);
     case Technique::hybrid:
       return {"external", {"EXTERNAL"}};
+    case Technique::izb:
+      return {"izb", {}};
     default:
       return {};  // the hard test
   }
@@ -94,6 +98,8 @@ TechniqueShader technique_shader(const MapOptions& options, const Light& light) 
 
 std::unique_ptr<TechniquePass> make_technique_pass(Gl& gl, ProgramCache& programs, Technique technique) {
   if (uses_moments(technique)) return std::make_unique<MomentPass>(gl, programs);
+  if (technique == Technique::midpoint) return std::make_unique<MidpointPass>(gl, programs);
+  if (technique == Technique::izb) return std::make_unique<IzbPass>(gl, programs);
   return nullptr;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "raster/depth_map_pass.h"
+#include "raster/shading_pass.h"
 
 namespace gnomon::raster {
 
@@ -16,6 +17,9 @@ struct MapJob {
   const LightView& view;
   const DepthMapPass& map;  ///< drawn already in draw()
   const MapOptions& options;
+  /// For a technique that asks for the visibility buffer, which is drawn then.
+  const View* camera = nullptr;
+  const ShadingPass* camera_pass = nullptr;
 };
 
 /// What a technique draws between the depth map and the shading; counted and timed as part of the map.
@@ -28,8 +32,12 @@ class TechniquePass {
   /// Makes (or keeps) what it needs. Error (graphics): out of memory.
   virtual Expected<void> prepare(const MapJob& job) = 0;
   virtual Expected<void> draw(const MapJob& job) = 0;
+  /// It needs the visibility buffer, and no depth map: that is drawn for the records alone.
+  virtual bool replaces_map() const { return false; }
   /// Binds what the technique's shader reads besides the depth map.
   virtual void bind_for_lookup() const = 0;
+  /// Puts into the map read back what the shader looks up in its place.
+  virtual void read(ShadowMap&) const {}
   virtual std::uint64_t texels() const = 0;  ///< drawn by draw()
   virtual std::uint64_t bytes() const = 0;   ///< device memory held
 };

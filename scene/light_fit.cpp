@@ -5,29 +5,15 @@
 #include <array>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/light_view.h"
+#include "scene/light_fit_parts.h"
 #include "scene/solid.h"
 
 namespace gnomon {
 namespace {
 
-struct Rect {
-  Vec2 min{infinity}, max{-infinity};
-  void grow(const Vec2& p) { min = glm::min(min, p), max = glm::max(max, p); }
-  bool empty() const { return !(min.x <= max.x && min.y <= max.y); }
-  bool overlaps(const Rect& o) const {
-    return min.x <= o.max.x && o.min.x <= max.x && min.y <= o.max.y && o.min.y <= max.y;
-  }
-};
-
-LightFace face_along(const Vec3& forward) {
-  const Vec3 hint = std::abs(forward.y) < 0.999 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, -1.0);
-  const Vec3 right = glm::normalize(glm::cross(forward, hint));
-  LightFace face;
-  face.right = right, face.up = glm::cross(right, forward), face.forward = forward;
-  return face;
-}
+using light_fit::face_along;
+using light_fit::Rect;
+using light_fit::to_light_space;
 
 std::array<LightFace, 6> cube_faces() {
   const auto face = [](Vec3 forward, Vec3 up) {
@@ -37,10 +23,6 @@ std::array<LightFace, 6> cube_faces() {
   };
   return {face({1, 0, 0}, {0, 1, 0}),  face({-1, 0, 0}, {0, 1, 0}), face({0, 1, 0}, {0, 0, 1}),
           face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
-}
-
-Vec3 to_light_space(const LightFace& f, const Vec3& d) {
-  return {glm::dot(f.right, d), glm::dot(f.up, d), glm::dot(f.forward, d)};
 }
 
 // Sutherland-Hodgman against one side: keeps sign * p[axis] <= sign * bound.
@@ -84,30 +66,18 @@ Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference
     const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
     corners.push_back(Vec2(to_light_space(face, view.eye + reach * d - reference)));
   }
-  std::vector<Vec2> polygon = convex_hull(corners);
-  for (int axis = 0; axis < 2; ++axis) {
-    polygon = clip_side(polygon, axis, rect.max[axis], 1.0);
-    polygon = clip_side(polygon, axis, rect.min[axis], -1.0);
-  }
   Rect out;
-  for (const Vec2& p : polygon) out.grow(p);
+  for (const Vec2& p : light_fit::hull_in_rect(std::move(corners), rect)) out.grow(p);
   return out.empty() ? rect : out;
 }
 
 double view_reach(const World& world, const View& view) {
-  double reach = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p((corner & 1) ? world.finite_bounds.max.x : world.finite_bounds.min.x,
-                 (corner & 2) ? world.finite_bounds.max.y : world.finite_bounds.min.y,
-                 (corner & 4) ? world.finite_bounds.max.z : world.finite_bounds.min.z);
-    reach = std::max(reach, glm::dot(p - view.eye, view.forward));
-  }
   const bool has_plane = std::any_of(world.shapes.begin(), world.shapes.end(), [](const Shape& s) {
     return std::holds_alternative<Plane>(s.geometry);
   });
   const double far_away =
       1e4 * (world.finite_bounds.diagonal() + glm::length(world.finite_bounds.center() - view.eye));
-  return has_plane ? far_away : reach;
+  return has_plane ? far_away : light_fit::finite_reach(world, view);
 }
 
 // Calls use(rect, z_min, z_max) for the light-space extent of every finite primitive.
@@ -159,8 +129,7 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   const Vec3 reference = finite ? world.finite_bounds.center() : view.eye;
   Rect rect;
   if (finite) {
-    for_each_extent(world, face, reference,
-                    [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
+    rect = light_fit::casters_rect(world, face, reference);
     rect = visible_part(rect, face, reference, view, view_reach(world, view));
   } else {
     rect = visible_plane_part(world, face, reference, view);
@@ -168,23 +137,7 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   if (rect.empty())
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the camera sees no surface");
 
-  Interval z{infinity, -infinity};
-  for_each_extent(world, face, reference, [&](const Rect& r, double z_min, double z_max) {
-    if (!r.overlaps(rect)) return;
-    z.min = std::min(z.min, z_min), z.max = std::max(z.max, z_max);
-  });
-  for (const Shape& shape : world.shapes) {
-    const auto* plane = std::get_if<Plane>(&shape.geometry);
-    if (plane == nullptr) continue;
-    const Vec3 n = to_light_space(face, plane->normal);
-    if (std::abs(n.z) < 1e-6) continue;  // edge-on: the light travels along the plane
-    const double offset = glm::dot(plane->normal, plane->point - reference);
-    for (const Vec2 c : {rect.min, rect.max, Vec2(rect.min.x, rect.max.y), Vec2(rect.max.x, rect.min.y)}) {
-      const double depth = (offset - n.x * c.x - n.y * c.y) / n.z;
-      z.min = std::min(z.min, depth), z.max = std::max(z.max, depth);
-    }
-  }
-
+  const Interval z = light_fit::depths_over(world, face, reference, rect, rect);
   // One texel of margin on each side, so that no caster's silhouette falls on the border.
   const double widest = std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
   const Vec2 half =
@@ -277,6 +230,73 @@ void fit_depth(const World& world, const Vec2& half_extent, LightView& view) {
 }
 
 }  // namespace
+
+namespace light_fit {
+
+LightFace face_along(const Vec3& forward, const Vec3& hint) {
+  LightFace face;
+  face.right = glm::normalize(glm::cross(forward, hint));
+  face.up = glm::cross(face.right, forward), face.forward = forward;
+  return face;
+}
+
+LightFace face_along(const Vec3& forward) {
+  return face_along(forward, std::abs(forward.y) < 0.999 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, -1.0));
+}
+
+Vec3 to_light_space(const LightFace& f, const Vec3& d) {
+  return {glm::dot(f.right, d), glm::dot(f.up, d), glm::dot(f.forward, d)};
+}
+
+Rect casters_rect(const World& world, const LightFace& face, const Vec3& reference) {
+  Rect rect;
+  for_each_extent(world, face, reference,
+                  [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
+  return rect;
+}
+
+Interval depths_over(const World& world, const LightFace& face, const Vec3& reference, const Rect& casters,
+                     const Rect& rect) {
+  Interval z{infinity, -infinity};
+  for_each_extent(world, face, reference, [&](const Rect& r, double z_min, double z_max) {
+    if (!r.overlaps(casters)) return;
+    z.min = std::min(z.min, z_min), z.max = std::max(z.max, z_max);
+  });
+  for (const Shape& shape : world.shapes) {
+    const auto* plane = std::get_if<Plane>(&shape.geometry);
+    if (plane == nullptr) continue;
+    const Vec3 n = to_light_space(face, plane->normal);
+    if (std::abs(n.z) < 1e-6) continue;  // edge-on: the light travels along the plane
+    const double offset = glm::dot(plane->normal, plane->point - reference);
+    for (const Vec2 c : {rect.min, rect.max, Vec2(rect.min.x, rect.max.y), Vec2(rect.max.x, rect.min.y)}) {
+      const double depth = (offset - n.x * c.x - n.y * c.y) / n.z;
+      z.min = std::min(z.min, depth), z.max = std::max(z.max, depth);
+    }
+  }
+  return z;
+}
+
+std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect) {
+  std::vector<Vec2> polygon = convex_hull(std::move(points));
+  for (int axis = 0; axis < 2; ++axis) {
+    polygon = clip_side(polygon, axis, rect.max[axis], 1.0);
+    polygon = clip_side(polygon, axis, rect.min[axis], -1.0);
+  }
+  return polygon;
+}
+
+double finite_reach(const World& world, const View& view) {
+  double reach = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) ? world.finite_bounds.max.x : world.finite_bounds.min.x,
+                 (corner & 2) ? world.finite_bounds.max.y : world.finite_bounds.min.y,
+                 (corner & 4) ? world.finite_bounds.max.z : world.finite_bounds.min.z);
+    reach = std::max(reach, glm::dot(p - view.eye, view.forward));
+  }
+  return reach;
+}
+
+}  // namespace light_fit
 
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
                                    double aspect, int size) {

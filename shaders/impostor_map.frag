@@ -18,6 +18,9 @@ layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // l
 #ifdef ALPHA_MASK
 #include "material.glsl"
 #endif
+#ifdef PEEL
+#include "peel.glsl"
+#endif
 #ifdef PRIMITIVE_IDS
 layout(location = 0) out uint primitive_id;
 #endif
@@ -45,6 +48,9 @@ bool usable(TexelRay ray, float t) {
   if (!(t > 0.0)) return false;
 #endif
   if (isnan(t) || isinf(t)) return false;
+#ifdef PEEL
+  if (!lies_behind(clamp(stored_from_depth(ivec3(gl_FragCoord.xy, face), t), 0.0, 1.0))) return false;
+#endif
 #ifdef ALPHA_MASK
   ShapeData shape = shapes[shape_index];
   vec3 p = ray.origin + t * ray.direction;

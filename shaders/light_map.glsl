@@ -13,6 +13,8 @@ layout(std140, binding = light_block) uniform Light {
   vec4 bias;                     // constant (world units), slope (multiples), normal offset (texels)
   vec4 direction_and_cos_outer;  // the way the light travels
   vec4 intensity_and_cone;       // w: 1 / (cos inner - cos outer)
+  vec4 rounding;                 // of floats (world units), of stored depth (a step), epsilon of the adaptive bias;
+                                 // texel of the constant bias (TEXEL_BIAS)
   ivec4 counts;                  // faces
   vec4 area_u;                   // a light with size: two vectors from its centre that span it (raster/light_block.cpp)
   vec4 area_v;

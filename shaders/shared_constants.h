@@ -10,6 +10,7 @@ namespace gnomon::shaders {
 // Uniform blocks
 const int camera_block = 0;
 const int light_block = 1;
+const int izb_block = 2;
 
 // Uniforms of one draw call
 const int clip_from_relative_uniform = 0;
@@ -24,6 +25,8 @@ const int viewport_uniform = 0;
 const int layer_uniform = 0;
 const int step_uniform = 1;
 const int blur_radius_uniform = 2;
+const int peel_uniform = 5;
+const int triangle_count_uniform = 6;
 
 // Shader storage buffers
 const int positions_buffer = 0;
@@ -34,6 +37,16 @@ const int planes_buffer = 4;
 const int shapes_buffer = 5;
 const int materials_buffer = 6;
 const int textures_buffer = 7;
+const int izb_vertices_buffer = 8;
+const int izb_shapes_buffer = 9;
+const int izb_points_buffer = 10;
+const int izb_normals_buffer = 11;
+const int izb_errors_buffer = 12;
+const int izb_links_buffer = 13;
+const int izb_shadows_buffer = 14;
+
+// Images
+const int izb_heads_image = 0;
 
 // Texture units
 const int visibility_unit = 0;
@@ -42,6 +55,8 @@ const int texel_pages_unit = 2;
 const int present_unit = 3;
 const int moments_unit = 4;
 const int external_visibility_unit = 15;
+const int first_layer_unit = 8;   // midpoint maps
+const int second_layer_unit = 9;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -34,8 +34,10 @@ struct Tap {
 
 // The receiver's depth seen from a texel's centre so many texels away.
 float receiver_depth(Comparison c, vec2 offset_texels) {
-#ifdef RECEIVER_PLANE
+#if defined(RECEIVER_PLANE)
   return plane_depth(c.at, c.n, offset_texels);
+#elif defined(ADAPTIVE_BIAS)
+  return c.at.local.z - max(0.0, c.at.local.z - plane_depth(c.at, c.n, offset_texels)) - light.rounding.z;
 #else
   return c.at.local.z;
 #endif

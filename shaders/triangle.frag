@@ -1,11 +1,14 @@
 // Primitive ids of the camera's pass and of the depth map's analysis pass (PRIMITIVE_IDS), holes of alpha-masked
-// materials (ALPHA_MASK). Without either, the depth pass needs no fragment shader.
+// materials (ALPHA_MASK), only what lies behind a map's first layer (PEEL). Without any, the depth pass needs no fragment shader.
 #include "shared_constants.h"
 
 layout(location = first_primitive_uniform) uniform uint first_primitive;
 
 #ifdef PRIMITIVE_IDS
 layout(location = 0) out uint primitive_id;
+#endif
+#ifdef PEEL
+#include "peel.glsl"
 #endif
 #ifdef ALPHA_MASK
 #include "material.glsl"
@@ -18,6 +21,9 @@ in vec2 vertex_uv;
 #endif
 
 void main() {
+#ifdef PEEL
+  if (!lies_behind(clamp(gl_FragCoord.z, 0.0, 1.0))) discard;
+#endif
   uint primitive = first_primitive + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
   if (is_hole(materials[triangles[primitive].material], vertex_uv)) discard;

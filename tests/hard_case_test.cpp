@@ -18,6 +18,10 @@ bool run_with(const Case& which, raytrace::Precision precision) {
   bool ok = true;
   const Options options{.rays = 10000, .seed = 1, .precision = precision};
   for (const Row& row : run_case(which, options)) {
+    if (!row.skipped.empty()) {
+      fmt::print("{} {}: skipped: {}\n", raytrace::precision_name(precision), row.name, row.skipped);
+      continue;
+    }
     fmt::print("{} {}: tried {}, wrong {}, worst {:.3g} {} (bound {:.3g}){}\n",
                raytrace::precision_name(precision), row.name, row.outcome.tried, row.outcome.wrong,
                row.outcome.worst, row.unit, row.bound, row.ok() ? "" : " FALLS SHORT");

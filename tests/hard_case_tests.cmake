@@ -4,8 +4,9 @@ set(hard_cases
   08_direction_length 09_steep_plane 10_slab_faces 11_slab_corners 12_invalid_rays 13_equal_centroids 14_few_primitives
   15_bad_vertices 16_stadium 17_split_plane 18_cell_corners 19_self_hits 20_nested_spheres 21_instances
   22_light_in_plane 23_light_at_vertex 24_occluder_at_end 25_light_inside 26_coplanar_duplicates 27_contact_gap
-  28_smooth_normals 29_critical_angle 30_invisible_glass 37_far_from_origin
-  39_non_finite_radiance 40_shrinking_lights)
+  28_smooth_normals 29_critical_angle 30_invisible_glass 31_depth_range 32_behind_light 33_outside_map
+  34_texel_boundaries 35_cube_seams 36_bias_convergence 37_far_from_origin 38_image_sizes
+  39_non_finite_radiance 40_shrinking_lights 41_extreme_bias)
 
 add_executable(hard_case_test hard_case_test.cpp)
 target_link_libraries(hard_case_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt)

@@ -62,6 +62,19 @@ constexpr Named constants[] = {
     GNOMON_NAMED(texture_repeat_t),
     GNOMON_NAMED(page_width),
     GNOMON_NAMED(page_height),
+    GNOMON_NAMED(izb_block),
+    GNOMON_NAMED(izb_vertices_buffer),
+    GNOMON_NAMED(izb_shapes_buffer),
+    GNOMON_NAMED(izb_points_buffer),
+    GNOMON_NAMED(izb_normals_buffer),
+    GNOMON_NAMED(izb_errors_buffer),
+    GNOMON_NAMED(izb_links_buffer),
+    GNOMON_NAMED(izb_shadows_buffer),
+    GNOMON_NAMED(izb_heads_image),
+    GNOMON_NAMED(peel_uniform),
+    GNOMON_NAMED(triangle_count_uniform),
+    GNOMON_NAMED(first_layer_unit),
+    GNOMON_NAMED(second_layer_unit),
 #undef GNOMON_NAMED
 };
 

@@ -36,6 +36,7 @@ double quantum(DepthFormat format) {
     case DepthFormat::d24:
       return 1.0 / 16777215.0;
     case DepthFormat::d32f:
+    case DepthFormat::d32f_reversed:
       break;
   }
   return std::exp2(-24);  // spacing of floats in [0.5, 1]

@@ -356,7 +356,7 @@ class DrawnMap {
     buffers_->set_reference(Vec3(0.0));
     view_ = *fit_light_view(world_, scene_.lights[0], scene_.camera, 1.5, options.size);
     block_ = std::make_unique<raster::Buffer>(*gl_);
-    block_->write_one(raster::make_light_block(scene_.lights[0], view_, options, 0.0, Vec3(0.0)));
+    block_->write_one(raster::make_light_block(scene_.lights[0], view_, options, 0.0, {}, Vec3(0.0)));
     block_->bind(GL_UNIFORM_BUFFER, shaders::light_block);
     map_ = std::make_unique<raster::DepthMapPass>(*gl_, *programs_);
     EXPECT_TRUE(map_->prepare(view_, options.depth_format, false).has_value());

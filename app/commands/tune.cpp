@@ -82,6 +82,13 @@ Expected<Family> make_family(Values values, const Values& fixed) {
   return Family{{family_name(values), parsed->options.raster.map}, std::move(values)};
 }
 
+/// What tune tries when no technique is named: cube differs from hard at the seams of a map alone.
+std::vector<std::string> tuned_techniques() {
+  std::vector<std::string> names = technique_names();
+  std::erase(names, "cube");
+  return names;
+}
+
 /// The combinations of what was given as lists, and of the defaults where nothing was given.
 Expected<std::vector<Family>> make_families(const TuneCommand& command) {
   const auto grid = command.options.grid(false);
@@ -90,7 +97,7 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
   std::vector<compare::Axis> axes;
   for (const compare::Axis& axis : grid->axes())
     if (axis.name != "map-size") axes.push_back(axis);
-  if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", technique_names()});
+  if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
   std::vector<Values> kinds = default_kinds();
   for (const char* name : {"slope-bias", "normal-offset", "receiver-plane", "cull"})
     if (is_given(fixed, *grid, name)) kinds = {{}};
@@ -109,10 +116,29 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
       if (!sound) continue;  // a bias that does not go with the technique
+      if (!kind.empty() && family->tuned.map.technique == raster::Technique::izb) continue;  // it has no bias
       families.push_back(std::move(*family));
     }
   if (families.empty() && unsound) return fail(*unsound);
   return families;
+}
+
+/// Without the techniques that have no map for a light compared.
+Expected<std::vector<Family>> families_for(const std::vector<Family>& families, const Scene& scene,
+                                           const std::vector<std::uint32_t>& lights) {
+  std::vector<Family> out;
+  for (const Family& family : families) {
+    const bool drawn = std::all_of(lights.begin(), lights.end(), [&](std::uint32_t light) {
+      return raster::has_map_for(family.tuned.map.technique, scene.lights[light].type);
+    });
+    if (drawn) out.push_back(family);
+  }
+  if (out.empty() && !families.empty())
+    return fail(
+        ErrorKind::usage,
+        "--technique: has no map for a light of this scene (csm and lispsm are for directional lights, "
+        "cube for point lights)");
+  return out;
 }
 
 /// --map-size as a list, or the powers of two from 64 to what the context allows.
@@ -289,8 +315,10 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());
+  const auto fitting = families_for(*families, *loaded->scene, setting->compared);
+  if (!fitting) return fail(fitting.error());
   compare::TuneOptions options{command.goal, {}, *sizes};
-  for (const Family& family : *families) options.families.push_back(family.tuned);
+  for (const Family& family : *fitting) options.families.push_back(family.tuned);
   compare::Engine engine(*loaded->scene, *loaded->world, **renderer, with_page);
   const auto result = compare::tune(
       engine, *setting, options, [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
@@ -298,7 +326,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
         console.progress(fmt::format("{}, {} texels", family.name, size), share);
       });
   if (!result) return fail(result.error());
-  const Answer answer{command, *families, *result};
+  const Answer answer{command, *fitting, *result};
   if (with_page) {
     const auto compared = compare_at_answer(engine, answer, *setting);
     if (!compared) return fail(compared.error());

@@ -56,6 +56,7 @@ std::string rows_json(const std::vector<Row>& rows, raytrace::Precision precisio
                     {"bound", row.bound},
                     {"unit", row.unit},
                     {"ok", row.ok()}});
+    if (!row.skipped.empty()) list.back()["skipped"] = row.skipped;
     if (row.naive) list.back()["naive"] = outcome_json(*row.naive);
   }
   const nlohmann::ordered_json document{
@@ -76,6 +77,8 @@ std::string naive_text(const Row& row) {
 }
 
 std::string table_row(const Row& row) {
+  if (!row.skipped.empty())
+    return fmt::format("{:>4}  {:<44}skipped: {}\n", row.number, row.name, row.skipped);
   return fmt::format("{:>4}  {:<44}{:>11}{:>10}{:>10}{:>8}  {:<4}{}{}\n", row.number, row.name,
                      row.outcome.tried, row.outcome.wrong, error_text(row, row.outcome.worst),
                      error_text(row, row.bound), row.ok() ? "ok" : "NO", naive_text(row), row.unit);
@@ -142,9 +145,10 @@ Expected<void> store_cases(std::vector<int>& cases, const std::string& text) {
 }  // namespace
 
 void add_verify(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "verify",
-      "Run the hard cases of ray tracing on this machine: how many rays were wrong, and the worst error.");
+  CLI::App* app = program.add_subcommand("verify",
+                                         "Run the hard cases of ray tracing and of shadow maps on this "
+                                         "machine: how many were wrong, and the worst "
+                                         "error.");
   app->footer(
       "gnomon verify --rays 1e8\n"
       "gnomon verify --show-naive --case 1,5,10\n"

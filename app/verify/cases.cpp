@@ -42,11 +42,22 @@ std::span<const Case> all_cases() {
       Case{30, "invisible_glass",
            "glass of index 1 is as good as absent; overlapping glass is what its priority says",
            invisible_glass},
+      Case{31, "depth_range", "a depth map keeps depths of 1 to 5,000 within its format's quantum",
+           depth_range},
+      Case{32, "behind_light", "what lies behind a light, or a warp's eye, looks up no texel", behind_light},
+      Case{33, "outside_map", "receivers beside the map or beyond its depths are lit, and counted",
+           outside_map},
+      Case{34, "texel_boundaries", "on the border of two texels one of the two is looked up",
+           texel_boundaries},
+      Case{35, "cube_seams", "the faces of a cube map meet without gap or overlap", cube_seams},
+      Case{36, "bias_convergence", "a receding lamp needs the bias of a sun", bias_convergence},
       Case{37, "far_from_origin", "the scene and its camera at 1e7 give the picture of the origin",
            far_from_origin},
+      Case{38, "image_sizes", "pictures of one pixel, of the longest side, and beyond it", image_sizes},
       Case{39, "non_finite_radiance", "radiance that is not a number is black and counted",
            non_finite_radiance},
       Case{40, "shrinking_lights", "a light that shrinks to nothing becomes the hard one", shrinking_lights},
+      Case{41, "extreme_bias", "biases of 0, -1e6, 1e30 and NaN, and a map of one texel", extreme_bias},
   };
   return cases;
 }

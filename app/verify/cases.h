@@ -38,6 +38,14 @@ void invisible_glass(Run& run);
 void nested_glass(Run& run);            // case_nested_glass.cpp, a row of case 30
 void triangles_by_rationals(Run& run);  // case_rational.cpp, rows of case 1
 void verdicts_by_rationals(Run& run);
+void depth_range(Run& run);  // case_map_depth.cpp
+void extreme_bias(Run& run);
+void behind_light(Run& run);  // case_map_places.cpp
+void outside_map(Run& run);
+void texel_boundaries(Run& run);
+void cube_seams(Run& run);
+void bias_convergence(Run& run);  // case_map_sizes.cpp
+void image_sizes(Run& run);
 void far_from_origin(Run& run);      // case_far.cpp
 void non_finite_radiance(Run& run);  // case_radiance.cpp
 void shrinking_lights(Run& run);     // case_small_lights.cpp

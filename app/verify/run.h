@@ -79,14 +79,26 @@ class Run {
 
   /// One row: check(index, tally) for every index below `count`; for what was computed beforehand.
   template <class Check>
-  void sample_each(std::string name, std::uint64_t count, const Check& check) {
+  void sample_each(std::string name, std::uint64_t count, const Check& check, std::string unit = {},
+                   double bound = 0.0) {
     Tally tally;
     for (std::uint64_t i = 0; i < count; ++i) check(i, tally);
     rows_.push_back({.number = number_,
                      .name = std::move(name),
-                     .unit = {},
+                     .unit = std::move(unit),
+                     .bound = bound,
                      .outcome = {tally.tried, tally.wrong, tally.worst},
                      .naive = {}});
+  }
+
+  /// One row that could not be run, and why.
+  void skip(std::string name, std::string why) {
+    rows_.push_back({.number = number_,
+                     .name = std::move(name),
+                     .unit = {},
+                     .outcome = {},
+                     .naive = {},
+                     .skipped = std::move(why)});
   }
 
   std::vector<Row> take_rows() { return std::move(rows_); }

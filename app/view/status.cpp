@@ -21,6 +21,7 @@ std::string bias_words(const raster::Bias& bias, const Readings& readings) {
   if (bias.normal_offset_texels != 0.0)
     text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
   if (bias.receiver_plane) text += ", receiver plane";
+  if (bias.adaptive) text += ", adaptive bias";
   return text;
 }
 
@@ -48,6 +49,12 @@ void add_map(std::string& text, const raster::MapOptions& map) {
   add_if(text, map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
          number_text(map.bias.normal_offset_texels));
   if (map.bias.receiver_plane) text += " --receiver-plane";
+  if (map.bias.adaptive) text += " --adaptive-bias";
+  if (map.cascades.count != CascadeOptions{}.count) text += fmt::format(" --cascades {}", map.cascades.count);
+  if (map.cascades.lambda != CascadeOptions{}.lambda)
+    text += fmt::format(" --cascade-lambda {}", map.cascades.lambda);
+  if (!map.cascades.snap) text += " --no-snap";
+  if (map.cascades.fit_samples) text += " --cascade-fit";
   add_if(text, map.depth_format != plain.depth_format, "--depth-format",
          std::string(compare::depth_format_name(map.depth_format)));
   add_if(text, map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));

@@ -78,6 +78,7 @@ std::string map_text(const Comparison& c) {
   if (map.bias.normal_offset_texels != 0.0)
     text += fmt::format(", normal offset {}", texels_text(map.bias.normal_offset_texels));
   if (map.bias.receiver_plane) text += ", receiver plane";
+  if (map.bias.adaptive) text += ", adaptive bias";
   if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
   return text;
 }

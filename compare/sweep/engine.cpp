@@ -26,11 +26,16 @@ bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& 
   return rebiased == b;
 }
 
+bool is_midpoint(const raster::MapOptions& map) {
+  return map.technique == raster::Technique::midpoint;
+}
+
 // Two drawings stored the same map and show the same primitives at the same places: the lower rungs agree.
 bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light) {
   const raster::LightRecord &x = a.lights[light], &y = b.lights[light];
-  return a.options.map.cull == b.options.map.cull && x.light == y.light && x.map.format == y.map.format &&
-         x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
+  return a.options.map.cull == b.options.map.cull &&
+         is_midpoint(a.options.map) == is_midpoint(b.options.map) && x.light == y.light &&
+         x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
          x.map.primitive == y.map.primitive && x.texel_uv.data == y.texel_uv.data &&
          x.face.data == y.face.data && a.primitive.data == b.primitive.data;
 }
@@ -50,7 +55,18 @@ void count(const LadderInput& in, bool with_gaps, Probe& probe) {
 }  // namespace
 
 bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  return map.technique == raster::Technique::hard;
+  switch (map.technique) {
+    case raster::Technique::hard:
+    case raster::Technique::second_depth:
+    case raster::Technique::midpoint:
+    case raster::Technique::cube:
+      return true;
+    case raster::Technique::csm:
+    case raster::Technique::lispsm:
+      return !raster::scales_bias(map);
+    default:
+      return false;
+  }
 }
 
 double bias_in_world_units(const raster::Bias& bias, const LightView& view, const World& world) {

@@ -1,0 +1,50 @@
+#include "app/verify/drawn_world.h"
+
+namespace gnomon::verify {
+
+DrawnWorld::DrawnWorld(Scene scene) : scene_(std::move(scene)), world_(make_world(scene_)) {
+  auto context = raster::create_context(raster::Backend::automatic);
+  if (!context) {
+    error_ = context.error();
+    return;
+  }
+  auto renderer = raster::Renderer::create(std::move(*context), world_, plan_effects(scene_));
+  if (renderer)
+    renderer_ = std::move(*renderer);
+  else
+    error_ = renderer.error();
+}
+
+Expected<raster::RasterFrame> DrawnWorld::draw(const raster::RasterOptions& options) {
+  const std::array<std::uint32_t, 1> first{0};
+  return renderer_->render(options, first);
+}
+
+raster::RasterOptions drawing(ImageSize size, int map_size, double bias_world) {
+  raster::RasterOptions options;
+  options.size = size;
+  options.map.size = map_size;
+  options.map.bias.constant = bias_world;
+  options.map.bias.unit = raster::BiasUnit::world;
+  options.runs = 0;
+  return options;
+}
+
+Ray eye_ray(const Camera& camera, ImageSize size, int x, int y) {
+  const Vec3 forward = glm::normalize(camera.target - camera.eye);
+  const Vec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+  const double tall = std::tan(0.5 * camera.vertical_fov), wide = tall * size.width / size.height;
+  const double sx = (2 * x + 1) / double(size.width) - 1.0, sy = 1.0 - (2 * y + 1) / double(size.height);
+  return {camera.eye, forward + sx * wide * right + sy * tall * up};
+}
+
+double to_level(const Ray& ray, double height) {
+  const double t = (height - ray.origin.y) / ray.direction.y;
+  return t > 0.0 ? t : infinity;
+}
+
+void skip_without_context(Run& run, const DrawnWorld& world, std::string row) {
+  run.skip(std::move(row), "no context: " + world.error().message());
+}
+
+}  // namespace gnomon::verify

@@ -1,0 +1,28 @@
+// The shape that a technique gives the map: which faces it has, what they cover, and how the shaders are
+// told. Private to raster.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "raster/options.h"
+#include "scene/camera.h"
+#include "scene/light_view.h"
+
+namespace gnomon::raster {
+
+/// Error (usage): the technique has no map for this light; says which lights it has one for.
+Expected<void> check_light(Technique technique, const Light& light);
+
+/// The technique's fit looks at the surfaces that the camera sees.
+bool fits_to_samples(const MapOptions& options);
+
+/// `visible`: read only where fits_to_samples().
+Expected<LightView> fit_map(const World& world, const Light& light, double aspect, const MapOptions& options,
+                            std::span<const Vec3> visible);
+
+/// What shaders/light_map.glsl is to know, besides the light's type.
+std::vector<std::string> map_defines(const MapOptions& options);
+
+}  // namespace gnomon::raster

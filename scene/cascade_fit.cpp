@@ -1,0 +1,270 @@
+#include "scene/cascade_fit.h"
+
+#include "scene/light_fit_parts.h"
+
+namespace gnomon {
+namespace {
+
+using light_fit::Rect;
+using light_fit::to_light_space;
+
+// The nearest slice starts here at the latest, as a share of the farthest depth: below it, slices would cover
+// what no pixel shows.
+constexpr double nearest_share = 0.01;
+// Sizes that must not change with every step of the camera are taken from this ladder.
+constexpr double steps_per_octave = 4.0;
+// Shadows on infinite planes are followed no farther than so many times the scene's size and distance.
+constexpr double farthest_shadow = 20.0;
+
+struct Fit {
+  const World& world;
+  const View view;
+  const Vec3 towards;  // the way the light travels
+  LightFace frame;
+  Vec3 reference;
+  Rect casters;
+};
+
+double rounded_up(double size) {
+  return std::exp2(std::ceil(std::log2(size) * steps_per_octave) / steps_per_octave);
+}
+
+double view_depth(const Fit& fit, const Vec3& p) {
+  return glm::dot(p - fit.view.eye, fit.view.forward);
+}
+
+// Farthest depth at which the camera can see a finite thing or its shadow on an infinite plane, and the
+// nearest depth of a finite thing.
+Interval seen_depths(const Fit& fit) {
+  const Aabb& box = fit.world.finite_bounds;
+  const double limit = farthest_shadow * (box.diagonal() + glm::length(box.center() - fit.view.eye));
+  Interval seen{infinity, 0.0};
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 p((k & 1) ? box.max.x : box.min.x, (k & 2) ? box.max.y : box.min.y,
+                 (k & 4) ? box.max.z : box.min.z);
+    seen.min = std::min(seen.min, view_depth(fit, p)), seen.max = std::max(seen.max, view_depth(fit, p));
+    for (const Shape& shape : fit.world.shapes) {
+      const auto* plane = std::get_if<Plane>(&shape.geometry);
+      if (plane == nullptr) continue;
+      const double t = glm::dot(plane->normal, plane->point - p) / glm::dot(plane->normal, fit.towards);
+      if (!(t > 0.0)) continue;
+      const double depth = std::isfinite(t) ? view_depth(fit, p + t * fit.towards) : 0.0;
+      seen.max = std::max(seen.max, std::min(depth, limit));
+    }
+  }
+  return seen;
+}
+
+Interval sample_depths(const Fit& fit, std::span<const Vec3> visible) {
+  Interval seen{infinity, 0.0};
+  for (const Vec3& p : visible) {
+    const double depth = view_depth(fit, p);
+    seen.min = std::min(seen.min, depth), seen.max = std::max(seen.max, depth);
+  }
+  return seen;
+}
+
+// The practical split scheme (Zhang et al. 2006, equation 9). Slice i lies between splits i and i + 1; the
+// first begins at the eye.
+std::vector<double> split_depths(const Interval& seen, const CascadeOptions& options) {
+  const double far = options.snap && !options.fit_samples ? rounded_up(seen.max) : seen.max;
+  double near = std::max(seen.min, nearest_share * far);
+  if (options.snap && !options.fit_samples) near = 0.5 * rounded_up(near);
+  std::vector<double> splits{0.0};
+  for (int i = 1; i <= options.count; ++i) {
+    const double share = double(i) / options.count;
+    const double even = near + (far - near) * share, logarithmic = near * std::pow(far / near, share);
+    splits.push_back(options.lambda * logarithmic + (1.0 - options.lambda) * even);
+  }
+  splits.back() = far;
+  return splits;
+}
+
+std::vector<Vec2> slice_corners(const Fit& fit, double from, double to) {
+  std::vector<Vec2> corners;
+  for (const double depth : {from, to}) {
+    for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+      const Vec3 d = fit.view.forward + s.x * fit.view.tan_half_x * fit.view.right +
+                     s.y * fit.view.tan_half_y * fit.view.up;
+      corners.push_back(Vec2(to_light_space(fit.frame, fit.view.eye + depth * d - fit.reference)));
+    }
+  }
+  return corners;
+}
+
+Rect around(const std::vector<Vec2>& points) {
+  Rect rect;
+  for (const Vec2& p : points) rect.grow(p);
+  return rect;
+}
+
+Rect tight_rect(const Fit& fit, double from, double to) {
+  return around(light_fit::hull_in_rect(slice_corners(fit, from, to), fit.casters));
+}
+
+Rect sample_rect(const Fit& fit, double from, double to, std::span<const Vec3> visible) {
+  Rect rect;
+  for (const Vec3& p : visible) {
+    const double depth = view_depth(fit, p);
+    if (depth >= from && depth <= to) rect.grow(Vec2(to_light_space(fit.frame, p - fit.reference)));
+  }
+  if (rect.empty()) return rect;
+  rect.min = glm::max(rect.min, fit.casters.min), rect.max = glm::min(rect.max, fit.casters.max);
+  return rect;
+}
+
+// The smallest sphere around the slice, in light space: centred on the view's axis. As a square of whole
+// texels of a size that only the slice's depths decide.
+Rect snapped_square(const Fit& fit, double from, double to, int size) {
+  const double k = fit.view.tan_half_x * fit.view.tan_half_x + fit.view.tan_half_y * fit.view.tan_half_y;
+  const double middle = std::min(to, 0.5 * (from + to) * (1.0 + k));
+  const double radius = std::sqrt((to - middle) * (to - middle) + k * to * to);
+  const double half = radius * size / std::max(1.0, size - 4.0);  // room for the snap and for a border
+  const double texel = 2.0 * half / size;
+  const Vec2 center(to_light_space(fit.frame, fit.view.eye + middle * fit.view.forward - fit.reference));
+  const Vec2 snapped = glm::floor(center / texel + 0.5) * texel;
+  return {snapped - half, snapped + half};
+}
+
+double area(const Rect& rect) {
+  return rect.extent().x * rect.extent().y;
+}
+
+Rect with_border(const Rect& rect, int size) {
+  const Vec2 half = 0.5 * rect.extent() * (size / std::max(1.0, size - 2.0));
+  return {rect.middle() - half, rect.middle() + half};
+}
+
+Rect cascade_rect(const Fit& fit, double from, double to, int size, const CascadeOptions& options,
+                  std::span<const Vec3> visible) {
+  const Rect whole = with_border(fit.casters, size);
+  if (options.snap && !options.fit_samples) {
+    const Rect square = snapped_square(fit, from, to, size);
+    return area(square) < area(whole) ? square : whole;
+  }
+  const Rect rect = options.fit_samples ? sample_rect(fit, from, to, visible) : tight_rect(fit, from, to);
+  return rect.empty() || !(area(rect) > 0.0) ? whole : with_border(rect, size);
+}
+
+LightFace face_of(const Fit& fit, const Rect& rect, const Interval& depths) {
+  LightFace face = fit.frame;
+  face.center = rect.middle();
+  face.half_extent = 0.5 * rect.extent();
+  const double widest = std::max(rect.extent().x, rect.extent().y);
+  const double margin = 1e-3 * std::max(depths.max - depths.min, 1e-3 * widest);
+  face.near_depth = depths.min - margin, face.far_depth = depths.max + margin;
+  return face;
+}
+
+View view_of(const Camera& camera, double aspect) {
+  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
+}
+
+LightView orthographic_view(const Fit& fit, int size) {
+  LightView out;
+  out.size = size;
+  out.projection = LightProjection::orthographic;
+  out.origin = fit.reference;
+  return out;
+}
+
+Fit make_fit(const World& world, const Light& light, const View& view, const LightFace& frame) {
+  Fit fit{world, view, light.direction, frame, world.finite_bounds.center(), {}};
+  fit.casters = light_fit::casters_rect(world, frame, fit.reference);
+  // A scene that lies in a plane along the light still gets a rectangle.
+  const Vec2 extent = fit.casters.extent();
+  const Vec2 least(1e-6 * std::max(extent.x, extent.y));
+  const Vec2 more = glm::max(Vec2(0.0), 0.5 * (least - extent));
+  fit.casters.min -= more, fit.casters.max += more;
+  return fit;
+}
+
+// A light along the view direction, or opposite to it, has no up that follows the view.
+constexpr double least_sine = 1e-3;
+
+struct Warp {
+  double middle;           // of the rectangle's x: where the warped lines meet
+  double half = infinity;  // half width at its centre
+};
+
+// |x - middle| <= half (1 + s y) for the whole polygon, with the middle that makes half least: a convex
+// function.
+Warp narrowest(const std::vector<Vec2>& polygon, const Rect& rect, double warp) {
+  const double center = rect.middle().y;
+  const auto half = [&](double middle) {
+    double most = 0.0;
+    for (const Vec2& p : polygon)
+      most = std::max(most, std::abs(p.x - middle) / (1.0 + warp * (p.y - center)));
+    return most;
+  };
+  double low = rect.min.x, high = rect.max.x;
+  for (int i = 0; i < 100; ++i) {  // thirds: each step leaves two of three
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    if (half(a) < half(b))
+      high = b;
+    else
+      low = a;
+  }
+  return {0.5 * (low + high), half(0.5 * (low + high))};
+}
+
+}  // namespace
+
+Expected<LightView> fit_cascades(const World& world, const Light& light, const Camera& camera, double aspect,
+                                 int size, const CascadeOptions& options, std::span<const Vec3> visible) {
+  if (world.finite_bounds.empty()) return fit_light_view(world, light, camera, aspect, size);
+  const Fit fit = make_fit(world, light, view_of(camera, aspect), light_fit::face_along(light.direction));
+  if (!(fit.casters.extent().x > 0.0))
+    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
+  const Interval seen =
+      options.fit_samples && !visible.empty() ? sample_depths(fit, visible) : seen_depths(fit);
+  if (!(seen.max > 0.0)) return fit_light_view(world, light, camera, aspect, size);
+  const std::vector<double> splits = split_depths(seen, options);
+  LightView out = orthographic_view(fit, size);
+  out.face_count = options.count;
+  for (int i = 0; i < options.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Rect rect = cascade_rect(fit, splits[at], splits[at + 1], size, options, visible);
+    const Rect& casters = options.snap && !options.fit_samples ? fit.casters : rect;
+    Interval depths = light_fit::depths_over(world, fit.frame, fit.reference, casters, rect);
+    if (depths.empty()) depths = light_fit::depths_over(world, fit.frame, fit.reference, fit.casters, rect);
+    out.faces[at] = face_of(fit, rect, depths);
+  }
+  return out;
+}
+
+Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
+                               int size) {
+  const View view = view_of(camera, aspect);
+  const double sine = glm::length(glm::cross(view.forward, light.direction));
+  if (world.finite_bounds.empty() || sine < least_sine)
+    return fit_light_view(world, light, camera, aspect, size);
+  const Fit fit = make_fit(world, light, view, light_fit::face_along(light.direction, view.forward));
+  const Interval seen = seen_depths(fit);
+  const double far = seen.max, near = std::max(seen.min, nearest_share * far);
+  if (!(far > 0.0)) return fit_light_view(world, light, camera, aspect, size);
+  const std::vector<Vec2> polygon = light_fit::hull_in_rect(slice_corners(fit, 0.0, far), fit.casters);
+  Rect rect = around(polygon);
+  if (rect.empty() || !(rect.extent().x > 0.0 && rect.extent().y > 0.0))
+    return fit_light_view(world, light, camera, aspect, size);
+  rect = with_border(rect, size);
+  // Wimmer et al. 2004, equation 8: the warp's near distance in world units.
+  const double n_opt = (near + std::sqrt(near * far)) / sine;
+  const double half = 0.5 * rect.extent().y;
+  LightFace face = fit.frame;
+  face.warp = 1.0 / (n_opt + half);
+  const Warp warp = narrowest(polygon, rect, face.warp);
+  const double half_x = std::max(warp.half, 1e-6 * half) * (size / std::max(1.0, size - 2.0));
+  face.center = Vec2(warp.middle, rect.middle().y);
+  face.half_extent = Vec2(half_x, half);
+  const double reach = half_x * (1.0 + face.warp * half);  // the trapezium's wide end
+  const Rect covered{Vec2(warp.middle - reach, rect.min.y), Vec2(warp.middle + reach, rect.max.y)};
+  const Interval depths = light_fit::depths_over(world, fit.frame, fit.reference, covered, covered);
+  const LightFace ranged = face_of(fit, covered, depths.empty() ? Interval{0.0, 1.0} : depths);
+  face.near_depth = ranged.near_depth, face.far_depth = ranged.far_depth;
+  LightView out = orthographic_view(fit, size);
+  out.faces[0] = face;
+  return out;
+}
+
+}  // namespace gnomon

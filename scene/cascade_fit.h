@@ -1,0 +1,35 @@
+// Maps of a directional light that spend their texels where the camera needs them: cascades, one face for
+// each slice of the view (Zhang, Sun, Xu, Lun 2006, "Parallel-Split Shadow Maps for Large-scale Virtual
+// Environments"), and a warp towards the eye (Wimmer, Scherzer, Purgathofer 2004, "Light Space Perspective
+// Shadow Maps").
+#pragma once
+
+#include <span>
+
+#include "scene/light_view.h"
+
+namespace gnomon {
+
+struct CascadeOptions {
+  int count = 4;        ///< in [1, 6]
+  double lambda = 0.5;  ///< in [0, 1]: 0 splits the view's depth evenly, 1 evenly in its logarithm
+  /// Each cascade covers the sphere around its slice, whose size is kept from camera to camera, and moves by
+  /// whole texels: what stands still keeps its texels.
+  bool snap = true;
+  /// Splits and rectangles from the surfaces that the camera sees (Lauritzen, Salvi, Lefohn 2010, "Sample
+  /// Distribution Shadow Maps"); follows every move of the camera, so `snap` does not apply.
+  bool fit_samples = false;
+  bool operator==(const CascadeOptions&) const = default;
+};
+
+/// `visible`: surface points that the camera sees; read only when options.fit_samples. The last cascade
+/// reaches as far as any shadow of a finite caster that the camera can see. Error (graphics) when nothing can
+/// be fitted.
+Expected<LightView> fit_cascades(const World& world, const Light& light, const Camera& camera, double aspect,
+                                 int size, const CascadeOptions& options, std::span<const Vec3> visible);
+
+/// One face, warped by n_opt (section 4 of the paper). With the light along the view direction, no warp.
+Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
+                               int size);
+
+}  // namespace gnomon

@@ -1,0 +1,75 @@
+// Second pass of the irregular z-buffer: one triangle (or sphere, permutation SPHERE) against the pixels of one texel.
+#include "shared_constants.h"
+
+layout(location = face_uniform) uniform int face;
+#include "izb/izb.glsl"
+#include "world.glsl"
+
+struct TriangleData {
+  uint a, b, c;
+  uint material;
+};
+layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+
+#ifdef SPHERE
+layout(location = shape_uniform) uniform int shape_index;
+
+bool sphere_is_hole(ShadowRay ray, double t) {
+#ifdef ALPHA_MASK
+  vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
+  return masked_hole(shapes[shape_index].material, shape_uv(shapes[shape_index], p));
+#else
+  return false;
+#endif
+}
+
+// Of the receiver's own sphere only the far side can be in its way, from within (verdict.cpp, meet_sphere).
+bool blocks(Receiver64 r, ShadowRay ray) {
+  dvec3 center = double_shapes[shape_index].center_and_radius.xyz;
+  double radius = double_shapes[shape_index].center_and_radius.w;
+  double t_near, t_far;
+  if (!sphere_crossings64(ray.origin, ray.direction, center, radius, t_near, t_far)) return false;
+  bool own = r.primitive == shapes[shape_index].primitive;
+  if (own && !(dot(r.normal, ray.origin - center) < 0.0LF)) return false;
+  bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(ray, t_near);
+  if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(ray, t_far))) return false;
+  return !is_below(r, center, radius) && !is_beyond(ray, center, radius);
+}
+#else
+flat in uint primitive;
+#ifdef ALPHA_MASK
+layout(std430, binding = uvs_buffer) readonly buffer Uvs { vec2 uvs[]; };
+#endif
+
+bool triangle_is_hole(TriangleData t, dvec2 weights) {
+#ifdef ALPHA_MASK
+  dvec2 uv = (1.0LF - weights.x - weights.y) * dvec2(uvs[t.a]) + weights.x * dvec2(uvs[t.b]) + weights.y * dvec2(uvs[t.c]);
+  return masked_hole(t.material, vec2(uv));
+#else
+  return false;
+#endif
+}
+
+bool blocks(Receiver64 r, ShadowRay ray) {
+  if (r.primitive == primitive) return false;
+  TriangleData t = triangles[primitive];
+  dvec3 a = vertex(t.a), b = vertex(t.b), c = vertex(t.c);
+  double at;
+  dvec2 weights;
+  if (!sheared_crossing(ray.origin, ray.direction, a, b, c, false, at, weights) || !in_range(ray, at)) return false;
+  if (triangle_is_hole(t, weights)) return false;
+  return !(is_below(r, a, 0.0LF) && is_below(r, b, 0.0LF) && is_below(r, c, 0.0LF)) &&
+         !(is_beyond(ray, a, 0.0LF) && is_beyond(ray, b, 0.0LF) && is_beyond(ray, c, 0.0LF));
+}
+#endif
+
+void main() {
+  uint link = imageLoad(heads, ivec3(ivec2(gl_FragCoord.xy), face)).r;
+  while (link != 0u) {
+    uint pixel = link - 1u;
+    link = links[pixel].x;
+    if (shadows[pixel] != 0u) continue;
+    Receiver64 r = stored_receiver(pixel);
+    if (blocks(r, shadow_ray(r))) shadows[pixel] = 1u;
+  }
+}

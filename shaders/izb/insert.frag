@@ -1,0 +1,148 @@
+// First pass of the irregular z-buffer: each pixel's receiver, worked out as the ray tracer does, is tested against the
+// infinite planes and linked into the list of the texel that it falls into. Pixels that no light can reach are left out.
+#include "shared_constants.h"
+layout(binding = visibility_unit) uniform usampler2D visible_primitive;
+#include "izb/izb.glsl"
+#include "world.glsl"
+
+struct TriangleData {
+  uint a, b, c;
+  uint material;
+};
+layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+layout(location = triangle_count_uniform) uniform uint triangle_count;
+
+const uint no_id = 0xffffffffu;
+
+dvec3 pixel_ray(dvec2 window) {
+  double x = (2.0LF * window.x / double(izb.size.x) - 1.0LF) * izb.right_and_tan_x.w;
+  double y = (1.0LF - 2.0LF * window.y / double(izb.size.y)) * izb.up_and_tan_y.w;
+  dvec3 d = izb.forward.xyz + x * izb.right_and_tan_x.xyz + y * izb.up_and_tan_y.xyz;
+  return d / sqrt(dot(d, d));
+}
+
+Receiver64 triangle_receiver(uint id, dvec3 direction) {
+  dvec3 a = vertex(triangles[id].a), b = vertex(triangles[id].b), c = vertex(triangles[id].c);
+  double t;
+  dvec2 w;
+  sheared_crossing(izb.eye.xyz, direction, a, b, c, true, t, w);
+  double first = 1.0LF - w.x - w.y;
+  dvec3 pa = first * a, pb = w.x * b, pc = w.y * c;
+  Receiver64 r;
+  r.position = pa + pb + pc;
+  dvec3 extent = max(a, max(b, c)) - min(a, min(b, c));
+  r.error = error_gamma(7) * (abs(pa) + abs(pb) + abs(pc)) + error_gamma(24) * dvec3(max_component(extent));
+  dvec3 n = cross(b - a, c - a);
+  r.normal = n / sqrt(dot(n, n));
+  return r;
+}
+
+Receiver64 sphere_receiver(uint index, dvec3 direction) {
+  dvec3 center = double_shapes[index].center_and_radius.xyz;
+  double radius = double_shapes[index].center_and_radius.w;
+  double t_near, t_far;
+  sphere_crossings64(izb.eye.xyz, direction, center, radius, t_near, t_far);
+  double t = t_near > 0.0LF ? t_near : t_far;
+#ifdef ALPHA_MASK
+  vec3 near_point = vec3(izb.eye.xyz + t * direction - izb.reference.xyz);
+  if (masked_hole(shapes[index].material, shape_uv(shapes[index], near_point))) t = t_far;
+#endif
+  dvec3 offset = izb.eye.xyz + t * direction - center;
+  dvec3 on_sphere = offset * (radius / sqrt(dot(offset, offset)));
+  Receiver64 r;
+  r.position = center + on_sphere;
+  r.error = error_gamma(16) * abs(on_sphere) + error_gamma(2) * abs(r.position) + dvec3(error_gamma(8) * radius);
+  r.normal = on_sphere / sqrt(dot(on_sphere, on_sphere));
+  return r;
+}
+
+Receiver64 plane_receiver(uint index, dvec3 direction) {
+  dvec3 point = double_shapes[index].center_and_radius.xyz, n = double_shapes[index].normal.xyz;
+  dvec3 p = izb.eye.xyz + dot(n, point - izb.eye.xyz) / dot(n, direction) * direction;
+  Receiver64 r;
+  r.position = p - dot(n, p - point) * n;
+  r.error = error_gamma(8) * dot(abs(n), abs(p) + abs(point)) * abs(n) + error_gamma(2) * abs(r.position);
+  r.normal = n;
+  return r;
+}
+
+bool faces_away(Receiver64 r) {
+#ifdef DIRECTIONAL
+  dvec3 towards = -izb.light.xyz;
+#else
+  dvec3 towards = izb.light.xyz - r.position;
+#endif
+  return !(dot(r.normal, towards) > 0.0LF);
+}
+
+bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
+  dvec3 point = double_shapes[index].center_and_radius.xyz, n = double_shapes[index].normal.xyz;
+  double height = dot(n, point - ray.origin);
+  double slope = dot(n, ray.direction);
+  dvec3 error = r.error + abs(ray.origin - r.position);
+  if (abs(height) <= dot(abs(n), error_gamma(5) * abs(point - ray.origin) + error)) return false;  // it lies on the plane
+  double t = height / slope;
+  if (!in_range(ray, t)) return false;
+#ifdef ALPHA_MASK
+  vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
+  if (masked_hole(shapes[index].material, shape_uv(shapes[index], p))) return false;
+#endif
+  return true;
+}
+
+bool planes_block(Receiver64 r) {
+  ShadowRay ray = shadow_ray(r);
+  for (uint i = 0u; i < uint(izb.size.w); ++i) {
+    if (shapes[i].kind != uint(shape_plane) || shapes[i].primitive == r.primitive) continue;
+    if (plane_blocks(i, r, ray)) return true;
+  }
+  return false;
+}
+
+int grid_face(dvec3 position) {
+#ifdef CUBE
+  dvec3 d = position - izb.origin.xyz;
+  dvec3 a = abs(d);
+  if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0LF ? 0 : 1;
+  if (a.y >= a.z) return d.y >= 0.0LF ? 2 : 3;
+  return d.z >= 0.0LF ? 4 : 5;
+#else
+  return 0;
+#endif
+}
+
+void main() {
+  uint pixel = uint(gl_FragCoord.y) * uint(izb.size.x) + uint(gl_FragCoord.x);
+  uint primitive = texelFetch(visible_primitive, ivec2(gl_FragCoord.xy), 0).r;
+  shadows[pixel] = 0u;
+  if (primitive == no_id) return;
+  dvec3 direction = pixel_ray(floor(dvec2(gl_FragCoord.xy)) + 0.5LF);
+  Receiver64 r;
+  if (primitive < triangle_count) r = triangle_receiver(primitive, direction);
+  else if (shapes[primitive - triangle_count].kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
+  else r = sphere_receiver(primitive - triangle_count, direction);
+  if (dot(r.normal, direction) > 0.0LF) r.normal = -r.normal;
+  r.primitive = primitive;
+  if (faces_away(r)) return;
+  if (planes_block(r)) {
+    shadows[pixel] = 1u;
+    return;
+  }
+  int face = grid_face(r.position);
+  dvec3 at = on_grid(face, r.position);
+#ifdef PERSPECTIVE
+  if (!(at.z > 0.0LF)) return;
+#endif
+#ifdef CUBE
+  at.xy = clamp(at.xy, dvec2(0.0LF), dvec2(double(izb.size.z) - 0.5LF));
+#endif
+  if (any(lessThan(at.xy, dvec2(0.0LF))) || any(greaterThanEqual(at.xy, dvec2(double(izb.size.z))))) return;
+  uint i = 3u * pixel;
+  for (int k = 0; k < 3; ++k) {
+    points[i + uint(k)] = r.position[k];
+    normals64[i + uint(k)] = r.normal[k];
+    errors[i + uint(k)] = float(r.error[k]) * (1.0 + 2e-7);
+  }
+  uint next = imageAtomicExchange(heads, ivec3(ivec2(at.xy), face), pixel + 1u);
+  links[pixel] = uvec2(next, primitive);
+}

@@ -1,0 +1,169 @@
+// The irregular z-buffer (Johnson et al. 2005, "The irregular Z-buffer: Hardware acceleration for irregular data
+// structures"; Story 2015, "Hybrid Ray-Traced Shadows"): each texel of a light's grid holds the list of the pixels whose
+// receivers fall into it, and each triangle tests the pixels of every texel that it touches. Everything is in world space
+// and double precision; receivers, shadow rays and tests follow raytrace/ray_offset.h, tracer.cpp, intersect.h and
+// verdict.cpp, so that they decide like the ray tracer wherever that one is certain. Twin of raster/izb_pass.cpp.
+
+layout(std140, binding = izb_block) uniform Izb {
+  dvec4 eye;
+  dvec4 right_and_tan_x;
+  dvec4 up_and_tan_y;
+  dvec4 forward;
+  dvec4 light;         // position, or (directional) the way that light travels
+  dvec4 reference;     // of what the other shaders see
+  dvec4 origin;        // of the grid
+  dvec4 face_right[6];    // w: half extent along it
+  dvec4 face_up[6];
+  dvec4 face_forward[6];
+  ivec4 size;          // image width and height, texels on a side, shapes
+} izb;
+
+layout(std430, binding = izb_vertices_buffer) readonly buffer IzbVertices { double vertices[]; };
+struct DoubleShape {
+  dvec4 center_and_radius;  // of a sphere; of a plane: a point
+  dvec4 normal;             // of a plane
+};
+layout(std430, binding = izb_shapes_buffer) readonly buffer IzbShapes { DoubleShape double_shapes[]; };
+layout(std430, binding = izb_points_buffer) buffer IzbPoints { double points[]; };    // position of each pixel's receiver
+layout(std430, binding = izb_normals_buffer) buffer IzbNormals { double normals64[]; };
+layout(std430, binding = izb_errors_buffer) buffer IzbErrors { float errors[]; };    // rounded up
+layout(std430, binding = izb_links_buffer) buffer IzbLinks { uvec2 links[]; };       // next pixel + 1, primitive
+layout(std430, binding = izb_shadows_buffer) buffer IzbShadows { uint shadows[]; };  // of each pixel
+layout(r32ui, binding = izb_heads_image) uniform uimage2DArray heads;                // first pixel + 1
+
+const double no_end = 1e300LF;
+
+double error_gamma(int operations) {
+  double e = double(operations) * 1.1102230246251565e-16LF;
+  return e / (1.0LF - e);
+}
+
+double max_component(dvec3 v) { return max(v.x, max(v.y, v.z)); }
+
+dvec3 vertex(uint i) { return dvec3(vertices[3u * i], vertices[3u * i + 1u], vertices[3u * i + 2u]); }
+
+struct Receiver64 {
+  dvec3 position, normal, error;
+  uint primitive;
+};
+
+struct ShadowRay {
+  dvec3 origin, direction;
+  double end;  // hits count in (0, end)
+};
+
+ShadowRay shadow_ray(Receiver64 r) {
+#ifdef DIRECTIONAL
+  dvec3 towards = -izb.light.xyz;
+#else
+  dvec3 towards = izb.light.xyz - r.position;
+#endif
+  dvec3 offset = dot(abs(r.normal), r.error) * r.normal;
+  dvec3 origin = dot(r.normal, towards) < 0.0LF ? r.position - offset : r.position + offset;
+#ifdef DIRECTIONAL
+  return ShadowRay(origin, towards, no_end);
+#else
+  dvec3 way = izb.light.xyz - origin;
+  double distance = sqrt(dot(way, way));
+  double doubt = error_gamma(8) * distance + dot(r.error + abs(origin - r.position), dvec3(1.0LF));
+  return ShadowRay(origin, way / distance, distance - doubt);
+#endif
+}
+
+bool in_range(ShadowRay ray, double t) { return t > 0.0LF && t < ray.end; }
+
+// Nothing at or below the receiver's tangent plane, but for rounding, can be in its way (verdict.cpp, below_horizon).
+bool is_below(Receiver64 r, dvec3 p, double radius) {
+  dvec3 d = p - r.position;
+  double bound = error_gamma(8) * (dot(abs(r.normal), abs(d)) + radius) + dot(abs(r.normal), r.error);
+  return dot(r.normal, d) + radius <= bound;
+}
+
+// Nor anything wholly beyond the light (verdict.cpp, beyond_light).
+bool is_beyond(ShadowRay ray, dvec3 p, double radius) {
+#ifdef DIRECTIONAL
+  return false;
+#else
+  dvec3 offset = p - ray.origin;
+  double reach = radius * sqrt(dot(ray.direction, ray.direction));
+  double end = ray.end * dot(ray.direction, ray.direction);
+  double bound = error_gamma(8) * (dot(abs(ray.direction), abs(offset)) + reach + abs(end));
+  return dot(ray.direction, offset) - reach >= end - bound;
+#endif
+}
+
+// The axes in an order that puts the direction's largest component last (intersect.h).
+int largest_axis(dvec3 d) {
+  dvec3 a = abs(d);
+  int axis = a.x >= a.y ? 0 : 1;
+  return a.z > (axis == 0 ? a.x : a.y) ? 2 : axis;
+}
+dvec3 permuted(dvec3 v, int last) { return last == 0 ? v.yzx : last == 1 ? v.zxy : v; }
+
+// Woop, Benthin, Wald 2013. `t` in multiples of the direction; the weights of the second and third corner.
+bool sheared_crossing(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c, bool anywhere, out double t, out dvec2 weights) {
+  int last = largest_axis(direction);
+  dvec3 d = permuted(direction, last);
+  dvec2 shear = d.xy / d.z;
+  a = permuted(a - origin, last), b = permuted(b - origin, last), c = permuted(c - origin, last);
+  precise dvec2 p = a.xy - shear * a.z;
+  precise dvec2 q = b.xy - shear * b.z;
+  precise dvec2 r = c.xy - shear * c.z;
+  precise double u = r.x * q.y - r.y * q.x;
+  precise double v = p.x * r.y - p.y * r.x;
+  precise double w = q.x * p.y - q.y * p.x;
+  t = 0.0LF;
+  weights = dvec2(0.0LF);
+  if (!anywhere && (u < 0.0LF || v < 0.0LF || w < 0.0LF) && (u > 0.0LF || v > 0.0LF || w > 0.0LF)) return false;
+  double det = u + v + w;
+  if (det == 0.0LF) return false;
+  double z = (u * a.z + v * b.z + w * c.z) / det;
+  double low = min(a.z, min(b.z, c.z)), high = max(a.z, max(b.z, c.z));
+  t = clamp(z, low, high) / d.z;
+  weights = dvec2(v, w) / det;
+  return true;
+}
+
+// Both crossings, near one first, after Haines et al. 2019 (intersect.h).
+bool sphere_crossings64(dvec3 origin, dvec3 d, dvec3 center, double radius, out double t_near, out double t_far) {
+  dvec3 offset = origin - center;
+  double a = dot(d, d);
+  double b = -dot(offset, d);
+  t_near = b / a;
+  t_far = t_near;
+  dvec3 closest = offset + (b / a) * d;
+  double discriminant = radius * radius - dot(closest, closest);
+  if (!(discriminant >= 0.0LF)) return false;
+  double power = dot(offset, offset) - radius * radius;
+  double root = sqrt(a * discriminant);
+  double q = b >= 0.0LF ? b + root : b - root;
+  double other = q != 0.0LF ? power / q : 0.0LF;
+  t_near = min(other, q / a);
+  t_far = max(other, q / a);
+  return true;
+}
+
+Receiver64 stored_receiver(uint pixel) {
+  uint i = 3u * pixel;
+  return Receiver64(dvec3(points[i], points[i + 1u], points[i + 2u]), dvec3(normals64[i], normals64[i + 1u], normals64[i + 2u]),
+                    dvec3(errors[i], errors[i + 1u], errors[i + 2u]), links[pixel].y);
+}
+
+// Position on a face of the grid, texels; z: depth along forward, positive before a point or spot light.
+dvec3 on_grid(int face, dvec3 position) {
+  dvec3 d = position - izb.origin.xyz;
+  double z = dot(d, izb.face_forward[face].xyz);
+#ifdef PERSPECTIVE
+  double w = z;
+#else
+  double w = 1.0LF;
+#endif
+  dvec2 half_extent = dvec2(izb.face_right[face].w, izb.face_up[face].w);
+  dvec2 shown = dvec2(dot(d, izb.face_right[face].xyz), dot(d, izb.face_up[face].xyz)) / (w * half_extent);
+  return dvec3(0.5LF * (shown + 1.0LF) * double(izb.size.z), z);
+}
+
+#ifdef ALPHA_MASK
+#include "material.glsl"
+bool masked_hole(uint material, vec2 uv) { return is_hole(materials[material], uv); }
+#endif

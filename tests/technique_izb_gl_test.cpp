@@ -1,0 +1,69 @@
+// The irregular z-buffer is exact: zero wrong pixels outside `uncertain`, on every built-in scene and on the
+// real models. Small pictures and a coarse grid, so that lists are long.
+#include <filesystem>
+
+#include "scene/generate/generate.h"
+#include "scene/load.h"
+#include "scene/solid.h"
+#include "support/compare_support.h"
+#include "support/model_files.h"
+#include "support/one_world.h"
+#include "tests/raster_scenes.h"
+
+namespace gnomon::test {
+namespace {
+
+void expect_exact(Scene scene, const std::string& name, ImageSize size, int grid) {
+  if (scene.lights.empty()) return;
+  for (const Shape& shape : scene.shapes)
+    if (is_solid(shape.geometry)) {
+      std::printf("  %-44s not asked: izb refuses shape %s\n", name.c_str(), shape.name.c_str());
+      return;
+    }
+  OneWorld one(std::move(scene));
+  compare::CompareOptions options = test_options(size, grid);
+  options.raster.map.technique = raster::Technique::izb;
+  for (Light& light : one.scene.lights) light.extent = {};
+  const compare::Comparison result = one.compare(options);
+  std::uint64_t wrong = 0, compared = 0, shadowed = 0, uncertain = 0;
+  for (const compare::LightComparison& light : result.lights) {
+    wrong += light.error.wrong, compared += light.pixels.compared, uncertain += light.pixels.uncertain;
+    for (std::size_t i = 0; i < light.labels.data.size(); ++i)
+      shadowed += compare::is_compared(light.labels.data[i]) && light.rungs[0].data[i] < 0.5f;
+  }
+  std::printf("  %-44s compared %7llu  in shadow %6llu  uncertain %3llu  wrong %llu\n", name.c_str(),
+              static_cast<unsigned long long>(compared), static_cast<unsigned long long>(shadowed),
+              static_cast<unsigned long long>(uncertain), static_cast<unsigned long long>(wrong));
+  EXPECT_EQ(wrong, 0u) << name;
+}
+
+TEST(Izb, IsExactOnAStillLifeWithEveryKindOfLight) {
+  for (const bool infinite : {false, true}) {
+    for (const LightType type : {LightType::directional, LightType::point, LightType::spot}) {
+      Scene scene = still_life(infinite);
+      scene.lights = {type == LightType::directional ? sun({0.6, -1.0, 0.35})
+                                                     : lamp(type, {0.3, 2.2, 1.0}, {0, 0, 0})};
+      expect_exact(std::move(scene), infinite ? "still life on a plane" : "still life", {320, 200}, 64);
+    }
+  }
+}
+
+TEST(Izb, IsExactOnEveryBuiltinScene) {
+  for (const auto& entry : builtin_scenes()) {
+    auto scene = load_scene(std::string(entry.name));
+    ASSERT_TRUE(scene.has_value()) << scene.error().message();
+    expect_exact(std::move(*scene), std::string(entry.name), {160, 90}, 256);
+  }
+}
+
+TEST(Izb, IsExactOnTheRealModels) {
+  if (data_is_absent()) GTEST_SKIP() << "no models in " << data_folder();
+  for (const std::string& file : well_formed_models()) {
+    auto scene = load_scene(file);
+    if (!scene) continue;  // a model without triangles; compare_models_gl_test looks at those
+    expect_exact(std::move(*scene), std::filesystem::path(file).filename().string(), {120, 68}, 256);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
