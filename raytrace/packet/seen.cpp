@@ -1,231 +1,11 @@
-// Precomputation of raytrace/packet/seen.h, in double, eight triangles at a time.
-//
-// The bounds, with u = 2^-24 and M the largest coordinate in the pass:
-// - An edge function has 5 roundings of terms that sum to at most |d| (<= 2.35 for |u|, |v| <= 1.5): 12 u.
-// - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
-// error
-//   boxes included: gamma(7) and gamma(24) of raytrace/ray_offset.h, gamma(12) of raytrace/verdict.cpp, times
-//   the shear), so an edge function by 2^-41 M C with C the farthest corner; four times that is taken, for
-//   one edge function surely negative then leaves another one surely positive.
-// - The depth: the mean of the corners' with weights known to the same bound.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raytrace/packet/seen.cpp"
-#include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
-
 #include "raytrace/packet/seen.h"
-#include "raytrace/packet/seen_rows.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace gnomon::raytrace::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
-constexpr D d;
-
-struct V3 {
-  V x, y, z;
-};
-V3 operator-(const V3& a, const V3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-V dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-V product_difference(V a, V b, V c, V e) {
-  return hn::Sub(hn::Mul(a, b), hn::Mul(c, e));
-}
-V3 cross(const V3& a, const V3& b) {
-  return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
-          product_difference(a.x, b.y, a.y, b.x)};
-}
-V3 times(const V3& a, V s) {
-  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
-}
-V length(const V3& a) {
-  return hn::Sqrt(dot(a, a));
-}
-V max3(V a, V b, V c) {
-  return hn::Max(a, hn::Max(b, c));
-}
-V min3(V a, V b, V c) {
-  return hn::Min(a, hn::Min(b, c));
-}
-V all(double v) {
-  return hn::Set(d, v);
-}
-
-// What is to be written: rows of SeenPrimitive.
-struct Out {
-  V3 edge[3], nearness;
-  V edge_error, depth_error, depth_floor;
-};
-
-V inverse_or_zero(V length, V sign) {
-  return hn::IfThenElseZero(hn::Gt(length, all(0.0)), hn::Div(sign, length));
-}
-
-Out from_point(const V3& a, const V3& b, const V3& c, double m) {
-  const V3 e0 = c - b, e1 = a - c, e2 = b - a;
-  const V3 n[3] = {cross(b, e0), cross(c, e1), cross(a, e2)};
-  const V3 normal = cross(e1, e2);
-  const V det = dot(normal, a), size = hn::Abs(det), sign = hn::CopySign(all(1.0), det);
-  const V corner = hn::Sqrt(max3(dot(a, a), dot(b, b), dot(c, c)));
-  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
-  const V l[3] = {length(n[0]), length(n[1]), length(n[2])};
-  const V doubt = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
-  Out out;
-  out.edge_error = hn::Add(all(0x1p-20), hn::Div(doubt, min3(l[0], l[1], l[2])));
-  for (int k = 0; k < 3; ++k) out.edge[k] = times(n[k], inverse_or_zero(l[k], sign));
-  const V steep = hn::Div(area, size);
-  out.nearness = times(normal, hn::Div(sign, size));
-  out.depth_error =
-      hn::MulAdd(steep, hn::MulAdd(hn::Mul(all(0x1p-35 * m), corner), hn::Div(extent, size), all(0x1p-19)),
-                 hn::Mul(all(0x1p-40 * m), hn::Mul(steep, steep)));
-  // Rays in the widened triangle meet its plane ahead, at a distance that the double kernels know.
-  const V well = hn::Max(hn::Mul(hn::Mul(all(12.0), out.edge_error), hn::Mul(max3(l[0], l[1], l[2]), corner)),
-                         hn::Mul(all(0x1p-33 * m), hn::Mul(corner, corner)));
-  out.depth_floor =
-      hn::IfThenElse(hn::Ge(size, well), all(-infinity), hn::Div(hn::Mul(all(0x1p-34 * m), corner), size));
-  // Edge-on: all edge planes are the triangle's own; only rays within that plane's error are not surely off.
-  const auto thin = hn::Not(hn::Gt(size, hn::Mul(hn::Mul(all(0x1p-38 * m), corner), extent)));
-  if (!hn::AllFalse(d, thin)) {
-    const V3 unit = times(normal, inverse_or_zero(area, all(1.0)));
-    const V s0 = dot(n[0], unit), s1 = dot(n[1], unit), s2 = dot(n[2], unit);
-    const V spread = hn::Min(max3(s0, s1, s2), hn::Neg(min3(s0, s1, s2)));
-    const V off = hn::MulAdd(hn::Mul(all(3.0), hn::Div(size, area)), extent, doubt);
-    const V error =
-        hn::IfThenElse(hn::Gt(spread, all(0.0)), hn::Add(all(0x1p-20), hn::Div(off, spread)), all(infinity));
-    out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
-    const V3 slab[3] = {unit, times(unit, all(-1.0)), times(unit, all(0.0))};
-    for (int k = 0; k < 3; ++k) {
-      out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
-                     hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
-                     hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
-    }
-    out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
-                    hn::IfThenZeroElse(thin, out.nearness.z)};
-    out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
-  }
-  return out;
-}
-
-// The line through p along e in the plane across the direction, as an edge function, times `scale`.
-V3 line(const V3& p, const V3& e, V scale) {
-  return times({hn::Neg(e.y), e.x, product_difference(e.y, p.x, e.x, p.y)}, scale);
-}
-V length2(const V3& e) {
-  return hn::Sqrt(hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y)));
-}
-
-Out along_direction(const V3& a, const V3& b, const V3& c, double m, double radius) {
-  const V3 e0 = c - b, e1 = a - c, e2 = b - a;
-  const V3 normal = cross(e1, e2);
-  const V size = hn::Abs(normal.z), sign = hn::CopySign(all(1.0), normal.z);
-  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
-  const V l[3] = {length2(e0), length2(e1), length2(e2)};
-  const double corner = 20.0 * radius;  // no corner is farther from any receiver
-  const V doubt = all(0x1p-39 * m * corner);
-  Out out;
-  out.edge_error = hn::Add(all(0x1p-19 * radius), hn::Div(doubt, min3(l[0], l[1], l[2])));
-  out.edge[0] = line(b, e0, inverse_or_zero(l[0], sign));
-  out.edge[1] = line(c, e1, inverse_or_zero(l[1], sign));
-  out.edge[2] = line(a, e2, inverse_or_zero(l[2], sign));
-  const V inverse = hn::Div(all(1.0), normal.z);
-  out.nearness = {hn::Neg(hn::Mul(normal.x, inverse)), hn::Neg(hn::Mul(normal.y, inverse)),
-                  hn::Mul(dot(normal, a), inverse)};
-  const V terms = hn::MulAdd(hn::Add(hn::Abs(out.nearness.x), hn::Abs(out.nearness.y)), all(2.0 * radius),
-                             hn::Abs(out.nearness.z));
-  out.depth_error = hn::MulAdd(
-      terms, all(0x1p-20),
-      hn::MulAdd(all(0x1p-35 * m * corner), hn::Div(extent, size), all(0x1p-20 * radius + 0x1p-40 * m)));
-  out.depth_floor = all(-infinity);
-  const auto thin = hn::Not(hn::Gt(size, all(0x1p-35 * m * corner)));
-  if (!hn::AllFalse(d, thin)) {
-    const V longest = max3(l[0], l[1], l[2]);
-    const V3 own[3] = {line(b, e0, inverse_or_zero(l[0], all(1.0))),
-                       line(c, e1, inverse_or_zero(l[1], all(1.0))),
-                       line(a, e2, inverse_or_zero(l[2], all(1.0)))};
-    const auto first = hn::Eq(l[0], longest), second = hn::Eq(l[1], longest);
-    const auto pick = [&](V p, V q, V r) { return hn::IfThenElse(first, p, hn::IfThenElse(second, q, r)); };
-    const V3 n = {pick(own[0].x, own[1].x, own[2].x), pick(own[0].y, own[1].y, own[2].y),
-                  pick(own[0].z, own[1].z, own[2].z)};
-    const V off = hn::Mul(all(2.0), hn::Add(doubt, size));
-    const V error = hn::IfThenElse(hn::Gt(longest, all(0.0)),
-                                   hn::Add(all(0x1p-19 * radius), hn::Div(off, longest)), all(infinity));
-    out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
-    const V3 slab[3] = {n, times(n, all(-1.0)), times(n, all(0.0))};
-    for (int k = 0; k < 3; ++k) {
-      out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
-                     hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
-                     hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
-    }
-    out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
-                    hn::IfThenZeroElse(thin, out.nearness.z)};
-    out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
-  }
-  return out;
-}
-
-// Rounds the errors up, and lets numbers beyond a float's range (and what is not a number) decide nothing.
-void store(const Out& out, SeenRows& rows, std::size_t first) {
-  constexpr hn::Rebind<float, D> half;
-  const auto size = [](const V3& v) { return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z))); };
-  const V sum =
-      hn::Add(hn::Add(size(out.edge[0]), size(out.edge[1])), hn::Add(size(out.edge[2]), size(out.nearness)));
-  const auto sound = hn::And(hn::Lt(sum, all(1e30)),
-                             hn::And(hn::Gt(out.edge_error, all(0.0)), hn::Gt(out.depth_error, all(0.0))));
-  std::size_t row = 0;
-  const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.seen[row++] + first); };
-  const auto put_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
-  const auto put_above = [&](V v, double otherwise) {
-    put(hn::IfThenElse(sound, hn::MulAdd(hn::Abs(v), all(0x1p-20), v), all(otherwise)));
-  };
-  for (const V3& e : out.edge) put_number(e.x), put_number(e.y), put_number(e.z);
-  put_number(out.nearness.x), put_number(out.nearness.y), put_number(out.nearness.z);
-  put_above(out.edge_error, infinity), put_above(out.depth_error, infinity);
-  put(hn::IfThenElse(hn::And(sound, hn::Gt(out.depth_floor, all(-1.0))),
-                     hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
-}
-
-// rows: corners in, SeenPrimitive's numbers out, eight triangles.
-void see_eight(SeenRows& rows, const SeenPass& pass) {
-  for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
-    V3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
-      const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
-      corner[k] = p;
-      if (!pass.directional) continue;
-      const auto along = [&](const Vec3& axis) { return dot(p, V3{all(axis.x), all(axis.y), all(axis.z)}); };
-      corner[k] = {along(pass.axes[0]), along(pass.axes[1]), along(pass.axes[2])};
-    }
-    const Out out = pass.directional
-                        ? along_direction(corner[0], corner[1], corner[2], pass.largest, pass.radius)
-                        : from_point(corner[0], corner[1], corner[2], pass.largest);
-    store(out, rows, first);
-  }
-}
-
-const char* target() {
-  return hwy::TargetName(HWY_TARGET);
-}
-
-}  // namespace gnomon::raytrace::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "raytrace/packet/seen_rows.h"
+
 namespace gnomon::raytrace {
-HWY_EXPORT(see_eight);
-HWY_EXPORT(target);
-
-const char* packet_target() {
-  return HWY_DYNAMIC_DISPATCH(target)();
-}
-
 namespace {
 
 SeenPrimitive unseen(std::uint32_t id) {
@@ -276,14 +56,13 @@ SeenPrimitive see_plane(const Structures& s, const Seen& seen, const SeenPass& p
 }
 
 void see_range(const Structures& s, const SeenPass& pass, std::size_t begin, std::size_t end, Seen& seen) {
-  const auto kernel = HWY_DYNAMIC_DISPATCH(see_eight);
   SeenRows rows;
   for (std::size_t first = begin; first < end; first += 8) {
     const std::size_t count = std::min<std::size_t>(8, end - first);
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t k = 0; k < 9; ++k)
         rows.corner[k][i] = s.bvh.primitives[first + std::min(i, count - 1)].v[k];
-    kernel(rows, pass);
+    see_eight_triangles(rows, pass);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t id = s.bvh.ids[first + i];
       // Spheres are beyond this; a masked triangle is still surely missed where it is missed.
@@ -354,4 +133,3 @@ Seen seen_along(const Structures& s, const Vec3& to_light) {
 }
 
 }  // namespace gnomon::raytrace
-#endif  // HWY_ONCE

@@ -1,4 +1,4 @@
-// What passes between seen.cpp's drivers and its kernels, which are compiled once per instruction set.
+// What passes between seen.cpp's drivers and seen_kernel.cpp, which is compiled once per instruction set.
 #pragma once
 
 #include "scene/math.h"
@@ -20,5 +20,8 @@ struct SeenPass {
   double radius = 0.0;   ///< of the world, for a direction
   bool directional = false;
 };
+
+/// Corners in, numbers out.
+void see_eight_triangles(SeenRows& rows, const SeenPass& pass);
 
 }  // namespace gnomon::raytrace
