@@ -17,14 +17,19 @@ Times time_pass(int runs, const Pass& pass) {
   return times;
 }
 
+/// Tiles for the lights' passes; none where they are not asked for.
+using CompactTiles = HugeArray<CompactTile>;
+
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
-                   RayTracedFrame& frame) {
+                   RayTracedFrame& frame, CompactTiles& tiles) {
   frame.receiver = Image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(options.runs, [&] {
     if (packets_apply(tracer.structures())) {
-      const Seen eye = seen_from(tracer.structures(), view.eye, false);
-      for_each_tile({options.size}, [&](std::size_t, int x0, int y0, int x1, int y1) {
-        primary_tile(tracer, view, eye, {x0, y0, x1, y1}, frame.receiver);
+      const Sight eye = sight_of_eye(tracer.structures(), view);
+      for_each_tile({options.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+        TileHits hits;
+        CompactTile* tile = tiles.size() > 0 ? &tiles[i] : nullptr;
+        primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits, &frame.receiver, tile);
       });
       return;
     }
@@ -42,7 +47,7 @@ bool reaches(const Light& light, const SurfacePoint& point) {
 }
 
 LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const RaytraceOptions& options,
-                         const Image<SurfacePoint>& receivers) {
+                         const Image<SurfacePoint>& receivers, const CompactTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{
       .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
@@ -51,9 +56,10 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
   truth.shadow_rays = time_pass(options.runs, [&] {
     std::fill(rays.begin(), rays.end(), 0);
     if (packets_apply(tracer.structures())) {
-      const Seen seen = seen_from(tracer.structures(), light);
+      const Sight sight = sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
       for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
-        rays[tile] = shadow_tile(tracer, light, seen, {x0, y0, x1, y1}, receivers, truth.verdict);
+        const ReceiverSource source{.tracer = tracer, .stored = &receivers};
+        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, &tiles[tile], truth.verdict);
       });
       return;
     }
@@ -107,12 +113,15 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   const View view = make_view(camera, options.size);
   RayTracedFrame frame;
   const bool at_centres = options.records || options.samples_per_pixel == 1;
-  if (at_centres) trace_primary(tracer, view, options, frame);
+  CompactTiles tiles;
+  if (at_centres && !lights.empty() && packets_apply(tracer.structures()))
+    tiles = CompactTiles(TileGrid{options.size}.count());
+  if (at_centres) trace_primary(tracer, view, options, frame, tiles);
   for (const std::uint32_t light : lights) {
     if (!at_centres) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
-      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver));
+      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver, tiles));
     } else {
       frame.lights.emplace_back().light = light;
     }

@@ -106,9 +106,11 @@ inline bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
 
-/// The primitive `skip` (no_id: none) is left out. The result's t is the ray's own.
-template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
-std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
+/// Among the planes and the leaves that offer(boxes, visit) offers to visit(leaf). The primitive `skip`
+/// (no_id: none) is left out. The result's t is the ray's own.
+template <bool masks, class Arithmetic = RobustArithmetic, class Offer>
+std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, std::uint32_t skip,
+                                   const Offer& offer_leaves) {
   const Arithmetic arithmetic(s, frame);
   Hit best{.t = infinity};
   RayFrame ray = frame;
@@ -128,7 +130,7 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   for (const std::uint32_t plane : s.planes)
     if (plane != skip && arithmetic.plane(s, ray, plane, hit)) keep(hit);
   BoxRay boxes(ray, s.bvh.center);
-  walk(s, boxes, stats, [&](std::uint32_t i) {
+  offer_leaves(boxes, [&](std::uint32_t i) {
     if (arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
       boxes.t_max = float_above(best.t);
     return false;
@@ -136,6 +138,13 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
   if (best.primitive == no_id) return std::nullopt;
   best.t /= frame.kernel_t_from_t;
   return best;
+}
+
+/// Among all primitives.
+template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
+std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
+  return closest_offered<masks, Arithmetic>(
+      s, frame, skip, [&](BoxRay& boxes, const auto& visit) { walk(s, boxes, stats, visit); });
 }
 
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>

@@ -186,6 +186,24 @@ Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) cons
   return verdict(impl_->structures, from, ray);
 }
 
+std::optional<Hit> Tracer::closest_hit_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame) return std::nullopt;
+  const Structures& s = impl_->structures;
+  return specialise(s, [&]<bool masks, class Arithmetic>() {
+    return closest_offered<masks, Arithmetic>(s, *frame, no_id, [&](BoxRay&, const auto& visit) {
+      for (const std::uint32_t leaf : leaves) visit(leaf);
+    });
+  });
+}
+
+Verdict Tracer::light_verdict_among(const SurfacePoint& from, const Light& light,
+                                    std::span<const std::uint32_t> leaves) const {
+  const Ray ray = shadow_ray(from, light);
+  return precision() == Precision::exact ? certified_verdict(impl_->structures, from, ray, light, &leaves)
+                                         : verdict(impl_->structures, from, ray, &leaves);
+}
+
 std::optional<Hit> Tracer::nearest_occluder(const SurfacePoint& from, const Light& light) const {
   const World& w = world();
   const bool planar =

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "scene/light.h"
@@ -102,6 +103,12 @@ class Tracer {
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
   /// within.
   Verdict light_verdict(const SurfacePoint& from, const Light& light) const;
+  /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
+  /// leaf order (Structures::bvh); not for Precision::fast.
+  std::optional<Hit> closest_hit_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
+  Verdict light_verdict_among(const SurfacePoint& from, const Light& light,
+                              std::span<const std::uint32_t> leaves) const;
+
   /// The occluder nearest to the point on the way to the light, if any; own triangle and plane left out.
   std::optional<Hit> nearest_occluder(const SurfacePoint& from, const Light& light) const;
 

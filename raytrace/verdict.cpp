@@ -42,14 +42,20 @@ class Query {
   }
 
   template <bool masks>
-  Verdict run() {
+  Verdict run(Candidates among) {
     for (const std::uint32_t plane : s_.planes)
       if (plane != from_.primitive && count<masks>(plane, meet_plane(plane), -1, false))
         return Verdict::shadowed;
-    BoxRay boxes(ray_, s_.bvh.center, error_);
-    boxes.t_max = float_above(surely_out_);
-    NoStats stats;
-    const bool sure = walk(s_, boxes, stats, [&](std::uint32_t i) { return visit<masks>(i); });
+    const auto visit_leaf = [&](std::uint32_t i) { return visit<masks>(i); };
+    bool sure = false;
+    if (among != nullptr) {
+      sure = std::any_of(among->begin(), among->end(), visit_leaf);
+    } else {
+      BoxRay boxes(ray_, s_.bvh.center, error_);
+      boxes.t_max = float_above(surely_out_);
+      NoStats stats;
+      sure = walk(s_, boxes, stats, visit_leaf);
+    }
     if (sure || (doubts_ > 0 && neighbours_cover())) return Verdict::shadowed;
     return doubts_ > 0 ? Verdict::uncertain : Verdict::lit;
   }
@@ -320,20 +326,20 @@ class Query {
 
 }  // namespace
 
-Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray) {
+Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray, Candidates among) {
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return Verdict::lit;  // the light lies within the point's own error bound
   Query query(structures, from, ray, *frame);
-  return structures.has_masks ? query.run<true>() : query.run<false>();
+  return structures.has_masks ? query.run<true>(among) : query.run<false>(among);
 }
 
 Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                          const Light& light) {
+                          const Light& light, Candidates among) {
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return Verdict::lit;
   const ExactShadow exact(*structures.world, from, light);
   Query query(structures, from, ray, *frame, &exact);
-  return structures.has_masks ? query.run<true>() : query.run<false>();
+  return structures.has_masks ? query.run<true>(among) : query.run<false>(among);
 }
 
 }  // namespace gnomon::raytrace

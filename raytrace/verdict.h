@@ -8,11 +8,15 @@
 
 namespace gnomon::raytrace {
 
-/// `ray` is Tracer::shadow_ray of the point.
-Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray);
+/// Positions in leaf order; nullptr: all.
+using Candidates = const std::span<const std::uint32_t>*;
+
+/// `ray` is Tracer::shadow_ray of the point. `among`: whatever else is there, but planes, is surely missed.
+Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                Candidates among = nullptr);
 
 /// The same without doubt: what the bounds leave open is decided by exact predicates (exact_shadow.h there).
 Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                          const Light& light);
+                          const Light& light, Candidates among = nullptr);
 
 }  // namespace gnomon::raytrace

@@ -69,9 +69,21 @@ class HybridBench {
       });
       return;
     }
-    const raytrace::Seen seen = seen_from(s, light_);
-    for_each_tile(grid, [&](std::size_t, int x0, int y0, int x1, int y1) {
-      shadow_tile(tracer_, light_, seen, {x0, y0, x1, y1}, receivers_, pure_);
+    // What a frame keeps of its primary rays.
+    if (tiles_.size() == 0) {
+      tiles_ = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
+      for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+        tiles_[i].clear();
+        for (int y = y0; y < y1; ++y)
+          for (int x = x0; x < x1; ++x)
+            tiles_[i].put(raytrace::tile_lane(x - x0, y - y0), receivers_.at(x, y));
+        tiles_[i].finish();
+      });
+    }
+    const raytrace::Sight sight = sight_of_light(s, light_, {tiles_.data(), tiles_.size()});
+    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_};
+    for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      shadow_tile(source, light_, sight, {x0, y0, x1, y1}, &tiles_[i], pure_);
     });
   }
 
@@ -139,6 +151,7 @@ class HybridBench {
   raytrace::Topology topology_;
   Image<SurfacePoint> receivers_;
   Image<Verdict> pure_, verdicts_;
+  raytrace::HugeArray<raytrace::CompactTile> tiles_;
   Image<Decision> decisions_;
   hybrid::ShadowCounts counts_;
 };

@@ -83,6 +83,8 @@ inline float largest(const float* values) {
 /// One primitive's functions in the tile's axes.
 struct Functions {
   Linear edge[3], nearness;
+  /// Of a primitive seen in the axes of the rays: a direction's, or a framed point's.
+  explicit Functions(const SeenPrimitive& p) : Functions(p, Axes{0, 1, 2, 1.0f}) {}
   Functions(const SeenPrimitive& p, const Axes& axes)
       : edge{axes.of(p.edge[0]), axes.of(p.edge[1]), axes.of(p.edge[2])}, nearness(axes.of(p.nearness)) {}
 };

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "raytrace/packet/sight.h"
 #include "raytrace/packet/tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
@@ -16,21 +17,33 @@ struct TileRect {
   int x0, y0, x1, y1;
 };
 
-/// Whether the world has a tree to walk and lengths that floats can hold.
-bool packets_apply(const Structures& structures);
-
-/// Which primitive each pixel of the tile sees, where floats can tell (unsure_hit where not).
-void find_hits(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect, TileRays& rays,
+/// Which primitive each pixel of the tile sees, where floats can tell (unsure_hit where not, and outside the
+/// picture).
+void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                TileHits& hits);
 
-/// Fills the tile's receivers.
-void primary_tile(const Tracer& tracer, const View& view, const Seen& eye, const TileRect& rect,
-                  Image<SurfacePoint>& receivers);
+/// The receiver of a pixel for which find_hits() gave this leaf.
+SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& eye, int x, int y,
+                         std::uint32_t leaf);
+
+/// Fills the tile's receivers: in double, compact, or both (nullptr: not asked for); `hits` besides.
+void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
+                  TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact);
+
+/// Where a tile's receivers are to be had in double: stored, or by tracing the pixel again.
+struct ReceiverSource {
+  const Tracer& tracer;
+  const Image<SurfacePoint>* stored = nullptr;
+  const View* view = nullptr;  ///< these three when none are stored
+  const Sight* eye = nullptr;
+  const TileHits* hits = nullptr;
+  SurfacePoint at(const TileRect& rect, std::size_t lane) const;
+};
 
 /// Fills the verdicts of the tile's receivers as Tracer::light_verdict does, `shadowed` where the light
-/// cannot reach, and returns the number of rays.
-std::uint64_t shadow_tile(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
-                          const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts);
+/// cannot reach, and returns the number of rays. Without a compact tile the receivers must be stored.
+std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
+                          const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts);
 
 /// Bits of a tile's packets.
 using LaneMask = std::array<std::uint16_t, tile_packets>;
@@ -46,8 +59,5 @@ void shadow_lanes(const Tracer& tracer, const Light& light, const Seen& seen, co
 std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
                          const TileRect& rect, const Image<std::uint32_t>& primitives,
                          Image<SurfacePoint>& receivers);
-
-/// The light as a common origin or direction.
-Seen seen_from(const Structures& structures, const Light& light);
 
 }  // namespace gnomon::raytrace

@@ -73,6 +73,22 @@ void primary_kernel(const View& view, int x0, int y0, TileRays& rays) {
   }
 }
 
+void framed_kernel(const View& view, int x0, int y0, TileRays& rays) {
+  float u[16], v[16];
+  for (int i = 0; i < 16; ++i) {
+    u[i] = static_cast<float>((2.0 * (x0 + i + 0.5) / view.size.width - 1.0) * view.tan_half_x);
+    v[i] = static_cast<float>((2.0 * (y0 + i + 0.5) / view.size.height - 1.0) * view.tan_half_y);
+  }
+  for (std::size_t lane = 0; lane < tile_rays; lane += 4) {
+    const TilePlace at = tile_place(lane);
+    for (std::size_t i = 0; i < 4; ++i)
+      rays.u[lane + i] = u[static_cast<std::size_t>(at.x) + i],
+                    rays.v[lane + i] = v[static_cast<std::size_t>(at.y)];
+  }
+  rays.axis = 2, rays.sign = 1.0f;
+  rays.alive.fill(0xffff);
+}
+
 /// Fields of eight receivers, gathered.
 class Receivers {
  public:
@@ -128,7 +144,7 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
       if (directional) {
         for (int a = 0; a < 3; ++a) out[a] = dot(offset, seen.axes[a]);
         fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(seen.lateral)),
-                       hn::Lt(hn::Abs(out[2]), all(8.0 * seen.lateral)));
+                       hn::Lt(hn::Abs(out[2]), all(seen.height)));
       } else {
         fits = project(offset, rays, 0x1p-30 * seen.reach, out);
       }
@@ -140,6 +156,99 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
     rays.alive[p] = static_cast<std::uint16_t>(present & reached & usable);
     lanes.apart[p] = static_cast<std::uint16_t>(present & reached & ~usable);
     lanes.unreached[p] = static_cast<std::uint16_t>(present & ~reached);
+    lanes.grazing[p] = 0;
+  }
+}
+
+/// Eight receivers of a compact tile as seen from the light.
+class CompactRays {
+ public:
+  CompactRays(const Light& light, const Seen& seen, const CompactTile& tile, const TileRays& rays)
+      : tile_(tile), directional_(light.type == LightType::directional), light_(light) {
+    const auto k = static_cast<std::size_t>(directional_ || seen.framed ? 2 : rays.axis);
+    axes_[0] = seen.axes[(k + 1) % 3], axes_[1] = seen.axes[(k + 2) % 3];
+    axes_[2] = static_cast<double>(directional_ ? 1.0f : rays.sign) * seen.axes[k];
+    from_light_ = tile.origin - seen.origin;
+    // A direction's heights are rounded to floats as well, so that less of their bound is left.
+    lateral_ = seen.lateral, height_ = std::min(seen.height, 4.0 * seen.lateral);
+    // Rounding moves (u, v) by 2^-24 sqrt(3) extent / depth (1 + |slope|), which is to stay well below what
+    // the bounds of raytrace/packet/seen_kernel.cpp leave beside the tests' own rounding: extent <= depth
+    // / 2.
+    least_depth_ = std::max(2.0 * tile.extent, 0x1p-30 * seen.reach);
+  }
+
+  void at(std::size_t lane) {
+    for (int a = 0; a < 3; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      offset_[a] = hn::Add(hn::PromoteTo(d, hn::Load(half, tile_.position[i] + lane)), all(from_light_[a]));
+      normal_[a] = hn::PromoteTo(d, hn::Load(half, tile_.normal[i] + lane));
+    }
+  }
+
+  /// Bits of those that surely face the light, and of those that may.
+  void facing(unsigned& surely, unsigned& perhaps) const {
+    V cosine, size;
+    if (directional_) {
+      cosine = dot(normal_, -light_.direction), size = all(glm::dot(glm::abs(light_.direction), Vec3(1.0)));
+    } else {
+      cosine = hn::Neg(hn::MulAdd(normal_[0], offset_[0],
+                                  hn::MulAdd(normal_[1], offset_[1], hn::Mul(normal_[2], offset_[2]))));
+      size = hn::Add(hn::Add(hn::Abs(offset_[0]), hn::Abs(offset_[1])),
+                     hn::Add(hn::Abs(offset_[2]), all(2.0 * tile_.extent)));
+    }
+    const V doubt = hn::Mul(all(0x1p-22), size);  // the roundings of the normal and of the position to floats
+    surely = bits_of(hn::Gt(cosine, doubt));
+    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(doubt))));
+  }
+
+  /// Stores the rays; bits of those in range.
+  unsigned project_to(std::size_t lane, TileRays& rays) const {
+    V out[3];
+    for (int a = 0; a < 3; ++a)
+      out[a] = hn::MulAdd(offset_[0], all(axes_[a].x),
+                          hn::MulAdd(offset_[1], all(axes_[a].y), hn::Mul(offset_[2], all(axes_[a].z))));
+    M fits;
+    if (directional_) {
+      fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(lateral_)),
+                     hn::Lt(hn::Abs(out[2]), all(height_)));
+    } else {
+      const V inverse = hn::Div(all(1.0), out[2]);
+      fits = hn::Gt(out[2], all(least_depth_));
+      out[0] = hn::Mul(out[0], inverse), out[1] = hn::Mul(out[1], inverse), out[2] = inverse;
+      fits = hn::And(fits, hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(widest_slope)));
+    }
+    store(out[0], rays.u + lane), store(out[1], rays.v + lane), store(out[2], rays.far + lane);
+    return bits_of(fits);
+  }
+
+ private:
+  const CompactTile& tile_;
+  bool directional_;
+  const Light& light_;
+  Vec3 axes_[3], from_light_;
+  double lateral_, height_, least_depth_;
+  V offset_[3], normal_[3];
+};
+
+void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile, TileRays& rays,
+                    ShadowLanes& lanes) {
+  CompactRays some(light, seen, tile, rays);
+  for (std::size_t p = 0; p < tile_packets; ++p) {
+    unsigned reached = 0, perhaps = 0, usable = 0;
+    const unsigned present = tile.present[p];
+    for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(d)) {
+      const std::size_t lane = p * packet_rays + i;
+      some.at(lane);
+      unsigned surely_faces = 0, may_face = 0;
+      some.facing(surely_faces, may_face);
+      reached |= surely_faces << i, perhaps |= may_face << i;
+      usable |= some.project_to(lane, rays) << i;
+    }
+    std::memcpy(rays.own + p * packet_rays, tile.own + p * packet_rays, packet_rays * sizeof tile.own[0]);
+    rays.alive[p] = static_cast<std::uint16_t>(present & perhaps & usable);
+    lanes.apart[p] = static_cast<std::uint16_t>(present & perhaps & ~usable);
+    lanes.unreached[p] = static_cast<std::uint16_t>(present & ~perhaps);
+    lanes.grazing[p] = static_cast<std::uint16_t>(present & perhaps & ~reached);
   }
 }
 
@@ -149,10 +258,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::raytrace {
 HWY_EXPORT(primary_kernel);
+HWY_EXPORT(framed_kernel);
 HWY_EXPORT(shadow_kernel);
+HWY_EXPORT(compact_kernel);
 
 void prepare_primary(const View& view, int x0, int y0, TileRays& rays) {
   HWY_DYNAMIC_DISPATCH(primary_kernel)(view, x0, y0, rays);
+}
+void prepare_framed(const View& view, int x0, int y0, TileRays& rays) {
+  HWY_DYNAMIC_DISPATCH(framed_kernel)(view, x0, y0, rays);
+}
+void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, TileRays& rays,
+                     ShadowLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(compact_kernel)(light, seen, tile, rays, lanes);
 }
 void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
                      TileRays& rays, ShadowLanes& lanes) {

@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "raytrace/packet/receivers.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -129,9 +131,34 @@ inline void write(const Rows& rows, std::size_t i, std::uint32_t primitive, Surf
   out.normal = {r[6][i], r[7][i], r[8][i]}, out.primitive = primitive, out.barycentric = {r[9][i], r[10][i]};
 }
 
+/// The same rows as floats from the tile's origin, which is the first receiver.
+inline void write_compact(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
+                          std::size_t lane, CompactTile& tile) {
+  constexpr hn::Rebind<float, D> half;
+  if (!tile.any) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(sound));
+    tile.origin = {rows.value[0][i], rows.value[1][i], rows.value[2][i]}, tile.any = true;
+  }
+  tile.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
+  std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
+  const M here = hn::LoadMaskBits(d, bytes);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    const V position = hn::Load(d, rows.value[a]), normal = hn::Load(d, rows.value[6 + a]);
+    hn::Store(hn::DemoteTo(half, sub(position, all(tile.origin[axis]))), half, tile.position[a] + lane);
+    hn::Store(hn::DemoteTo(half, normal), half, tile.normal[a] + lane);
+    const double low = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(here, position, all(infinity))));
+    const double high = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElse(here, position, all(-infinity))));
+    tile.bounds.min[axis] = std::min(tile.bounds.min[axis], low);
+    tile.bounds.max[axis] = std::max(tile.bounds.max[axis], high);
+  }
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+    if ((sound >> i & 1) != 0) tile.own[lane + i] = bvh.ids[leaf[i]];
+}
+
 std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0,
-                                                         const TileRays& rays, const TileHits& hits,
-                                                         SurfacePoint* receivers, std::size_t stride) {
+                                                         int axis, const TileHits& hits,
+                                                         const ReceiverSinks& sinks) {
   alignas(64) double sx[tile_rays], sy[tile_rays];
   alignas(64) std::int64_t at[packet_rays];
   for (std::size_t i = 0; i < tile_rays; ++i) {
@@ -146,10 +173,10 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
   Rows rows;
   for (std::size_t p = 0; p < tile_packets; ++p) {
     const std::uint32_t* leaf = hits.leaf + p * packet_rays;
-    SurfacePoint* packet = receivers + (p / 4 * 4) * stride + p % 4 * 4;
+    const std::size_t corner_pixel = (p / 4 * 4) * sinks.stride + p % 4 * 4;
     unsigned known = 0, done = 0;
     for (std::size_t i = 0; i < packet_rays; ++i) {
-      const bool triangle = leaf[i] < count && (rays.alive[p] >> i & 1) != 0;
+      const bool triangle = leaf[i] < count;
       known |= static_cast<unsigned>(triangle) << i;
       at[i] = triangle ? 9 * static_cast<std::int64_t>(leaf[i]) : 0;
     }
@@ -159,12 +186,15 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
         corner[c / 3].a[c % 3] = hn::GatherIndex(d, corners + c, hn::Load(index, at + i));
       const std::size_t lane = p * packet_rays + i;
       const V3 direction = pixel_direction(view, hn::Load(d, sx + lane), hn::Load(d, sy + lane));
-      const Weights w = meet(direction, origin, corner, static_cast<std::size_t>(rays.axis));
+      const Weights w = meet(direction, origin, corner, static_cast<std::size_t>(axis));
       const unsigned sound = bits_of(w.sound) & (known >> i);
+      if (sound == 0) continue;
       point_rows(direction, corner, w, rows);
-      for (std::size_t j = 0; j < hn::Lanes(d); ++j)
+      if (sinks.compact != nullptr) write_compact(rows, sound, leaf + i, bvh, lane, *sinks.compact);
+      for (std::size_t j = 0; j < hn::Lanes(d) && sinks.points != nullptr; ++j)
         if ((sound >> j & 1) != 0)
-          write(rows, j, bvh.ids[leaf[i + j]], packet[(i + j) / 4 * stride + (i + j) % 4]);
+          write(rows, j, bvh.ids[leaf[i + j]],
+                sinks.points[corner_pixel + (i + j) / 4 * sinks.stride + (i + j) % 4]);
       done |= sound << i;
     }
     left[p] = static_cast<std::uint16_t>(~done);
@@ -180,9 +210,9 @@ namespace gnomon::raytrace {
 HWY_EXPORT(receivers_kernel);
 
 std::array<std::uint16_t, tile_packets> store_receivers(const Bvh& bvh, const View& view, int x0, int y0,
-                                                        const TileRays& rays, const TileHits& hits,
-                                                        SurfacePoint* receivers, std::size_t stride) {
-  return HWY_DYNAMIC_DISPATCH(receivers_kernel)(bvh, view, x0, y0, rays, hits, receivers, stride);
+                                                        int axis, const TileHits& hits,
+                                                        const ReceiverSinks& sinks) {
+  return HWY_DYNAMIC_DISPATCH(receivers_kernel)(bvh, view, x0, y0, axis, hits, sinks);
 }
 
 }  // namespace gnomon::raytrace

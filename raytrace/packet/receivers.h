@@ -5,16 +5,24 @@
 
 #include <array>
 
+#include "raytrace/packet/compact.h"
 #include "raytrace/packet/tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {
 
-/// Writes the receivers of a whole tile that lie on triangles, row by row `stride` apart. Returns per packet
-/// the bits of those that it left alone: no triangle hit for sure, an edge function of zero, a ray whose
-/// largest component is not rays.axis or has exponent 1.
+/// Where a tile's receivers go: in double, row by row `stride` apart; or compact; or both.
+struct ReceiverSinks {
+  SurfacePoint* points = nullptr;
+  std::size_t stride = 0;
+  CompactTile* compact = nullptr;  ///< cleared; finish() is left to the caller
+};
+
+/// Writes the receivers of a tile that lie on triangles. `axis`: the world axis along which the rays are
+/// longest, for most of them. Returns per packet the bits of those that it left alone: no triangle hit for
+/// sure, an edge function of zero, a ray whose largest component is not that axis or has exponent 1.
 std::array<std::uint16_t, tile_packets> store_receivers(const Bvh& bvh, const View& view, int x0, int y0,
-                                                        const TileRays& rays, const TileHits& hits,
-                                                        SurfacePoint* receivers, std::size_t stride);
+                                                        int axis, const TileHits& hits,
+                                                        const ReceiverSinks& sinks);
 
 }  // namespace gnomon::raytrace

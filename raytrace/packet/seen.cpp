@@ -41,6 +41,7 @@ SeenPrimitive see_plane(const Structures& s, const Seen& seen, const SeenPass& p
       !(std::abs(slope) > 0x1p-30 * length * (pass.directional ? 1.0 : pass.largest)))
     return unseen(id);
   Vec3 m = n / height;
+  if (seen.framed) m = Vec3(glm::dot(m, seen.axes[0]), glm::dot(m, seen.axes[1]), glm::dot(m, seen.axes[2]));
   double error = 0x1p-19 * glm::length(m) + 0x1p-36 * pass.largest * glm::dot(m, m);
   if (seen.directional) {
     m = Vec3(-glm::dot(n, seen.axes[0]), -glm::dot(n, seen.axes[1]), height) / slope;
@@ -55,34 +56,55 @@ SeenPrimitive see_plane(const Structures& s, const Seen& seen, const SeenPass& p
   return p;
 }
 
-void see_range(const Structures& s, const SeenPass& pass, std::size_t begin, std::size_t end, Seen& seen) {
-  SeenRows rows;
-  for (std::size_t first = begin; first < end; first += 8) {
-    const std::size_t count = std::min<std::size_t>(8, end - first);
-    for (std::size_t i = 0; i < 8; ++i)
-      for (std::size_t k = 0; k < 9; ++k)
-        rows.corner[k][i] = s.bvh.primitives[first + std::min(i, count - 1)].v[k];
-    see_eight_triangles(rows, pass);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t id = s.bvh.ids[first + i];
-      // Spheres are beyond this; a masked triangle is still surely missed where it is missed.
-      if (!s.world->is_triangle(id))
-        seen.primitives[first + i] = unseen(id);
-      else
-        seen.primitives[first + i] =
-            seen_at(rows, i, s.has_masks && is_masked(*s.world, id) ? id | never_sure : id);
-    }
-  }
+}  // namespace
+
+SeenPass seen_pass(const Structures& s, const Seen& seen) {
+  return {.origin = seen.origin,
+          .axes = {seen.axes[0], seen.axes[1], seen.axes[2]},
+          .largest = seen.reach,
+          .radius = 0.5 * s.world->finite_bounds.diagonal(),
+          .farthest = 0.5 * s.world->finite_bounds.diagonal() +
+                      glm::length(Vec3(seen.lateral, seen.lateral, seen.height)),
+          .directional = seen.directional,
+          .turned = seen.directional || seen.framed};
 }
 
-void see_all(const Structures& s, const SeenPass& pass, Seen& seen) {
+namespace {
+
+// The last leaf stands in for those beyond the end.
+void see_rows(const Structures& s, const SeenPass& pass, std::size_t first, SeenRows& rows) {
+  const std::size_t last = s.bvh.primitives.size() - 1;
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = s.bvh.primitives[std::min(first + i, last)].v[k];
+  see_eight_triangles(rows, pass);
+}
+
+SeenPrimitive seen_leaf(const Structures& s, const SeenRows& rows, std::size_t i, std::size_t leaf) {
+  const std::uint32_t id = s.bvh.ids[leaf];
+  // Spheres are beyond this; a masked triangle is still surely missed where it is missed.
+  if (!s.world->is_triangle(id)) return unseen(id);
+  return seen_at(rows, i, s.has_masks && is_masked(*s.world, id) ? id | never_sure : id);
+}
+
+void see_planes(const Structures& s, Seen& seen) {
+  const SeenPass pass = seen_pass(s, seen);
+  for (const std::uint32_t id : s.planes) seen.planes.push_back(see_plane(s, seen, pass, id));
+}
+
+void see_all(const Structures& s, Seen& seen) {
   const std::size_t count = s.bvh.primitives.size();
-  seen.primitives = std::make_unique_for_overwrite<SeenPrimitive[]>(count);
+  const SeenPass pass = seen_pass(s, seen);
+  seen.primitives = HugeArray<SeenPrimitive>(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (count + 7) / 8, 256),
                     [&](const tbb::blocked_range<std::size_t>& r) {
-                      see_range(s, pass, 8 * r.begin(), std::min(8 * r.end(), count), seen);
+                      SeenRows rows;
+                      for (std::size_t first = 8 * r.begin(); first < std::min(8 * r.end(), count);
+                           first += 8) {
+                        see_rows(s, pass, first, rows);
+                        for (std::size_t i = 0; i < std::min<std::size_t>(8, count - first); ++i)
+                          seen.primitives[first + i] = seen_leaf(s, rows, i, first + i);
+                      }
                     });
-  for (const std::uint32_t id : s.planes) seen.planes.push_back(see_plane(s, seen, pass, id));
 }
 
 double largest_coordinate(const Vec3& v) {
@@ -99,37 +121,66 @@ double world_reach(const Structures& s) {
 
 }  // namespace
 
-Seen seen_from(const Structures& s, const Vec3& origin, bool receivers) {
+Seen open_seen_from(const Structures& s, const Vec3& origin, bool receivers) {
   Seen seen;
   seen.origin = origin;
   seen.axes[0] = {1, 0, 0}, seen.axes[1] = {0, 1, 0}, seen.axes[2] = {0, 0, 1};
   const double world = std::max(world_reach(s), largest_coordinate(origin));
-  seen.reach = receivers ? 4.0 * world : world;
+  seen.reach = receivers ? (s.planes.empty() ? 1.0 + 0x1p-10 : 4.0) * world : world;
   seen.slack =
       0x1p-18 * largest_coordinate(s.world->finite_bounds.extent() + glm::abs(origin - s.bvh.center)) +
       0x1p-38 * seen.reach;
-  see_all(s, {.origin = origin, .axes = {}, .largest = seen.reach}, seen);
+  see_planes(s, seen);
   return seen;
 }
 
-Seen seen_along(const Structures& s, const Vec3& to_light) {
+void frame_seen(const Structures& s, const Vec3& right, const Vec3& depth, Seen& seen) {
+  seen.axes[0] = right, seen.axes[1] = glm::cross(depth, right), seen.axes[2] = depth;
+  seen.framed = true;
+  seen.planes.clear();
+  see_planes(s, seen);
+}
+
+Seen open_seen_along(const Structures& s, const Vec3& to_light) {
   Seen seen;
   seen.directional = true;
   seen.origin = s.bvh.center;
   seen.axes[2] = to_light / glm::length(to_light);
   orthonormal_basis(seen.axes[2], seen.axes[0], seen.axes[1]);
   const double radius = 0.5 * s.world->finite_bounds.diagonal();
-  seen.lateral = 2.0 * radius;
-  seen.reach = world_reach(s) + 16.0 * radius;
+  // Infinite planes apart, nothing lies outside the world's sphere.
+  constexpr double margin = 1.0 + 0x1p-10;
+  seen.lateral = (s.planes.empty() ? margin : 2.0) * radius;
+  seen.height = (s.planes.empty() ? margin : 16.0) * radius;
+  seen.reach = s.planes.empty() ? margin * world_reach(s) : world_reach(s) + 16.0 * radius;
   seen.slack = 0x1p-17 * radius + 0x1p-38 * seen.reach;
-  see_all(s,
-          {.origin = seen.origin,
-           .axes = {seen.axes[0], seen.axes[1], seen.axes[2]},
-           .largest = seen.reach,
-           .radius = radius,
-           .directional = true},
-          seen);
+  see_planes(s, seen);
   return seen;
+}
+
+Seen seen_from(const Structures& s, const Vec3& origin, bool receivers) {
+  Seen seen = open_seen_from(s, origin, receivers);
+  see_all(s, seen);
+  return seen;
+}
+
+Seen seen_along(const Structures& s, const Vec3& to_light) {
+  Seen seen = open_seen_along(s, to_light);
+  see_all(s, seen);
+  return seen;
+}
+
+void see_block(const Structures& s, const SeenPass& pass, std::size_t first, SeenBlock& block) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  SeenRows rows;
+  see_rows(s, pass, first, rows);
+  const std::size_t count = std::min<std::size_t>(8, s.bvh.primitives.size() - first);
+  for (std::size_t i = 0; i < count; ++i) {
+    block.primitive[i] = seen_leaf(s, rows, i, first + i);
+    const auto bound = [&](std::size_t k) { return rows.seen[SeenRows::numbers + k][i]; };
+    block.bounds[i] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
+    if (!s.world->is_triangle(s.bvh.ids[first + i])) block.bounds[i] = {-inf, inf, -inf, inf, inf};
+  }
 }
 
 }  // namespace gnomon::raytrace

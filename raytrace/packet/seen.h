@@ -8,10 +8,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "raytrace/kernels.h"
+#include "raytrace/packet/huge_array.h"
 
 namespace gnomon::raytrace {
 
@@ -31,14 +31,23 @@ static_assert(sizeof(SeenPrimitive) == 64);
 inline constexpr std::uint32_t never_sure = 0x80000000u;
 
 struct Seen {
-  std::unique_ptr<SeenPrimitive[]> primitives;  ///< in leaf order, as many as Bvh::primitives
-  std::vector<SeenPrimitive> planes;            ///< of Structures::planes; their edge functions are not used
+  HugeArray<SeenPrimitive> primitives;  ///< in leaf order, as many as Bvh::primitives
+  std::vector<SeenPrimitive> planes;    ///< of Structures::planes; their edge functions are not used
   bool directional = false;
-  Vec3 origin{0.0};      ///< the common origin; of a direction: the middle of the world
-  Vec3 axes[3];          ///< of u, v and depth; a point's are the world's
-  double reach = 0.0;    ///< receivers with a coordinate beyond it are left to the double kernels
-  double lateral = 0.0;  ///< of a direction: so are those with |u| or |v| beyond it
+  Vec3 origin{0.0};     ///< the common origin; of a direction: the middle of the world
+  Vec3 axes[3];         ///< of u, v and depth, orthonormal
+  bool framed = false;  ///< all rays have axes[2] as their axis of depth; else a point's axes are the world's
+  double reach = 0.0;   ///< receivers with a coordinate beyond it are left to the double kernels
+  double lateral = 0.0;  ///< of a direction: so are those with |u| or |v| beyond it,
+  double height = 0.0;   ///< or with the third coordinate beyond this
   double slack = 0.0;    ///< world units by which boxes are widened against rounding
+};
+
+/// What the cells of raytrace/packet/cells.h need of a primitive besides: a box of (u, v) that holds all rays
+/// that do not surely miss it, and a nearness that is not surely behind none of them.
+struct SeenBounds {
+  float u_min, u_max, v_min, v_max;  ///< infinite: not known; min above max: no ray
+  float nearest;
 };
 
 /// Point receivers may lie anywhere within Seen::reach of the coordinates' origin; `receivers`: whether there
@@ -46,6 +55,12 @@ struct Seen {
 Seen seen_from(const Structures& structures, const Vec3& origin, bool receivers);
 /// `to_light`: any length above zero.
 Seen seen_along(const Structures& structures, const Vec3& to_light);
+
+/// The same without primitives, for see_block() and frame_seen().
+Seen open_seen_from(const Structures& structures, const Vec3& origin, bool receivers);
+Seen open_seen_along(const Structures& structures, const Vec3& to_light);
+/// Turns a point's axes; `right` and `depth` are unit and perpendicular.
+void frame_seen(const Structures& structures, const Vec3& right, const Vec3& depth, Seen& seen);
 
 /// The instruction set in use, as Highway names it.
 const char* packet_target();

@@ -118,13 +118,13 @@ V length2(const V3& e) {
   return hn::Sqrt(hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y)));
 }
 
-Out along_direction(const V3& a, const V3& b, const V3& c, double m, double radius) {
+Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass) {
   const V3 e0 = c - b, e1 = a - c, e2 = b - a;
   const V3 normal = cross(e1, e2);
   const V size = hn::Abs(normal.z), sign = hn::CopySign(all(1.0), normal.z);
   const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
   const V l[3] = {length2(e0), length2(e1), length2(e2)};
-  const double corner = 20.0 * radius;  // no corner is farther from any receiver
+  const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
   const V doubt = all(0x1p-39 * m * corner);
   Out out;
   out.edge_error = hn::Add(all(0x1p-19 * radius), hn::Div(doubt, min3(l[0], l[1], l[2])));
@@ -188,6 +188,53 @@ void store(const Out& out, SeenRows& rows, std::size_t first) {
                      hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
 }
 
+// The rays that the float tests do not send away make a cone of three planes, the edges' moved out by twice
+// their error (the tests' own rounding is below it); its generators are the planes' crossings. All of them
+// ahead: a triangle of (u, v). All behind: nothing. Else, or when rounding could turn it over: not known.
+void bound(SeenRows& rows, std::size_t first) {
+  constexpr hn::Rebind<float, D> half;
+  const auto row = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(half, rows.seen[i] + first)); };
+  const V error = row(12), moved = hn::Add(error, error);
+  V3 n[3];
+  for (std::size_t k = 0; k < 3; ++k) n[k] = {row(3 * k), row(3 * k + 1), hn::Add(row(3 * k + 2), moved)};
+  const V3 m = {row(9), row(10), row(11)};
+  const V3 across = cross(n[1], n[2]);
+  const V volume = dot(n[0], across), turn = hn::CopySign(all(1.0), volume);
+  const V3 g[3] = {times(across, turn), times(cross(n[2], n[0]), turn), times(cross(n[0], n[1]), turn)};
+  // Roundings of the generators' components: n.x and n.y are at most 1, n.z may be as large as a world.
+  const V size = hn::Add(hn::Add(hn::Abs(n[0].z), hn::Abs(n[1].z)), hn::Add(hn::Abs(n[2].z), all(2.0)));
+  const V doubt_z = all(0x1p-49), doubt = hn::Mul(doubt_z, size);
+  const auto upright = hn::Gt(hn::Abs(volume), hn::Mul(all(8.0), doubt));
+  auto ahead = upright, behind = upright;
+  V u_min = all(infinity), u_max = all(-infinity), v_min = all(infinity), v_max = all(-infinity);
+  V nearest = all(-infinity);
+  for (const V3& corner : g) {
+    ahead = hn::And(ahead, hn::Gt(corner.z, all(0x1p-46)));
+    behind = hn::And(behind, hn::Lt(corner.z, all(-0x1p-46)));
+    const V u = hn::Div(corner.x, corner.z), v = hn::Div(corner.y, corner.z);
+    const V du = hn::Div(hn::MulAdd(hn::Abs(u), doubt_z, doubt), corner.z);
+    const V dv = hn::Div(hn::MulAdd(hn::Abs(v), doubt_z, doubt), corner.z);
+    u_min = hn::Min(u_min, hn::Sub(u, du)), u_max = hn::Max(u_max, hn::Add(u, du));
+    v_min = hn::Min(v_min, hn::Sub(v, dv)), v_max = hn::Max(v_max, hn::Add(v, dv));
+    const V terms = hn::MulAdd(hn::Abs(m.x), hn::Add(hn::Abs(u), du),
+                               hn::MulAdd(hn::Abs(m.y), hn::Add(hn::Abs(v), dv), hn::Abs(m.z)));
+    const V slack = hn::MulAdd(hn::Abs(m.x), du, hn::MulAdd(hn::Abs(m.y), dv, hn::Mul(all(0x1p-18), terms)));
+    nearest = hn::Max(nearest, hn::Add(hn::MulAdd(m.x, u, hn::MulAdd(m.y, v, m.z)), slack));
+  }
+  nearest = hn::MulAdd(row(13), all(1.0 + 0x1p-18), nearest);
+  const auto known = hn::And(ahead, hn::Lt(error, all(infinity)));
+  const auto clear = hn::And(known, hn::Not(hn::Gt(row(14), all(-infinity))));
+  std::size_t at = SeenRows::numbers;
+  const auto put = [&](V value, double unknown, double none) {
+    const V chosen = hn::IfThenElse(known, value, hn::IfThenElse(behind, all(none), all(unknown)));
+    hn::Store(hn::DemoteTo(half, chosen), half, rows.seen[at++] + first);
+  };
+  put(u_min, -infinity, infinity), put(u_max, infinity, -infinity);
+  put(v_min, -infinity, infinity), put(v_max, infinity, -infinity);
+  const auto sure = hn::And(clear, hn::Lt(nearest, all(1e30)));
+  hn::Store(hn::DemoteTo(half, hn::IfThenElse(sure, nearest, all(infinity))), half, rows.seen[at] + first);
+}
+
 // rows: corners in, SeenPrimitive's numbers out, eight triangles.
 void see_eight(SeenRows& rows, const SeenPass& pass) {
   for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
@@ -196,14 +243,14 @@ void see_eight(SeenRows& rows, const SeenPass& pass) {
       const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
       const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
       corner[k] = p;
-      if (!pass.directional) continue;
+      if (!pass.turned) continue;
       const auto along = [&](const Vec3& axis) { return dot(p, V3{all(axis.x), all(axis.y), all(axis.z)}); };
       corner[k] = {along(pass.axes[0]), along(pass.axes[1]), along(pass.axes[2])};
     }
-    const Out out = pass.directional
-                        ? along_direction(corner[0], corner[1], corner[2], pass.largest, pass.radius)
-                        : from_point(corner[0], corner[1], corner[2], pass.largest);
+    const Out out = pass.directional ? along_direction(corner[0], corner[1], corner[2], pass)
+                                     : from_point(corner[0], corner[1], corner[2], pass.largest);
     store(out, rows, first);
+    if (pass.bounds) bound(rows, first);
   }
 }
 

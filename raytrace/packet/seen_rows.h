@@ -1,14 +1,14 @@
 // What passes between seen.cpp's drivers and seen_kernel.cpp, which is compiled once per instruction set.
 #pragma once
 
-#include "scene/math.h"
+#include "raytrace/packet/seen.h"
 
 namespace gnomon::raytrace {
 
 /// Eight triangles by rows: nine corner coordinates in; edges (9), nearness (3) and the three bounds out,
-/// those rounded up, in the order of SeenPrimitive.
+/// those rounded up, in the order of SeenPrimitive; where asked for, SeenBounds after them.
 struct alignas(64) SeenRows {
-  static constexpr std::size_t count = 15;
+  static constexpr std::size_t numbers = 15, bounds = 5, count = numbers + bounds;
   double corner[9][8];
   float seen[count][8];
 };
@@ -16,10 +16,22 @@ struct alignas(64) SeenRows {
 struct SeenPass {
   Vec3 origin;
   Vec3 axes[3];
-  double largest = 0.0;  ///< no coordinate in the pass is larger
-  double radius = 0.0;   ///< of the world, for a direction
+  double largest = 0.0;   ///< no coordinate in the pass is larger
+  double radius = 0.0;    ///< of the world, for a direction
+  double farthest = 0.0;  ///< for a direction: no corner is farther from any receiver
   bool directional = false;
+  bool turned = false;  ///< the axes are not the world's
+  bool bounds = false;  ///< SeenBounds are asked for
 };
+
+SeenPass seen_pass(const Structures& structures, const Seen& seen);
+
+/// Eight leaves from `first` on, or as many as there are. pass.bounds must be set.
+struct SeenBlock {
+  SeenPrimitive primitive[8];
+  SeenBounds bounds[8];
+};
+void see_block(const Structures& structures, const SeenPass& pass, std::size_t first, SeenBlock& block);
 
 /// Corners in, numbers out.
 void see_eight_triangles(SeenRows& rows, const SeenPass& pass);

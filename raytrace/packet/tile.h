@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "raytrace/packet/seen.h"
@@ -43,9 +44,26 @@ struct alignas(64) TileHits {
   std::uint32_t leaf[tile_rays];
 };
 
+/// What a ray neither surely meets nor surely misses.
+struct TileDoubt {
+  std::uint32_t leaf;
+  std::uint32_t lane;
+};
+
 /// Bits per packet; neither: surely lit. Both never.
 struct TileShadows {
   std::array<std::uint16_t, tile_packets> shadowed, unsure;
+  /// Of the unsure rays every primitive but planes that they may meet; of others some. When doubt_count is
+  /// above most_doubts there were more.
+  static constexpr std::size_t most_doubts = 512;
+  std::array<TileDoubt, most_doubts> doubts;
+  std::size_t doubt_count = 0;
+  void note(std::uint32_t leaf, std::size_t first_lane, unsigned bits) {
+    for (; bits != 0; bits &= bits - 1, ++doubt_count)
+      if (doubt_count < most_doubts)
+        doubts[doubt_count] = {leaf, static_cast<std::uint32_t>(first_lane) +
+                                         static_cast<std::uint32_t>(std::countr_zero(bits))};
+  }
 };
 
 /// The world's tree must have nodes.

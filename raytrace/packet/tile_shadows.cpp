@@ -68,9 +68,10 @@ class Shadows {
 
   void run(TileShadows& out) {
     shadowed_.fill(0), unsure_.fill(0);
+    out.doubt_count = 0, out_ = &out;
     for (const SeenPrimitive& plane : seen_.planes) {
       const RayTest rays(Functions(plane, axes_));
-      for (std::size_t p = 0; p < tile_packets; ++p) test_packet<true>(plane, rays, p);
+      for (std::size_t p = 0; p < tile_packets; ++p) test_packet<true>(plane, 0, rays, p);
     }
     const float far = smallest(packets_.far_min);
     if (far < inf) {
@@ -105,7 +106,7 @@ class Shadows {
     const RayTest rays(of);
     bool taken = false;
     for (; met != 0; met &= met - 1)
-      taken |= test_packet<false>(primitive, rays, static_cast<std::size_t>(std::countr_zero(met)));
+      taken |= test_packet<false>(primitive, i, rays, static_cast<std::size_t>(std::countr_zero(met)));
     return taken;
   }
 
@@ -122,7 +123,8 @@ class Shadows {
   }
 
   template <bool plane>
-  bool test_packet(const SeenPrimitive& primitive, const RayTest& rays, std::size_t packet) {
+  bool test_packet(const SeenPrimitive& primitive, std::uint32_t leaf, const RayTest& rays,
+                   std::size_t packet) {
     bool taken = false;
     const V edge_error = all(primitive.edge_error), depth_error = all(primitive.depth_error);
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
@@ -134,16 +136,18 @@ class Shadows {
       const M behind = hn::And(hn::Lt(nearness, hn::Sub(far, depth_error)), known);
       M contact = hn::AndNot(behind, hn::Ge(edge, hn::Neg(edge_error)));
       if (hn::AllFalse(f, contact)) continue;
+      // A shape may shadow itself; the double kernels know when.
       const auto own = hn::Eq(hn::Load(ids, rays_.own + at), hn::Set(ids, primitive.id & ~never_sure));
-      contact = hn::AndNot(hn::RebindMask(f, own), contact);
-      unsure_[packet] |= bits_of(contact) << i;
-      if ((primitive.id & never_sure) != 0) continue;
+      if (primitive.edge_error < inf) contact = hn::AndNot(hn::RebindMask(f, own), contact);
       const M ahead = hn::And(hn::Gt(nearness, hn::Add(far, depth_error)), known);
-      const M sure = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
-      const unsigned bits = bits_of(sure);
+      const M inside = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
+      const unsigned bits = (primitive.id & never_sure) == 0 ? bits_of(inside) : 0;
+      const unsigned open = bits_of(contact) & ~bits;
+      unsure_[packet] |= open << i;
+      if (!plane) out_->note(leaf, at, open);
       if (bits == 0) continue;
       shadowed_[packet] |= bits << i;
-      hn::Store(hn::IfThenElse(sure, all(inf), far), f, far_ + at);
+      hn::Store(hn::IfThenElse(inside, all(inf), far), f, far_ + at);
       taken = true;
     }
     if (taken) packets_.far_min[packet] = smallest(far_ + packet * packet_rays);
@@ -157,6 +161,7 @@ class Shadows {
   Packets packets_;
   Floors floors_;
   std::array<unsigned, tile_packets> shadowed_, unsure_;
+  TileShadows* out_ = nullptr;
   alignas(64) float far_[tile_rays];
 };
 

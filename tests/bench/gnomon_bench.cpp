@@ -18,8 +18,10 @@ namespace gnomon::bench {
 namespace {
 
 using raytrace::Accel;
+using raytrace::CompactTile;
+using raytrace::HugeArray;
 using raytrace::RayTracedFrame;
-using raytrace::Seen;
+using raytrace::Sight;
 using raytrace::Tracer;
 using raytrace::Verdict;
 
@@ -75,7 +77,8 @@ class Bench {
         view_(make_view(scene.scene.camera, settings.size)),
         primary_(primary_rays(view_)),
         grid_{settings.size},
-        hits_(grid_.count()) {
+        hits_(grid_.count()),
+        tiles_(grid_.count()) {
     frame_ = trace({0, 1});
     for (const Light& light : scene.scene.lights)
       shadow_.push_back(shadow_rays(frame_, light, world_.finite_bounds.diagonal()));
@@ -117,51 +120,69 @@ class Bench {
     std::fflush(stdout);
   }
 
-  void our_hits() {
-    const Seen eye = seen_from(tracer_.structures(), view_.eye, false);
+  const raytrace::Structures& structures() const { return tracer_.structures(); }
+
+  void our_hits(const Sight& eye) {
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      raytrace::TileRays rays;
-      find_hits(tracer_, view_, eye, {x0, y0, x1, y1}, rays, hits_[i]);
+      find_hits(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i]);
     });
   }
-  void our_receivers() {
-    const Seen eye = seen_from(tracer_.structures(), view_.eye, false);
-    for_each_tile(grid_, [&](std::size_t, int x0, int y0, int x1, int y1) {
-      primary_tile(tracer_, view_, eye, {x0, y0, x1, y1}, frame_.receiver);
+  void our_receivers(const Sight& eye, bool in_double) {
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      primary_tile(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i], in_double ? &frame_.receiver : nullptr,
+                   &tiles_[i]);
     });
   }
-  void our_shadows(std::size_t light) {
-    const Light& l = scene_.scene.lights[light];
-    const Seen seen = seen_from(tracer_.structures(), l);
-    for_each_tile(grid_, [&](std::size_t, int x0, int y0, int x1, int y1) {
-      shadow_tile(tracer_, l, seen, {x0, y0, x1, y1}, frame_.receiver, frame_.lights[light].verdict);
+  Sight sight_of(std::size_t light) const {
+    return sight_of_light(structures(), scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
+  }
+  void our_shadows(std::size_t light, const Sight& eye, const Sight& sight) {
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      const raytrace::ReceiverSource source{
+          .tracer = tracer_, .stored = nullptr, .view = &view_, .eye = &eye, .hits = &hits_[i]};
+      shadow_tile(source, scene_.scene.lights[light], sight, {x0, y0, x1, y1}, &tiles_[i],
+                  frame_.lights[light].verdict);
     });
   }
 
   void primary(int threads) {
     const auto rays = static_cast<double>(primary_.count);
-    const auto ours = [&] { our_hits(); };
-    add("primary, which primitive", threads, rays,
-        in_turn(settings_.runs, threads, ours, [&] { embree_.closest_packets(primary_, peer_); }),
-        "Embree 16 coherent", 1.5);
+    const auto against = [&](const char* name, const auto& ours, const auto& theirs, const char* peer,
+                             std::optional<double> goal) {
+      add(name, threads, rays, in_turn(settings_.runs, threads, ours, theirs), peer, goal);
+    };
+    const Sight ready = sight_of_eye(structures(), view_);
+    const auto packets = [&] { embree_.closest_packets(primary_, peer_); };
+    against(
+        "primary", [&] { our_hits(ready); }, packets, "Embree 16 coherent", 1.5);
+    against(
+        "primary, cells made anew", [&] { our_hits(sight_of_eye(structures(), view_)); }, packets,
+        "Embree 16 coherent", std::nullopt);
     if (threads > 1) return;
-    add("primary, which primitive", threads, rays,
-        in_turn(settings_.runs, threads, ours, [&] { embree_.closest_single(primary_, peer_); }),
+    against(
+        "primary", [&] { our_hits(ready); }, [&] { embree_.closest_single(primary_, peer_); },
         "Embree single", std::nullopt);
-    add("primary, double receivers", threads, rays,
-        in_turn(
-            settings_.runs, threads, [&] { our_receivers(); },
-            [&] { embree_.closest_packets(primary_, peer_); }),
-        "Embree 16 coherent, hits", std::nullopt);
+    against(
+        "primary, float receivers", [&] { our_receivers(ready, false); }, packets, "Embree 16 coherent",
+        std::nullopt);
+    against(
+        "primary, double receivers", [&] { our_receivers(ready, true); }, packets, "Embree 16 coherent",
+        std::nullopt);
   }
 
   void shadows(std::size_t light, int threads) {
     const std::string name = light == 0 ? "point shadow" : "sun shadow";
     const auto rays = static_cast<double>(shadow_[light].count);
-    const auto ours = [&] { our_shadows(light); };
-    add(name, threads, rays,
-        in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_packets(shadow_[light], occluded_); }),
-        "Embree 16 coherent", 2.0);
+    const Sight eye = sight_of_eye(structures(), view_);
+    our_receivers(eye, false);
+    const Sight ready = sight_of(light);
+    const auto packets = [&] { embree_.occluded_packets(shadow_[light], occluded_); };
+    const auto ours = [&] { our_shadows(light, eye, ready); };
+    add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 2.0);
+    add(name + ", cells made anew", threads, rays,
+        in_turn(
+            settings_.runs, threads, [&] { our_shadows(light, eye, sight_of(light)); }, packets),
+        "Embree 16 coherent", std::nullopt);
     if (threads == 1)
       add(name, threads, rays,
           in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
@@ -177,7 +198,8 @@ class Bench {
           const Stopwatch watch;
           tracer_ = Tracer(world_, Accel::bvh);
           build = watch.elapsed_ms();
-          our_receivers(), our_shadows(0);
+          const Sight eye = sight_of_eye(structures(), view_);
+          our_receivers(eye, false), our_shadows(0, eye, sight_of(0));
         },
         [&] {
           const Stopwatch watch;
@@ -197,7 +219,7 @@ class Bench {
 
   // Receivers against Embree's hits; how many pixels the floats left to double.
   void check_hits() {
-    our_hits(), our_receivers(), embree_.closest_packets(primary_, peer_);
+    our_receivers(sight_of_eye(structures(), view_), true), embree_.closest_packets(primary_, peer_);
     std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
     const double doubt = 1e-4 * world_.finite_bounds.diagonal();
     for (int y = 0; y < settings_.size.height; ++y)
@@ -246,6 +268,7 @@ class Bench {
   std::vector<PeerRays> shadow_;
   raytrace::TileGrid grid_;
   std::vector<raytrace::TileHits> hits_;
+  HugeArray<CompactTile> tiles_;
   RayTracedFrame frame_;
   PeerHits peer_;
   std::vector<std::uint8_t> occluded_;

@@ -1,0 +1,203 @@
+// Shadow rays of a tile: raytrace/packet/passes.h.
+#include <cstring>
+
+#include "raytrace/packet/cell_tile.h"
+#include "raytrace/packet/passes.h"
+#include "raytrace/packet/places.h"
+#include "raytrace/packet/prepare.h"
+#include "raytrace/tiles.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+bool start(const Seen& seen, const SurfacePoint& point, TileRays& rays, std::size_t lane) {
+  if (!(max_component(glm::abs(point.position)) < seen.reach)) return false;
+  const Vec3 offset = point.position - seen.origin;
+  const auto k = static_cast<std::size_t>(seen.directional ? 2 : rays.axis);
+  double u = glm::dot(offset, seen.axes[(k + 1) % 3]), v = glm::dot(offset, seen.axes[(k + 2) % 3]);
+  double far = glm::dot(offset, seen.axes[k]);
+  if (seen.directional) {
+    if (!(std::abs(u) < seen.lateral && std::abs(v) < seen.lateral && std::abs(far) < seen.height))
+      return false;
+  } else {
+    const double depth = static_cast<double>(rays.sign) * far;
+    far = 1.0 / depth, u *= far, v *= far;
+    if (!(depth > 0x1p-30 * seen.reach && std::abs(u) < widest_slope && std::abs(v) < widest_slope))
+      return false;
+  }
+  rays.u[lane] = static_cast<float>(u), rays.v[lane] = static_cast<float>(v);
+  rays.far[lane] = static_cast<float>(far);
+  return true;
+}
+
+void choose_axis(const Seen& seen, const Vec3& receiver, TileRays& rays) {
+  rays.axis = 2, rays.sign = 1.0f;
+  if (seen.directional || seen.framed) return;
+  const Vec3 offset = receiver - seen.origin, size = glm::abs(offset);
+  rays.axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+  rays.sign = offset[rays.axis] < 0.0 ? -1.0f : 1.0f;
+}
+
+/// Whether floats from the tile's origin are near enough to its receivers.
+bool compact_applies(const Seen& seen, const CompactTile& tile) {
+  const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
+  return max_component(largest) < seen.reach && (!seen.directional || tile.extent < 2.0 * seen.lateral);
+}
+
+/// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit.
+void store_lit(unsigned lit, Verdict* out) {
+  static_assert(static_cast<int>(Verdict::shadowed) == 0 && static_cast<int>(Verdict::lit) == 1);
+  const std::uint32_t bytes = (lit * 0x204081u) & 0x01010101u;
+  std::memcpy(out, &bytes, sizeof bytes);
+}
+
+void store_verdicts(const TileRect& rect, const PacketBits& dark, Image<Verdict>& verdicts) {
+  if (is_whole(rect)) {
+    for (int y = 0; y < tile_pixels; ++y)
+      for (int x = 0; x < tile_pixels; x += 4) {
+        const std::size_t lane = tile_lane(x, y);
+        const unsigned lit =
+            ~(static_cast<unsigned>(dark[lane / packet_rays]) >> (lane % packet_rays)) & 0xfu;
+        store_lit(lit, &verdicts.at(rect.x0 + x, rect.y0 + y));
+      }
+    return;
+  }
+  for_each_place(rect, [&](int x, int y, std::size_t lane) {
+    verdicts.at(x, y) = (dark[lane / packet_rays] & bit_of(lane)) != 0 ? Verdict::shadowed : Verdict::lit;
+  });
+}
+
+/// One tile on its way from receivers to verdicts.
+class ShadowTile {
+ public:
+  ShadowTile(const ReceiverSource& receivers, const Light& light, const Sight& sight, const TileRect& rect)
+      : receivers_(receivers), light_(light), sight_(sight), rect_(rect) {}
+
+  std::uint64_t run(const CompactTile* compact, Image<Verdict>& verdicts) {
+    prepare(compact);
+    if (compact != nullptr) prefetch(compact + 1);
+    if (sight_.by_cells)
+      shadows_in_cells(sight_.cells, sight_.seen, rays_, shadows_, outside_);
+    else
+      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.seen, rays_, shadows_);
+    std::uint64_t count = 0;
+    PacketBits dark;
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      dark[p] = shadows_.shadowed[p] | lanes_.unreached[p];
+      count += static_cast<std::uint64_t>(
+          std::popcount(static_cast<unsigned>(rays_.alive[p]) | static_cast<unsigned>(lanes_.apart[p])));
+    }
+    store_verdicts(rect_, dark, verdicts);
+    decide_rest(verdicts);
+    return count;
+  }
+
+ private:
+  /// The next tile comes from memory while this one is traced. Beyond the last one nothing is read.
+  static void prefetch(const CompactTile* next) {
+    const char* bytes = reinterpret_cast<const char*>(next);
+    for (std::size_t i = 0; i < sizeof(CompactTile); i += 64) __builtin_prefetch(bytes + i);
+  }
+
+  void prepare(const CompactTile* compact) {
+    const Seen& seen = sight_.seen;
+    if (compact != nullptr && light_.type != LightType::spot && compact_applies(seen, *compact)) {
+      choose_axis(seen, compact->origin, rays_);
+      prepare_compact(light_, seen, *compact, rays_, lanes_);
+      decide_grazing();
+      return;
+    }
+    if (receivers_.stored != nullptr && is_whole(rect_) && light_.type != LightType::spot && !seen.framed) {
+      const Image<SurfacePoint>& stored = *receivers_.stored;
+      choose_axis(seen, some_receiver(), rays_);
+      prepare_shadows(light_, seen, &stored.at(rect_.x0, rect_.y0),
+                      static_cast<std::size_t>(stored.size.width), rays_, lanes_);
+    } else {
+      choose_axis(seen, some_receiver(), rays_);
+      prepare_one_by_one();
+    }
+  }
+
+  void prepare_one_by_one() {
+    rays_.alive.fill(0);
+    for (std::size_t i = 0; i < tile_rays; ++i)
+      rays_.u[i] = rays_.v[i] = rays_.far[i] = 0.0f, rays_.own[i] = no_id;
+    lanes_.apart.fill(0), lanes_.unreached.fill(0), lanes_.grazing.fill(0);
+    for_each_place(rect_, [&](int, int, std::size_t lane) {
+      const SurfacePoint point = receivers_.at(rect_, lane);
+      if (point.primitive == no_id) return;
+      rays_.own[lane] = point.primitive;
+      const bool reached = !light_cannot_reach(light_, point.position, point.normal);
+      auto& bits = !reached                                 ? lanes_.unreached
+                   : start(sight_.seen, point, rays_, lane) ? rays_.alive
+                                                            : lanes_.apart;
+      bits[lane / packet_rays] |= bit_of(lane);
+    });
+  }
+
+  /// The tile's middle receiver, or the first one where there is none.
+  Vec3 some_receiver() const {
+    SurfacePoint point =
+        receivers_.at(rect_, tile_lane((rect_.x1 - rect_.x0) / 2, (rect_.y1 - rect_.y0) / 2));
+    for_each_place(rect_, [&](int, int, std::size_t lane) {
+      if (point.primitive == no_id) point = receivers_.at(rect_, lane);
+    });
+    return point.position;
+  }
+
+  void decide_grazing() {
+    for_each_place(rect_, lanes_.grazing, [&](int, int, std::size_t lane) {
+      const SurfacePoint point = receivers_.at(rect_, lane);
+      if (!light_cannot_reach(light_, point.position, point.normal)) return;
+      const std::size_t p = lane / packet_rays;
+      const auto others = static_cast<std::uint16_t>(~bit_of(lane));
+      rays_.alive[p] &= others, lanes_.apart[p] &= others, lanes_.unreached[p] |= bit_of(lane);
+    });
+  }
+
+  void decide_rest(Image<Verdict>& verdicts) {
+    const bool listed = shadows_.doubt_count <= TileShadows::most_doubts;
+    for_each_place(rect_, shadows_.unsure, [&](int x, int y, std::size_t lane) {
+      const SurfacePoint point = receivers_.at(rect_, lane);
+      const bool in_list = listed && (outside_[lane / packet_rays] & bit_of(lane)) == 0;
+      verdicts.at(x, y) = in_list ? verdict_of_doubts(point, lane) : full_verdict(point);
+    });
+    for_each_place(rect_, lanes_.apart, [&](int x, int y, std::size_t lane) {
+      verdicts.at(x, y) = full_verdict(receivers_.at(rect_, lane));
+    });
+  }
+
+  Verdict full_verdict(const SurfacePoint& point) const {
+    return receivers_.tracer.light_verdict(point, light_);
+  }
+
+  Verdict verdict_of_doubts(const SurfacePoint& point, std::size_t lane) const {
+    std::array<std::uint32_t, TileShadows::most_doubts> leaves;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < shadows_.doubt_count; ++i)
+      if (shadows_.doubts[i].lane == lane) leaves[count++] = shadows_.doubts[i].leaf;
+    return receivers_.tracer.light_verdict_among(point, light_, {leaves.data(), count});
+  }
+
+  const ReceiverSource& receivers_;
+  const Light& light_;
+  const Sight& sight_;
+  const TileRect& rect_;
+  TileRays rays_;
+  ShadowLanes lanes_;
+  TileShadows shadows_;
+  PacketBits outside_{};
+};
+
+}  // namespace
+
+std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
+                          const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts) {
+  if (compact != nullptr && !compact->any) {
+    store_verdicts(rect, {}, verdicts);
+    return 0;
+  }
+  return ShadowTile(receivers, light, sight, rect).run(compact, verdicts);
+}
+
+}  // namespace gnomon::raytrace

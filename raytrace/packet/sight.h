@@ -1,0 +1,34 @@
+// The world from an eye or a light, made ready for tiles of rays: the primitives seen from there, and cells
+// where they pay.
+#pragma once
+
+#include <span>
+
+#include "raytrace/packet/cells.h"
+#include "raytrace/packet/compact.h"
+#include "scene/camera.h"
+
+namespace gnomon::raytrace {
+
+/// |u| and |v| of a point's rays stay below this: the bounds of raytrace/packet/seen_kernel.cpp.
+inline constexpr double widest_slope = 1.5;
+
+struct Sight {
+  Seen seen;
+  Cells cells;
+  bool by_cells = false;  ///< else Seen::primitives are filled, for the hierarchy
+};
+
+/// Whether the world has a tree to walk and lengths that floats can hold.
+bool packets_apply(const Structures& structures);
+
+/// The light as a common origin or direction, for the hierarchy.
+Seen seen_from(const Structures& structures, const Light& light);
+
+/// Cells are packets of 4 x 4 pixels.
+Sight sight_of_eye(const Structures& structures, const View& view);
+
+/// Cells cover what the tiles hold. No tiles: the hierarchy.
+Sight sight_of_light(const Structures& structures, const Light& light, std::span<const CompactTile> tiles);
+
+}  // namespace gnomon::raytrace
