@@ -2,123 +2,55 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_reduce.h>
 
 #include <limits>
 #include <numeric>
 
+#include "raytrace/bvh_bins.h"
+#include "raytrace/packet/huge_array.h"
 #include "scene/solid.h"
 
 namespace gnomon::raytrace {
 namespace {
 
-constexpr int bin_count = 16;
+using namespace binned;
+
+constexpr std::size_t few_primitives = 64;
 constexpr std::uint32_t max_leaf_size = 4;
 constexpr std::uint32_t parallel_threshold = 4096;  // primitives; below it a task costs more than it gains
+constexpr std::uint32_t parallel_scan = 1u << 16;   // so with a scan over a range
 constexpr float traversal_cost = 1.0f;              // of a box pair, in triangle tests
 constexpr int sah_depth =
     44;  // deeper than this, split at the median: at most 32 more levels (Bvh::max_depth)
 
-struct Box {
-  std::array<float, 3> min, max;
-  static Box empty() {
-    constexpr float inf = std::numeric_limits<float>::infinity();
-    return {{inf, inf, inf}, {-inf, -inf, -inf}};
-  }
-  template <class B>
-  void grow(const B& b) {
-    for (std::size_t a = 0; a < 3; ++a)
-      min[a] = std::min(min[a], b.min[a]), max[a] = std::max(max[a], b.max[a]);
-  }
-  float half_area() const {
-    const float x = max[0] - min[0], y = max[1] - min[1], z = max[2] - min[2];
-    return x < 0.0f ? 0.0f : x * y + y * z + z * x;
-  }
-};
-
 struct BinaryNode {
   Box box;
-  std::uint32_t first = 0, count = 0;  // count > 0: leaf
-  std::uint32_t right = 0;             // the left child follows its parent
+  std::uint32_t first, count;  // count > 0: leaf
+  std::uint32_t right;         // the left child follows its parent
 };
-
-// Twice the centroid: halving would only lose the smallest numbers.
-float centroid2(const BoxRef& ref, std::size_t axis) {
-  return ref.min[axis] + ref.max[axis];
-}
-
-struct Split {
-  std::size_t axis = 0;
-  int bin = -1;  // primitives of bins <= bin go left; -1: none found
-  float cost = std::numeric_limits<float>::infinity();
-};
-
-struct Binning {
-  float origin, scale;
-  int operator()(const BoxRef& ref, std::size_t axis) const {
-    const float b = (centroid2(ref, axis) - origin) * scale;
-    return b < 0.0f ? 0
-                    : std::min(bin_count - 1, static_cast<int>(std::min(b, static_cast<float>(bin_count))));
-  }
-};
-
-// An axis without extent (or too wide for a float) cannot be binned: scale 0.
-Binning binning(const Box& centroids, std::size_t axis) {
-  const float extent = centroids.max[axis] - centroids.min[axis];
-  const float scale = extent > 0.0f ? bin_count / extent : 0.0f;
-  return {centroids.min[axis], std::isfinite(scale) && std::isfinite(extent) ? scale : 0.0f};
-}
-
-void best_on_axis(std::span<const BoxRef> refs, const Binning& bins, std::size_t axis, Split& best) {
-  std::array<Box, bin_count> boxes;
-  std::array<std::uint32_t, bin_count> counts{};
-  boxes.fill(Box::empty());
-  for (const BoxRef& ref : refs) {
-    const auto b = static_cast<std::size_t>(bins(ref, axis));
-    boxes[b].grow(ref);
-    ++counts[b];
-  }
-  std::array<float, bin_count> right_cost{};
-  Box box = Box::empty();
-  std::uint32_t count = 0;
-  for (std::size_t b = bin_count - 1; b > 0; --b) {
-    box.grow(boxes[b]), count += counts[b];
-    right_cost[b - 1] =
-        count == 0 ? std::numeric_limits<float>::infinity() : box.half_area() * static_cast<float>(count);
-  }
-  box = Box::empty(), count = 0;
-  for (std::size_t b = 0; b + 1 < bin_count; ++b) {
-    box.grow(boxes[b]), count += counts[b];
-    if (count == 0) continue;
-    const float cost = box.half_area() * static_cast<float>(count) + right_cost[b];
-    if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
-  }
-}
 
 class Builder {
  public:
-  Builder(std::vector<BoxRef>& refs) : refs_(refs), nodes_(std::max<std::size_t>(1, 2 * refs.size())) {}
-
-  std::vector<BinaryNode>& build() {
-    build_range(0, 0, static_cast<std::uint32_t>(refs_.size()), 0);
-    return nodes_;
+  explicit Builder(std::span<const BoxRef> boxes)
+      : count_(boxes.size()), refs_(boxes.size()), scratch_(boxes.size()), nodes_(2 * boxes.size()) {
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) { refs_[i] = ref_of(boxes[i]); });
+    build_range(0, 0, static_cast<std::uint32_t>(count_), 0);
   }
+  const HugeArray<BinaryNode>& nodes() const { return nodes_; }
+  std::uint32_t id(std::size_t i) const { return refs_[i].id(); }
 
  private:
   // A subtree of n primitives owns the 2n - 1 node places from `node` on, so that threads never share a
   // counter.
   void build_range(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth) {
-    const std::span<BoxRef> refs(refs_.data() + first, count);
+    const std::span<Ref> refs(refs_.data() + first, count);
     BinaryNode& out = nodes_[node];
-    Box centroids = Box::empty();
-    out.box = Box::empty();
-    for (const BoxRef& ref : refs) {
-      out.box.grow(ref);
-      for (std::size_t a = 0; a < 3; ++a) {
-        centroids.min[a] = std::min(centroids.min[a], centroid2(ref, a));
-        centroids.max[a] = std::max(centroids.max[a], centroid2(ref, a));
-      }
-    }
-    const std::uint32_t left = split(refs, out.box, centroids, depth);
+    const Bounds bounds = scan<Bounds>(
+        refs, [] { return Bounds{}; }, [](Bounds& b, const Ref& ref) { b.grow(ref); },
+        [](Bounds& a, const Bounds& b) { a.grow(b); });
+    out.box = bounds.box, out.count = 0;
+    const std::uint32_t left = split(refs, bounds, depth);
     if (left == 0) {
       out.first = first, out.count = count;
       return;
@@ -132,46 +64,84 @@ class Builder {
       tbb::parallel_invoke(build_left, build_right);
   }
 
+  /// add() over all of them, a large range over all threads. Joining is exact, so the parts do not matter.
+  template <class Value, class Start, class Add, class Join>
+  static Value scan(std::span<const Ref> refs, const Start& start, const Add& add, const Join& join) {
+    const auto part = [&](std::size_t begin, std::size_t end, Value value) {
+      for (std::size_t i = begin; i < end; ++i) add(value, refs[i]);
+      return value;
+    };
+    if (refs.size() < parallel_scan) return part(0, refs.size(), start());
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, refs.size(), parallel_scan / 4), start(),
+        [&](const auto& r, Value value) { return part(r.begin(), r.end(), std::move(value)); },
+        [&](Value a, const Value& b) {
+          join(a, b);
+          return a;
+        });
+  }
+
   // Reorders refs and returns how many go left; 0: make a leaf.
-  static std::uint32_t split(std::span<BoxRef> refs, const Box& box, const Box& centroids, int depth) {
+  std::uint32_t split(std::span<Ref> refs, const Bounds& bounds, int depth) {
     const auto count = static_cast<std::uint32_t>(refs.size());
     if (count <= 1) return 0;
+    const std::size_t used = count < few_primitives ? few_bins : most_bins;
+    const Binning binning(bounds.centroids, used);
     Split best;
-    for (std::size_t axis = 0; axis < 3 && depth < sah_depth; ++axis) {
-      const Binning bins = binning(centroids, axis);
-      if (bins.scale > 0.0f) best_on_axis(refs, bins, axis, best);
+    if (depth < sah_depth) {
+      const Bins bins = scan<Bins>(
+          refs, [used] { return Bins(used); }, [&](Bins& b, const Ref& ref) { b.put(ref, binning(ref)); },
+          [used](Bins& a, const Bins& b) { a.join(b, used); });
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (binning.scale[axis] > 0.0f) best_on_axis(bins, used, axis, best);
     }
-    const float leaf_cost = box.half_area() * static_cast<float>(count);
-    const bool split_pays = best.bin >= 0 && best.cost + traversal_cost * box.half_area() < leaf_cost;
+    const float area = bounds.box.half_area();
+    const bool split_pays =
+        best.bin >= 0 && best.cost + traversal_cost * area < area * static_cast<float>(count);
     if (count <= max_leaf_size && !split_pays) return 0;
-    if (best.bin < 0) return median(refs, centroids);
-    const Binning bins = binning(centroids, best.axis);
-    const auto middle = std::stable_partition(
-        refs.begin(), refs.end(), [&](const BoxRef& r) { return bins(r, best.axis) <= best.bin; });
-    return static_cast<std::uint32_t>(middle - refs.begin());
+    if (best.bin < 0) return median(refs, bounds.centroids);
+    return partition(refs, [&](const Ref& ref) { return binning(ref)[best.axis] <= best.bin; });
+  }
+
+  // Keeps the order on both sides.
+  template <class GoesLeft>
+  std::uint32_t partition(std::span<Ref> refs, const GoesLeft& goes_left) {
+    Ref* scratch = scratch_.data() + (refs.data() - refs_.data());
+    std::size_t left = 0, right = 0;
+    for (std::size_t i = 0; i < refs.size(); ++i) {
+      const Ref ref = refs[i];
+      const std::size_t is_left = goes_left(ref) ? 1 : 0;
+      refs[left] = ref, scratch[right] = ref;
+      left += is_left, right += 1 - is_left;
+    }
+    std::copy(scratch, scratch + right, refs.begin() + static_cast<std::ptrdiff_t>(left));
+    return static_cast<std::uint32_t>(left);
   }
 
   // Halves by (centroid along the widest axis, id): defined even when all centroids are equal.
-  static std::uint32_t median(std::span<BoxRef> refs, const Box& centroids) {
+  static std::uint32_t median(std::span<Ref> refs, const Box& centroids) {
     std::size_t axis = 0;
     for (std::size_t a = 1; a < 3; ++a)
       if (centroids.max[a] - centroids.min[a] > centroids.max[axis] - centroids.min[axis]) axis = a;
     const auto middle = refs.begin() + static_cast<std::ptrdiff_t>(refs.size() / 2);
-    std::nth_element(refs.begin(), middle, refs.end(), [axis](const BoxRef& a, const BoxRef& b) {
-      const float ca = centroid2(a, axis), cb = centroid2(b, axis);
-      return ca != cb ? ca < cb : a.id < b.id;
+    std::nth_element(refs.begin(), middle, refs.end(), [axis](const Ref& a, const Ref& b) {
+      const float ca = a.centroid2()[axis], cb = b.centroid2()[axis];
+      return ca != cb ? ca < cb : a.id() < b.id();
     });
     return static_cast<std::uint32_t>(refs.size() / 2);
   }
 
-  std::vector<BoxRef>& refs_;
-  std::vector<BinaryNode> nodes_;
+  std::size_t count_;
+  HugeArray<Ref> refs_, scratch_;
+  HugeArray<BinaryNode> nodes_;
 };
 
 // Folds a binary node and its largest descendants into up to four children.
 class Folder {
  public:
-  Folder(const std::vector<BinaryNode>& binary, std::vector<BvhNode>& out) : binary_(binary), out_(out) {}
+  Folder(const HugeArray<BinaryNode>& binary, std::vector<BvhNode>& out) : binary_(binary), out_(out) {
+    out_.reserve(binary.size() / 5 + 16);  // usually enough
+  }
 
   std::uint32_t fold(std::uint32_t root) {
     std::array<std::uint32_t, 4> children{root};
@@ -209,7 +179,7 @@ class Folder {
   }
   float area(std::uint32_t node) const { return binary_[node].box.half_area(); }
 
-  const std::vector<BinaryNode>& binary_;
+  const HugeArray<BinaryNode>& binary_;
   std::vector<BvhNode>& out_;
 };
 
@@ -224,12 +194,13 @@ LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {
   return {{sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius}};
 }
 
-void fill_leaves(const World& world, std::span<const BoxRef> refs, Bvh& bvh) {
-  bvh.primitives.resize(refs.size());
-  bvh.ids.resize(refs.size());
-  tbb::parallel_for(std::size_t{0}, refs.size(), [&](std::size_t i) {
-    bvh.ids[i] = refs[i].id;
-    bvh.primitives[i] = leaf_primitive(world, refs[i].id);
+template <class IdAt>
+void fill_leaves(const World& world, std::size_t count, const IdAt& id_at, Bvh& bvh) {
+  bvh.primitives.resize(count);
+  bvh.ids.resize(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    bvh.ids[i] = id_at(i);
+    bvh.primitives[i] = leaf_primitive(world, bvh.ids[i]);
   });
 }
 
@@ -307,15 +278,21 @@ FinitePrimitives finite_primitives(const World& world) {
 }
 
 Bvh build_bvh(const World& world) {
-  FinitePrimitives finite = finite_primitives(world);
+  const FinitePrimitives finite = finite_primitives(world);
   Bvh bvh;
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
   if (finite.boxes.empty()) return bvh;
-  const std::vector<BinaryNode> binary = std::move(Builder(finite.boxes).build());
-  Folder(binary, bvh.nodes).fold(0);
-  bvh.nodes.shrink_to_fit();
-  fill_leaves(world, finite.boxes, bvh);
+  const Builder builder(finite.boxes);
+  tbb::parallel_invoke(
+      [&] {
+        Folder(builder.nodes(), bvh.nodes).fold(0);
+        bvh.nodes.shrink_to_fit();
+      },
+      [&] {
+        fill_leaves(
+            world, finite.boxes.size(), [&](std::size_t i) { return builder.id(i); }, bvh);
+      });
   return bvh;
 }
 
@@ -324,7 +301,8 @@ Bvh build_flat(const World& world) {
   Bvh bvh;
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
-  fill_leaves(world, finite.boxes, bvh);
+  fill_leaves(
+      world, finite.boxes.size(), [&](std::size_t i) { return finite.boxes[i].id; }, bvh);
   return bvh;
 }
 
