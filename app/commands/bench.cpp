@@ -1,4 +1,5 @@
-// gnomon bench: what the acceleration structures cost and bring on a scene, as a table.
+// gnomon bench: the whole benchmark against Embree; or, on a scene, what the acceleration structures or the
+// precisions cost and bring, as a table.
 #include <fmt/format.h>
 
 #include <tbb/global_control.h>
@@ -7,6 +8,7 @@
 #include <memory>
 
 #include "app/bench/row.h"
+#include "app/bench/whole.h"
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
@@ -20,13 +22,26 @@ struct BenchCommand {
   std::string scene, json;
   ImageSize size{640, 360};
   std::vector<raytrace::Accel> accels = all_accels();
+  bool precision = false;
+  std::uint64_t rays = 1'000'000, seed = 1;
   std::optional<int> runs;
   int threads = 0;
   bool quiet = false;
+  std::string idle;  ///< an option that was given and has no meaning for what was asked
+  bool size_given = false;
 };
 
 Expected<ExitCode> run_bench(const BenchCommand& command) {
   constexpr int usual_runs = 3;
+  if (!command.idle.empty())
+    return fail(ErrorKind::usage,
+                fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
+  if (command.scene.empty() && command.precision) return fail(ErrorKind::usage, "--precision: needs a SCENE");
+  if (command.scene.empty())
+    return run_whole_bench(
+        {.runs = command.runs.value_or(0),
+         .json = command.json,
+         .size = command.size_given ? fmt::format("{}x{}", command.size.width, command.size.height) : ""});
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
@@ -41,12 +56,15 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
                          thread_count,
                          command.accels,
                          [&](const std::string& what, double done) { console.progress(what, done); }};
-  auto result = bench_structures(input);
+  auto result = command.precision ? Expected<BenchResult>(bench_precisions(input, command.rays, command.seed))
+                                  : bench_structures(input);
   if (!result) return fail(result.error());
-  auto hybrid = bench_hybrid(input);
-  if (!hybrid) return fail(hybrid.error());
-  result->table += hybrid->table;
-  result->rows.insert(result->rows.end(), hybrid->rows.begin(), hybrid->rows.end());
+  if (!command.precision) {
+    auto hybrid = bench_hybrid(input);
+    if (!hybrid) return fail(hybrid.error());
+    result->table += hybrid->table;
+    result->rows.insert(result->rows.end(), hybrid->rows.begin(), hybrid->rows.end());
+  }
   console.clear_progress();
   if (!command.quiet && command.json != "-") print_data(result->table);
   if (command.json.empty()) return ExitCode::done;
@@ -62,20 +80,42 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
 }  // namespace
 
 void add_bench(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "bench", "Build time, memory, work per ray and speed of the acceleration structures on a scene.");
+  CLI::App* app =
+      program.add_subcommand("bench",
+                             "The speed figures against Embree, row by row with their goals; with a SCENE, "
+                             "build time, memory, work per "
+                             "ray and speed of the acceleration structures, or what each precision costs.");
   app->footer(
+      "gnomon bench                           every figure, against Embree 3 (built with the tests)\n"
+      "gnomon bench --precision bunny.ply     speed and wrong verdicts of fast, robust and exact\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
       "gnomon bench field --accel bvh,grid    where it is at its best");
   const auto command = std::make_shared<BenchCommand>();
   add_scene(*app, command->scene);
+  app->get_option("SCENE")->required(false);
   add_accel_list(*app, command->accels);
+  app->add_flag(
+      "--precision", command->precision,
+      "fast, robust and exact side by side: rays per second, and wrong verdicts on adversarial rays "
+      "[default off]");
+  add_ray_count(*app, command->rays);
+  add_seed(*app, command->seed, "of the adversarial rays");
   add_size(*app, command->size);
   add_runs(*app, command->runs, "3");
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_json(*app, command->json, "the rows");
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_bench(*command); }; });
+  app->callback([command, &invocation, app] {
+    const auto reject = [&](bool meaningless, std::initializer_list<const char*> options) {
+      for (const char* option : options)
+        if (meaningless && app->count(option) > 0) command->idle = option;
+    };
+    reject(command->scene.empty(), {"--accel", "--threads", "--quiet"});
+    reject(command->precision, {"--accel"});
+    reject(!command->precision, {"--rays", "--seed"});
+    command->size_given = app->count("--size") > 0;
+    invocation.action = [command] { return run_bench(*command); };
+  });
 }
 
 }  // namespace gnomon::app

@@ -12,6 +12,8 @@ struct AimedTriangle {
 };
 /// Coordinates of sizes from 1e-8 to 1e8, of either sign, any axis along any other.
 AimedTriangle aimed_triangle(Random& random);
+/// Whether the tracer's own test of a single triangle says that the ray meets it.
+bool kernel_meets(raytrace::Precision precision, const AimedTriangle& aimed);
 
 /// A closed mesh over a floor, lit from a corner; shadow rays from the floor through corners and edges.
 class AdversarialShadows {

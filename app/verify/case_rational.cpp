@@ -25,6 +25,8 @@ Interval interval(Precision precision) {
   return {precision == Precision::exact ? 0.0 : -infinity, infinity};
 }
 
+}  // namespace
+
 bool kernel_meets(Precision precision, const AimedTriangle& t) {
   World world;
   for (const Vec3& corner : t.corners) world.finite_bounds.grow(corner);
@@ -46,6 +48,8 @@ bool kernel_meets(Precision precision, const AimedTriangle& t) {
   }
   return meets<raytrace::RobustArithmetic>(s, *frame);
 }
+
+namespace {
 
 /// By how many roundings of its coordinates the line passes the edge in doubt.
 double roundings_from_edge(const AimedTriangle& t, const RationalTriangle& truth) {

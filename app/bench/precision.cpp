@@ -1,0 +1,202 @@
+// What accuracy costs: the three precisions side by side. Speed is that of the scene's own primary and hard
+// shadow rays, as a picture is rendered (in packets where the precision has them) and one ray at a time,
+// which compares the arithmetic alone. Wrong verdicts are counted on adversarial rays, aimed at corners and
+// edges, against rational numbers.
+#include <fmt/format.h>
+#include <tbb/parallel_reduce.h>
+
+#include <atomic>
+
+#include "app/bench/row.h"
+#include "app/verify/adversarial.h"
+#include "app/verify/rational.h"
+#include "raytrace/frame.h"
+
+namespace gnomon::app {
+namespace {
+
+using raytrace::Precision;
+using raytrace::Tracer;
+using raytrace::Verdict;
+
+struct Speed {
+  double primary = 0.0, shadow = 0.0;  ///< Mrays/s
+};
+
+struct Wrong {
+  std::uint64_t tried = 0, wrong = 0, open = 0;  ///< open: said to be uncertain
+  Wrong& operator+=(const Wrong& b) {
+    tried += b.tried, wrong += b.wrong, open += b.open;
+    return *this;
+  }
+  double per_1e8(std::uint64_t count) const {
+    return 1e8 * static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(tried, 1));
+  }
+};
+
+struct Measured {
+  Precision precision;
+  Speed rendered, single;
+  Wrong primary, shadow;
+};
+
+double mrays_per_second(std::uint64_t rays, double ms) {
+  return ms > 0.0 ? static_cast<double>(rays) / ms * 1e-3 : 0.0;
+}
+
+std::vector<std::uint32_t> first_light(const Scene& scene) {
+  return scene.lights.empty() ? std::vector<std::uint32_t>{} : std::vector<std::uint32_t>{0};
+}
+
+raytrace::RayTracedFrame render(const BenchInput& input, const Tracer& tracer, int runs) {
+  raytrace::RaytraceOptions options;
+  options.size = input.size, options.runs = runs, options.picture = false, options.shadow_samples = 1;
+  return trace_frame(tracer, input.loaded.plan, input.loaded.scene->camera, first_light(*input.loaded.scene),
+                     options);
+}
+
+Speed speed_rendered(const BenchInput& input, const Tracer& tracer) {
+  const auto frame = render(input, tracer, std::max(2, input.runs));
+  Speed speed;
+  speed.primary = mrays_per_second(frame.rays.primary, frame.primary_rays.median());
+  if (!frame.lights.empty())
+    speed.shadow = mrays_per_second(frame.lights[0].rays, frame.lights[0].shadow_rays.median());
+  return speed;
+}
+
+/// pixel(x, y) over all threads, `runs` times after a warm-up: the median milliseconds.
+template <class Pixel>
+double time_pixels(const BenchInput& input, const Pixel& pixel) {
+  Times times;
+  const auto pass = [&] {
+    tbb::parallel_for(0, input.size.height, [&](int y) {
+      for (int x = 0; x < input.size.width; ++x) pixel(x, y);
+    });
+  };
+  pass();
+  for (int run = 0; run < input.runs; ++run) time_run(times, pass);
+  return times.median();
+}
+
+Speed speed_single(const BenchInput& input, const Tracer& tracer) {
+  const View view = make_view(input.loaded.scene->camera, input.size);
+  const auto frame = render(input, tracer, 1);
+  std::atomic<std::uint64_t> found = 0;  // keeps the work from being optimised away
+  Speed speed;
+  speed.primary = mrays_per_second(input.size.pixels(), time_pixels(input, [&](int x, int y) {
+                                     if (tracer.closest_hit(pixel_ray(view, x + 0.5, y + 0.5)))
+                                       found.fetch_add(1, std::memory_order_relaxed);
+                                   }));
+  if (input.loaded.scene->lights.empty()) return speed;
+  const Light& light = input.loaded.scene->lights[0];
+  const double ms = time_pixels(input, [&](int x, int y) {
+    const auto& point = frame.receiver.at(x, y);
+    if (point.primitive == no_id || light_cannot_reach(light, point.position, point.normal)) return;
+    if (tracer.light_verdict(point, light) == Verdict::lit) found.fetch_add(1, std::memory_order_relaxed);
+  });
+  speed.shadow = mrays_per_second(frame.lights[0].rays, ms);
+  return speed;
+}
+
+/// try_one(random, wrong) for so many rays over all threads; each block has random numbers of its own.
+template <class Try>
+Wrong count_wrong(std::uint64_t rays, std::uint64_t seed, const Try& try_one) {
+  constexpr std::uint64_t block = 4096;
+  const std::uint64_t blocks = (rays + block - 1) / block;
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::uint64_t>(0, blocks, 1), Wrong{},
+      [&](const auto& range, Wrong wrong) {
+        for (std::uint64_t b = range.begin(); b < range.end(); ++b) {
+          verify::Random random(seed * 0x9e3779b97f4a7c15ULL + b);
+          for (std::uint64_t i = b * block; i < std::min(rays, (b + 1) * block); ++i) try_one(random, wrong);
+        }
+        return wrong;
+      },
+      [](Wrong a, const Wrong& b) { return a += b; });
+}
+
+Wrong wrong_primary(Precision precision, std::uint64_t rays, std::uint64_t seed) {
+  const bool exact = precision == Precision::exact;
+  return count_wrong(rays, seed, [&](verify::Random& random, Wrong& wrong) {
+    const verify::AimedTriangle aimed = verify::aimed_triangle(random);
+    const auto truth = verify::rational_triangle(aimed.origin, aimed.direction, aimed.corners);
+    // The exact test alone is asked for the sign of t (app/verify/case_rational.cpp).
+    const bool meets = truth.meets && (truth.ahead || !exact);
+    ++wrong.tried, wrong.wrong += verify::kernel_meets(precision, aimed) != meets ? 1 : 0;
+  });
+}
+
+Wrong wrong_shadow(Precision precision, std::uint64_t rays, std::uint64_t seed) {
+  const verify::AdversarialShadows shadows(seed);
+  const Tracer tracer(shadows.world(), raytrace::Accel::bvh, precision);
+  return count_wrong(rays, seed, [&](verify::Random& random, Wrong& wrong) {
+    const auto point = shadows.receiver(random);
+    if (!point) return;
+    const Verdict verdict = tracer.light_verdict(*point, shadows.light());
+    ++wrong.tried;
+    if (verdict == Verdict::uncertain)
+      ++wrong.open;
+    else
+      wrong.wrong += (verdict == Verdict::shadowed) != shadows.shadowed(*point) ? 1 : 0;
+  });
+}
+
+std::string table(const BenchInput& input, std::uint64_t rays, std::span<const Measured> all) {
+  std::string text = fmt::format(
+      "{}: {} primitives, {} x {}, {} threads; wrong of {} aimed rays of each kind, scaled to 1e8\n"
+      "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>16}{:>12}\n{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>16}{:>12}\n",
+      input.scene, input.loaded.world->primitive_count(), input.size.width, input.size.height, input.threads,
+      rays, "", "rendered", "shadow", "one by one", "shadow", "triangles wrong", "shadows wrong", "uncertain",
+      "precision", "primary Mray/s", "Mray/s", "primary", "Mray/s", "per 1e8", "per 1e8", "per 1e8");
+  for (const Measured& m : all)
+    text += fmt::format("{:<10}{:>15.2f}{:>9.2f}{:>12.2f}{:>9.2f}{:>18.0f}{:>16.0f}{:>12.0f}\n",
+                        precision_name(m.precision), m.rendered.primary, m.rendered.shadow, m.single.primary,
+                        m.single.shadow, m.primary.per_1e8(m.primary.wrong), m.shadow.per_1e8(m.shadow.wrong),
+                        m.shadow.per_1e8(m.shadow.open));
+  return text + "fast has no packets: rendered, its rays go one by one as well.\n";
+}
+
+void add_rows(const BenchInput& input, const Measured& m, const Measured* base, std::optional<double> goal,
+              std::vector<BenchRow>& rows) {
+  const auto add = [&](const char* what, double value, std::optional<double> peer, const char* unit) {
+    BenchRow row{.name = fmt::format("{}, {}", precision_name(m.precision), what),
+                 .scene = input.scene,
+                 .threads = input.threads,
+                 .value = value,
+                 .unit = unit,
+                 .more_is_better = std::string_view(unit) == "Mrays/s"};
+    if (peer) row.peer = {std::string(precision_name(base->precision)), *peer}, row.goal = goal;
+    rows.push_back(std::move(row));
+  };
+  const auto speed = [&](const char* what, const Speed Measured::*which, double Speed::*kind) {
+    const auto peer = base == nullptr ? std::nullopt : std::optional<double>(base->*which.*kind);
+    add(what, m.*which.*kind, peer, "Mrays/s");
+  };
+  speed("primary rays", &Measured::rendered, &Speed::primary);
+  speed("shadow rays", &Measured::rendered, &Speed::shadow);
+  speed("primary rays one by one", &Measured::single, &Speed::primary);
+  speed("shadow rays one by one", &Measured::single, &Speed::shadow);
+  add("wrong triangles per 1e8", m.primary.per_1e8(m.primary.wrong), std::nullopt, "rays");
+  add("wrong shadows per 1e8", m.shadow.per_1e8(m.shadow.wrong), std::nullopt, "rays");
+}
+
+}  // namespace
+
+BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::uint64_t seed) {
+  std::vector<Measured> all;
+  for (const Precision precision : {Precision::fast, Precision::robust, Precision::exact}) {
+    input.progress(std::string(precision_name(precision)), static_cast<double>(all.size()) / 3.0);
+    const Tracer tracer(*input.loaded.world, raytrace::Accel::bvh, precision);
+    Measured m{.precision = precision, .rendered = {}, .single = {}, .primary = {}, .shadow = {}};
+    m.rendered = speed_rendered(input, tracer), m.single = speed_single(input, tracer);
+    m.primary = wrong_primary(precision, rays, seed), m.shadow = wrong_shadow(precision, rays, seed);
+    all.push_back(m);
+  }
+  BenchResult result{table(input, rays, all), {}};
+  constexpr std::optional<double> goals[] = {std::nullopt, 0.9, 0.5};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    add_rows(input, all[i], i == 0 ? nullptr : &all[i - 1], goals[i], result.rows);
+  return result;
+}
+
+}  // namespace gnomon::app

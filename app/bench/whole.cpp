@@ -1,0 +1,51 @@
+#include "app/bench/whole.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+namespace gnomon::app {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* program_name = "gnomon_bench";
+
+std::string find_program(const fs::path& own_folder) {
+  for (const fs::path& folder : {own_folder, own_folder.parent_path() / "tests"}) {
+    const fs::path program = folder / program_name;
+    if (access(program.c_str(), X_OK) == 0) return program.string();
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ExitCode> run_whole_bench(const WholeBench& bench) {
+  std::error_code error;
+  const fs::path own = fs::read_symlink("/proc/self/exe", error);
+  const std::string program = error ? std::string() : find_program(own.parent_path());
+  if (program.empty())
+    return fail(
+        ErrorKind::graphics,
+        fmt::format("{} is not beside this program (it needs Embree 3, and is built by ./gnomon test or "
+                    "cmake --build BUILD --target {})",
+                    program_name, program_name));
+  std::vector<std::string> words{program};
+  if (bench.runs > 0) words.insert(words.end(), {"--runs", std::to_string(bench.runs)});
+  if (!bench.size.empty()) {
+    const std::size_t x = bench.size.find('x');
+    words.insert(words.end(), {"--width", bench.size.substr(0, x), "--height", bench.size.substr(x + 1)});
+  }
+  if (!bench.json.empty()) words.insert(words.end(), {"--json", bench.json});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  return fail(ErrorKind::graphics, fmt::format("{}: {}", program, std::strerror(errno)));
+}
+
+}  // namespace gnomon::app
