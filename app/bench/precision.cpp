@@ -3,6 +3,7 @@
 // which compares the arithmetic alone. Wrong verdicts are counted on adversarial rays, aimed at corners and
 // edges, against rational numbers.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <atomic>
@@ -158,26 +159,27 @@ std::string table(const BenchInput& input, std::uint64_t rays, std::span<const M
 
 void add_rows(const BenchInput& input, const Measured& m, const Measured* base, std::optional<double> goal,
               std::vector<BenchRow>& rows) {
-  const auto add = [&](const char* what, double value, std::optional<double> peer, const char* unit) {
-    BenchRow row{.name = fmt::format("{}, {}", precision_name(m.precision), what),
-                 .scene = input.scene,
-                 .threads = input.threads,
-                 .value = value,
-                 .unit = unit,
-                 .more_is_better = std::string_view(unit) == "Mrays/s"};
-    if (peer) row.peer = {std::string(precision_name(base->precision)), *peer}, row.goal = goal;
-    rows.push_back(std::move(row));
+  const auto add = [&](const char* what, double value, const char* unit) -> BenchRow& {
+    rows.push_back({.name = fmt::format("{}, {}", precision_name(m.precision), what),
+                    .scene = input.scene,
+                    .threads = input.threads,
+                    .value = value,
+                    .unit = unit,
+                    .more_is_better = std::string_view(unit) == "Mrays/s"});
+    return rows.back();
   };
   const auto speed = [&](const char* what, const Speed Measured::*which, double Speed::*kind) {
-    const auto peer = base == nullptr ? std::nullopt : std::optional<double>(base->*which.*kind);
-    add(what, m.*which.*kind, peer, "Mrays/s");
+    BenchRow& row = add(what, m.*which.*kind, "Mrays/s");
+    if (base == nullptr) return;
+    row.peer = BenchPeer{std::string(precision_name(base->precision)), base->*which.*kind};
+    row.goal = goal;
   };
   speed("primary rays", &Measured::rendered, &Speed::primary);
   speed("shadow rays", &Measured::rendered, &Speed::shadow);
   speed("primary rays one by one", &Measured::single, &Speed::primary);
   speed("shadow rays one by one", &Measured::single, &Speed::shadow);
-  add("wrong triangles per 1e8", m.primary.per_1e8(m.primary.wrong), std::nullopt, "rays");
-  add("wrong shadows per 1e8", m.shadow.per_1e8(m.shadow.wrong), std::nullopt, "rays");
+  add("wrong triangles per 1e8", m.primary.per_1e8(m.primary.wrong), "rays");
+  add("wrong shadows per 1e8", m.shadow.per_1e8(m.shadow.wrong), "rays");
 }
 
 }  // namespace
