@@ -113,9 +113,13 @@ void add_size(CLI::App& command, ImageSize& size) {
             [&size](const std::string& value) { return assign(size, parse_size(value)); });
 }
 
-void add_map_options(CLI::App& command, raster::MapOptions& map) {
-  add_integer(command, "--map-size", map.size, 1, max_map_size, "texels",
+void add_map_size(CLI::App& command, int& texels) {
+  add_integer(command, "--map-size", texels, 1, max_map_size, "texels",
               "side of the shadow map, as far as the graphics context allows");
+}
+
+void add_map_options(CLI::App& command, raster::MapOptions& map) {
+  add_map_size(command, map.size);
   add_choice(command, "--technique", map.technique, techniques, "NAME", "shadow test");
   add_bias_options(command, map.bias);
   add_choice(command, "--depth-format", map.depth_format, depth_formats, "NAME",
@@ -129,6 +133,10 @@ std::vector<std::string> technique_names() {
   std::vector<std::string> names;
   for (const auto& [name, technique] : techniques) names.emplace_back(name);
   return names;
+}
+
+std::vector<std::pair<std::string, raster::Technique>> all_techniques() {
+  return {std::begin(techniques), std::end(techniques)};
 }
 
 void add_backend(CLI::App& command, raster::Backend& backend) {

@@ -24,10 +24,12 @@ void add_scene(CLI::App& command, std::string& scene);
 void add_size(CLI::App& command, ImageSize& size);
 /// --tessellate; 0: off.
 void add_tessellate(CLI::App& command, int& tessellate);
+void add_map_size(CLI::App& command, int& texels);
 /// --map-size, --technique, the biases, --depth-format, --cull.
 void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.
 std::vector<std::string> technique_names();
+std::vector<std::pair<std::string, raster::Technique>> all_techniques();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// --shader-dir.
 void add_shader_dir(CLI::App& command, std::string& folder);

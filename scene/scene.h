@@ -52,7 +52,7 @@ struct Material {
   float ior = 1.5f;        ///< > 0
   Vec3f absorption{0.0f};  ///< Beer-Lambert coefficient per world unit, >= 0
   float roughness = 0.0f;  ///< of mirror and transmission (glossy); 0 is sharp; the GGX alpha's root
-  int priority = 0;  ///< where glass overlaps, the highest is there; of equals the one entered last
+  int priority = 0;        ///< where glass overlaps, the highest is there; of equals the one entered last
   bool thin = false;  ///< transmission through a sheet without inside: straight on, or blurred by roughness
   std::uint32_t diffuse_texture = no_id;
   TextureTransform texture_transform{};
@@ -192,8 +192,8 @@ struct Scene {
   Vec3f ambient{0.0f};     ///< constant ambient radiance, times diffuse
   Vec3f background{0.0f};  ///< radiance of rays that leave the scene
   std::optional<double>
-      exposure;       ///< linear factor for 8-bit pictures; none: chosen from the ray-traced picture
-  int max_depth = 8;  ///< recursion limit of the ray tracer
+      exposure;              ///< linear factor for 8-bit pictures; none: chosen from the ray-traced picture
+  int max_depth = 8;         ///< recursion limit of the ray tracer
   int glossy_samples = 16;   ///< rays from each point of a rough mirror or glass, in [1, max_samples]
   int indirect_samples = 0;  ///< rays from each point to gather light reflected once, <= max_samples; 0: none
   std::vector<std::string> notes;  ///< what the loader made up or could not use, one sentence each

@@ -25,7 +25,7 @@ const int viewport_uniform = 0;
 const int layer_uniform = 0;
 const int step_uniform = 1;
 const int blur_radius_uniform = 2;
-const int peel_uniform = 5;
+const int peel_uniform = 9;
 const int triangle_count_uniform = 6;
 
 // Shader storage buffers
@@ -55,7 +55,7 @@ const int texel_pages_unit = 2;
 const int present_unit = 3;
 const int moments_unit = 4;
 const int external_visibility_unit = 15;
-const int first_layer_unit = 8;   // midpoint maps
+const int first_layer_unit = 8;  // midpoint maps
 const int second_layer_unit = 9;
 
 // Vertex attributes

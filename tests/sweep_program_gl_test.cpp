@@ -245,8 +245,8 @@ TEST_F(SweepProgram, InterruptLeavesWholeLines) {
 
 TEST_F(SweepProgram, TuneAnswersWithACommandThatKeepsItsPromise) {
   const std::string json = (root / "answer.json").string();
-  ASSERT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "2%", "--map-size", "32:512:x2",
-                 "--runs", "1", "--json", json}),
+  ASSERT_EQ(run({"tune", "floating-box", "--technique", "hard", "--size", "160x90", "--max-error", "2%",
+                 "--map-size", "32:512:x2", "--runs", "1", "--json", json}),
             0)
       << said();
   const nlohmann::json answer = nlohmann::json::parse(bytes(json));

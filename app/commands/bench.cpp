@@ -1,5 +1,5 @@
-// gnomon bench: the whole benchmark against Embree; or, on a scene, what the acceleration structures or the
-// precisions cost and bring, as a table.
+// gnomon bench: the whole benchmark against Embree; or, on a scene, what the acceleration structures, the
+// precisions or the shadow techniques cost and bring, as a table.
 #include <fmt/format.h>
 
 #include <tbb/global_control.h>
@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/bench/row.h"
+#include "app/bench/techniques.h"
 #include "app/bench/whole.h"
 #include "app/invocation.h"
 #include "app/options.h"
@@ -23,6 +24,7 @@ struct BenchCommand {
   ImageSize size{640, 360};
   std::vector<raytrace::Accel> accels = all_accels();
   bool precision = false;
+  TechniqueBench techniques;
   std::uint64_t rays = 1'000'000, seed = 1;
   std::optional<int> runs;
   int threads = 0;
@@ -31,11 +33,24 @@ struct BenchCommand {
   bool size_given = false;
 };
 
+Expected<ExitCode> run_techniques(const BenchCommand& command) {
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  TechniqueBench bench = command.techniques;
+  bench.raster.size = command.size;
+  bench.raster.runs = command.runs.value_or(bench.raster.runs);
+  bench.json = command.json;
+  const auto done = run_technique_bench(bench, console);
+  if (!done) return fail(done.error());
+  return ExitCode::done;
+}
+
 Expected<ExitCode> run_bench(const BenchCommand& command) {
   constexpr int usual_runs = 3;
   if (!command.idle.empty())
     return fail(ErrorKind::usage,
                 fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
+  if (!command.techniques.scenes.empty()) return run_techniques(command);
   if (command.scene.empty() && command.precision) return fail(ErrorKind::usage, "--precision: needs a SCENE");
   if (command.scene.empty())
     return run_whole_bench(
@@ -79,6 +94,21 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
 
 }  // namespace
 
+namespace {
+
+void add_technique_options(CLI::App& app, TechniqueBench& bench) {
+  app.add_option("--techniques", bench.scenes,
+                 "every shadow technique at its defaults: wrong pixels, error, time, texels and bytes "
+                 "[scenes with commas between; default off]")
+      ->delimiter(',')
+      ->type_name("SCENE[,SCENE]");
+  add_map_size(app, bench.raster.map.size);
+  add_output(app, "-o,--output", bench.page, "FILE.md",
+             "the table of --techniques as Markdown [default none]");
+}
+
+}  // namespace
+
 void add_bench(CLI::App& program, Invocation& invocation) {
   CLI::App* app =
       program.add_subcommand("bench",
@@ -88,6 +118,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   app->footer(
       "gnomon bench                           every figure, against Embree 3 (built with the tests)\n"
       "gnomon bench --precision bunny.ply     speed and wrong verdicts of fast, robust and exact\n"
+      "gnomon bench --techniques fence,teapot -o table.md   every shadow technique on the same pixels\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
       "gnomon bench field --accel bvh,grid    where it is at its best");
   const auto command = std::make_shared<BenchCommand>();
@@ -98,6 +129,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "--precision", command->precision,
       "fast, robust and exact side by side: rays per second, and wrong verdicts on adversarial rays "
       "[default off]");
+  add_technique_options(*app, command->techniques);
   add_ray_count(*app, command->rays);
   add_seed(*app, command->seed, "of the adversarial rays");
   add_size(*app, command->size);
@@ -110,7 +142,10 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       for (const char* option : options)
         if (meaningless && app->count(option) > 0) command->idle = option;
     };
-    reject(command->scene.empty(), {"--accel", "--threads", "--quiet"});
+    const bool techniques = !command->techniques.scenes.empty();
+    reject(techniques, {"SCENE", "--accel", "--precision"});
+    reject(!techniques, {"--map-size", "--output"});
+    reject(command->scene.empty() && !techniques, {"--accel", "--threads", "--quiet"});
     reject(command->precision, {"--accel"});
     reject(!command->precision, {"--rays", "--seed"});
     command->size_given = app->count("--size") > 0;

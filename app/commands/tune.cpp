@@ -89,6 +89,10 @@ std::vector<std::string> tuned_techniques() {
   return names;
 }
 
+bool is_exact(raster::Technique technique) {
+  return technique == raster::Technique::izb || technique == raster::Technique::hybrid;
+}
+
 /// The combinations of what was given as lists, and of the defaults where nothing was given.
 Expected<std::vector<Family>> make_families(const TuneCommand& command) {
   const auto grid = command.options.grid(false);
@@ -116,7 +120,7 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
       if (!sound) continue;  // a bias that does not go with the technique
-      if (!kind.empty() && family->tuned.map.technique == raster::Technique::izb) continue;  // it has no bias
+      if (!kind.empty() && is_exact(family->tuned.map.technique)) continue;  // it has no bias
       families.push_back(std::move(*family));
     }
   if (families.empty() && unsound) return fail(*unsound);

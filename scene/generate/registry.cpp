@@ -89,8 +89,9 @@ Expected<Values> complete(const GeneratorInfo& generator, const Parameters& give
   Parameters all;
   for (const ParameterInfo& info : generator.parameters) all.emplace(info.name, info.default_value);
   for (const auto& [name, value] : given) {
-    const auto info = std::find_if(generator.parameters.begin(), generator.parameters.end(),
-                                   [wanted = std::string_view(name)](const ParameterInfo& p) { return p.name == wanted; });
+    const auto info =
+        std::find_if(generator.parameters.begin(), generator.parameters.end(),
+                     [wanted = std::string_view(name)](const ParameterInfo& p) { return p.name == wanted; });
     if (info == generator.parameters.end()) {
       return fail_parameter(name, fmt::format("'{}' has no such parameter", generator.kind));
     }

@@ -83,9 +83,11 @@ class MinimalProgram {
     const double aspect = double(options_.size.width) / options_.size.height;
     light_view_ = must(fit_light_view(world_, light, world_.scene->camera, aspect, options_.map.size));
     const double bias = raster::constant_bias_world(options_.map.bias, light_view_, world_);
+    const Vec3& reference = buffers_->reference();
+    const auto rounding = raster::bias_rounding(options_.map, light_view_, world_, reference);
     light_block_ = raster::Buffer(*gl_);
     light_block_.write_one(
-        raster::make_light_block(light, light_view_, options_.map, bias, buffers_->reference()));
+        raster::make_light_block(light, light_view_, options_.map, bias, rounding, reference));
     depth_ = Texture2D(*gl_, GL_DEPTH_COMPONENT32F, {options_.map.size, options_.map.size}, 1);
     map_target_ = Framebuffer(*gl_);
     map_target_.attach(GL_DEPTH_ATTACHMENT, depth_, 0);

@@ -1,0 +1,179 @@
+#include "app/bench/techniques.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/options.h"
+#include "app/output_path.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+namespace {
+
+compare::Setting setting_for(const LoadedScene& loaded, const raster::RasterOptions& raster) {
+  compare::Setting setting;
+  setting.raster = raster;
+  setting.raytrace.size = raster.size;
+  setting.raytrace.runs = std::max(1, raster.runs);
+  setting.raytrace.picture = false;
+  setting.camera = loaded.scene->camera;
+  setting.lights = loaded.scene->lights;
+  for (std::uint32_t i = 0; i < setting.lights.size(); ++i) setting.compared.push_back(i);
+  return setting;
+}
+
+std::string main_label(const std::array<std::uint64_t, compare::class_count>& classes) {
+  const auto most = std::max_element(classes.begin(), classes.end());
+  if (*most == 0) return {};
+  return std::string(label_name(static_cast<compare::Label>(most - classes.begin() + 1)));
+}
+
+TechniqueRow measure(const std::string& technique, const compare::Comparison& comparison) {
+  TechniqueRow row;
+  row.technique = technique;
+  double absolute = 0.0;
+  std::array<std::uint64_t, compare::class_count> classes{};
+  for (const compare::LightComparison& light : comparison.lights) {
+    row.compared += light.pixels.compared;
+    row.wrong += light.error.wrong;
+    absolute += light.error.mean_absolute * static_cast<double>(light.pixels.compared);
+    for (std::size_t k = 0; k < classes.size(); ++k) classes[k] += light.classes[k];
+    const raster::LightRecord& record = comparison.raster.lights[light.record];
+    row.map_ms += record.map_pass.median();
+    row.shade_ms += record.shade_pass.median();
+  }
+  if (row.compared > 0) row.mean_absolute = absolute / static_cast<double>(row.compared);
+  row.texels = comparison.raster.map_texels;
+  row.bytes = comparison.raster.map_bytes;
+  row.main_label = main_label(classes);
+  return row;
+}
+
+double ray_ms(const compare::Comparison& comparison) {
+  double sum = 0.0;
+  for (const raytrace::LightTruth& light : comparison.raytraced.lights)
+    sum += light.shadow_rays.median() + (light.soft_rays > 0 ? light.soft_shadow_rays.median() : 0.0);
+  return sum;
+}
+
+double percent(const TechniqueRow& row) {
+  return row.compared == 0 ? 0.0 : 100.0 * static_cast<double>(row.wrong) / static_cast<double>(row.compared);
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return fmt::format("{:.1f}", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+std::string markdown_row(const TechniqueRow& row) {
+  if (!row.refused.empty()) return fmt::format("| `{}` | {} | | | | | | |\n", row.technique, row.refused);
+  return fmt::format("| `{}` | {} | {:.3f} | {} | {:.5f} | {:.1f} | {:.2f} | {} |\n", row.technique,
+                     row.wrong, percent(row), row.main_label, row.mean_absolute, row.map_ms + row.shade_ms,
+                     static_cast<double>(row.texels) * 1e-6, mebibytes(row.bytes));
+}
+
+}  // namespace
+
+Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Backend backend,
+                                          const raster::RasterOptions& base,
+                                          const std::function<void(const std::string&, double)>& progress) {
+  const auto renderer = make_renderer(backend, loaded);
+  if (!renderer) return fail(renderer.error());
+  compare::Engine engine(*loaded.scene, *loaded.world, **renderer, false);
+  TechniqueTable table{loaded.scene->name, base.size, base.map.size, {}, 0.0};
+  const auto techniques = all_techniques();
+  for (const auto& [name, technique] : techniques) {
+    progress(name, static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
+    compare::Setting setting = setting_for(loaded, base);
+    setting.raster.map.technique = technique;
+    const auto comparison = engine.compare(setting);
+    if (comparison) {
+      table.rows.push_back(measure(name, **comparison));
+      table.rays_ms = ray_ms(**comparison);
+    } else if (comparison.error().kind == ErrorKind::usage) {
+      TechniqueRow& row = table.rows.emplace_back();
+      row.technique = name;
+      row.refused = comparison.error().reason;
+    } else {
+      return fail(comparison.error());
+    }
+  }
+  return table;
+}
+
+std::string markdown(std::span<const TechniqueTable> tables, const std::string& command) {
+  std::string text = fmt::format(
+      "# Every technique on the same pixels\n\nMade by the program itself: `{}`. Wrong pixels are compared "
+      "pixels whose drawn visibility is more than one half from the ray-traced one; mean error is the mean "
+      "of "
+      "that difference. Every technique has its default parameters. Times are those of one machine (a "
+      "software rasterizer) and mean something only beside each other; texels and bytes hold everywhere.\n",
+      command);
+  for (const TechniqueTable& table : tables) {
+    text += fmt::format(
+        "\n## {}\n\n{} x {} pixels, maps of {}² texels. The exact shadow rays of the same pixels take {:.1f} "
+        "ms.\n\n| technique | wrong | % | mostly | mean error | ms | Mtexels | MiB |\n"
+        "|---|---:|---:|---|---:|---:|---:|---:|\n",
+        table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms);
+    for (const TechniqueRow& row : table.rows) text += markdown_row(row);
+  }
+  return text;
+}
+
+std::string text_table(const TechniqueTable& table) {
+  std::string text = fmt::format(
+      "{}: {}x{} pixels, maps of {} texels; exact shadow rays take {:.1f} ms\n"
+      "{:<13}{:>9}{:>8} {:<14}{:>9}{:>9}{:>8}{:>8}\n",
+      table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms, "technique", "wrong",
+      "%", "mostly", "error", "ms", "Mtexel", "MiB");
+  for (const TechniqueRow& row : table.rows) {
+    text += row.refused.empty() ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>9.1f}{:>8.2f}{:>8}\n",
+                                              row.technique, row.wrong, percent(row), row.main_label,
+                                              row.mean_absolute, row.map_ms + row.shade_ms,
+                                              static_cast<double>(row.texels) * 1e-6, mebibytes(row.bytes))
+                                : fmt::format("{:<13} {}\n", row.technique, row.refused);
+  }
+  return text;
+}
+
+std::vector<BenchRow> bench_rows(const TechniqueTable& table) {
+  std::vector<BenchRow> rows;
+  for (const TechniqueRow& row : table.rows) {
+    if (!row.refused.empty()) continue;
+    const BenchPeer rays{"exact shadow rays", table.rays_ms};
+    rows.push_back(
+        {row.technique + " map and shading", table.scene, 0, row.map_ms + row.shade_ms, "ms", false, rays});
+    rows.push_back(
+        {row.technique + " wrong pixels", table.scene, 0, static_cast<double>(row.wrong), "pixels", false});
+  }
+  return rows;
+}
+
+Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console) {
+  for (const std::string& file : {bench.page, bench.json})
+    if (const auto writable = check_output_file(file); !writable) return writable;
+  std::vector<TechniqueTable> tables;
+  std::vector<BenchRow> rows;
+  for (const std::string& scene : bench.scenes) {
+    const auto loaded = load(scene, console);
+    if (!loaded) return fail(loaded.error());
+    const auto progress = [&](const std::string& what, double done) { console.progress(what, done); };
+    auto table = bench_techniques(*loaded, raster::Backend::automatic, bench.raster, progress);
+    if (!table) return fail(table.error());
+    console.clear_progress();
+    if (bench.json != "-") print_data(text_table(*table));
+    for (BenchRow& row : bench_rows(*table)) rows.push_back(std::move(row));
+    tables.push_back(std::move(*table));
+  }
+  const std::string command =
+      fmt::format("gnomon bench --techniques {} --size {}x{} --map-size {}", fmt::join(bench.scenes, ","),
+                  bench.raster.size.width, bench.raster.size.height, bench.raster.map.size);
+  if (!bench.page.empty()) {
+    if (const auto written = write_file(bench.page, markdown(tables, command)); !written) return written;
+  }
+  if (bench.json == "-") print_data(bench_json(rows));
+  if (bench.json.empty() || bench.json == "-") return {};
+  return write_file(bench.json, bench_json(rows));
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,51 @@
+// The shadow techniques side by side: what each gets wrong and what it costs, at its default parameters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/bench/row.h"
+#include "app/session.h"
+#include "compare/sweep/engine.h"
+
+namespace gnomon::app {
+
+/// One technique on one scene, all lights together.
+struct TechniqueRow {
+  std::string technique;
+  std::string refused;  ///< why it cannot be used here; the rest is then empty
+  std::uint64_t compared = 0, wrong = 0;
+  double mean_absolute = 0.0;           ///< of V6 - V0 over compared pixels
+  double map_ms = 0.0, shade_ms = 0.0;  ///< medians, summed over lights
+  std::uint64_t texels = 0, bytes = 0;
+  std::string main_label;  ///< of most wrong pixels
+};
+
+struct TechniqueTable {
+  std::string scene;
+  ImageSize size;
+  int map_size = 0;
+  std::vector<TechniqueRow> rows;
+  double rays_ms = 0.0;  ///< exact shadow rays of the same pixels: what the truth costs
+};
+
+/// Every technique of technique_names() with the options of `base`.
+Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Backend backend,
+                                          const raster::RasterOptions& base,
+                                          const std::function<void(const std::string&, double)>& progress);
+
+/// Every scene's table on stdout, and as a page (Markdown) and rows where files are named.
+struct TechniqueBench {
+  std::vector<std::string> scenes;
+  raster::RasterOptions raster;
+  std::string page, json;  ///< files to write; empty: none
+};
+Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console);
+
+/// As Markdown; the page says how it was made.
+std::string markdown(std::span<const TechniqueTable> tables, const std::string& command);
+/// For a terminal, 80 columns.
+std::string text_table(const TechniqueTable& table);
+std::vector<BenchRow> bench_rows(const TechniqueTable& table);
+
+}  // namespace gnomon::app
