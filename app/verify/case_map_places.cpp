@@ -1,6 +1,8 @@
 // Where points fall on the map: behind the light, beside the map, on the borders of texels and of cube faces.
 // The oracles work out places from the map's frame with arithmetic of their own, and from how the scene was
 // built.
+#include <fmt/format.h>
+
 #include "app/verify/cases.h"
 #include "app/verify/drawn_world.h"
 #include "scene/cascade_fit.h"
@@ -123,7 +125,7 @@ void texel_boundaries(Run& run) {
     const raster::LightRecord& record = frame->lights[0];
     const LightFace& face = record.map.view.face(0);
     run.sample_each(
-        "pixels on borders of texels, " + std::to_string(shift) + " beside", pixels.pixels(),
+        fmt::format("pixels {:g} texels beside borders", shift), pixels.pixels(),
         [&](std::uint64_t i, Tally& tally) {
           if (frame->primitive.data[i] == no_id) return;
           const int x = static_cast<int>(i) % pixels.width, y = static_cast<int>(i) / pixels.width;
@@ -199,10 +201,12 @@ void cube_seams(Run& run) {
     drawn.scene().camera.eye = eye;
     const auto frame = drawn.draw(options);
     if (!frame) return run.skip("a room seen through its seams", frame.error().message());
-    run.sample_each("a room seen through its seams", picture.pixels(), [&](std::uint64_t i, Tally& tally) {
-      if (frame->primitive.data[i] == no_id) return;
-      tally.check(frame->lights[0].outside_map.data[i] == 0 && frame->lights[0].visibility.data[i] == 1.0f);
-    });
+    run.sample_each(fmt::format("a room's seams from ({:g} {:g} {:g})", eye.x, eye.y, eye.z),
+                    picture.pixels(), [&](std::uint64_t i, Tally& tally) {
+                      if (frame->primitive.data[i] == no_id) return;
+                      tally.check(frame->lights[0].outside_map.data[i] == 0 &&
+                                  frame->lights[0].visibility.data[i] == 1.0f);
+                    });
   }
 }
 
