@@ -122,29 +122,9 @@ TEST(WallOnFloor, DetachmentIsTheClosedForm) {
   }
 }
 
-Scene boxes_under_two_lights() {
-  Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-0.5, 0.0, -0.5}, {0.5, 0.8, 0.5}),
-                              box_mesh({0.9, 0.3, -0.2}, {1.4, 0.7, 0.6})},
-                             {0.7, -1.0, 0.3});
-  Light lamp;
-  lamp.name = "lamp";
-  lamp.type = LightType::spot;
-  lamp.position = {-2, 3, 2};
-  lamp.direction = glm::normalize(Vec3(2, -3, -2));
-  lamp.inner_angle = 0.4;
-  lamp.outer_angle = 0.7;
-  scene.lights.push_back(lamp);
-  lamp.name = "bulb";
-  lamp.type = LightType::point;
-  lamp.position = {1.5, 2.0, 1.5};
-  scene.lights.push_back(lamp);
-  scene.camera = {{2.5, 3.0, 4.0}, {0.2, 0.2, 0}, {0, 1, 0}, 0.7};
-  return scene;
-}
-
 TEST(Sums, StepsAddUpAndLabelsAddUp) {
   for (const double bias : {0.0, 0.01, 0.2}) {
-    const Compared run = run_comparison(boxes_under_two_lights(), test_options({640, 360}, 256, bias));
+    const Compared run = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, bias));
     for (const auto& light : run.result.lights) {
       double steps = 0.0;
       for (const auto& step : light.budget) steps += step.signed_mean;
@@ -164,10 +144,10 @@ TEST(Sums, StepsAddUpAndLabelsAddUp) {
 
 // The exact count of another constant bias must be what a render at that bias shows.
 TEST(BiasCurve, EqualsTheRenderAtThatBias) {
-  const Compared base = run_comparison(boxes_under_two_lights(), test_options({640, 360}, 256, 0.0));
+  const Compared base = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, 0.0));
   for (const double bias : {0.0, 0.003, 0.0171, 0.05, 0.23}) {
     auto options = test_options({640, 360}, 256, 0.0);
-    const Compared render = run_comparison(boxes_under_two_lights(), test_options({640, 360}, 256, bias));
+    const Compared render = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, bias));
     for (std::size_t i = 0; i < base.result.lights.size(); ++i) {
       const auto& record = base.result.raster.lights[i];
       std::uint64_t false_shadow = 0;
@@ -195,11 +175,11 @@ TEST(BiasCurve, EqualsTheRenderAtThatBias) {
 
 // No bias is better than the one called best, and a render at it leaves exactly what was promised.
 TEST(BiasCurve, BestBiasIsBest) {
-  const Compared base = run_comparison(boxes_under_two_lights(), test_options({640, 360}, 256, 0.0));
+  const Compared base = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, 0.0));
   for (std::size_t i = 0; i < base.result.lights.size(); ++i) {
     const auto& light = base.light(i);
     const double best = light.best_bias.constant_world;
-    const Compared render = run_comparison(boxes_under_two_lights(), test_options({640, 360}, 256, best));
+    const Compared render = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, best));
     EXPECT_DOUBLE_EQ(render.light(i).error.wrong_fraction, light.best_bias.wrong_fraction);
     for (const auto& point : light.bias_curve)
       EXPECT_GE(double(point.false_shadow + point.missed_shadow) / double(light.pixels.compared),
@@ -215,7 +195,7 @@ TEST(Ladder, DrawnEqualsBiasedForHard) {
       auto options = test_options({640, 360}, 512, 0.01);
       options.raster.map.bias.slope = slope;
       options.raster.map.bias.normal_offset_texels = offset;
-      const Compared run = run_comparison(boxes_under_two_lights(), options);
+      const Compared run = run_comparison(boxes_under_three_lights(), options);
       for (const auto& light : run.result.lights) {
         std::uint64_t apart = 0;
         for (std::size_t i = 0; i < light.labels.data.size(); ++i)

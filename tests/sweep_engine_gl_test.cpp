@@ -17,23 +17,8 @@ constexpr ImageSize size{240, 135};
 
 // A sun, a spot and a point light; a sphere and a plane beside triangles.
 Scene boxes_and_ball() {
-  Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-0.5, 0.0, -0.5}, {0.5, 0.8, 0.5}),
-                              box_mesh({0.9, 0.3, -0.2}, {1.4, 0.7, 0.6})},
-                             {0.7, -1.0, 0.3});
+  Scene scene = test::boxes_under_three_lights();
   scene.shapes.push_back({"ball", Sphere{{-1.2, 0.5, 0.6}, 0.5}, 0});
-  Light lamp;
-  lamp.name = "lamp";
-  lamp.type = LightType::spot;
-  lamp.position = {-2, 3, 2};
-  lamp.direction = glm::normalize(Vec3(2, -3, -2));
-  lamp.inner_angle = 0.4;
-  lamp.outer_angle = 0.7;
-  scene.lights.push_back(lamp);
-  lamp.name = "bulb";
-  lamp.type = LightType::point;
-  lamp.position = {1.5, 2.0, 1.5};
-  scene.lights.push_back(lamp);
-  scene.camera = {{2.5, 3.0, 4.0}, {0.2, 0.2, 0}, {0, 1, 0}, 0.7};
   return scene;
 }
 

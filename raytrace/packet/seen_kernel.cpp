@@ -61,6 +61,21 @@ struct Out {
   V edge_error, depth_error, depth_floor;
 };
 
+// Where `thin`: the triangle is taken for its own plane alone, seen edge-on; it never says how near it is.
+template <class M>
+void lie_in_plane(M thin, const V3& normal, V error, Out& out) {
+  out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
+  const V3 slab[3] = {normal, times(normal, all(-1.0)), times(normal, all(0.0))};
+  for (int k = 0; k < 3; ++k) {
+    out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
+                   hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
+                   hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
+  }
+  out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
+                  hn::IfThenZeroElse(thin, out.nearness.z)};
+  out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
+}
+
 V inverse_or_zero(V length, V sign) {
   return hn::IfThenElseZero(hn::Gt(length, all(0.0)), hn::Div(sign, length));
 }
@@ -96,16 +111,7 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
     const V off = hn::MulAdd(hn::Mul(all(3.0), hn::Div(size, area)), extent, doubt);
     const V error =
         hn::IfThenElse(hn::Gt(spread, all(0.0)), hn::Add(all(0x1p-20), hn::Div(off, spread)), all(infinity));
-    out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
-    const V3 slab[3] = {unit, times(unit, all(-1.0)), times(unit, all(0.0))};
-    for (int k = 0; k < 3; ++k) {
-      out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
-                     hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
-                     hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
-    }
-    out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
-                    hn::IfThenZeroElse(thin, out.nearness.z)};
-    out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
+    lie_in_plane(thin, unit, error, out);
   }
   return out;
 }
@@ -153,16 +159,7 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
     const V off = hn::Mul(all(2.0), hn::Add(doubt, size));
     const V error = hn::IfThenElse(hn::Gt(longest, all(0.0)),
                                    hn::Add(all(0x1p-19 * radius), hn::Div(off, longest)), all(infinity));
-    out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
-    const V3 slab[3] = {n, times(n, all(-1.0)), times(n, all(0.0))};
-    for (int k = 0; k < 3; ++k) {
-      out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
-                     hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
-                     hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
-    }
-    out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
-                    hn::IfThenZeroElse(thin, out.nearness.z)};
-    out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
+    lie_in_plane(thin, n, error, out);
   }
   return out;
 }

@@ -44,4 +44,24 @@ Scene sunlit_scene(std::vector<Mesh> meshes, const Vec3& direction) {
   return scene;
 }
 
+Scene boxes_under_three_lights() {
+  Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-0.5, 0.0, -0.5}, {0.5, 0.8, 0.5}),
+                              box_mesh({0.9, 0.3, -0.2}, {1.4, 0.7, 0.6})},
+                             {0.7, -1.0, 0.3});
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.type = LightType::spot;
+  lamp.position = {-2, 3, 2};
+  lamp.direction = glm::normalize(Vec3(2, -3, -2));
+  lamp.inner_angle = 0.4;
+  lamp.outer_angle = 0.7;
+  scene.lights.push_back(lamp);
+  lamp.name = "bulb";
+  lamp.type = LightType::point;
+  lamp.position = {1.5, 2.0, 1.5};
+  scene.lights.push_back(lamp);
+  scene.camera = {{2.5, 3.0, 4.0}, {0.2, 0.2, 0}, {0, 1, 0}, 0.7};
+  return scene;
+}
+
 }  // namespace gnomon::test

@@ -13,5 +13,7 @@ Mesh floor_mesh(double half_width, double half_depth);
 Mesh box_mesh(const Vec3& min, const Vec3& max);
 /// A scene with one grey material, the meshes as instances, and a sun that travels along `direction`.
 Scene sunlit_scene(std::vector<Mesh> meshes, const Vec3& direction);
+/// A floor and two boxes under a sun, the spot light "lamp" and the point light "bulb".
+Scene boxes_under_three_lights();
 
 }  // namespace gnomon::test
