@@ -1,6 +1,7 @@
 #include "app/filter_options.h"
 
 #include "app/option_kinds.h"
+#include "app/technique_options.h"
 
 namespace gnomon::app {
 namespace {
@@ -14,34 +15,33 @@ constexpr std::pair<std::string_view, bool> switches[] = {{"on", true}, {"off", 
 
 void add_pcf_options(CLI::App& command, raster::FilterOptions& filter) {
   add_choice(command, "--filter-kernel", filter.kernel, kernels, "NAME",
-             "pcf: N x N texels alike, 2 x 2 bilinear, a disc turned at every pixel, or a sliding square");
+             "N x N texels alike, 2 x 2 bilinear, a disc turned at every pixel, or a sliding square");
   add_number(command, "--filter-radius", filter.radius_texels, {0.001, 64.0}, "texels",
-             "pcf: half the kernel's width, of all kernels but hardware; box covers 2 floor(radius) + 1");
+             "half the kernel's width; box covers 2 floor(radius) + 1");
   add_choice(command, "--filter-plane", filter.receiver_plane, switches, "on|off",
-             "pcf, pcss: compare each texel with the receiver's plane at its centre, not with its own depth");
-  add_integer(command, "--filter-samples", filter.samples, 1, 1024, "lookups",
-              "pcf with the vogel kernel, and pcss: points of the filter");
+             "compare each texel with the receiver's plane at its centre, not with its own depth");
+  add_integer(command, "--filter-samples", filter.samples, 1, 1024, "lookups", "points of the filter");
   add_integer(command, "--blocker-samples", filter.blocker_samples, 1, 1024, "lookups",
-              "pcss: points of the search for what blocks the light");
+              "points of the search for what blocks the light");
   add_number(command, "--search-radius", filter.search_radius_texels, {0.001, 1024.0}, "texels",
-             "pcss: the search goes no farther, however large the light");
+             "the search goes no farther, however large the light");
 }
 
 void add_moment_options(CLI::App& command, raster::FilterOptions& filter) {
   add_integer(command, "--blur-radius", filter.blur_radius_texels, 0, 64, "texels",
-              "vsm, esm, evsm, msm: the map is averaged over 2 N + 1 texels each way");
+              "the map is averaged over 2 N + 1 texels each way");
   add_choice(command, "--mipmaps", filter.mipmaps, switches, "on|off",
-             "vsm, esm, evsm, msm: pixels that cover several texels read their average");
+             "pixels that cover several texels read their average");
   add_number(command, "--bleeding-reduction", filter.light_bleeding_reduction, {0.0, 0.999}, "visibility",
-             "vsm, evsm, msm: up to this is drawn black, the rest stretched");
+             "up to this is drawn black, the rest stretched");
   add_number(command, "--esm-exponent", filter.esm_exponent, {0.001, 80.0}, "per depth range of the map",
-             "esm: c in exp(c z)");
+             "c in exp(c z)");
   add_number(command, "--evsm-exponent", filter.evsm_positive_exponent, {0.001, 40.0}, "per half depth range",
-             "evsm: p in exp(p z)");
+             "p in exp(p z)");
   add_number(command, "--evsm-negative-exponent", filter.evsm_negative_exponent, {0.001, 40.0},
-             "per half depth range", "evsm: n in -exp(-n z)");
+             "per half depth range", "n in -exp(-n z)");
   add_number(command, "--moment-bias", filter.moment_bias, {0.0, 1.0}, "share",
-             "msm: of a fixed distribution, mixed into the moments against rounding");
+             "of a fixed distribution, mixed into the moments against rounding");
 }
 
 }  // namespace
@@ -51,12 +51,17 @@ void add_filter_options(CLI::App& command, raster::FilterOptions& filter) {
   add_moment_options(command, filter);
 }
 
-std::string filter_options_text(const raster::FilterOptions& filter) {
+std::span<const std::pair<std::string_view, raster::FilterKernel>> filter_kernels() {
+  return kernels;
+}
+
+std::string filter_options_text(const raster::MapOptions& map) {
+  const raster::FilterOptions& filter = map.filter;
   const raster::FilterOptions plain;
   std::string text;
-  const auto add = [&text](const char* name, const auto& value, const auto& fallback,
-                           const std::string& shown) {
-    if (value != fallback) text += fmt::format(" {} {}", name, shown);
+  const auto add = [&](std::string_view name, const auto& value, const auto& fallback,
+                       const std::string& shown) {
+    if (value != fallback && technique_reads(name.substr(2), map)) text += fmt::format(" {} {}", name, shown);
   };
   const auto number = [&](const char* name, double raster::FilterOptions::*field) {
     add(name, filter.*field, plain.*field, number_text(filter.*field));

@@ -46,7 +46,7 @@ Expected<void> assign(Field& field, const Expected<Value>& value) {
 }
 
 inline void add_integer(CLI::App& command, const std::string& name, int& field, int min, int max,
-                        const char* unit, const char* what) {
+                        const char* unit, std::string_view what) {
   const std::string range = fmt::format("{}{}{} to {}", unit, *unit ? ", " : "", min, max);
   add_value(
       command, name, "N", describe(what, range, std::to_string(field)),

@@ -4,6 +4,7 @@
 
 #include "app/filter_options.h"
 #include "app/option_kinds.h"
+#include "app/technique_options.h"
 #include "scene/tessellate.h"
 
 namespace gnomon::app {
@@ -74,15 +75,14 @@ void add_bias_options(CLI::App& command, raster::Bias& bias) {
 }
 
 void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
-  add_integer(command, "--cascades", cascades.count, 1, 6, "of technique csm",
-              "slices of the view, one map each");
-  add_number(command, "--cascade-lambda", cascades.lambda, {0.0, 1.0}, "of technique csm",
+  add_integer(command, "--cascades", cascades.count, 1, 6, "", "slices of the view, one map each");
+  add_number(command, "--cascade-lambda", cascades.lambda, {0.0, 1.0}, "share",
              "how the view's depth is split: 0 evenly, 1 evenly in its logarithm");
   command.add_flag(
       "--no-snap", [&cascades](std::int64_t) { cascades.snap = false; },
-      "csm: fit each cascade tightly instead of moving it by whole texels; shadows then swim [default off]");
+      "fit each cascade tightly instead of moving it by whole texels; shadows then swim [default off]");
   command.add_flag("--cascade-fit", cascades.fit_samples,
-                   "csm: fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
+                   "fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
                    "[default off]");
 }
 
@@ -127,6 +127,7 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
   add_filter_options(command, map.filter);
   add_cascade_options(command, map.cascades);
+  name_readers(command);
 }
 
 std::vector<std::string> technique_names() {

@@ -25,7 +25,7 @@ void add_size(CLI::App& command, ImageSize& size);
 /// --tessellate; 0: off.
 void add_tessellate(CLI::App& command, int& tessellate);
 void add_map_size(CLI::App& command, int& texels);
-/// --map-size, --technique, the biases, --depth-format, --cull.
+/// --map-size, --technique, the biases, --depth-format, --cull, the filters, the cascades.
 void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.
 std::vector<std::string> technique_names();

@@ -32,8 +32,10 @@ std::string result_json(const Comparison& comparison, double report_ms, double t
 /// Names and values of a sweep's axes.
 using AxisValues = std::vector<std::pair<std::string, std::string>>;
 /// result.json on one line, with "axes" and without times (every one is "not timed"), so that the same
-/// setting gives the same bytes; ends with a line break.
-std::string result_line(const Comparison& comparison, const AxisValues& axes);
+/// setting gives the same bytes; ends with a line break. `no_effect`: the axes that the cell's technique does
+/// not read.
+std::string result_line(const Comparison& comparison, const AxisValues& axes,
+                        const std::vector<std::string>& no_effect = {});
 /// The object "axes" of that line, as its JSON text.
 std::string axes_text(const AxisValues& axes);
 /// The times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times

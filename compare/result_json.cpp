@@ -367,10 +367,12 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   return dumped(result_object(c, report_ms, total_ms), 2);
 }
 
-std::string result_line(const Comparison& c, const AxisValues& axes) {
+std::string result_line(const Comparison& c, const AxisValues& axes,
+                        const std::vector<std::string>& no_effect) {
   Json json = result_object(c, 0.0, 0.0);
   drop_times(json);
   json["axes"] = axes_object(axes);
+  if (!no_effect.empty()) json["no_effect"] = no_effect;
   return dumped(json, -1);
 }
 

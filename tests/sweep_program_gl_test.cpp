@@ -150,6 +150,44 @@ TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
   EXPECT_FALSE(bytes(root / "merged/report.html").empty());
 }
 
+// An option of one technique is an axis of all: where it has no effect the cell says so, its command leaves
+// it out, and its numbers are those of its neighbour.
+TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
+  const auto sweep = [&](const std::string& folder, const Words& more) {
+    Words all{
+        "sweep",    "floating-box",    "--size", "96x54",     "--map-size", "64", "--technique",
+        "hard,pcf", "--filter-radius", "1,2",    "--threads", "2",          "-o", (root / folder).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  ASSERT_EQ(sweep("whole", {}), 0) << said();
+  std::ifstream schema_file(std::string(GNOMON_SOURCE_DIR) + "/compare/report/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("whole"));
+  std::vector<nlohmann::json> cells;
+  for (std::string line; std::getline(stream, line);) {
+    cells.push_back(nlohmann::json::parse(line));
+    for (const std::string& problem : schema.violations(cells.back())) ADD_FAILURE() << problem;
+  }
+  ASSERT_EQ(cells.size(), 4u);
+  const std::string base = "gnomon compare floating-box --size 96x54 --map-size 64 --technique ";
+  EXPECT_EQ(cells[1]["command"], base + "hard");
+  EXPECT_EQ(cells[1]["no_effect"].dump(), R"(["filter_radius"])");
+  EXPECT_EQ(cells[0]["lights"], cells[1]["lights"]);
+  EXPECT_EQ(cells[3]["command"], base + "pcf --filter-radius 2");
+  EXPECT_FALSE(cells[3].contains("no_effect"));
+  EXPECT_NE(cells[2]["lights"], cells[3]["lights"]);
+  EXPECT_NE(bytes(root / "whole/report.html").find("2 (no effect)"), std::string::npos);
+  EXPECT_NE(bytes(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
+  ASSERT_EQ(sweep("part1", {"--shard", "1/2"}), 0) << said();
+  ASSERT_EQ(sweep("part2", {"--shard", "2/2"}), 0) << said();
+  ASSERT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
+      0)
+      << said();
+  expect_same("whole", "merged");
+}
+
 // A stand-in for sbatch that runs the array's tasks one after another shows what the script does; whether
 // Slurm itself takes it is the next test.
 TEST_F(SweepProgram, SlurmScriptMakesTheShards) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 
+#include "app/effect_options.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/machine.h"
@@ -15,6 +16,7 @@
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/setting.h"
+#include "app/technique_options.h"
 #include "compare/outputs.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
@@ -37,6 +39,7 @@ struct CompareCommand {
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
   std::string command_line;
+  std::vector<std::string> given;  ///< options
 };
 
 Expected<void> check_outputs(const CompareCommand& command) {
@@ -56,6 +59,10 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
                                                  Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.options.light);
   if (!lights) return fail(lights.error());
+  for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
+  for (const std::string& note :
+       idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
+    console.note(note);
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
   if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
     return fail(fits.error());
@@ -189,7 +196,11 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<CompareCommand>();
   command->command_line = invocation.command_line;
   add_options(*app, *command);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_compare(*command); }; });
+  app->callback([command, &invocation, app] {
+    refuse_unread_options(*app, command->setting.options.raster.map);
+    command->given = given_options(*app);
+    invocation.action = [command] { return run_compare(*command); };
+  });
 }
 
 }  // namespace gnomon::app

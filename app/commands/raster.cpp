@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/effect_options.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/machine.h"
@@ -12,6 +13,7 @@
 #include "app/picture_file.h"
 #include "app/pose_options.h"
 #include "app/session.h"
+#include "app/technique_options.h"
 
 namespace gnomon::app {
 
@@ -27,6 +29,7 @@ struct RasterCommand {
   int threads = 0;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
+  std::vector<std::string> given;  ///< options
 };
 
 // Measured: what the peak grows by from 320x180 to 2560x1440, with one light.
@@ -48,6 +51,8 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
+  for (const std::string& note : idle_options(command.given, command.options.map, *loaded->scene, *lights))
+    console.note(note);
   const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
   const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
@@ -92,7 +97,11 @@ void add_raster(CLI::App& program, Invocation& invocation) {
   add_threads(*app, command->threads, "threads of Mesa's software rasterizer");
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_raster(*command); }; });
+  app->callback([command, &invocation, app] {
+    refuse_unread_options(*app, command->options.map);
+    command->given = given_options(*app);
+    invocation.action = [command] { return run_raster(*command); };
+  });
 }
 
 }  // namespace gnomon::app

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/effect_options.h"
 #include "app/heatmap.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
@@ -31,6 +32,7 @@ struct RaytraceCommand {
   int threads = 0;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   bool quiet = false;
+  std::vector<std::string> given;  ///< options
 };
 
 // Measured: what the peak grows by from 320x180 to 2560x1440, with one light.
@@ -52,6 +54,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
   loaded->plan = plan_effects(*loaded->scene);
+  for (const std::string& note : idle_options(command.given, loaded->plan)) console.note(note);
   command.options.records = records;
   command.options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
   const auto lights = choose_lights(*loaded->scene, command.light);
@@ -112,7 +115,10 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_raytrace(*command); }; });
+  app->callback([command, &invocation, app] {
+    command->given = given_options(*app);
+    invocation.action = [command] { return run_raytrace(*command); };
+  });
 }
 
 }  // namespace gnomon::app

@@ -121,7 +121,8 @@ Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t 
   comparison.command = compare_command(shop.command, shop.plan, cell);
   comparison.seed = shop.command.seed;
   comparison.machine = shop.machine;
-  const std::string line = compare::result_line(comparison, axis_values(shop.plan.grid, cell));
+  const auto idle = json_names(shop.command.options.idle_axes(shop.plan.grid, cell));
+  const std::string line = compare::result_line(comparison, axis_values(shop.plan.grid, cell), idle);
   const std::string times =
       compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
   if (compare::has_thumbnail(cell, shop.plan.grid.cells())) {

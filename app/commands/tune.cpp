@@ -48,11 +48,13 @@ struct Family {
   Values values;
 };
 
+bool is_named(const Values& values, const std::string& name) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
 bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
-  const auto named = [&](const auto& entry) { return entry.first == name; };
-  return std::any_of(fixed.begin(), fixed.end(), named) ||
-         std::any_of(grid.axes().begin(), grid.axes().end(),
-                     [&](const auto& axis) { return axis.name == name; });
+  return is_named(fixed, name) || std::any_of(grid.axes().begin(), grid.axes().end(),
+                                              [&](const auto& axis) { return axis.name == name; });
 }
 
 /// What is tried of the options that nothing was said about.
@@ -73,11 +75,13 @@ std::string family_name(const Values& values) {
   return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
 
-/// Everything fixed, with the values of one family.
+/// Everything fixed, with the values of one family that its technique reads.
 Expected<Family> make_family(Values values, const Values& fixed) {
   Values all = fixed;
   all.insert(all.end(), values.begin(), values.end());
-  const auto parsed = parse_setting(all);
+  const Values read = values_read(all);
+  std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
+  const auto parsed = parse_setting(read);
   if (!parsed) return fail(parsed.error());
   return Family{{family_name(values), parsed->options.raster.map}, std::move(values)};
 }
@@ -89,8 +93,9 @@ std::vector<std::string> tuned_techniques() {
   return names;
 }
 
-bool is_exact(raster::Technique technique) {
-  return technique == raster::Technique::izb || technique == raster::Technique::hybrid;
+bool has_family(const std::vector<Family>& families, const Family& family) {
+  return std::any_of(families.begin(), families.end(),
+                     [&](const Family& other) { return other.values == family.values; });
 }
 
 /// The combinations of what was given as lists, and of the defaults where nothing was given.
@@ -119,8 +124,8 @@ Expected<std::vector<Family>> make_families(const TuneCommand& command) {
       if (!family) return fail(family.error());
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
-      if (!sound) continue;  // a bias that does not go with the technique
-      if (!kind.empty() && is_exact(family->tuned.map.technique)) continue;  // it has no bias
+      if (!sound) continue;                         // a bias that does not go with the technique
+      if (has_family(families, *family)) continue;  // but for what the technique does not read
       families.push_back(std::move(*family));
     }
   if (families.empty() && unsound) return fail(*unsound);
@@ -186,7 +191,7 @@ Values answer_values(const TuneCommand& command, const Family& family, const com
   values.insert(values.end(), family.values.begin(), family.values.end());
   values.emplace_back("map-size", std::to_string(attempt.size));
   values.emplace_back("bias", number_text(attempt.bias_world));
-  return values;
+  return values_read(values);
 }
 
 const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
@@ -380,6 +385,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                        range_text(time_range)),
            command->goal.max_time_ms, [](const std::string& text) { return parse_number(text, time_range); });
   command->options.add_to(*app);
+  command->options.mean_techniques(tuned_techniques());
   add_output(
       *app, "-o,--output", command->folder, "DIR",
       "also write report.html there, with the answer, the runners-up and the comparison at the answer, and "

@@ -6,6 +6,7 @@
 
 #include "app/invocation.h"
 #include "app/options.h"
+#include "app/technique_options.h"
 
 namespace gnomon::app {
 
@@ -44,7 +45,10 @@ void add_view(CLI::App& program, Invocation& invocation) {
   app->add_option("--script", options->script, script_help)->type_name("FILE");
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);
-  app->callback([options, &invocation] { invocation.action = [options] { return run_view(*options); }; });
+  app->callback([options, &invocation, app] {
+    refuse_unread_options(*app, options->compare.raster.map);
+    invocation.action = [options] { return run_view(*options); };
+  });
 }
 
 }  // namespace gnomon::app

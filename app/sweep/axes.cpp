@@ -6,7 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/filter_options.h"
+#include "app/options.h"
 #include "app/shell.h"
+#include "app/technique_options.h"
 
 namespace gnomon::app {
 
@@ -52,6 +55,19 @@ std::string sweep_text(const CLI::Option& option) {
 }
 
 }  // namespace
+
+Values values_read(const Values& values) {
+  raster::MapOptions map;
+  for (const auto& [name, value] : values) {
+    for (const auto& [text, technique] : all_techniques())
+      if (name == "technique" && value == text) map.technique = technique;
+    for (const auto& [text, kernel] : filter_kernels())
+      if (name == "filter-kernel" && value == text) map.filter.kernel = kernel;
+  }
+  Values read = values;
+  std::erase_if(read, [&](const auto& entry) { return !technique_reads(entry.first, map); });
+  return read;
+}
 
 Expected<SettingOptions> parse_setting(const Values& values) {
   Parser parser;
@@ -116,7 +132,33 @@ void SweepOptions::add_to(CLI::App& command) {
   });
 }
 
+const std::vector<std::string>* SweepOptions::values_of(std::string_view name) const {
+  const auto found =
+      std::find_if(given_.begin(), given_.end(), [&](const auto& given) { return given->name == name; });
+  return found == given_.end() || (*found)->values.empty() ? nullptr : &(*found)->values;
+}
+
+/// Each option must concern a technique of the sweep.
+Expected<void> SweepOptions::check_read() const {
+  std::vector<raster::Technique> techniques;
+  std::vector<raster::FilterKernel> kernels;
+  const auto collect = [](const std::vector<std::string>* values, const auto& known,
+                          const std::vector<std::string>& fallback, auto& out) {
+    const std::vector<std::string>& names = values != nullptr ? *values : fallback;
+    for (const auto& [text, value] : known)
+      if (std::find(names.begin(), names.end(), text) != names.end()) out.push_back(value);
+  };
+  collect(values_of("technique"), all_techniques(), unnamed_, techniques);
+  collect(values_of("filter-kernel"), filter_kernels(), {"box"}, kernels);
+  for (const auto& given : given_) {
+    if (given->values.empty()) continue;
+    if (const auto read = app::check_read(given->name, techniques, kernels); !read) return read;
+  }
+  return {};
+}
+
 Expected<compare::Grid> SweepOptions::grid(bool zip) const {
+  if (const auto read = check_read(); !read) return fail(read.error());
   std::vector<compare::Axis> axes;
   for (const auto& given : given_)
     if (given->values.size() > 1) axes.push_back({given->name, given->values});
@@ -145,12 +187,21 @@ Values SweepOptions::cell_values(const compare::Grid& grid, std::size_t cell) co
   return values;
 }
 
+std::vector<std::string> SweepOptions::idle_axes(const compare::Grid& grid, std::size_t cell) const {
+  const Values read = values_read(cell_values(grid, cell));
+  std::vector<std::string> idle;
+  for (const compare::Axis& axis : grid.axes())
+    if (std::none_of(read.begin(), read.end(), [&](const auto& entry) { return entry.first == axis.name; }))
+      idle.push_back(axis.name);
+  return idle;
+}
+
 Expected<SettingOptions> SweepOptions::parse_cell(const compare::Grid& grid, std::size_t cell) const {
-  return parse_setting(cell_values(grid, cell));
+  return parse_setting(values_read(cell_values(grid, cell)));
 }
 
 std::string SweepOptions::cell_arguments(const compare::Grid& grid, std::size_t cell) const {
-  return setting_arguments(cell_values(grid, cell));
+  return setting_arguments(values_read(cell_values(grid, cell)));
 }
 
 }  // namespace gnomon::app

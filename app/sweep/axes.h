@@ -21,10 +21,14 @@ namespace gnomon::app {
 /// the map, the constant bias last, so that cells which share work are neighbours.
 class SweepOptions {
  public:
+  /// The techniques that are meant when none is named: hard, unless said otherwise here.
+  void mean_techniques(std::vector<std::string> names) { unnamed_ = std::move(names); }
+
   /// Registers every option of add_setting_options.
   void add_to(CLI::App& command);
 
-  /// The options that were given several values.
+  /// The options that were given several values. Error (usage): an option that no technique of the sweep
+  /// reads.
   Expected<compare::Grid> grid(bool zip) const;
   /// The options that were given one value: name and value.
   std::vector<std::pair<std::string, std::string>> fixed() const;
@@ -34,7 +38,9 @@ class SweepOptions {
 
   /// The setting with the grid's values of one cell.
   Expected<SettingOptions> parse_cell(const compare::Grid& grid, std::size_t cell) const;
-  /// " --map-size 512 --bias 0.01": what compare would be given for that cell.
+  /// The axes that have no effect on a cell: its technique does not read them.
+  std::vector<std::string> idle_axes(const compare::Grid& grid, std::size_t cell) const;
+  /// " --map-size 512 --bias 0.01": what compare would be given for that cell, without what has no effect.
   std::string cell_arguments(const compare::Grid& grid, std::size_t cell) const;
 
  private:
@@ -45,13 +51,19 @@ class SweepOptions {
     std::string text;  ///< as it was given
     std::vector<std::string> values;
   };
+  Expected<void> check_read() const;
+  const std::vector<std::string>* values_of(std::string_view name) const;
   std::vector<std::pair<std::string, std::string>> cell_values(const compare::Grid& grid,
                                                                std::size_t cell) const;
+  std::vector<std::string> unnamed_{"hard"};
   std::vector<std::unique_ptr<Given>> given_;
 };
 
 /// Parses settings by compare's parser; the values are those of options by name. Errors are ErrorKind::usage.
 Expected<SettingOptions> parse_setting(const std::vector<std::pair<std::string, std::string>>& values);
+/// The values that the technique among them reads.
+std::vector<std::pair<std::string, std::string>> values_read(
+    const std::vector<std::pair<std::string, std::string>>& values);
 /// The same as arguments, quoted for a shell, with a blank before each.
 std::string setting_arguments(const std::vector<std::pair<std::string, std::string>>& values);
 

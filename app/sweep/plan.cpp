@@ -37,6 +37,11 @@ bool shares_by_truth(const compare::Grid& grid, const compare::Shard& shard) {
 
 }  // namespace
 
+std::vector<std::string> json_names(std::vector<std::string> axes) {
+  for (std::string& name : axes) std::replace(name.begin(), name.end(), '-', '_');
+  return axes;
+}
+
 compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell) {
   compare::AxisValues values;
   const std::vector<std::size_t> at = grid.position(cell);

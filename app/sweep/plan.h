@@ -20,6 +20,9 @@ struct Plan {
 /// Names and values of a cell.
 compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell);
 
+/// The same names, of the axes that have no effect on a cell.
+std::vector<std::string> json_names(std::vector<std::string> axes);
+
 Plan make_plan(compare::Grid grid, compare::Shard shard);
 
 }  // namespace gnomon::app

@@ -4,6 +4,7 @@
 
 #include "app/filter_options.h"
 #include "app/shell.h"
+#include "app/technique_options.h"
 #include "app/values.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
@@ -44,21 +45,27 @@ void add_map(std::string& text, const raster::MapOptions& map) {
   add_if(text, true, "--map-size", std::to_string(map.size));
   add_if(text, map.technique != plain.technique, "--technique",
          std::string(compare::technique_name(map.technique)));
-  add_if(text, true, "--bias", bias_text(map.bias));
-  add_if(text, map.bias.slope != plain.bias.slope, "--slope-bias", number_text(map.bias.slope));
-  add_if(text, map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
-         number_text(map.bias.normal_offset_texels));
-  if (map.bias.receiver_plane) text += " --receiver-plane";
-  if (map.bias.adaptive) text += " --adaptive-bias";
-  if (map.cascades.count != CascadeOptions{}.count) text += fmt::format(" --cascades {}", map.cascades.count);
-  if (map.cascades.lambda != CascadeOptions{}.lambda)
-    text += fmt::format(" --cascade-lambda {}", map.cascades.lambda);
-  if (!map.cascades.snap) text += " --no-snap";
-  if (map.cascades.fit_samples) text += " --cascade-fit";
-  add_if(text, map.depth_format != plain.depth_format, "--depth-format",
-         std::string(compare::depth_format_name(map.depth_format)));
-  add_if(text, map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
-  text += filter_options_text(map.filter);
+  // What is set for another technique stays set, but compare would refuse it.
+  const auto add = [&](bool wanted, std::string_view key, const std::string& value) {
+    add_if(text, wanted && technique_reads(key.substr(2), map), key, value);
+  };
+  const auto flag = [&](bool wanted, std::string_view key) {
+    if (wanted && technique_reads(key.substr(2), map)) text += fmt::format(" {}", key);
+  };
+  add(true, "--bias", bias_text(map.bias));
+  add(map.bias.slope != plain.bias.slope, "--slope-bias", number_text(map.bias.slope));
+  add(map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
+      number_text(map.bias.normal_offset_texels));
+  flag(map.bias.receiver_plane, "--receiver-plane");
+  flag(map.bias.adaptive, "--adaptive-bias");
+  add(map.cascades.count != plain.cascades.count, "--cascades", std::to_string(map.cascades.count));
+  add(map.cascades.lambda != plain.cascades.lambda, "--cascade-lambda", number_text(map.cascades.lambda));
+  flag(!map.cascades.snap, "--no-snap");
+  flag(map.cascades.fit_samples, "--cascade-fit");
+  add(map.depth_format != plain.depth_format, "--depth-format",
+      std::string(compare::depth_format_name(map.depth_format)));
+  add(map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
+  text += filter_options_text(map);
 }
 
 void add_poses(std::string& text, const Setup& setup) {

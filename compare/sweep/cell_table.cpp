@@ -27,8 +27,11 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
       "href=\"#cell-{0}\">{0}</a>{2}</th>",
       cell.cell, on_front ? " class=\"front-row\"" : "",
       on_front ? " <abbr title=\"on the Pareto front\">\u2605</abbr>" : "");
-  for (const auto& [name, value] : cell.axes)
-    out += fmt::format("<td class=\"n\" data-sort=\"{0}\">{0}</td>", escaped(value));
+  for (const auto& [name, value] : cell.axes) {
+    const bool idle = std::find(cell.no_effect.begin(), cell.no_effect.end(), name) != cell.no_effect.end();
+    out += fmt::format("<td class=\"n\" data-sort=\"{0}\">{0}{1}</td>", escaped(value),
+                       idle ? " (no effect)" : "");
+  }
   out += number_cell(cell.wrong_fraction, percent(cell.wrong_fraction));
   out += number_cell(double(cell.false_shadow), grouped(cell.false_shadow));
   out += number_cell(double(cell.missed_shadow), grouped(cell.missed_shadow));

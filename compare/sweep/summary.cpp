@@ -79,6 +79,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
     const Json json = Json::parse(line);
     CellSummary sum;
     for (const auto& [name, value] : json.at("axes").items()) sum.axes.emplace_back(name, value_text(value));
+    sum.no_effect = json.value("no_effect", std::vector<std::string>{});
     sum.command = json.at("command").get<std::string>();
     Json classes = Json::object();
     for (const Json& light : json.at("lights")) {

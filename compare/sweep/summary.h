@@ -14,6 +14,7 @@ namespace gnomon::compare {
 struct CellSummary {
   std::size_t cell = 0;
   std::vector<std::pair<std::string, std::string>> axes;  ///< names as in "axes", values as text
+  std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
   std::string command, technique;
   // Errors over the compared pixels of all lights; NaN where not computed.
   std::uint64_t compared = 0, wrong = 0, false_shadow = 0, missed_shadow = 0;

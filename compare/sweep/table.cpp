@@ -20,6 +20,15 @@ std::string scalar_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string joined(const Json& names) {
+  std::string text;
+  for (const Json& name : names) {
+    if (!text.empty()) text += ' ';
+    text += name.get<std::string>();
+  }
+  return text;
+}
+
 template <class Row>
 void add_flat(Row& row, const std::string& name, const Json& value) {
   if (value.is_object()) {
@@ -71,6 +80,7 @@ std::string SweepTable::add(std::size_t cell, std::string_view line) {
   for (const Json& light : json.at("lights")) {
     Row row{{"cell", std::to_string(cell)}};
     add_flat(row, "axes", json.value("axes", Json::object()));
+    if (json.contains("no_effect")) row.emplace_back("no_effect", joined(json.at("no_effect")));
     row.emplace_back("light", light.at("light").at("name").get<std::string>());
     row.emplace_back("light_type", light.at("light").at("type").get<std::string>());
     add_flat(row, "size", json.at("size"));

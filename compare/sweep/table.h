@@ -1,6 +1,7 @@
 // sweep.csv: one row per cell and light, from the lines of sweep.jsonl. Columns are the keys of result.json
 // joined with '_' ("error_wrong", "map_bias_slope", "budget_filter_signed"), after "cell" (from 0), the axes
-// ("axes_map_size") and the light. RFC 4180: lines end with CR LF; a value that a row has not is empty.
+// ("axes_map_size"), the axes that have no effect there ("no_effect") and the light. RFC 4180: lines end with
+// CR LF; a value that a row has not is empty.
 #pragma once
 
 #include <string>

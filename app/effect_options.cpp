@@ -1,0 +1,53 @@
+#include "app/effect_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "scene/light.h"
+
+namespace gnomon::app {
+namespace {
+
+bool holds(std::span<const std::string> given, std::string_view option) {
+  return std::find(given.begin(), given.end(), option) != given.end();
+}
+
+std::string idle(std::string_view option, std::string_view reason) {
+  return fmt::format("--{} has no effect: {}", option, reason);
+}
+
+}  // namespace
+
+std::vector<std::string> given_options(const CLI::App& command) {
+  std::vector<std::string> given;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty()) given.push_back(option->get_lnames().front());
+  return given;
+}
+
+std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan) {
+  std::vector<std::string> notes;
+  const auto needs = [&](std::string_view option, Effect effect) {
+    if (holds(given, option) && !plan.simulates(effect)) notes.push_back(idle(option, plan[effect].reason));
+  };
+  needs("samples", Effect::soft_shadow);
+  needs("glossy-samples", Effect::glossy);
+  needs("min-contribution", Effect::reflection);  // whose reason names transmission too
+  return notes;
+}
+
+std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
+                                      const Scene& scene, std::span<const std::uint32_t> lights) {
+  std::vector<std::string> notes;
+  const bool soft = std::any_of(lights.begin(), lights.end(),
+                                [&](std::uint32_t light) { return has_size(scene.lights[light]); });
+  if (map.technique != raster::Technique::pcss || soft) return notes;
+  for (const char* option : {"filter-samples", "blocker-samples", "search-radius"})
+    if (holds(given, option))
+      notes.push_back(idle(option, "pcss is the hard test for lights without a size"));
+  return notes;
+}
+
+}  // namespace gnomon::app

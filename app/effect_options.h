@@ -1,0 +1,29 @@
+// Options that belong to an effect: where the scene (its lights and materials) does not call for the effect,
+// nothing of it is simulated and the option changes nothing. That is no mistake of the command line, so it is
+// said in a note.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "raster/options.h"
+#include "scene/effects.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+/// The options on the command line, without "--".
+std::vector<std::string> given_options(const CLI::App& command);
+
+/// One note for each given option that has no effect: "--samples has no effect: no light has a size".
+std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan);
+
+/// The same for a technique whose filter needs lights with a size.
+std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
+                                      const Scene& scene, std::span<const std::uint32_t> lights);
+
+}  // namespace gnomon::app

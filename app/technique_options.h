@@ -1,0 +1,41 @@
+// Which technique reads which option: one table, from which --help says whose an option is, and by which an
+// option that the technique does not read is refused rather than ignored.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raster/options.h"
+#include "scene/expected.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+/// Options that not every technique reads, without "--".
+std::vector<std::string_view> technique_options();
+
+/// Whether the technique (of pcf: with that kernel) reads the option; true for any option not of the table.
+bool technique_reads(std::string_view option, raster::Technique technique, raster::FilterKernel kernel);
+inline bool technique_reads(std::string_view option, const raster::MapOptions& map) {
+  return technique_reads(option, map.technique, map.filter.kernel);
+}
+
+/// "pcf (box, vogel, optimised)", "all but izb, hybrid": who reads an option of the table.
+std::string readers_of(std::string_view option);
+
+/// Error (usage) when none of the techniques, with any of the kernels, reads the option.
+Expected<void> check_read(std::string_view option, std::span<const raster::Technique> techniques,
+                          std::span<const raster::FilterKernel> kernels);
+
+/// Puts the readers before the help of each option of the table.
+void name_readers(CLI::App& command);
+
+/// Throws CLI::ValidationError for the first option on the command line that the technique does not read.
+void refuse_unread_options(const CLI::App& command, const raster::MapOptions& map);
+
+}  // namespace gnomon::app
