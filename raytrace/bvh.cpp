@@ -139,7 +139,7 @@ class Builder {
 // Folds a binary node and its largest descendants into up to four children.
 class Folder {
  public:
-  Folder(const HugeArray<BinaryNode>& binary, std::vector<BvhNode>& out) : binary_(binary), out_(out) {
+  Folder(const HugeArray<BinaryNode>& binary, HugeVector<BvhNode>& out) : binary_(binary), out_(out) {
     out_.reserve(binary.size() / 5 + 16);  // usually enough
   }
 
@@ -180,7 +180,7 @@ class Folder {
   float area(std::uint32_t node) const { return binary_[node].box.half_area(); }
 
   const HugeArray<BinaryNode>& binary_;
-  std::vector<BvhNode>& out_;
+  HugeVector<BvhNode>& out_;
 };
 
 LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "raytrace/error_bounds.h"
+#include "raytrace/packet/huge_array.h"
 #include "scene/world.h"
 
 namespace gnomon::raytrace {
@@ -43,10 +44,10 @@ struct LeafPrimitive {
 };
 
 struct Bvh {
-  std::vector<BvhNode> nodes;             ///< node 0 is the root; empty: walk all primitives
-  std::vector<LeafPrimitive> primitives;  ///< in leaf order
-  std::vector<std::uint32_t> ids;         ///< of the primitives, in leaf order
-  std::uint64_t dropped = 0;              ///< primitives left out: not finite, zero area or zero radius
+  HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: walk all primitives
+  HugeVector<LeafPrimitive> primitives;  ///< in leaf order
+  HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order
+  std::uint64_t dropped = 0;             ///< primitives left out: not finite, zero area or zero radius
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
   /// The tree's depth is limited so that a stack of this size always suffices: three per level and one.
   static constexpr int max_depth = 80, stack_size = 3 * max_depth + 1;

@@ -78,11 +78,12 @@ class HybridBench {
     if (tiles_.size() == 0) {
       tiles_ = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
       for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+        raytrace::CompactDraft draft;
         tiles_[i].clear();
         for (int y = y0; y < y1; ++y)
           for (int x = x0; x < x1; ++x)
-            tiles_[i].put(raytrace::tile_lane(x - x0, y - y0), receivers_.at(x, y));
-        tiles_[i].finish();
+            tiles_[i].put(raytrace::tile_lane(x - x0, y - y0), receivers_.at(x, y), draft);
+        tiles_[i].finish(draft, draft.bounds.center());  // exact: no error grows with a distance
       });
     }
     const raytrace::Sight sight = sight_of_light(s, light_, {tiles_.data(), tiles_.size()});

@@ -57,22 +57,39 @@ class CellClosest {
   hn::Vec<I> leaf_;
 };
 
+/// A packet's list on its way to the cache, and later the nearest of its primitives: each is a cache line of
+/// its own.
+struct List {
+  std::uint32_t begin, end;
+  void prefetch(const Cells& cells) const {
+    __builtin_prefetch(&cells.nearest[begin]), __builtin_prefetch(&cells.leaf[begin]);
+  }
+  void prefetch_nearest(const Cells& cells) const {
+    for (std::uint32_t k = begin; k < std::min(end, begin + 12); ++k)
+      __builtin_prefetch(&cells.primitives[cells.leaf[k]]);
+  }
+};
+
 void closest_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, int column, int row,
                     TileHits& hits) {
+  constexpr std::size_t ahead = 3;  // packets
+  List lists[tile_packets];
   for (std::size_t p = 0; p < tile_packets; ++p) {
     const int x = column + static_cast<int>(p % 4), y = row + static_cast<int>(p / 4);
-    if (rays.alive[p] == 0) continue;
     const auto cell = static_cast<std::size_t>(y * cells.columns() + x);
-    const std::uint32_t begin = cells.first[cell], end = cells.first[cell + 1];
-    // Each primitive is a cache line of its own: the nearest are asked for before the first is looked at.
-    for (std::uint32_t k = begin; k < std::min(end, begin + 8); ++k)
-      __builtin_prefetch(&cells.primitives[cells.leaf[k]]);
+    lists[p] = rays.alive[p] == 0 ? List{0, 0} : List{cells.first[cell], cells.first[cell + 1]};
+    lists[p].prefetch(cells);
+  }
+  for (std::size_t p = 0; p < ahead; ++p) lists[p].prefetch_nearest(cells);
+  for (std::size_t p = 0; p < tile_packets; ++p) {
+    if (p + ahead < tile_packets) lists[p + ahead].prefetch_nearest(cells);
+    if (rays.alive[p] == 0) continue;
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
       CellClosest closest(rays, p * packet_rays + i);
       for (std::uint32_t k = 0; k < seen.planes.size(); ++k)
         closest.test<true>(seen.planes[k], first_plane + k);
       float low = closest.least_low();
-      for (std::uint32_t k = begin; k != end && !(cells.nearest[k] < low); ++k)
+      for (std::uint32_t k = lists[p].begin; k != lists[p].end && !(cells.nearest[k] < low); ++k)
         if (closest.test<false>(cells.primitives[cells.leaf[k]], cells.leaf[k])) low = closest.least_low();
       closest.store(hits.leaf + p * packet_rays + i);
     }

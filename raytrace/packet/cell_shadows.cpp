@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "raytrace/packet/cell_tile.h"
 #include "raytrace/packet/lanes-inl.h"
 
@@ -13,98 +15,36 @@ using Place = hn::RebindToSigned<F>;
 using Places = hn::Vec<Place>;
 constexpr Place place;
 
+/// A vector of rays: what is still asked of them, and where in their cells they lie.
+struct alignas(64) TileState {
+  float far[tile_rays];  ///< +infinity: nothing is asked any more
+  std::int32_t u_in_cell[tile_rays], v_in_cell[tile_rays];
+};
+
+/// A vector's rays that share a cell, and of the cell's list what has not been looked at yet.
+struct Group {
+  std::uint32_t lane, bits;   ///< of the vector's first ray; which of its rays
+  std::uint32_t next, end;    ///< of the list
+  std::uint32_t first, last;  ///< candidates: list places, their primitives on their way to the cache
+};
+
 /// A vector of rays against primitives.
 class CellShadows {
  public:
-  CellShadows(const TileRays& rays, std::size_t at, TileShadows& out)
+  CellShadows(const TileRays& rays, TileState& state, std::size_t at, TileShadows& out)
       : u_(hn::Load(f, rays.u + at)),
         v_(hn::Load(f, rays.v + at)),
+        far_(hn::Load(f, state.far + at)),
         own_(hn::Load(ids, rays.own + at)),
-        alive_((static_cast<unsigned>(rays.alive[at / packet_rays]) >> (at % packet_rays)) &
-               ((1u << lanes()) - 1)),
         at_(at),
-        out_(out) {
-    u_in_cell_ = v_in_cell_ = hn::Zero(place);
-    far_ = hn::IfThenElse(mask_of(alive_), hn::Load(f, rays.far + at), all(inf));
-  }
+        state_(state),
+        out_(out) {}
+  ~CellShadows() { hn::Store(far_, f, state_.far + at_); }
+  CellShadows(const CellShadows&) = delete;
+  CellShadows& operator=(const CellShadows&) = delete;
 
-  unsigned alive() const { return alive_; }
   unsigned shadowed() const { return shadowed_; }
   unsigned unsure() const { return unsure_; }
-
-  /// Bits of the rays outside the cells; the others' cells are stored, and where in them they lie.
-  unsigned find_cells(const Cells& cells, int columns, std::int32_t* cell) {
-    const auto along = [&](V v, const CellAxis& axis, M& within, Places& in_cell) {
-      const V step = hn::Mul(hn::Sub(v, all(axis.origin)), all(axis.per_width));
-      within = hn::And(within,
-                       hn::And(hn::Ge(step, all(0.0f)), hn::Lt(step, all(static_cast<float>(axis.count)))));
-      const auto fine = hn::ConvertTo(place, hn::Mul(step, all(256.0f)));
-      in_cell = hn::And(fine, hn::Set(place, 255));
-      return hn::ShiftRight<8>(fine);
-    };
-    M within = mask_of(alive_);
-    const auto x = along(u_, cells.u, within, u_in_cell_), y = along(v_, cells.v, within, v_in_cell_);
-    hn::Store(hn::Add(hn::Mul(y, hn::Set(place, columns)), x), place, cell);
-    return alive_ & ~bits_of(within);
-  }
-
-  void test_plane(const SeenPrimitive& plane) { test<true>(plane, 0, mask_of(alive_)); }
-
-  /// The rays of one cell against its list.
-  void test_list(const Cells& cells, std::size_t cell, unsigned bits) {
-    const std::uint32_t begin = cells.first[cell], end = cells.first[cell + 1];
-    const M asked = mask_of(bits);
-    float least = least_far(asked);
-    if (begin == end || cells.nearest[begin] < least) return;
-    constexpr std::uint32_t few = 4;  // to be tested one by one
-    if (end - begin <= few) {
-      for (std::uint32_t i = begin; i != end && !(cells.nearest[i] < least); ++i)
-        if (test<false>(cells.primitives[cells.leaf[i]], cells.leaf[i], asked)) least = least_far(asked);
-      return;
-    }
-    const Extent extent = extent_of(asked);
-    for (std::uint32_t first = begin; first < end && !(cells.nearest[first] < least);
-         first += static_cast<std::uint32_t>(lanes())) {
-      unsigned met = extent.meets(cells, first, least);
-      if (end - first < lanes()) met &= (1u << (end - first)) - 1;
-      // Each primitive is a cache line of its own: all are asked for before the first is looked at.
-      for (unsigned next = met; next != 0; next &= next - 1)
-        prefetch(cells, first + static_cast<std::uint32_t>(std::countr_zero(next)));
-      for (; met != 0; met &= met - 1) {
-        const std::uint32_t leaf = cells.leaf[first + static_cast<std::uint32_t>(std::countr_zero(met))];
-        if (test<false>(cells.primitives[leaf], leaf, asked)) least = least_far(asked);
-      }
-    }
-  }
-
- private:
-  static void prefetch(const Cells& cells, std::uint32_t i) {
-    __builtin_prefetch(&cells.primitives[cells.leaf[i]]);
-  }
-
-  /// The rays' box in their cell, against as many primitives at once.
-  struct Extent {
-    Places u_min, u_max, v_min, v_max;
-    unsigned meets(const Cells& cells, std::uint32_t first, float least) const {
-      const auto box = hn::LoadU(place, reinterpret_cast<const std::int32_t*>(cells.box.data()) + first);
-      const auto byte = hn::Set(place, 255);
-      const auto part = [&](auto shifted) { return hn::And(shifted, byte); };
-      auto apart = hn::Or(hn::Gt(part(box), u_max), hn::Gt(u_min, part(hn::ShiftRight<8>(box))));
-      apart = hn::Or(apart, hn::Or(hn::Gt(part(hn::ShiftRight<16>(box)), v_max),
-                                   hn::Gt(v_min, part(hn::ShiftRight<24>(box)))));
-      const M behind = hn::Lt(hn::LoadU(f, cells.nearest.data() + first), all(least));
-      return bits_of(hn::Not(hn::Or(behind, hn::RebindMask(f, apart))));
-    }
-  };
-  Extent extent_of(M asked) const {
-    const auto mask = hn::RebindMask(place, asked);
-    const auto low = [&](Places v) {
-      return hn::MinOfLanes(place, hn::IfThenElse(mask, v, hn::Set(place, 255)));
-    };
-    const auto high = [&](Places v) { return hn::MaxOfLanes(place, hn::IfThenElseZero(mask, v)); };
-    return {low(u_in_cell_), high(u_in_cell_), low(v_in_cell_), high(v_in_cell_)};
-  }
-
   float least_far(M asked) const {
     return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(asked, far_, all(inf))));
   }
@@ -135,47 +75,198 @@ class CellShadows {
     return true;
   }
 
+ private:
   V u_, v_, far_;
-  Places u_in_cell_, v_in_cell_;
   hn::Vec<I> own_;
-  unsigned alive_, shadowed_ = 0, unsure_ = 0;
+  unsigned shadowed_ = 0, unsure_ = 0;
   std::size_t at_;
+  TileState& state_;
   TileShadows& out_;
 };
 
-/// Cell by cell of those that the rays lie in: usually one, at an outline as many as there are rays.
-unsigned test_cells(const Cells& cells, int columns, CellShadows& rays) {
-  alignas(64) std::int32_t cell[packet_rays];
-  const unsigned outside = rays.find_cells(cells, columns, cell);
-  for (unsigned left = rays.alive() & ~outside & ~rays.shadowed(); left != 0;) {
-    const std::int32_t first = cell[std::countr_zero(left)];
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(place, hn::Eq(hn::Load(place, cell), hn::Set(place, first)), bytes);
-    std::uint32_t same = 0;
-    std::memcpy(&same, bytes, sizeof same);
-    rays.test_list(cells, static_cast<std::size_t>(first), left & same);
-    left &= ~same;
+/// The box of some rays in their cell, against the boxes of as many primitives at once.
+class Extent {
+ public:
+  Extent(const TileState& state, std::size_t at, M asked) {
+    const auto mask = hn::RebindMask(place, asked);
+    const auto u = hn::Load(place, state.u_in_cell + at), v = hn::Load(place, state.v_in_cell + at);
+    const auto low = [&](Places p) {
+      return hn::MinOfLanes(place, hn::IfThenElse(mask, p, hn::Set(place, 255)));
+    };
+    const auto high = [&](Places p) { return hn::MaxOfLanes(place, hn::IfThenElseZero(mask, p)); };
+    u_min_ = low(u), u_max_ = high(u), v_min_ = low(v), v_max_ = high(v);
   }
-  return outside;
-}
+  /// Bits of list places `first` on, as many as there are lanes; not those behind `least`.
+  unsigned meets(const Cells& cells, std::uint32_t first, std::uint32_t end, float least) const {
+    const auto box = hn::LoadU(place, reinterpret_cast<const std::int32_t*>(cells.box.data()) + first);
+    const auto byte = hn::Set(place, 255);
+    const auto part = [&](auto shifted) { return hn::And(shifted, byte); };
+    auto apart = hn::Or(hn::Gt(part(box), u_max_), hn::Gt(u_min_, part(hn::ShiftRight<8>(box))));
+    apart = hn::Or(apart, hn::Or(hn::Gt(part(hn::ShiftRight<16>(box)), v_max_),
+                                 hn::Gt(v_min_, part(hn::ShiftRight<24>(box)))));
+    const M behind = hn::Lt(hn::LoadU(f, cells.nearest.data() + first), all(least));
+    const unsigned met = bits_of(hn::Not(hn::Or(behind, hn::RebindMask(f, apart))));
+    return end - first < lanes() ? met & ((1u << (end - first)) - 1) : met;
+  }
+
+ private:
+  Places u_min_, u_max_, v_min_, v_max_;
+};
+
+/// A tile in three rounds, so that what one round asks memory for is there in the next: which cells the rays
+/// lie in; which primitives of the cells' lists they may meet; the tests.
+class CellTile {
+ public:
+  CellTile(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out)
+      : cells_(cells), seen_(seen), rays_(rays), out_(out), columns_(cells.columns()) {}
+
+  void run(std::array<std::uint16_t, tile_packets>& outside) {
+    out_.doubt_count = 0;
+    out_.shadowed.fill(0), out_.unsure.fill(0);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      unsigned out_of_cells = 0;
+      for (std::size_t i = 0; i < packet_rays && rays_.alive[p] != 0; i += lanes())
+        out_of_cells |= find_groups(p * packet_rays + i) << i;
+      outside[p] = static_cast<std::uint16_t>(out_of_cells);
+    }
+    for (std::size_t g = 0; g < group_count_; ++g) gather(groups_[g]);
+    for (std::size_t g = 0; g < group_count_; ++g) finish(groups_[g]);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      outside[p] &= static_cast<std::uint16_t>(~out_.shadowed[p]);
+      out_.unsure[p] = static_cast<std::uint16_t>((out_.unsure[p] | outside[p]) & ~out_.shadowed[p]);
+    }
+  }
+
+ private:
+  /// Returns the bits of the rays outside the cells.
+  unsigned find_groups(std::size_t at) {
+    const unsigned alive =
+        static_cast<unsigned>(rays_.alive[at / packet_rays]) >> (at % packet_rays) & ((1u << lanes()) - 1);
+    if (alive == 0) return 0;
+    hn::Store(hn::IfThenElse(mask_of(alive), hn::Load(f, rays_.far + at), all(inf)), f, state_.far + at);
+    unsigned left = alive;
+    if (!seen_.planes.empty()) {
+      CellShadows some(rays_, state_, at, out_);
+      for (const SeenPrimitive& plane : seen_.planes) some.test<true>(plane, 0, mask_of(alive));
+      keep(some, at);
+      left &= ~some.shadowed();
+    }
+    const unsigned outside = find_cells(at, left);
+    left &= ~outside;
+    while (left != 0) {
+      const std::int32_t cell = cell_[std::countr_zero(left)];
+      const auto same = hn::Eq(hn::Load(place, cell_), hn::Set(place, cell));
+      const unsigned bits = left & bits_of(hn::RebindMask(f, same));
+      left &= ~bits;
+      const std::uint32_t begin = cells_.first[static_cast<std::size_t>(cell)];
+      const std::uint32_t end = cells_.first[static_cast<std::size_t>(cell) + 1];
+      if (begin == end) continue;
+      groups_[group_count_++] = {static_cast<std::uint32_t>(at), bits, begin, end, 0, 0};
+      __builtin_prefetch(&cells_.nearest[begin]), __builtin_prefetch(&cells_.leaf[begin]);
+      __builtin_prefetch(&cells_.box[begin]);
+    }
+    return outside;
+  }
+
+  /// Stores the rays' cells, and where in them they lie; returns the bits of those outside.
+  unsigned find_cells(std::size_t at, unsigned asked) {
+    M within = mask_of(asked);
+    const auto along = [&](const float* from, const CellAxis& axis, std::int32_t* in_cell) {
+      const V step = hn::Mul(hn::Sub(hn::Load(f, from + at), all(axis.origin)), all(axis.per_width));
+      within = hn::And(within,
+                       hn::And(hn::Ge(step, all(0.0f)), hn::Lt(step, all(static_cast<float>(axis.count)))));
+      const auto fine = hn::ConvertTo(place, hn::Mul(step, all(256.0f)));
+      hn::Store(hn::And(fine, hn::Set(place, 255)), place, in_cell + at);
+      return hn::ShiftRight<8>(fine);
+    };
+    const auto x = along(rays_.u, cells_.u, state_.u_in_cell);
+    const auto y = along(rays_.v, cells_.v, state_.v_in_cell);
+    hn::Store(hn::Add(hn::Mul(y, hn::Set(place, columns_)), x), place, cell_);
+    return asked & ~bits_of(within);
+  }
+
+  /// The first of the list's primitives that the rays may meet.
+  void gather(Group& group) {
+    constexpr std::uint32_t few = 4;      // not worth telling apart
+    constexpr std::uint32_t enough = 24;  // one of them may end the search
+    const M asked = mask_of(group.bits);
+    const V far = hn::IfThenElse(asked, hn::Load(f, state_.far + group.lane), all(inf));
+    const float least = hn::GetLane(hn::MinOfLanes(f, far));
+    group.first = group.last = candidate_count_;
+    if (cells_.nearest[group.next] < least) {
+      group.next = group.end;
+      return;
+    }
+    if (candidate_count_ + packet_rays > most_candidates) return;
+    if (group.end - group.next <= few) {
+      while (group.next < group.end && !(cells_.nearest[group.next] < least)) add_candidate(group.next++);
+      group.next = group.end;
+    } else {
+      const Extent extent(state_, group.lane, asked);
+      while (candidate_count_ - group.first < enough && candidate_count_ + packet_rays <= most_candidates) {
+        for (unsigned met = extent.meets(cells_, group.next, group.end, least); met != 0; met &= met - 1)
+          add_candidate(group.next + static_cast<std::uint32_t>(std::countr_zero(met)));
+        group.next = std::min(group.next + static_cast<std::uint32_t>(lanes()), group.end);
+        if (group.next == group.end || cells_.nearest[group.next] < least) break;
+      }
+      if (group.next < group.end && cells_.nearest[group.next] < least) group.next = group.end;
+    }
+    group.last = candidate_count_;
+  }
+  void add_candidate(std::uint32_t i) {
+    __builtin_prefetch(&cells_.primitives[cells_.leaf[i]]);
+    candidates_[candidate_count_++] = i;
+  }
+
+  void finish(const Group& group) {
+    if (group.first == group.last && group.next == group.end) return;
+    const M asked = mask_of(group.bits);
+    CellShadows some(rays_, state_, group.lane, out_);
+    float least = some.least_far(asked);
+    const auto test = [&](std::uint32_t i) {
+      const std::uint32_t leaf = cells_.leaf[i];
+      if (some.test<false>(cells_.primitives[leaf], leaf, asked)) least = some.least_far(asked);
+    };
+    for (std::uint32_t c = group.first; c != group.last && !(cells_.nearest[candidates_[c]] < least); ++c)
+      test(candidates_[c]);
+    if (group.next < group.end && !(cells_.nearest[group.next] < least)) {
+      const Extent extent(state_, group.lane, asked);
+      for (std::uint32_t next = group.next; next < group.end && !(cells_.nearest[next] < least);
+           next += static_cast<std::uint32_t>(lanes())) {
+        const unsigned all_met = extent.meets(cells_, next, group.end, least);
+        for (unsigned met = all_met; met != 0; met &= met - 1)
+          __builtin_prefetch(
+              &cells_.primitives[cells_.leaf[next + static_cast<std::uint32_t>(std::countr_zero(met))]]);
+        for (unsigned met = all_met; met != 0; met &= met - 1)
+          test(next + static_cast<std::uint32_t>(std::countr_zero(met)));
+      }
+    }
+    keep(some, group.lane);
+  }
+
+  void keep(const CellShadows& some, std::size_t at) {
+    const std::size_t p = at / packet_rays, shift = at % packet_rays;
+    out_.shadowed[p] |= static_cast<std::uint16_t>(some.shadowed() << shift);
+    out_.unsure[p] |= static_cast<std::uint16_t>(some.unsure() << shift);
+  }
+
+  const Cells& cells_;
+  const Seen& seen_;
+  const TileRays& rays_;
+  TileShadows& out_;
+  int columns_;
+  TileState state_;
+  alignas(64) std::int32_t cell_[packet_rays];
+  Group groups_[tile_rays];
+  std::size_t group_count_ = 0;
+  static constexpr std::uint32_t most_candidates = 2048;
+  std::uint32_t candidates_[most_candidates];
+  std::uint32_t candidate_count_ = 0;
+};
 
 void shadows_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out,
                     std::array<std::uint16_t, tile_packets>& outside) {
-  out.doubt_count = 0;
-  const int columns = cells.columns();
-  for (std::size_t p = 0; p < tile_packets; ++p) {
-    unsigned shadowed = 0, unsure = 0, out_of_cells = 0;
-    for (std::size_t i = 0; i < packet_rays && rays.alive[p] != 0; i += lanes()) {
-      CellShadows some(rays, p * packet_rays + i, out);
-      if (some.alive() == 0) continue;
-      for (const SeenPrimitive& plane : seen.planes) some.test_plane(plane);
-      out_of_cells |= test_cells(cells, columns, some) << i;
-      shadowed |= some.shadowed() << i, unsure |= some.unsure() << i;
-    }
-    out.shadowed[p] = static_cast<std::uint16_t>(shadowed & rays.alive[p]);
-    outside[p] = static_cast<std::uint16_t>(out_of_cells & ~shadowed & rays.alive[p]);
-    out.unsure[p] = static_cast<std::uint16_t>((unsure | outside[p]) & ~shadowed & rays.alive[p]);
-  }
+  CellTile(cells, seen, rays, out).run(outside);
 }
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

@@ -1,5 +1,6 @@
-// An array that starts without values, in large pages where the system has them: what a pass fills anew for
-// every light would otherwise spend its time in page faults.
+// Arrays that start without values, in large pages where the system has them: what a pass fills anew for
+// every light would otherwise spend its time in page faults, and what is read here and there in missing page
+// tables.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +8,26 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
 
 namespace gnomon::raytrace {
+
+/// Memory for `bytes`, aligned to cache lines, in large pages when there are many. Given back by std::free.
+inline void* allocate_huge(std::size_t bytes) {
+  constexpr std::size_t page = std::size_t{1} << 21;
+  const std::size_t align = bytes < 2 * page ? std::size_t{64} : page;
+  const std::size_t whole = (bytes + align - 1) / align * align;
+  void* data = std::aligned_alloc(align, whole);
+  if (data == nullptr) throw std::bad_alloc();
+#if defined(__linux__)
+  if (align == page) madvise(data, whole, MADV_HUGEPAGE);  // advice: nothing is lost without
+#endif
+  return data;
+}
 
 template <class T>
 class HugeArray {
@@ -21,35 +36,14 @@ class HugeArray {
  public:
   HugeArray() = default;
   explicit HugeArray(std::size_t count) : size_(count) {
-    if (count == 0) return;
-    constexpr std::size_t page = std::size_t{1} << 21;
-    const std::size_t bytes = count * sizeof(T);
-    const std::size_t align = bytes < 2 * page ? std::size_t{64} : page;
-    const std::size_t whole = (bytes + align - 1) / align * align;
-    data_.reset(static_cast<T*>(std::aligned_alloc(align, whole)));
-    if (data_ == nullptr) throw std::bad_alloc();
-#if defined(__linux__)
-    if (align == page) madvise(data_.get(), whole, MADV_HUGEPAGE);  // advice: nothing is lost without
-#endif
+    if (count > 0) data_.reset(static_cast<T*>(allocate_huge(count * sizeof(T))));
   }
-  T& operator[](std::size_t i) {
-    return data_.get()[i];
-  }
-  const T& operator[](std::size_t i) const {
-    return data_.get()[i];
-  }
-  T* data() {
-    return data_.get();
-  }
-  const T* data() const {
-    return data_.get();
-  }
-  std::size_t size() const {
-    return size_;
-  }
-  std::size_t bytes() const {
-    return size_ * sizeof(T);
-  }
+  T& operator[](std::size_t i) { return data_.get()[i]; }
+  const T& operator[](std::size_t i) const { return data_.get()[i]; }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const { return size_ * sizeof(T); }
 
  private:
   struct Free {
@@ -58,5 +52,27 @@ class HugeArray {
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0;
 };
+
+/// For vectors alike: resize() leaves new elements without values.
+template <class T>
+struct HugeAllocator {
+  using value_type = T;
+  HugeAllocator() = default;
+  template <class U>
+  explicit HugeAllocator(const HugeAllocator<U>&) {}
+  T* allocate(std::size_t count) { return static_cast<T*>(allocate_huge(count * sizeof(T))); }
+  void deallocate(T* p, std::size_t) { std::free(p); }
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* p, Values&&... values) {
+    ::new (static_cast<void*>(p)) U(std::forward<Values>(values)...);
+  }
+  bool operator==(const HugeAllocator&) const { return true; }
+};
+template <class T>
+using HugeVector = std::vector<T, HugeAllocator<T>>;
 
 }  // namespace gnomon::raytrace

@@ -52,6 +52,30 @@ void prepare_tile(const View& view, const Sight& eye, const TileRect& rect, Tile
   keep_within(rect, rays.alive);
 }
 
+/// Those receivers that are found many at a time; returns the bits of the others.
+PacketBits vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect,
+                            const TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact,
+                            CompactDraft& draft) {
+  const Bvh& bvh = tracer.structures().bvh;
+  const int axis = longest_axis(middle_ray(view, rect));
+  if (receivers != nullptr || compact == nullptr)
+    return store_receivers(bvh, view, rect.x0, rect.y0, axis, hits,
+                           {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
+                            .stride = static_cast<std::size_t>(view.size.width),
+                            .compact = compact,
+                            .draft = &draft});
+  const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *compact, draft);
+  if (left.ill == PacketBits{}) return left.others;
+  TileHits ill;
+  for (std::size_t lane = 0; lane < tile_rays; ++lane)
+    ill.leaf[lane] = (left.ill[lane / packet_rays] & bit_of(lane)) != 0 ? hits.leaf[lane] : nothing_hit;
+  PacketBits still = store_receivers(bvh, view, rect.x0, rect.y0, axis, ill,
+                                     {.points = nullptr, .stride = 0, .compact = compact, .draft = &draft});
+  for (std::size_t p = 0; p < tile_packets; ++p)
+    still[p] = static_cast<std::uint16_t>((still[p] & left.ill[p]) | left.others[p]);
+  return still;
+}
+
 }  // namespace
 
 void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
@@ -80,20 +104,17 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& ey
 void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                   TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact) {
   find_hits(tracer, view, eye, rect, hits);
+  CompactDraft draft;
   if (compact != nullptr) compact->clear();
-  ReceiverSinks sinks{.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
-                      .stride = static_cast<std::size_t>(view.size.width),
-                      .compact = compact};
-  const auto left = store_receivers(tracer.structures().bvh, view, rect.x0, rect.y0,
-                                    longest_axis(middle_ray(view, rect)), hits, sinks);
+  const PacketBits left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
   for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
     const std::uint32_t leaf = hits.leaf[lane];
     if (leaf == nothing_hit && receivers == nullptr) return;
     const SurfacePoint point = receiver_of(tracer, view, eye, x, y, leaf);
     if (receivers != nullptr) receivers->at(x, y) = point;
-    if (compact != nullptr) compact->put(lane, point);
+    if (compact != nullptr) compact->put(lane, point, draft);
   });
-  if (compact != nullptr) compact->finish();
+  if (compact != nullptr) compact->finish(draft, view.eye);
 }
 
 SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {

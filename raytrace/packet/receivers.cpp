@@ -131,29 +131,35 @@ inline void write(const Rows& rows, std::size_t i, std::uint32_t primitive, Surf
   out.normal = {r[6][i], r[7][i], r[8][i]}, out.primitive = primitive, out.barycentric = {r[9][i], r[10][i]};
 }
 
-/// The same rows as floats from the tile's origin, which is the first receiver.
-inline void write_compact(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
-                          std::size_t lane, CompactTile& tile) {
-  constexpr hn::Rebind<float, D> half;
-  if (!tile.any) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(sound));
-    tile.origin = {rows.value[0][i], rows.value[1][i], rows.value[2][i]}, tile.any = true;
+/// Least and greatest coordinates.
+struct Reach {
+  V low[3] = {all(infinity), all(infinity), all(infinity)};
+  V high[3] = {all(-infinity), all(-infinity), all(-infinity)};
+  void grow(Aabb& bounds) const {
+    for (int a = 0; a < 3; ++a) {
+      bounds.min[a] = std::min(bounds.min[a], hn::GetLane(hn::MinOfLanes(d, low[a])));
+      bounds.max[a] = std::max(bounds.max[a], hn::GetLane(hn::MaxOfLanes(d, high[a])));
+    }
   }
-  tile.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
+};
+
+/// The same rows for a compact tile.
+inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
+                        std::size_t lane, CompactTile& tile, CompactDraft& draft, Reach& reach) {
+  constexpr hn::Rebind<float, D> half;
   std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
   const M here = hn::LoadMaskBits(d, bytes);
+  tile.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<int>(a);
-    const V position = hn::Load(d, rows.value[a]), normal = hn::Load(d, rows.value[6 + a]);
-    hn::Store(hn::DemoteTo(half, sub(position, all(tile.origin[axis]))), half, tile.position[a] + lane);
-    hn::Store(hn::DemoteTo(half, normal), half, tile.normal[a] + lane);
-    const double low = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(here, position, all(infinity))));
-    const double high = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElse(here, position, all(-infinity))));
-    tile.bounds.min[axis] = std::min(tile.bounds.min[axis], low);
-    tile.bounds.max[axis] = std::max(tile.bounds.max[axis], high);
+    const V position = hn::Load(d, rows.value[a]);
+    hn::Store(position, d, draft.position[a] + lane);
+    reach.low[a] = hn::IfThenElse(here, hn::Min(reach.low[a], position), reach.low[a]);
+    reach.high[a] = hn::IfThenElse(here, hn::Max(reach.high[a], position), reach.high[a]);
+    hn::Store(hn::DemoteTo(half, hn::Load(d, rows.value[6 + a])), half, tile.normal[a] + lane);
   }
-  for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     if ((sound >> i & 1) != 0) tile.own[lane + i] = bvh.ids[leaf[i]];
+  }
 }
 
 std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0,
@@ -171,6 +177,7 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
   const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
   std::array<std::uint16_t, tile_packets> left{};
   Rows rows;
+  Reach reach;
   for (std::size_t p = 0; p < tile_packets; ++p) {
     const std::uint32_t* leaf = hits.leaf + p * packet_rays;
     const std::size_t corner_pixel = (p / 4 * 4) * sinks.stride + p % 4 * 4;
@@ -190,7 +197,8 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
       const unsigned sound = bits_of(w.sound) & (known >> i);
       if (sound == 0) continue;
       point_rows(direction, corner, w, rows);
-      if (sinks.compact != nullptr) write_compact(rows, sound, leaf + i, bvh, lane, *sinks.compact);
+      if (sinks.compact != nullptr)
+        write_draft(rows, sound, leaf + i, bvh, lane, *sinks.compact, *sinks.draft, reach);
       for (std::size_t j = 0; j < hn::Lanes(d) && sinks.points != nullptr; ++j)
         if ((sound >> j & 1) != 0)
           write(rows, j, bvh.ids[leaf[i + j]],
@@ -199,6 +207,7 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
     }
     left[p] = static_cast<std::uint16_t>(~done);
   }
+  if (sinks.draft != nullptr) reach.grow(sinks.draft->bounds);
   return left;
 }
 

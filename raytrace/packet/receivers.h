@@ -15,7 +15,8 @@ namespace gnomon::raytrace {
 struct ReceiverSinks {
   SurfacePoint* points = nullptr;
   std::size_t stride = 0;
-  CompactTile* compact = nullptr;  ///< cleared; finish() is left to the caller
+  CompactTile* compact = nullptr;  ///< these two together; finish() is left to the caller
+  CompactDraft* draft = nullptr;
 };
 
 /// Writes the receivers of a tile that lie on triangles. `axis`: the world axis along which the rays are
