@@ -18,6 +18,7 @@
 #include "app/help.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
+#include "app/lesson_scene.h"
 #include "app/man_page.h"
 #include "app/shell.h"
 #include "app/suggest.h"
@@ -46,7 +47,7 @@ int usage_error(const std::string& text) {
 
 bool looks_like_a_scene(const std::string& word) {
   const std::vector<BuiltinScene> scenes = builtin_scenes();
-  return std::filesystem::path(word).has_extension() ||
+  return std::filesystem::path(word).has_extension() || !lesson_note(word).empty() ||
          std::any_of(scenes.begin(), scenes.end(),
                      [&](const BuiltinScene& scene) { return scene.name == word; });
 }
@@ -171,6 +172,7 @@ int parse_and_run(int argc, const char* const* argv) {
   if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
   try {
     program->parse(argc, argv);
+    for (CLI::App* command : program->get_subcommands()) add_lesson_settings(*command);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
     print_data(help_text(chosen.empty() ? *program : *chosen.front()));

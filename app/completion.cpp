@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
+#include "compare/report/lessons.h"
 #include "scene/load.h"
 
 namespace gnomon::app {
@@ -47,6 +48,7 @@ std::string scene_names() {
   std::string names;
   for (const BuiltinScene& scene : builtin_scenes())
     names += (names.empty() ? "" : " ") + std::string(scene.name);
+  for (const compare::Lesson& lesson : compare::all_lessons()) names += " " + std::string(lesson.name);
   return names;
 }
 

@@ -91,7 +91,8 @@ void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
 void add_scene(CLI::App& command, std::string& scene) {
   command
       .add_option("SCENE", scene,
-                  "a scene file (.json .gltf .glb .obj .ply) or a built-in scene's name (gnomon scenes)")
+                  "a scene file (.json .gltf .glb .obj .ply), or the name of a built-in scene or lesson "
+                  "(gnomon scenes)")
       ->required();
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/lesson_scene.h"
 #include "app/suggest.h"
 #include "hybrid/visibility.h"
 #include "scene/load.h"
@@ -18,7 +19,7 @@ namespace gnomon::app {
 Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate) {
   const Stopwatch watch;
   console.progress("loading", 0.0);
-  Expected<Scene> scene = load_scene(path_or_name);
+  Expected<Scene> scene = load_scene(scene_of_lesson(path_or_name));
   if (!scene) return fail(scene.error());
   if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
   LoadedScene loaded;
@@ -26,6 +27,7 @@ Expected<LoadedScene> load(const std::string& path_or_name, Console& console, in
   loaded.world = std::make_unique<World>(make_world(*loaded.scene));
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
+  if (const std::string note = lesson_note(path_or_name); !note.empty()) console.note(note);
   for (const std::string& note : loaded.scene->notes) console.note(note);
   return loaded;
 }

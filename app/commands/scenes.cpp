@@ -1,4 +1,4 @@
-// gnomon scenes: the built-in scenes, whose names work wherever a scene file does.
+// gnomon scenes: the built-in scenes and lessons, whose names work wherever a scene file does.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -38,7 +38,7 @@ std::string scenes_table() {
     const std::string description = wrap(std::string(scene.description), name_column, table_width);
     text += fmt::format("{:<{}}{}", scene.name, name_column, description.substr(name_column));
   }
-  text += "\nLessons, in docs/lessons, each with a command to begin with:\n";
+  text += "\nLessons, in docs/lessons; the name of one stands for the scene and settings of its command:\n";
   for (const compare::Lesson& lesson : compare::all_lessons())
     text += fmt::format("{:<{}}{}\n{:{}}{}\n", lesson.name, name_column, lesson.title, "", name_column,
                         lesson.command);
@@ -60,8 +60,10 @@ Expected<ExitCode> run_scenes(const std::string& json) {
 
 void add_scenes(CLI::App& program, Invocation& invocation) {
   CLI::App* app = program.add_subcommand(
-      "scenes", "List the built-in scenes, any of whose names serves as SCENE, and the lessons.");
-  app->footer("gnomon scenes\ngnomon compare courtyard");
+      "scenes", "List the built-in scenes and the lessons; any of their names serves as SCENE.");
+  app->footer(
+      "gnomon scenes\ngnomon compare courtyard\ngnomon compare acne            a lesson's scene and "
+      "settings");
   const auto json = std::make_shared<std::string>();
   add_json(*app, *json, "the list");
   app->callback([json, &invocation] { invocation.action = [json] { return run_scenes(*json); }; });

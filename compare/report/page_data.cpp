@@ -19,6 +19,7 @@
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
 #include "compare/report/packing.h"
+#include "compare/report/section_mesh.h"
 #include "compare/report/sections.h"
 #include "compare/sweep/engine.h"
 
@@ -251,20 +252,18 @@ Json pixels_json(const Comparison& c) {
 
 // --- geometry ---
 
-constexpr std::size_t most_triangles = 200000;  // of scenes whose cross-section is drawn from the triangles
-
-Json triangles_json(const World& world) {
-  const Vec3 low = world.finite_bounds.min, extent = world.finite_bounds.max - low;
+Json triangles_json(const SectionMesh& mesh, const Aabb& bounds) {
+  const Vec3 low = bounds.min, extent = bounds.max - low;
   const double step =
       std::exp2(std::ceil(std::log2(std::max({extent.x, extent.y, extent.z, 1e-300}))) - 24.0);
   Channels channels;
   for (int k = 0; k < 3; ++k)
-    channels.add(fmt::format("{}", "xyz"[k]), world.positions.size(), {4, true},
-                 [&world, low, step, k](std::size_t i) {
-                   return integer(std::round((world.positions[i][k] - low[k]) / step));
+    channels.add(fmt::format("{}", "xyz"[k]), mesh.positions.size(), {4, true},
+                 [&mesh, low, step, k](std::size_t i) {
+                   return integer(std::round((mesh.positions[i][k] - low[k]) / step));
                  });
-  channels.add("corner", 3 * world.triangles.size(), {4, true},
-               [&world](std::size_t i) { return world.triangles[i / 3][i % 3]; });
+  channels.add("corner", 3 * mesh.triangles.size(), {4, true},
+               [&mesh](std::size_t i) { return mesh.triangles[i / 3][i % 3]; });
   return {{"low", vector3(low)}, {"step", step}, {"channels", channels.json()}};
 }
 
@@ -278,9 +277,10 @@ Json geometry_json(const World& world) {
       shapes.push_back(
           {{"name", shape.name}, {"point", vector3(plane->point)}, {"normal", vector3(plane->normal)}});
   }
-  Json json{{"shapes", std::move(shapes)}, {"triangle_count", world.triangle_count()}};
-  if (world.triangle_count() > 0 && world.triangle_count() <= most_triangles)
-    json["triangles"] = triangles_json(world);
+  const SectionMesh mesh = section_mesh(world);
+  Json json{
+      {"shapes", std::move(shapes)}, {"solid_sectors", mesh.solid_sectors}, {"complete", mesh.complete}};
+  if (!mesh.triangles.empty()) json["triangles"] = triangles_json(mesh, world.finite_bounds);
   return json;
 }
 

@@ -45,7 +45,8 @@ interface PageJson {
 
 interface GeometryJson {
   shapes: Shape[];
-  triangle_count: number;
+  solid_sectors: number;
+  complete: boolean;
   triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
 }
 
@@ -78,18 +79,18 @@ export interface Geometry {
   shapes: Shape[];
   positions: Float64Array;  // three per vertex
   corners: Int32Array;      // three per triangle
-  complete: boolean;        // false: the scene has more triangles than the page carries
+  solidSectors: number;     // of the meshes that stand for solids; 0: none do
+  complete: boolean;        // false: the scene has more triangles or solids than the page carries
 }
 
 async function loadGeometry(): Promise<Geometry> {
-  const { shapes, triangles, triangle_count } = await part<GeometryJson>("geometry");
-  if (!triangles)
-    return { shapes, positions: new Float64Array(), corners: new Int32Array(), complete: triangle_count === 0 };
+  const { shapes, triangles, solid_sectors: solidSectors, complete } = await part<GeometryJson>("geometry");
+  if (!triangles) return { shapes, positions: new Float64Array(), corners: new Int32Array(), solidSectors, complete };
   const { x, y, z, corner } = await unpackAll(triangles.channels);
   const positions = new Float64Array(3 * x!.length);
   [x!, y!, z!].forEach((axis, k) =>
     axis.forEach((value, i) => { positions[3 * i + k] = triangles.low[k]! + value * triangles.step; }));
-  return { shapes, positions, corners: corner as Int32Array, complete: true };
+  return { shapes, positions, corners: corner as Int32Array, solidSectors, complete };
 }
 let loading: Promise<Geometry> | null = null;
 export const geometry = (): Promise<Geometry> => loading ??= loadGeometry();

@@ -56,11 +56,13 @@ function planeCurve(view: LightView, face: number, line: Line, point: Vec3, norm
 
 function triangleCurves(view: LightView, face: number, cut: Cut, scene: Geometry): Curve[] {
   const { positions, corners } = scene, heights = new Float64Array(positions.length / 3), curves: Curve[] = [];
+  const [nx, ny, nz] = cut.normal, [ox, oy, oz] = view.origin, offset = cut.offset;
   for (let i = 0; i < heights.length; ++i)
-    heights[i] = cut.normal[0] * (positions[3 * i]! - view.origin[0]) + cut.normal[1] * (positions[3 * i + 1]! - view.origin[1]) +
-      cut.normal[2] * (positions[3 * i + 2]! - view.origin[2]) - cut.offset;
+    heights[i] = nx * (positions[3 * i]! - ox) + ny * (positions[3 * i + 1]! - oy) + nz * (positions[3 * i + 2]! - oz) - offset;
   const at = (i: number): Vec3 => [positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!];
   for (let t = 0; t < corners.length; t += 3) {
+    const below = heights[corners[t]!]! < 0;
+    if (heights[corners[t + 1]!]! < 0 === below && heights[corners[t + 2]!]! < 0 === below) continue;  // nearly all
     const ends: Vec3[] = [];
     for (let k = 0; k < 3; ++k) {
       const i = corners[t + k]!, j = corners[t + ((k + 1) % 3)]!, a = heights[i]!, b = heights[j]!;

@@ -86,10 +86,11 @@ function frameFor(light: Light, pixel: Pixel, axis: 0 | 1, from: number, to: num
   };
 }
 
-function texelBars(frame: Frame): SVGElement {
+function texelBars(frame: Frame, size: number): SVGElement {
   const group = svg("g"), w = frame.x(1) - frame.x(0);
   const every = w >= 3 ? 1 : 2 ** Math.ceil(Math.log2(3 / w));
-  for (let k = Math.ceil(frame.from / every) * every; k < frame.to; k += every)
+  const from = Math.max(0, frame.from), to = Math.min(size, frame.to);
+  for (let k = Math.ceil(from / every) * every; k < to; k += every)
     group.append(svg("rect", { class: (k / every) % 2 ? "texel-bar odd" : "texel-bar", x: frame.x(k), y: top - 12, width: every * w, height: 8 }));
   return group;
 }
@@ -128,7 +129,7 @@ function axes(frame: Frame, line: string): SVGElement {
       svg("text", { class: "end", x: left - 6, y: frame.y(depth) + 4 }, number(depth)));
   for (const t of niceTicks(frame.from, frame.to, 8))
     if (Number.isInteger(t)) group.append(svg("text", { class: "middle", x: frame.x(t), y: height - bottom + 17 }, number(t)));
-  group.append(svg("text", { class: "middle", x: (left + width - right) / 2, y: height - 8 }, `texels of map ${line}`),
+  group.append(svg("text", { class: "middle", x: (left + width - right) / 2, y: height - 8 }, `texels of the map, ${line}`),
     svg("text", { class: "end", x: left - 6, y: top - 12 }, "depth"),
     svg("text", { x: left, y: 14 }, "↓ light"));
   return group;
@@ -145,10 +146,14 @@ function legend(dots: Dot[]): HTMLElement {
   return list;
 }
 
+const isOutside = (position: number, size: number): boolean => position < 0 || position >= size;
+
 export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis: 0 | 1, halfWidth: number, bias: number, id: string): HTMLElement {
   const [t, across] = axis === 0 ? [pixel.at.u, pixel.at.v] : [pixel.at.v, pixel.at.u];
   const size = light.json.view.size, centre = Math.floor(t), line = `${axis === 0 ? "row" : "column"} ${Math.floor(across)}`;
-  const from = Math.max(0, centre - halfWidth), to = Math.min(size, centre + halfWidth + 1);
+  const outside = isOutside(t, size) || isOutside(across, size);
+  // Of a pixel outside the map the scene beyond the map's edge is drawn.
+  const from = outside ? centre - halfWidth : Math.max(0, centre - halfWidth), to = outside ? centre + halfWidth + 1 : Math.min(size, centre + halfWidth + 1);
   const { pixels, curves } = lineThrough(light, pixel, axis, scene, from, to);
   const dots = pixels.map((i) => dotOf(light, axis, i, bias));
   const frame = frameFor(light, pixel, axis, from, to, dots);
@@ -159,7 +164,7 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
   const drawing = svg("svg", { class: "section", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-labelledby": `${id}-title` },
     svg("title", { id: `${id}-title` }, `Cross-section along ${line} of the map through pixel ${pixel.x}, ${pixel.y}`),
     svg("defs", {}, svg("clipPath", { id: clip }, svg("rect", { x: left, y: top, width: width - left - right, height: height - top - bottom }))),
-    axes(frame, line), texelBars(frame),
+    axes(frame, outside ? `in line with ${line}` : line), ...(isOutside(across, size) ? [] : [texelBars(frame, size)]),
     svg("g", { "clip-path": `url(#${clip})` },
       storedSteps(light, pixel, frame, bias),
       svg("path", { class: "profile", d: curves.map((curve) => curvePath(curve, frame)).join("") }),
@@ -167,7 +172,7 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
         svg("path", { class: `dot ${outcome}`, d: dots.filter((d) => d.outcome === outcome).map((d) => dotShape(d, frame, dotSize)).join("") }))),
     svg("line", { class: "own-ray", x1: x, x2: x, y1: top, y2: y }), svg("circle", { class: "ring", cx: x, cy: y, r: 8 }));
   return html("figure", {}, html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": `Cross-section, ${light.json.name}` }, drawing as unknown as Node), legend(dots),
-    html("figcaption", {}, `Thin: the scene itself, cut exactly along the light rays through the pixel${scene.complete ? "" : " (its triangles are too many for this page; shapes and pixels only)"}. ` +
+    html("figcaption", {}, `${outside ? "The pixel lies outside the map: no texel is asked about it. " : ""}Thin: the scene itself, cut exactly along the light rays through the pixel${scene.solidSectors > 0 ? `, curved solids other than spheres as meshes of ${scene.solidSectors} sectors or ${scene.solidSectors / 2} cells across` : ""}${scene.complete ? "" : " (some of it is too much for this page and left out)"}. ` +
       `Thick steps: the depths stored in ${line}${light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""}. Shaded: shadow by the map, from the bias on. ` +
       `Depth is drawn ${number(stretch, 2)} times as large as width. Marks: the ${dots.length} pixels that look these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`));
 }

@@ -9,10 +9,13 @@ interface Axis {
   values: string[];
 }
 
+/** "map_size": a key of the result; in words: "map size". */
+const inWords = (axis: string): string => axis.replaceAll("_", " ");
+
 const distinct = (cells: CellJson[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
 
 function pick(label: string, values: string[], chosen: string, change: (value: string) => void): HTMLLabelElement {
-  const select = html("select", { "aria-label": label }, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : value)));
+  const select = html("select", { "aria-label": label }, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : inWords(value))));
   select.value = chosen;
   select.addEventListener("change", () => change(select.value));
   return html("label", {}, `${label} `, select);
@@ -57,7 +60,7 @@ export class SweepGrid {
         if (rows >= 0 && name === names[rows]) this.state.rows = names[columns]!;
         this.state.columns = name;
       })),
-      ...this.axes.flatMap((axis, k) => (k === rows || k === columns || axis.values.length < 2 ? [] : [pick(axis.name, axis.values, rest[k]!, (value) =>
+      ...this.axes.flatMap((axis, k) => (k === rows || k === columns || axis.values.length < 2 ? [] : [pick(inWords(axis.name), axis.values, rest[k]!, (value) =>
         change(() => { rest[k] = value; this.state.slice = slice(); }))])));
     const shown = this.cells.filter((cell) => cell.values.every((value, k) => k === rows || k === columns || value === rest[k]));
     this.table.replaceChildren(this.grid(shown, rows, columns));
@@ -67,14 +70,14 @@ export class SweepGrid {
     const across = this.axes[columns]!, down = rows >= 0 ? this.axes[rows]! : { name: "", values: [""] };
     const used = (axis: Axis, k: number) => axis.values.filter((value) => k < 0 || cells.some((cell) => cell.values[k] === value));
     const at = new Map(cells.map((cell) => [`${rows >= 0 ? cell.values[rows] : ""}|${cell.values[columns]}`, cell]));
-    const head = html("tr", {}, ...(rows >= 0 ? [html("td", {}, `${down.name} ↓ ${across.name} →`)] : []),
+    const head = html("tr", {}, ...(rows >= 0 ? [html("td", {}, `${inWords(down.name)} ↓ ${inWords(across.name)} →`)] : []),
       ...used(across, columns).map((value) => html("th", { scope: "col" }, value)));
     const body = used(down, rows).map((row) => html("tr", {}, ...(rows >= 0 ? [html("th", { scope: "row" }, row)] : []),
       ...used(across, columns).map((value) => {
         const cell = at.get(`${row}|${value}`);
         return html("td", {}, ...(cell ? [this.link(cell)] : []));
       })));
-    return html("table", { class: "grid" }, html("caption", {}, rows >= 0 ? `${down.name} by ${across.name}` : across.name), html("thead", {}, head), html("tbody", {}, ...body));
+    return html("table", { class: "grid" }, html("caption", {}, rows >= 0 ? `${inWords(down.name)} by ${inWords(across.name)}` : inWords(across.name)), html("thead", {}, head), html("tbody", {}, ...body));
   }
 
   private link(cell: CellJson): HTMLAnchorElement {

@@ -110,7 +110,8 @@ function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: n
     if (stored < frame.low || stored > frame.high) group.append(offScale(frame, right, stored, pixel));
     else group.append(bracket(frame, right + 8, stored, stored + bias, "bias-mark", `bias ${number(constant, 3)}`));
     group.append(bracket(frame, frame.x(own) - 8, stored, pixel.at.depth, "gap-mark", `gap ${number(pixel.gap, 3)}`, true));
-  } else group.append(svg("text", { class: "note", x: right + 8, y: top + 20 }, "nothing stored here: never in shadow"));
+  } else group.append(svg("text", { class: "note", x: right + 8, y: top + 20 }, "nothing stored here:"),
+    svg("text", { class: "note", x: right + 8, y: top + 38 }, "never in shadow"));
   group.append(svg("circle", { class: "point", cx: x, cy: y, r: 5 }));
   return group;
 }

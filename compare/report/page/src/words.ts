@@ -16,7 +16,9 @@ const brightness = (v: number): string => (v > 0.5 ? "lit" : "in shadow");
 
 function mapTest(light: Light, pixel: Pixel, bias: number): string {
   const texels = (d: number) => `${number(d / light.json.texel_world, 2)} texels`;
-  if (pixel.gap === -Infinity) return "The map stores nothing where this pixel looks, so the test lets it be lit.";
+  const outside = [pixel.at.u, pixel.at.v].some((t) => t < 0 || t >= light.json.view.size);
+  if (pixel.gap === -Infinity)
+    return outside ? "The pixel lies outside the map, so the test lets it be lit." : "The map stores nothing where this pixel looks, so the test lets it be lit.";
   const texel = `${Math.floor(pixel.at.u)}, ${Math.floor(pixel.at.v)}`;
   if (pixel.gap <= 0)
     return `Texel ${texel} stores a depth ${number(-pixel.gap, 3)} behind this point, so the test draws it ${pixel.gap > Math.fround(bias) ? "in shadow" : "lit"} at the bias of ${number(bias, 3)}.`;

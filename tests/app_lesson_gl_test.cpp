@@ -1,0 +1,63 @@
+// A lesson's name as SCENE gives what the lesson's command gives, and options on the command line come first.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "compare/report/lessons.h"
+#include "scene/builtin.h"
+#include "tests/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+using Words = std::vector<std::string>;
+using nlohmann::json;
+
+json result_of(Words words) {
+  for (const char* word : {"--size", "64x36", "--runs", "1", "--json", "-", "-o", "lesson-test", "--quiet"})
+    words.emplace_back(word);
+  const ProcessResult result = run_gnomon(words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+void expect_same_picture(const json& a, const json& b) {
+  ASSERT_FALSE(a["lights"].empty());
+  EXPECT_EQ(a["scene"], b["scene"]);
+  for (const char* key : {"technique", "size", "bias", "filter", "depth_format"})
+    EXPECT_EQ(a["lights"][0]["map"][key], b["lights"][0]["map"][key]) << key;
+  EXPECT_EQ(a["lights"][0]["classes"], b["lights"][0]["classes"]);
+}
+
+TEST(Lessons, NameStandsForTheFirstCommand) {
+  expect_same_picture(result_of({"compare", "acne"}),
+                      result_of({"compare", "acne-floor", "--bias", "0", "--map-size", "64"}));
+  expect_same_picture(result_of({"compare", "filtering"}),
+                      result_of({"compare", "fence", "--technique", "pcf", "--filter-radius", "2"}));
+}
+
+TEST(Lessons, OptionsGivenComeFirst) {
+  expect_same_picture(result_of({"compare", "acne", "--bias", "0.125"}),
+                      result_of({"compare", "acne-floor", "--bias", "0.125", "--map-size", "64"}));
+  expect_same_picture(result_of({"compare", "filtering", "--technique", "vsm"}),
+                      result_of({"compare", "fence", "--technique", "vsm"}));
+}
+
+TEST(Lessons, CommandsWithoutTheSettingsTakeTheScene) {
+  EXPECT_EQ(run_gnomon({"plan", "acne"}).out, run_gnomon({"plan", "acne-floor"}).out);
+  EXPECT_EQ(run_gnomon({"plan", "acnee"}).exit_code, 3);
+}
+
+TEST(Lessons, AreNoSceneNames) {
+  for (const compare::Lesson& lesson : compare::all_lessons())
+    EXPECT_FALSE(find_builtin_scene(lesson.name)) << lesson.name << " names two things";
+}
+
+TEST(Lessons, UserIsToldTheCommand) {
+  const ProcessResult result = run_gnomon({"plan", "peter-panning"});
+  EXPECT_NE(result.err.find("gnomon compare floating-box --bias 0.6"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
