@@ -113,10 +113,12 @@ FunctionTable function_table(const World& world) {
   return table;
 }
 
-std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count) {
+std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count,
+                           bool with_slopes) {
   std::string out;
   for (const auto& [arithmetic, name] :
        {std::pair(slopes, "function_slope"), std::pair(gradients, "function_gradient")}) {
+    if (!with_slopes && arithmetic.type == slopes.type) continue;
     for (std::size_t i = first; i < first + count; ++i)
       out += function_text(arithmetic, name, i, *table.functions[i]);
     out += choice_text(arithmetic, name, first, count);

@@ -18,7 +18,8 @@ struct FunctionTable {
 FunctionTable function_table(const World& world);
 
 /// `Slope function_slope(uint, Slope, Slope, Slope)` and `vec4 function_gradient(uint, vec4, vec4, vec4)` on
-/// one line, for the functions from `first` on, `count` of them.
-std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count);
+/// one line, for the functions from `first` on, `count` of them. Without `slopes` the second alone, which is
+/// what shading needs.
+std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count, bool slopes);
 
 }  // namespace gnomon::raster

@@ -23,8 +23,8 @@ class Defines {
 };
 
 /// The define that holds the text of a range of implicit functions; empty for none.
-std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count) {
-  return count == 0 ? std::string() : "IMPLICIT_FUNCTIONS " + functions_glsl(table, first, count);
+std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count, bool slopes) {
+  return count == 0 ? std::string() : "IMPLICIT_FUNCTIONS " + functions_glsl(table, first, count, slopes);
 }
 
 template <class Typed>
@@ -93,7 +93,7 @@ ImpostorKind impostor_kind(const Shape& shape) {
 Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation& p,
                                                 const FunctionTable& functions) {
   const bool implicit = p.kind == ImpostorKind::implicit;
-  const std::string text = functions_define(functions, p.function, implicit ? 1 : 0);
+  const std::string text = functions_define(functions, p.function, implicit ? 1 : 0, true);
   const auto defines = Defines()
                            .add(p.kind == ImpostorKind::sphere, "SPHERE")
                            .add(p.kind >= ImpostorKind::quadric, "SOLID")
@@ -136,7 +136,7 @@ void ImpostorProgram::set_face(int face, Cull cull) const {
 Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, const SceneFeatures& features) {
   const bool lit = !p.no_light;
   const std::size_t functions = features.functions.functions.size();
-  const std::string text = functions_define(features.functions, 0, functions);
+  const std::string text = functions_define(features.functions, 0, functions, false);
   const std::string technique = "TECHNIQUE " + p.technique.name;
   auto defines = Defines()
                      .add(lit, technique)
@@ -155,7 +155,7 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                      .add(features.specular, "SPECULAR")
                      .add(features.emission, "EMISSION")
                      .add(features.smooth_normals, "SMOOTH_NORMALS")
-                     .add(features.quadrics || features.tori || functions > 0, "SOLIDS")
+                     .add(features.solids(), "SOLIDS")
                      .add(features.quadrics, "QUADRIC")
                      .add(features.tori, "TORUS")
                      .add(functions > 0, "IMPLICIT")

@@ -22,6 +22,7 @@ struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
   bool quadrics = false, tori = false;
   FunctionTable functions{};  ///< of the implicit surfaces
+  bool solids() const { return quadrics || tori || !functions.functions.empty(); }
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 

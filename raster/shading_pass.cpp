@@ -48,8 +48,13 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
   color_ = Texture2D(gl, GL_RGBA32F, size);
   visibility_target_ = Framebuffer(gl);
   visibility_target_.attach(GL_DEPTH_ATTACHMENT, depth_);
-  visibility_target_.attach(GL_COLOR_ATTACHMENT0, visibility_);
-  visibility_target_.draw_to(1);
+  visibility_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::primitive_output, visibility_);
+  const bool solids = programs_->features().solids();
+  if (solids) {
+    solid_distance_ = Texture2D(gl, GL_R32F, size);
+    visibility_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::solid_distance_output, solid_distance_);
+  }
+  visibility_target_.draw_to(solids ? 2 : 1);
   color_target_ = Framebuffer(gl);
   color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
   color_target_.draw_to(1);
@@ -150,6 +155,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   visibility_.bind(shaders::visibility_unit);
+  if (solid_distance_) solid_distance_.bind(shaders::solid_distance_unit);
   const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);

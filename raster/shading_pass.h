@@ -37,7 +37,7 @@ class ShadingPass {
   ProgramCache* programs_;
   Buffer camera_block_;
   ImageSize size_;
-  Texture2D visibility_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
+  Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
 };
 

@@ -31,12 +31,17 @@ vec2 i_inverse(vec2 a) {
   if (a.x <= 0.0 && a.y >= 0.0) return anything();
   return checked(1.0 / a.yx);
 }
+// n from 0 to 64 (Expression::max_whole_power), a constant wherever it is called, so that of this only the products stay:
+// as a loop, each call would be one for the compiler to reason about, which took it minutes in larger programs.
 float f_power(float a, int n) {
-  float result = 1.0, factor = a;
-  for (int k = n; k != 0; k >>= 1) {
-    if ((k & 1) != 0) result *= factor;
-    factor *= factor;
-  }
+  float a2 = a * a, a4 = a2 * a2, a8 = a4 * a4, a16 = a8 * a8, a32 = a16 * a16;
+  float result = (n & 1) != 0 ? a : 1.0;
+  if ((n & 2) != 0) result *= a2;
+  if ((n & 4) != 0) result *= a4;
+  if ((n & 8) != 0) result *= a8;
+  if ((n & 16) != 0) result *= a16;
+  if ((n & 32) != 0) result *= a32;
+  if ((n & 64) != 0) result *= a32 * a32;
   return result;
 }
 vec2 i_positive_power(vec2 a, int n) {

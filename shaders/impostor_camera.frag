@@ -15,7 +15,10 @@ layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // l
 #include "material.glsl"
 #endif
 
-layout(location = 0) out uint primitive_id;
+layout(location = primitive_output) out uint primitive_id;
+#ifdef SOLID
+layout(location = solid_distance_output) out float solid_distance;
+#endif
 
 bool usable(vec3 direction, float t) {
   if (!(t > 0.0) || isinf(t)) return false;
@@ -47,5 +50,8 @@ void main() {
 #endif
   if (!usable(direction, t)) discard;
   primitive_id = shapes[shape_index].primitive;
+#ifdef SOLID
+  solid_distance = t;
+#endif
   gl_FragDepth = reversed_depth(t);
 }

@@ -6,7 +6,7 @@
 #include "world.glsl"
 #include "sphere.glsl"
 #ifdef SOLIDS
-#include "solid.glsl"
+#include "solid_surface.glsl"
 #endif
 #include "material.glsl"
 
@@ -96,25 +96,13 @@ Receiver triangle_receiver(uint id, vec3 direction) {
 }
 
 #ifdef SOLIDS
-// Where the ray meets the solid, put back onto it.
+layout(binding = solid_distance_unit) uniform sampler2D solid_distance;
+
+// Where the pixel's ray meets the solid, as its impostor found, put back onto it. Nothing is searched for again, so that
+// this program stays small.
 vec3 solid_receiver(ShapeData shape, vec3 direction, out vec3 normal) {
-  vec3 origin = to_solid(shape, camera.eye_and_near.xyz - shape.center_and_radius.xyz);
-  vec3 local_direction = to_solid(shape, direction);
-  float t = 0.0, from = 0.0;
-  for (int side = 0; side < most_sides; ++side) {
-    float next;
-    if (!solid_next(shape, origin, local_direction, from, next)) break;
-    t = next;
-#ifdef ALPHA_MASK
-    if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) {
-      from = solid_after(shape, local_direction, t);
-      continue;
-    }
-#endif
-    break;
-  }
-  vec3 p = origin + t * local_direction;
-  normal = solid_surface(shape, p);
+  float t = texelFetch(solid_distance, ivec2(gl_FragCoord.xy), 0).r;
+  vec3 p = to_solid(shape, camera.eye_and_near.xyz + t * direction - shape.center_and_radius.xyz);
   normal = from_solid(shape, solid_surface(shape, p));
   return shape.center_and_radius.xyz + from_solid(shape, p);
 }

@@ -55,12 +55,17 @@ const int texel_pages_unit = 2;
 const int present_unit = 3;
 const int moments_unit = 4;
 const int external_visibility_unit = 15;
+const int solid_distance_unit = 5;
 const int first_layer_unit = 8;  // midpoint maps
 const int second_layer_unit = 9;
 
 // Vertex attributes
 const int position_attribute = 0;
 const int uv_attribute = 1;
+
+// Fragment outputs of the camera's pass
+const int primitive_output = 0;
+const int solid_distance_output = 1;  // multiples of pixel_direction(), where a solid is visible
 
 // Fragment outputs of the shading pass
 const int radiance_output = 0;

@@ -1,27 +1,12 @@
 // Rays against solids in their own frames: quadrics in closed form, tori and implicit surfaces by interval arithmetic, so
-// that no root is skipped. Twin of raytrace/solid.h and along_ray.h. Permutations QUADRIC, TORUS and IMPLICIT name the
-// kinds that may come; IMPLICIT_FUNCTIONS is text that raster/expression_glsl.h makes of the scene's expressions.
-// Accuracy: floats relative to the solid's own size, so about 1e-7 of it across the surface; near a silhouette, where a
-// ray grazes, the root of that along the ray. Needs world.glsl.
-
-#if defined(TORUS) || defined(IMPLICIT)
-#define MARCHED
-#include "bounds.glsl"
-#endif
-#ifdef IMPLICIT
-IMPLICIT_FUNCTIONS
-#endif
+// that no root is skipped. Twin of raytrace/solid.h and along_ray.h. Accuracy: floats relative to the solid's own size, so
+// about 1e-7 of it across the surface; near a silhouette, where a ray grazes, the root of that along the ray. Compilers
+// copy a function to each place that calls it: the long ones are called from one place each.
+#include "solid_surface.glsl"
 
 const int most_sides = 8;  // of a solid that are looked at for one that is no hole and not culled
-const int solid_open = 0, solid_closed = 1, solid_uncut = 2;  // ShapeData.box_max.w
-int solid_cut(ShapeData s) { return int(s.box_max.w); }
 
 #ifdef QUADRIC
-float quadric_value(ShapeData s, vec3 p) {
-  vec4 c = s.coefficients;
-  return (c.x * p.x * p.x + c.y * p.y * p.y) + (c.z * p.z * p.z + c.w * p.z) + s.box_min.w;
-}
-
 // Where f <= 0 along o + t d, as up to two stretches (begin, end); counted from the point nearest to the middle.
 int quadric_stretches(ShapeData s, vec3 o, vec3 d, out vec2 a, out vec2 b) {
   vec4 c = s.coefficients;
@@ -79,20 +64,6 @@ bool quadric_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
 #endif
 
 #ifdef MARCHED
-vec4 solid_gradient(ShapeData s, vec3 p) {
-#ifdef TORUS
-  if (s.kind == uint(shape_torus)) {
-    float around = length(p.xy), off = around - s.coefficients.x;
-    return vec4(2.0 * off * p.xy / around, 2.0 * p.z, (off - s.coefficients.y) * (off + s.coefficients.y) + p.z * p.z);
-  }
-#endif
-#ifdef IMPLICIT
-  return function_gradient(s.function, vec4(1, 0, 0, p.x), vec4(0, 1, 0, p.y), vec4(0, 0, 1, p.z));
-#else
-  return vec4(0.0);
-#endif
-}
-
 Slope solid_slope(ShapeData s, vec3 o, vec3 d, vec2 range) {
   unsure = false;
   nothing = false;
@@ -114,17 +85,27 @@ Slope solid_slope(ShapeData s, vec3 o, vec3 d, vec2 range) {
 #endif
 }
 
-// The root between two places where f differs in sign: false position with halved weights (Dowell and Jarratt 1971,
-// "Illinois").
-float solve_between(ShapeData s, vec3 o, vec3 d, vec2 at, vec2 f) {
-  float middle = 0.5 * (at.x + at.y);
-  for (int i = 0; i < 24; ++i) {
-    middle = (f.y * at.x - f.x * at.y) / (f.y - f.x);
-    if (!(middle > at.x && middle < at.y)) middle = 0.5 * (at.x + at.y);
-    if (!(middle > at.x && middle < at.y)) break;
+// Where f changes its sign between two places, if it does: false position with halved weights (Dowell and Jarratt 1971,
+// "Illinois"). The first two rounds look at the ends.
+bool solve_between(ShapeData s, vec3 o, vec3 d, vec2 at, out float middle) {
+  vec2 f = vec2(0.0);
+  for (int i = 0; i < 26; ++i) {
+    if (i < 2) {
+      middle = i == 0 ? at.x : at.y;
+    } else {
+      middle = (f.y * at.x - f.x * at.y) / (f.y - f.x);
+      if (!(middle > at.x && middle < at.y)) middle = 0.5 * (at.x + at.y);
+      if (!(middle > at.x && middle < at.y)) break;
+    }
     float value = solid_gradient(s, o + middle * d).w;
-    if (value == 0.0) break;
-    if ((value < 0.0) == (f.x < 0.0)) {
+    if (i == 0) {
+      f.x = value;
+    } else if (i == 1) {
+      f.y = value;
+      if (!((f.x < 0.0 && f.y >= 0.0) || (f.x > 0.0 && f.y <= 0.0))) return false;
+    } else if (value == 0.0) {
+      break;
+    } else if ((value < 0.0) == (f.x < 0.0)) {
       at.x = middle;
       f.x = value;
       f.y *= 0.5;
@@ -134,12 +115,11 @@ float solve_between(ShapeData s, vec3 o, vec3 d, vec2 at, vec2 f) {
       f.x *= 0.5;
     }
   }
-  return middle;
+  return true;
 }
 
-bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
-  const int most_stretches = 512;
-  t = infinite_t;
+// Where the ray is in the solid's box.
+vec2 box_range(ShapeData s, vec3 origin, vec3 d) {
   vec3 low = (s.box_min.xyz - origin) / d, high = (s.box_max.xyz - origin) / d;
   vec3 first = min(low, high), last = max(low, high);
   for (int a = 0; a < 3; ++a) {
@@ -148,39 +128,61 @@ bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
     first[a] = within ? -infinite_t : infinite_t;
     last[a] = -first[a];
   }
-  vec2 range = vec2(max(first.x, max(first.y, first.z)), min(last.x, min(last.y, last.z)));
+  return vec2(max(first.x, max(first.y, first.z)), min(last.x, min(last.y, last.z)));
+}
+
+// Whether the ray is within the solid where it enters the box, and where it leaves it.
+bvec2 within_at_ends(ShapeData s, vec3 o, vec3 d, float end) {
+  bvec2 within;
+  for (int k = 0; k < 2; ++k) within[k] = solid_gradient(s, o + (k == 0 ? 0.0 : end) * d).w < 0.0;
+  return within;
+}
+
+// Stretch by stretch, each of which is passed over (no root), solved (f is monotone there) or halved; `probing` looks at
+// the middle of one that is neither, for what rounding alone makes of it.
+bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
+  const int most_stretches = 512;
+  t = infinite_t;
+  vec2 range = box_range(s, origin, d);
   if (!(range.x < range.y) || !(from < range.y)) return false;
   vec3 o = origin + range.x * d;  // counted from where the ray enters the box
   float end = range.y - range.x, at = max(from - range.x, 0.0);
   bool closed = s.kind == uint(shape_implicit) && solid_cut(s) == solid_closed;
-  if (closed && from < range.x && solid_gradient(s, o).w < 0.0) {
+  bvec2 within = bvec2(false);
+  if (closed) within = within_at_ends(s, o, d, end);
+  if (within.x && from < range.x) {
     t = range.x;
     return true;
   }
   float longest = 0.125 * end, step = longest, least = end * 9.5e-7;
-  for (int n = 0; n < most_stretches && at < end; ++n) {
+  bool probing = false, sure = true;
+  vec2 bounds = vec2(0.0);
+  for (int n = 0; at < end && (n < most_stretches || probing);) {
     float to = min(at + step, end);
     if (!(to > at)) break;
-    Slope f = solid_slope(s, o, d, vec2(at, to));
-    if (!(nothing || f.v.x > 0.0 || f.v.y < 0.0)) {
-      bool monotone = !unsure && (f.d.x > 0.0 || f.d.y < 0.0);
-      bool sure = !unsure;
-      float middle = 0.5 * (at + to);
-      if (monotone) {
-        vec2 ends = vec2(solid_gradient(s, o + at * d).w, solid_gradient(s, o + to * d).w);
-        if ((ends.x < 0.0 && ends.y >= 0.0) || (ends.x > 0.0 && ends.y <= 0.0)) {
-          t = range.x + solve_between(s, o, d, vec2(at, to), ends);
-          return true;
-        }
-      } else {
-        vec2 here = solid_slope(s, o, d, vec2(middle)).v;
-        bool rounding = !(here.x > 0.0 || here.y < 0.0) && f.v.y - f.v.x <= 4.0 * (here.y - here.x);
-        if (!rounding && step > least) {
-          step *= 0.5;
-          continue;
-        }
-        if (sure) {  // a touch, or a crossing too flat to tell where
-          t = range.x + middle;
+    float middle = 0.5 * (at + to);
+    Slope f = solid_slope(s, o, d, probing ? vec2(middle) : vec2(at, to));
+    if (probing) {
+      probing = false;
+      bool rounding = !(f.v.x > 0.0 || f.v.y < 0.0) && bounds.y - bounds.x <= 4.0 * (f.v.y - f.v.x);
+      if (!rounding && step > least) {
+        step *= 0.5;
+        continue;
+      }
+      if (sure) {  // a touch, or a crossing too flat to tell where
+        t = range.x + middle;
+        return true;
+      }
+    } else {
+      ++n;
+      if (!(nothing || f.v.x > 0.0 || f.v.y < 0.0)) {
+        sure = !unsure;
+        bounds = f.v;
+        probing = !(sure && (f.d.x > 0.0 || f.d.y < 0.0));
+        if (probing) continue;
+        float root;
+        if (solve_between(s, o, d, vec2(at, to), root)) {
+          t = range.x + root;
           return true;
         }
       }
@@ -188,7 +190,7 @@ bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
     at = to;
     step = min(2.0 * step, longest);
   }
-  if (closed && from < range.y && solid_gradient(s, o + end * d).w < 0.0) {
+  if (within.y && from < range.y) {
     t = range.y;
     return true;
   }
@@ -212,44 +214,4 @@ bool solid_next(ShapeData s, vec3 origin, vec3 direction, float from, out float 
 // Where to go on looking after a crossing at t that does not count.
 float solid_after(ShapeData s, vec3 direction, float t) {
   return t + 1e-5 * length(s.box_max.xyz - s.box_min.xyz) / length(direction);
-}
-
-// Outward local normal at a local point near the surface, and the point put onto the surface.
-vec3 solid_surface(ShapeData s, inout vec3 p) {
-  vec4 f;
-#ifdef QUADRIC
-  if (s.kind == uint(shape_quadric))
-    f = vec4(2.0 * s.coefficients.xyz * p + vec3(0.0, 0.0, s.coefficients.w), quadric_value(s, p));
-#ifdef MARCHED
-  else
-#endif
-#endif
-#ifdef MARCHED
-    f = solid_gradient(s, p);
-#endif
-  float steepness = length(f.xyz), nearest = abs(f.w) / steepness;
-  if (isnan(nearest)) nearest = infinite_t;
-  int axis = -1;
-  float side = 0.0;
-  bool all_faces = s.kind == uint(shape_implicit);
-  if (solid_cut(s) == solid_closed && s.kind != uint(shape_torus)) {
-    for (int a = all_faces ? 0 : 2; a < 3; ++a) {
-      float below = abs(p[a] - s.box_min[a]), above = abs(p[a] - s.box_max[a]);
-      if (min(below, above) < nearest) {
-        nearest = min(below, above);
-        axis = a;
-        side = below < above ? -1.0 : 1.0;
-      }
-    }
-  }
-  vec3 normal = vec3(0.0);
-  if (axis >= 0) {
-    p[axis] = side < 0.0 ? s.box_min[axis] : s.box_max[axis];
-    normal[axis] = side;
-    return normal;
-  }
-  if (!(steepness > 0.0) || isinf(steepness)) return vec3(0.0, 0.0, 1.0);
-  vec3 move = f.xyz * (f.w / (steepness * steepness));
-  if (dot(move, move) < 1e-6 * dot(s.box_max.xyz - s.box_min.xyz, s.box_max.xyz - s.box_min.xyz)) p -= move;
-  return f.xyz / steepness;
 }

@@ -45,6 +45,8 @@ constexpr Named constants[] = {
     GNOMON_NAMED(moments_unit),
     GNOMON_NAMED(position_attribute),
     GNOMON_NAMED(uv_attribute),
+    GNOMON_NAMED(primitive_output),
+    GNOMON_NAMED(solid_distance_output),
     GNOMON_NAMED(radiance_output),
     GNOMON_NAMED(record_output),
     GNOMON_NAMED(flags_output),
@@ -64,6 +66,7 @@ constexpr Named constants[] = {
     GNOMON_NAMED(page_height),
     GNOMON_NAMED(solid_from_frame_uniform),
     GNOMON_NAMED(external_visibility_unit),
+    GNOMON_NAMED(solid_distance_unit),
     GNOMON_NAMED(shape_quadric),
     GNOMON_NAMED(shape_torus),
     GNOMON_NAMED(shape_implicit),
@@ -170,6 +173,15 @@ TEST_F(SharedConstants, AShaderErrorNamesItsFileAndLine) {
   EXPECT_NE(program.error().reason.find("0=compute 1=sphere.glsl"), std::string::npos)
       << program.error().reason;
   EXPECT_NE(program.error().reason.find("nonsense"), std::string::npos) << program.error().reason;
+}
+
+// The search for a solid's roots is long, and its compilation longer: 50 s in the programs that shade the
+// scene "shapes", before they took the impostor's answer. Nothing but the impostors may include it.
+TEST(ShaderText, ShadingSearchesForNoRoot) {
+  const std::string_view solids[] = {"SOLIDS", "QUADRIC", "TORUS", "TECHNIQUE hard", "DIRECTIONAL"};
+  EXPECT_EQ(raster::expand_shader("shade.frag", solids).find("march_next"), std::string::npos);
+  const std::string_view torus[] = {"SOLID", "TORUS"};
+  EXPECT_NE(raster::expand_shader("impostor_camera.frag", torus).find("march_next"), std::string::npos);
 }
 
 }  // namespace
