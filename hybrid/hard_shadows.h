@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
+#include "hybrid/receivers.h"
 #include "raytrace/packet/passes.h"
 #include "scene/image.h"
 
@@ -19,10 +20,10 @@ struct LightCache {
              const LightView& view);
   Light light;
   LightSheets sheets;
-  raytrace::Seen seen;    ///< for packets of rays; empty where they do not apply
-  double build_ms = 0.0;  ///< of both
-  std::uint64_t seen_bytes = 0;
-  std::uint64_t bytes() const { return sheets.stats().bytes + seen_bytes; }
+  std::optional<raytrace::Sight> sight;  ///< for packets of rays, as the pure tracer makes it for each frame
+  double build_ms = 0.0;                 ///< of the sheets
+  double share_left = 0.0;               ///< of the receivers, unsure after the sheets were last refined
+  std::uint64_t bytes() const;
 };
 
 struct ShadowCounts {
@@ -36,8 +37,7 @@ enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_aske
 
 /// Fills `verdicts`: lit where there is no receiver, shadowed where the light cannot reach, as in
 /// raytrace::LightTruth. May refine the light's sheets. `decisions` (or null) says who decided.
-ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache,
-                                const Image<raytrace::SurfacePoint>& receivers,
+ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
                                 Image<raytrace::Verdict>& verdicts, Image<Decision>* decisions);
 
 }  // namespace gnomon::hybrid

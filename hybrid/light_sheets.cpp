@@ -46,7 +46,7 @@ void LightSheets::build_face(int face) {
   faces_.push_back({std::move(points), std::move(bins)});
   const Face& made = faces_.back();
   tbb::enumerable_thread_specific<TileBuilder> builders(
-      [&] { return TileBuilder(world_, topology_, grid_, facing_, face, made.points); });
+      [&] { return TileBuilder(world_, topology_, grid_, facing_, face, made.points, *store_); });
   tbb::parallel_for(0, grid_.tiles * grid_.tiles, [&](int i) {
     const int x = i % grid_.tiles, y = i / grid_.tiles;
     tiles_[grid_.tile_index(face, x, y)] =
@@ -92,7 +92,8 @@ std::size_t LightSheets::refine(std::vector<std::uint64_t> texels) {
     for (std::size_t i = first[k]; i < first[k + 1]; ++i)
       asked.push_back(static_cast<std::uint16_t>(texels[i] % texels_per_tile));
     const Face& face = faces_[tile / per_face];
-    TileBuilder builder(world_, topology_, grid_, facing_, static_cast<int>(tile / per_face), face.points);
+    TileBuilder builder(world_, topology_, grid_, facing_, static_cast<int>(tile / per_face), face.points,
+                        *store_);
     builder.refine(static_cast<int>(on_face) % grid_.tiles, static_cast<int>(on_face) / grid_.tiles,
                    face.bins.triangles(on_face), asked, tiles_[tile]);
   });

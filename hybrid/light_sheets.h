@@ -81,6 +81,7 @@ class LightSheets {
   SheetGrid grid_;
   std::vector<TriangleFacing> facing_;
   std::vector<Face> faces_;
+  std::unique_ptr<TexelStore> store_ = std::make_unique<TexelStore>();
   std::vector<SheetTile> tiles_;
   std::uint32_t lone_plane_ = no_id;
   SheetStats stats_;

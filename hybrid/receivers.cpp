@@ -16,13 +16,33 @@ ReceiverFinder::ReceiverFinder(const raytrace::Tracer& tracer) : tracer_(tracer)
   for (std::uint32_t i = 0; i < s.planes.size(); ++i) leaf_of_[s.planes[i]] = raytrace::first_plane + i;
 }
 
+Receivers make_receivers(Image<SurfacePoint> points) {
+  Receivers made{std::move(points), {}};
+  const raytrace::TileGrid grid{made.points.size};
+  made.tiles = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
+  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+    raytrace::CompactTile& tile = made.tiles[i];
+    raytrace::CompactDraft draft;
+    tile.clear();
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x)
+        tile.put(raytrace::tile_lane(x - x0, y - y0), made.points.at(x, y), draft);
+    tile.finish(draft, draft.bounds.center());  // exact: no error grows with a distance
+  });
+  return made;
+}
+
 ReceiverCounts ReceiverFinder::find(const View& view, const Image<std::uint32_t>& primitive,
-                                    Image<SurfacePoint>& receivers) const {
-  if (!(receivers.size == primitive.size)) receivers = Image<SurfacePoint>(primitive.size);
+                                    Receivers& receivers) const {
   const raytrace::TileGrid grid{primitive.size};
+  if (!(receivers.points.size == primitive.size)) {
+    receivers.points = Image<SurfacePoint>(primitive.size);
+    receivers.tiles = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
+  }
   std::vector<std::uint64_t> traced(grid.count());
-  for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
-    traced[tile] = raytrace::known_tile(tracer_, view, leaf_of_, {x0, y0, x1, y1}, primitive, receivers);
+  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+    traced[i] = raytrace::known_tile(tracer_, view, leaf_of_, {x0, y0, x1, y1}, primitive, receivers.points,
+                                     receivers.tiles[i]);
   });
   return {std::accumulate(traced.begin(), traced.end(), std::uint64_t{0})};
 }

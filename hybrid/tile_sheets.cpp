@@ -84,6 +84,13 @@ Polygon clip_to_square(const std::array<Vec2, 3>& triangle, const Vec2& center, 
 
 }  // namespace
 
+TexelBounds* TexelStore::take() {
+  constexpr std::size_t tiles = 512;  // 8 MiB, so that they are large pages
+  const std::lock_guard lock(mutex_);
+  if (left_ == 0) blocks_.emplace_back(tiles * texel_count), left_ = tiles;
+  return blocks_.back().data() + --left_ * texel_count;
+}
+
 std::uint64_t SheetTile::bytes() const {
   return (texels ? texel_count * sizeof(TexelBounds) : 0) +
          (split_of ? texel_count * sizeof(std::uint16_t) : 0) + parts.size() * sizeof(TexelBounds);
@@ -265,7 +272,7 @@ float middle_of(std::size_t texel) {
 
 void TileBuilder::finish(SheetTile& tile) {
   sort_by_texel();
-  tile.texels = std::unique_ptr<TexelBounds[]>(new TexelBounds[texel_count]);
+  tile.texels = store_.take();
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < texel_count; ++i) {
     column_.assign(sorted_.begin() + begin, sorted_.begin() + first_[i]);
@@ -279,7 +286,7 @@ void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> 
   collect(tile_x, tile_y, triangles);
   sort_by_texel();
   if (!tile.texels) {
-    tile.texels = std::unique_ptr<TexelBounds[]>(new TexelBounds[texel_count]);
+    tile.texels = store_.take();
     for (std::size_t i = 0; i < texel_count; ++i) {
       column_.clear();
       tile.texels[i] = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds;

@@ -14,7 +14,6 @@ namespace {
 
 using raster::ExternalCosts;
 using raster::VisibilityRequest;
-using raytrace::SurfacePoint;
 using raytrace::Tracer;
 using raytrace::Verdict;
 
@@ -60,8 +59,8 @@ class HybridVisibility final : public raster::ExternalVisibility {
     time_run(kept.shadow, [&] {
       counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, verdicts_, &decision_);
       if (kept.soft) {
-        soft_counts_ =
-            kept.soft->find(receivers_, verdicts_, samples_of(request), request.seed, decision_, visibility);
+        soft_counts_ = kept.soft->find(receivers_.points, verdicts_, samples_of(request), request.seed,
+                                       decision_, visibility);
         return;
       }
       for (std::size_t i = 0; i < verdicts_.data.size(); ++i)
@@ -115,13 +114,13 @@ class HybridVisibility final : public raster::ExternalVisibility {
   // To the light's centre: what single rays through the hierarchy would test, for those cast and for all.
   void count_tests(const Light& light, ExternalCosts& costs) const {
     std::atomic<std::uint64_t> cast = 0, all = 0;
-    tbb::parallel_for(0, receivers_.size.height, [&](int y) {
+    tbb::parallel_for(0, receivers_.points.size.height, [&](int y) {
       raytrace::WorkCounts cast_here, all_here;
-      for (int x = 0; x < receivers_.size.width; ++x) {
+      for (int x = 0; x < receivers_.points.size.width; ++x) {
         const Decision decision = decision_.at(x, y);
         if (decision == Decision::not_asked) continue;
         raytrace::WorkCounts work;
-        static_cast<void>(tracer_->occluded(tracer_->shadow_ray(receivers_.at(x, y), light), work));
+        static_cast<void>(tracer_->occluded(tracer_->shadow_ray(receivers_.points.at(x, y), light), work));
         all_here.primitives += work.primitives;
         if (decision == Decision::traced) cast_here.primitives += work.primitives;
       }
@@ -135,7 +134,7 @@ class HybridVisibility final : public raster::ExternalVisibility {
   std::optional<raytrace::Topology> topology_;
   std::optional<ReceiverFinder> finder_;
   std::map<std::uint32_t, Kept> kept_;  // by light
-  Image<SurfacePoint> receivers_;       // of the last frame
+  Receivers receivers_;                 // of the last frame
   Image<Verdict> verdicts_;
   Image<Decision> decision_;
   ShadowCounts counts_;

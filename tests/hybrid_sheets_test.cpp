@@ -27,7 +27,8 @@ Outcome run(const Stage& stage, std::uint32_t light, int map_size) {
   Image<Verdict> verdicts;
   Image<Decision> decisions(stage.size);
   Outcome out;
-  out.counts = trace_hard_shadows(stage.tracer, cache, stage.frame.receiver, verdicts, &decisions);
+  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
+                                  &decisions);
   for (std::size_t i = 0; i < verdicts.data.size(); ++i) {
     const Verdict truth = stage.frame.lights[light].verdict.data[i];
     const bool traced = decisions.data[i] == Decision::traced;

@@ -27,7 +27,9 @@ Outcome run(const Stage& stage, std::uint32_t light) {
   Image<Decision> decisions(stage.size);
   Image<float> visibility(stage.size);
   Outcome out;
-  out.asked = trace_hard_shadows(stage.tracer, cache, stage.frame.receiver, verdicts, &decisions).asked;
+  out.asked = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
+                                 &decisions)
+                  .asked;
   out.soft = SoftLight(stage.tracer, stage.topology, light)
                  .find(stage.frame.receiver, verdicts, source.shadow_samples, 5, decisions, visibility);
   const auto& truth = stage.frame.lights[light].visibility.data;

@@ -32,7 +32,8 @@ class HybridBench {
         decisions_(input.size) {
     raytrace::RaytraceOptions options;
     options.size = input.size, options.picture = false;
-    receivers_ = trace_frame(tracer_, input.loaded.plan, input.loaded.scene->camera, {}, options).receiver;
+    receivers_ = hybrid::make_receivers(
+        trace_frame(tracer_, input.loaded.plan, input.loaded.scene->camera, {}, options).receiver);
   }
 
   Expected<BenchResult> run() {
@@ -69,27 +70,15 @@ class HybridBench {
     const raytrace::TileGrid grid{input_.size};
     if (!packets_apply(s)) {
       for_each_pixel(grid, [&](int x, int y, std::size_t) {
-        const SurfacePoint& p = receivers_.at(x, y);
+        const SurfacePoint& p = receivers_.points.at(x, y);
         pure_.at(x, y) = p.primitive == no_id ? Verdict::lit : tracer_.light_verdict(p, light_);
       });
       return;
     }
-    // What a frame keeps of its primary rays.
-    if (tiles_.size() == 0) {
-      tiles_ = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
-      for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-        raytrace::CompactDraft draft;
-        tiles_[i].clear();
-        for (int y = y0; y < y1; ++y)
-          for (int x = x0; x < x1; ++x)
-            tiles_[i].put(raytrace::tile_lane(x - x0, y - y0), receivers_.at(x, y), draft);
-        tiles_[i].finish(draft, draft.bounds.center());  // exact: no error grows with a distance
-      });
-    }
-    const raytrace::Sight sight = sight_of_light(s, light_, {tiles_.data(), tiles_.size()});
-    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_};
+    const raytrace::Sight sight = sight_of_light(s, light_, receivers_.compact());
+    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
     for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      shadow_tile(source, light_, sight, {x0, y0, x1, y1}, &tiles_[i], pure_);
+      shadow_tile(source, light_, sight, {x0, y0, x1, y1}, &receivers_.tiles[i], pure_);
     });
   }
 
@@ -112,7 +101,7 @@ class HybridBench {
         const Decision decision = decisions_.at(x, y);
         if (decision == Decision::not_asked) continue;
         raytrace::WorkCounts work;
-        static_cast<void>(tracer_.occluded(tracer_.shadow_ray(receivers_.at(x, y), light_), work));
+        static_cast<void>(tracer_.occluded(tracer_.shadow_ray(receivers_.points.at(x, y), light_), work));
         all += work.primitives;
         if (decision == Decision::traced) cast += work.primitives;
       }
@@ -155,9 +144,8 @@ class HybridBench {
   const Light& light_;
   raytrace::Tracer tracer_;
   raytrace::Topology topology_;
-  Image<SurfacePoint> receivers_;
+  hybrid::Receivers receivers_;
   Image<Verdict> pure_, verdicts_;
-  raytrace::HugeArray<raytrace::CompactTile> tiles_;
   Image<Decision> decisions_;
   hybrid::ShadowCounts counts_;
 };

@@ -48,16 +48,21 @@ std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, c
 /// Bits of a tile's packets.
 using LaneMask = std::array<std::uint16_t, tile_packets>;
 
-/// Fills the verdicts of the asked receivers alone, which exist and which the light reaches. `seen` may be
-/// empty where packets do not apply.
-void shadow_lanes(const Tracer& tracer, const Light& light, const Seen& seen, const TileRect& rect,
-                  const LaneMask& asked, const Image<SurfacePoint>& receivers, Image<Verdict>& verdicts);
+/// The whole tile: lit, or shadowed where the bit is set.
+void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts);
+
+/// Fills the verdicts of the asked receivers alone, which exist and which the light reaches; the others' are
+/// left as they are. The receivers must be stored, and `compact` may be nullptr. Without a sight of the light
+/// (packets do not apply) each ray is traced by itself.
+void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sight* sight,
+                  const TileRect& rect, const CompactTile* compact, const LaneMask& asked,
+                  Image<Verdict>& verdicts);
 
 /// Fills the tile's receivers from the primitives that its pixels are known to show (no_id: none), as
 /// primary_tile does where it finds the same ones. `leaf_of`: by primitive, as in TileHits. Returns the
 /// number of pixels whose ray misses their primitive; these get the nearest hit.
 std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
                          const TileRect& rect, const Image<std::uint32_t>& primitives,
-                         Image<SurfacePoint>& receivers);
+                         Image<SurfacePoint>& receivers, CompactTile& compact);
 
 }  // namespace gnomon::raytrace

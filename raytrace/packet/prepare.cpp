@@ -230,12 +230,13 @@ class CompactRays {
   V offset_[3], normal_[3];
 };
 
-void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile, TileRays& rays,
+void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile,
+                    const std::array<std::uint16_t, tile_packets>& asked, TileRays& rays,
                     ShadowLanes& lanes) {
   CompactRays some(light, seen, tile, rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     unsigned reached = 0, perhaps = 0, usable = 0;
-    const unsigned present = tile.present[p];
+    const unsigned present = tile.present[p] & asked[p];
     for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(d)) {
       const std::size_t lane = p * packet_rays + i;
       some.at(lane);
@@ -268,9 +269,10 @@ void prepare_primary(const View& view, int x0, int y0, TileRays& rays) {
 void prepare_framed(const View& view, int x0, int y0, TileRays& rays) {
   HWY_DYNAMIC_DISPATCH(framed_kernel)(view, x0, y0, rays);
 }
-void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, TileRays& rays,
+void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile,
+                     const std::array<std::uint16_t, tile_packets>& asked, TileRays& rays,
                      ShadowLanes& lanes) {
-  HWY_DYNAMIC_DISPATCH(compact_kernel)(light, seen, tile, rays, lanes);
+  HWY_DYNAMIC_DISPATCH(compact_kernel)(light, seen, tile, asked, rays, lanes);
 }
 void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
                      TileRays& rays, ShadowLanes& lanes) {

@@ -29,8 +29,10 @@ struct ShadowLanes {
 void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
                      TileRays& rays, ShadowLanes& lanes);
 
-/// The same from a tile's compact receivers; alive rays include the grazing ones. No spot lights.
-void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, TileRays& rays,
+/// The same from those of a tile's compact receivers that are asked for (bits per packet); alive rays include
+/// the grazing ones. A spot light's cone is not looked at.
+void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile,
+                     const std::array<std::uint16_t, tile_packets>& asked, TileRays& rays,
                      ShadowLanes& lanes);
 
 }  // namespace gnomon::raytrace

@@ -51,21 +51,14 @@ void store_lit(unsigned lit, Verdict* out) {
   std::memcpy(out, &bytes, sizeof bytes);
 }
 
-void store_verdicts(const TileRect& rect, const PacketBits& dark, Image<Verdict>& verdicts) {
-  if (is_whole(rect)) {
-    for (int y = 0; y < tile_pixels; ++y)
-      for (int x = 0; x < tile_pixels; x += 4) {
-        const std::size_t lane = tile_lane(x, y);
-        const unsigned lit =
-            ~(static_cast<unsigned>(dark[lane / packet_rays]) >> (lane % packet_rays)) & 0xfu;
-        store_lit(lit, &verdicts.at(rect.x0 + x, rect.y0 + y));
-      }
-    return;
-  }
-  for_each_place(rect, [&](int x, int y, std::size_t lane) {
-    verdicts.at(x, y) = (dark[lane / packet_rays] & bit_of(lane)) != 0 ? Verdict::shadowed : Verdict::lit;
-  });
-}
+constexpr LaneMask every_lane = [] {
+  LaneMask all{};
+  for (std::uint16_t& bits : all) bits = 0xffff;
+  return all;
+}();
+
+/// Below this many rays a tile's walk through the hierarchy costs more than single rays.
+constexpr int few_rays = 6;
 
 /// One tile on its way from receivers to verdicts.
 class ShadowTile {
@@ -74,12 +67,9 @@ class ShadowTile {
       : receivers_(receivers), light_(light), sight_(sight), rect_(rect) {}
 
   std::uint64_t run(const CompactTile* compact, Image<Verdict>& verdicts) {
-    prepare(compact);
+    prepare(compact, every_lane, false);
     if (compact != nullptr) prefetch(compact + 1);
-    if (sight_.by_cells)
-      shadows_in_cells(sight_.cells, sight_.seen, rays_, shadows_, outside_);
-    else
-      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.seen, rays_, shadows_);
+    trace();
     std::uint64_t count = 0;
     PacketBits dark;
     for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -92,6 +82,22 @@ class ShadowTile {
     return count;
   }
 
+  /// Of asked receivers that the light reaches.
+  void run_lanes(const CompactTile* compact, const LaneMask& asked, Image<Verdict>& verdicts) {
+    prepare(compact, asked, true);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      // What floats hold to be facing away is asked in double.
+      rays_.alive[p] &= asked[p];
+      lanes_.apart[p] = static_cast<std::uint16_t>(asked[p] & ~rays_.alive[p]);
+    }
+    trace();
+    for_each_place(rect_, asked, [&](int x, int y, std::size_t lane) {
+      const bool dark = (shadows_.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
+      verdicts.at(x, y) = dark ? Verdict::shadowed : Verdict::lit;
+    });
+    decide_rest(verdicts);
+  }
+
  private:
   /// The next tile comes from memory while this one is traced. Beyond the last one nothing is read.
   static void prefetch(const CompactTile* next) {
@@ -99,12 +105,21 @@ class ShadowTile {
     for (std::size_t i = 0; i < sizeof(CompactTile); i += 64) __builtin_prefetch(bytes + i);
   }
 
-  void prepare(const CompactTile* compact) {
+  void trace() {
+    if (sight_.by_cells)
+      shadows_in_cells(sight_.cells, sight_.seen, rays_, shadows_, outside_);
+    else
+      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.seen, rays_, shadows_);
+  }
+
+  /// reached: the light is known to reach all that is asked for.
+  void prepare(const CompactTile* compact, const LaneMask& asked, bool reached) {
     const Seen& seen = sight_.seen;
-    if (compact != nullptr && light_.type != LightType::spot && compact_applies(seen, *compact)) {
+    if (compact != nullptr && (reached || light_.type != LightType::spot) &&
+        compact_applies(seen, *compact)) {
       choose_axis(seen, compact->origin, rays_);
-      prepare_compact(light_, seen, *compact, rays_, lanes_);
-      decide_grazing();
+      prepare_compact(light_, seen, *compact, asked, rays_, lanes_);
+      if (!reached) decide_grazing();
       return;
     }
     if (receivers_.stored != nullptr && is_whole(rect_) && light_.type != LightType::spot && !seen.framed) {
@@ -191,6 +206,22 @@ class ShadowTile {
 
 }  // namespace
 
+void store_verdicts(const TileRect& rect, const PacketBits& dark, Image<Verdict>& verdicts) {
+  if (is_whole(rect)) {
+    for (int y = 0; y < tile_pixels; ++y)
+      for (int x = 0; x < tile_pixels; x += 4) {
+        const std::size_t lane = tile_lane(x, y);
+        const unsigned lit =
+            ~(static_cast<unsigned>(dark[lane / packet_rays]) >> (lane % packet_rays)) & 0xfu;
+        store_lit(lit, &verdicts.at(rect.x0 + x, rect.y0 + y));
+      }
+    return;
+  }
+  for_each_place(rect, [&](int x, int y, std::size_t lane) {
+    verdicts.at(x, y) = (dark[lane / packet_rays] & bit_of(lane)) != 0 ? Verdict::shadowed : Verdict::lit;
+  });
+}
+
 std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
                           const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts) {
   if (compact != nullptr && !compact->any) {
@@ -198,6 +229,20 @@ std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, c
     return 0;
   }
   return ShadowTile(receivers, light, sight, rect).run(compact, verdicts);
+}
+
+void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sight* sight,
+                  const TileRect& rect, const CompactTile* compact, const LaneMask& asked,
+                  Image<Verdict>& verdicts) {
+  int count = 0;
+  for (const std::uint16_t bits : asked) count += std::popcount(bits);
+  if (sight == nullptr || (!sight->by_cells && count <= few_rays)) {
+    for_each_place(rect, asked, [&](int x, int y, std::size_t lane) {
+      verdicts.at(x, y) = receivers.tracer.light_verdict(receivers.at(rect, lane), light);
+    });
+    return;
+  }
+  ShadowTile(receivers, light, *sight, rect).run_lanes(compact, asked, verdicts);
 }
 
 }  // namespace gnomon::raytrace

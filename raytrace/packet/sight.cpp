@@ -128,4 +128,14 @@ Sight sight_of_light(const Structures& s, const Light& light, std::span<const Co
   return sight.by_cells ? std::move(sight) : by_hierarchy(s, light);
 }
 
+bool covers(const Sight& sight, std::span<const CompactTile> tiles) {
+  if (!sight.by_cells) return true;
+  Range u, v;
+  if (!ranges_of(sight.seen, tiles, u, v)) return false;
+  const auto holds = [](const CellAxis& axis, const Range& range) {
+    return range.low >= axis.lo && range.high <= axis.lo + axis.count * axis.width;
+  };
+  return holds(sight.cells.u, u) && holds(sight.cells.v, v);
+}
+
 }  // namespace gnomon::raytrace

@@ -31,4 +31,7 @@ Sight sight_of_eye(const Structures& structures, const View& view);
 /// Cells cover what the tiles hold. No tiles: the hierarchy.
 Sight sight_of_light(const Structures& structures, const Light& light, std::span<const CompactTile> tiles);
 
+/// Whether a light's sight that was made for other tiles serves these as well: cells cover them too.
+bool covers(const Sight& sight, std::span<const CompactTile> tiles);
+
 }  // namespace gnomon::raytrace

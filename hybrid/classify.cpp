@@ -1,0 +1,308 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hybrid/classify.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstring>
+
+#include "hybrid/classify.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::hybrid::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using F = hn::CappedTag<float, raytrace::packet_rays>;
+using I = hn::RebindToSigned<F>;
+using V = hn::Vec<F>;
+using Index = hn::Vec<I>;
+using M = hn::Mask<F>;
+constexpr F f;
+constexpr I index;
+constexpr hn::RebindToUnsigned<F> ids;
+using raytrace::CompactTile;
+using raytrace::packet_rays;
+
+inline V all(double v) {
+  return hn::Set(f, static_cast<float>(v));
+}
+inline unsigned bits_of(M mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(f, mask, bytes);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+inline M mask_of(unsigned bits) {
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(f, bytes);
+}
+inline double sum_of_magnitudes(const Vec3& v) {
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/// A linear function of a receiver's place in its picture tile, in floats. Its error, of the receiver's own
+/// rounding too, is below `rounding` times `size`.
+struct Local {
+  V x, y, z;
+  double size;  // no value is larger
+  Local(const Vec3& n, double extent)
+      : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
+  V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
+};
+/// Of the coefficient, the position (1.13, raytrace/packet/compact.h), three operations, a quotient's two and
+/// a last sum's: 2^-24 each.
+constexpr double rounding = 10.0 * 0x1p-24;
+
+/// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
+/// in double: texels from its texel, nearness from its nearness. On a perspective map a texel coordinate is a
+/// quotient U / w; less its value c at the origin it is (U - c w) / w, small over small again.
+class Classifier {
+ public:
+  Classifier(const LightSheets& sheets, const Light& light, const CompactTile& tile)
+      : sheets_(sheets),
+        grid_(sheets.grid()),
+        tile_(tile),
+        directional_(light.type == LightType::directional),
+        light_direction_(light.direction),
+        from_light_(tile.origin - light.position),
+        perspective_(grid_.perspective),
+        face_(face_of(grid_, tile)),
+        origin_(grid_.point(face_, tile.origin)),
+        base_u_(origin_.u / origin_.w),
+        base_v_(origin_.v / origin_.w),
+        texel_u_(std::floor(base_u_)),
+        texel_v_(std::floor(base_v_)),
+        u_(face().u - (perspective_ ? base_u_ : 0.0) * face().w, tile.extent),
+        v_(face().v - (perspective_ ? base_v_ : 0.0) * face().w, tile.extent),
+        w_(face().w, tile.extent) {
+    const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
+    usable_ = raytrace::max_component(largest) < grid_.bounds.reach;
+    // Perspective: all that is asked for lies at least half as deep as the origin.
+    least_depth_ = perspective_ ? std::max(grid_.near_limit, 0.5 * origin_.w) : 1.0;
+    usable_ = usable_ && (!perspective_ || origin_.w > 2.0 * grid_.near_limit);
+    // What a column is wider (texel_slack) holds the error of u and v.
+    const double by_depth = perspective_ ? (w_.size + origin_.w) / least_depth_ : 0.0;
+    const double by_floats = rounding * (std::max(u_.size, v_.size) * (1.0 + by_depth));
+    const double lateral = (grid_.grid_error + by_floats) / least_depth_ + 0x1p-22;
+    usable_ = usable_ && lateral < texel_slack;
+    // 1 / w - 1 / w0 = -(w - w0) / (w w0)
+    nearness_scale_ = perspective_ ? 1.0 / (least_depth_ * origin_.w) : 1.0;
+    doubt_ = 4.0 * rounding * w_.size * nearness_scale_ + 0x1p-22 * std::abs(origin_.nearness);
+  }
+
+  // In passes over the tile, so that what one pass finds comes from memory before the next one reads it.
+  void run(TileClasses& out) {
+    out.lit.fill(0), out.shadowed.fill(0), out.unsure.fill(0);
+    out_ = &out;
+    for (std::size_t p = 0; p < raytrace::tile_packets; ++p) {
+      const unsigned present = tile_.present[p];
+      unsigned unreached = 0, asked = 0;
+      for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(f)) {
+        const unsigned here = present >> i & ((1u << hn::Lanes(f)) - 1);
+        lane_ = p * packet_rays + i;
+        for (std::size_t a = 0; a < 3; ++a) local_[a] = hn::Load(f, tile_.position[a] + lane_);
+        unsigned surely = 0, perhaps = 0;
+        facing(surely, perhaps);
+        unreached |= (here & ~perhaps) << i;
+        if (usable_ && (here & surely) != 0) asked |= find_texels(here & surely) << i;
+      }
+      out.unreached[p] = static_cast<std::uint16_t>(unreached);
+      asked_[p] = static_cast<std::uint16_t>(asked);
+    }
+    fetch();
+    for (std::size_t p = 0; p < raytrace::tile_packets; ++p)
+      for (std::size_t i = 0; i < packet_rays && asked_[p] != 0; i += hn::Lanes(f)) {
+        lane_ = p * packet_rays + i;
+        judge(static_cast<unsigned>(asked_[p]) >> i & ((1u << hn::Lanes(f)) - 1));
+      }
+    judge_in_parts();
+    for (std::size_t p = 0; p < raytrace::tile_packets; ++p)
+      out.open[p] = static_cast<std::uint16_t>(
+          tile_.present[p] & ~(out.unreached[p] | out.lit[p] | out.shadowed[p] | out.unsure[p]));
+  }
+
+ private:
+  static int face_of(const SheetGrid& grid, const CompactTile& tile) {
+    return grid.perspective && grid.view.face_count == 6 ? cube_face(tile.origin - grid.view.origin) : 0;
+  }
+  const GridFace& face() const { return grid_.faces[static_cast<std::size_t>(face_)]; }
+
+  /// Bits of those that surely face the light, and of those that may.
+  void facing(unsigned& surely, unsigned& perhaps) const {
+    V cosine, size;
+    const auto normal = [&](std::size_t a) { return hn::Load(f, tile_.normal[a] + lane_); };
+    if (directional_) {
+      cosine = hn::Neg(hn::MulAdd(
+          normal(0), all(light_direction_.x),
+          hn::MulAdd(normal(1), all(light_direction_.y), hn::Mul(normal(2), all(light_direction_.z)))));
+      size = all(sum_of_magnitudes(light_direction_));
+    } else {
+      V offset[3];
+      for (int a = 0; a < 3; ++a) offset[a] = hn::Add(local_[a], all(from_light_[a]));
+      cosine = hn::Neg(
+          hn::MulAdd(normal(0), offset[0], hn::MulAdd(normal(1), offset[1], hn::Mul(normal(2), offset[2]))));
+      size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
+                     hn::Add(hn::Abs(offset[2]), all(2.0 * tile_.extent)));
+    }
+    const V doubt = hn::Mul(all(rounding), size);
+    surely = bits_of(hn::Gt(cosine, doubt));
+    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(doubt))));
+  }
+
+  /// Stores the texels that a vector's receivers look up, and their places there; bits of those on the map.
+  unsigned find_texels(unsigned asked) {
+    V u = u_.at(local_), v = v_.at(local_), deeper = w_.at(local_);
+    if (perspective_) {
+      const V depth = hn::Add(deeper, all(origin_.w)), inverse = hn::Div(all(1.0), depth);
+      asked &= bits_of(hn::Gt(depth, all(least_depth_ * (1.0 + rounding))));
+      u = hn::Mul(u, inverse), v = hn::Mul(v, inverse);
+      deeper = hn::Mul(deeper, hn::Mul(inverse, all(origin_.nearness)));
+    }
+    // From the corner of the origin's texel.
+    u = hn::Add(u, all(base_u_ - texel_u_)), v = hn::Add(v, all(base_v_ - texel_v_));
+    const V row = hn::Floor(v), column = hn::Floor(u);
+    const V x = hn::Add(column, all(texel_u_)), y = hn::Add(row, all(texel_v_));  // whole numbers: exact
+    const unsigned inside =
+        bits_of(hn::And(hn::Ge(hn::Min(x, y), all(0.0)), hn::Lt(hn::Max(x, y), all(grid_.view.size))));
+    if ((asked & ~inside) != 0 && sheets_.lone_plane() != no_id) look_beside(asked & ~inside, x, y);
+    asked &= inside;
+    if (asked == 0) return 0;
+    hn::Store(hn::Neg(deeper), f, nearness_ + lane_);
+    hn::Store(hn::Sub(u, hn::Add(column, all(0.5))), f, from_middle_u_ + lane_);
+    hn::Store(hn::Sub(v, hn::Add(row, all(0.5))), f, from_middle_v_ + lane_);
+    const M on_map = mask_of(asked);
+    const Index texel_x = hn::ConvertTo(index, hn::IfThenElseZero(on_map, x));
+    const Index texel_y = hn::ConvertTo(index, hn::IfThenElseZero(on_map, y));
+    constexpr int tile_shift = 5;
+    static_assert(1 << tile_shift == tile_texels);
+    const Index in_row = hn::Set(index, tile_texels - 1);
+    hn::Store(hn::Add(hn::ShiftLeft<tile_shift>(hn::And(texel_y, in_row)), hn::And(texel_x, in_row)), index,
+              texel_ + lane_);
+    const Index tile_x = hn::ShiftRight<tile_shift>(texel_x), tile_y = hn::ShiftRight<tile_shift>(texel_y);
+    hn::Store(hn::Add(hn::Mul(tile_y, hn::Set(index, grid_.tiles)), tile_x), index, sheet_ + lane_);
+    return asked;
+  }
+
+  /// Whole texels beside the map, on the plane that is alone there (LightSheets::lone_plane).
+  void look_beside(unsigned asked, V x, V y) {
+    const M far = hn::Or(hn::Lt(hn::Min(x, y), all(-1.0)), hn::Gt(hn::Max(x, y), all(grid_.view.size)));
+    const auto own = hn::Load(ids, tile_.own + lane_);
+    const M on_plane = hn::RebindMask(f, hn::Eq(own, hn::Set(ids, sheets_.lone_plane())));
+    add(out_->lit, asked & bits_of(hn::And(far, on_plane)));
+  }
+
+  const SheetTile& sheet_at(std::size_t lane) const {
+    return sheets_.tile(grid_.tile_index(face_, 0, 0) + static_cast<std::size_t>(sheet_[lane]));
+  }
+
+  /// The texels' bounds: many loads on the way at once, where a gather would wait for sixteen.
+  void fetch() {
+    for (std::size_t p = 0; p < raytrace::tile_packets; ++p)
+      for (unsigned left = asked_[p]; left != 0; left &= left - 1) {
+        const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
+        const SheetTile& sheet = sheet_at(lane);
+        const auto texel = static_cast<std::size_t>(texel_[lane]);
+        if (sheet.texels != nullptr) {
+          bounds_[lane] = sheet.texels[texel];
+          continue;
+        }
+        bounds_[lane] = sheet.uniform;
+        constexpr float to_middle = 0.5f * tile_texels - 0.5f;
+        from_middle_u_[lane] += static_cast<float>(texel % tile_texels) - to_middle;
+        from_middle_v_[lane] += static_cast<float>(texel / tile_texels) - to_middle;
+      }
+  }
+
+  void judge(unsigned asked) {
+    static_assert(sizeof(TexelBounds) == 4 * sizeof(float));
+    V lit_above, dark_below, slope_u, slope_v;
+    hn::LoadInterleaved4(f, &bounds_[lane_].lit_above, lit_above, dark_below, slope_u, slope_v);
+    const V by_u = hn::Mul(slope_u, hn::Load(f, from_middle_u_ + lane_));
+    const V by_v = hn::Mul(slope_v, hn::Load(f, from_middle_v_ + lane_));
+    // The products' rounding, beside what widens the bounds (texel_slack times the slopes).
+    const V doubt = hn::MulAdd(hn::Add(hn::Abs(by_u), hn::Abs(by_v)), all(0x1p-21), all(doubt_));
+    const V nearness = hn::Load(f, nearness_ + lane_);
+    const V value = hn::Add(hn::Sub(nearness, hn::Add(by_u, by_v)), all(origin_.nearness));
+    const unsigned lit = asked & bits_of(hn::Gt(hn::Sub(value, doubt), lit_above));
+    const unsigned dark = asked & bits_of(hn::Lt(hn::Add(value, doubt), dark_below));
+    add(out_->lit, lit), add(out_->shadowed, dark);
+    for (unsigned left = asked & ~(lit | dark); left != 0; left &= left - 1)
+      put_off(lane_ + static_cast<std::size_t>(std::countr_zero(left)));
+  }
+
+  /// Some texels are known in parts.
+  void put_off(std::size_t lane) {
+    const SheetTile& sheet = sheet_at(lane);
+    if (sheet.split_of) {
+      __builtin_prefetch(&sheet.split_of[static_cast<std::size_t>(texel_[lane])]);
+      left_[left_count_++] = static_cast<std::uint8_t>(lane);
+    } else {
+      out_->unsure[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
+    }
+  }
+
+  void judge_in_parts() {
+    const auto place = [&](std::size_t lane) {
+      return sheet_at(lane).part_of(static_cast<std::size_t>(texel_[lane]),
+                                    0.5 + double(from_middle_u_[lane]), 0.5 + double(from_middle_v_[lane]));
+    };
+    for (std::size_t k = 0; k < left_count_; ++k) __builtin_prefetch(place(left_[k]).bounds);
+    for (std::size_t k = 0; k < left_count_; ++k) {
+      const std::size_t lane = left_[k];
+      const Certainty found =
+          place(lane).judge(origin_.nearness + static_cast<double>(nearness_[lane]), doubt_);
+      LaneBits& bits = found == Certainty::lit        ? out_->lit
+                       : found == Certainty::shadowed ? out_->shadowed
+                                                      : out_->unsure;
+      bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
+    }
+  }
+
+  /// A vector's bits.
+  void add(LaneBits& bits, unsigned more) const {
+    bits[lane_ / packet_rays] |= static_cast<std::uint16_t>(more << (lane_ % packet_rays));
+  }
+
+  const LightSheets& sheets_;
+  const SheetGrid& grid_;
+  const CompactTile& tile_;
+  bool directional_, usable_ = false;
+  Vec3 light_direction_, from_light_;
+  bool perspective_;
+  int face_;
+  GridPoint origin_;
+  double base_u_, base_v_, texel_u_, texel_v_;
+  Local u_, v_, w_;
+  double least_depth_, nearness_scale_, doubt_;
+  V local_[3];            // of the vector at work
+  std::size_t lane_ = 0;  // where it starts
+  TileClasses* out_ = nullptr;
+  LaneBits asked_;                                      // those on the map
+  std::array<std::uint8_t, raytrace::tile_rays> left_;  // lanes to be judged in parts
+  std::size_t left_count_ = 0;
+  alignas(64) float nearness_[raytrace::tile_rays];  // less the origin's
+  alignas(64) float from_middle_u_[raytrace::tile_rays], from_middle_v_[raytrace::tile_rays];  // of the texel
+  alignas(64) TexelBounds bounds_[raytrace::tile_rays];
+  alignas(64) std::int32_t texel_[raytrace::tile_rays], sheet_[raytrace::tile_rays];  // in its tile; the tile
+};
+
+void classify_kernel(const LightSheets& sheets, const Light& light, const CompactTile& tile,
+                     TileClasses& out) {
+  Classifier(sheets, light, tile).run(out);
+}
+
+}  // namespace gnomon::hybrid::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::hybrid {
+HWY_EXPORT(classify_kernel);
+
+void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::CompactTile& tile,
+                   TileClasses& out) {
+  HWY_DYNAMIC_DISPATCH(classify_kernel)(sheets, light, tile, out);
+}
+
+}  // namespace gnomon::hybrid
+#endif  // HWY_ONCE

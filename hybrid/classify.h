@@ -1,0 +1,25 @@
+// A picture tile's receivers against the sheets, eight at a time, from the compact floats: the texel and the
+// nearness of each in double, with all that the floats' rounding can do added to the doubt. What floats leave
+// open is for LightSheets::at.
+#pragma once
+
+#include "hybrid/light_sheets.h"
+#include "raytrace/packet/compact.h"
+
+namespace gnomon::hybrid {
+
+using LaneBits = std::array<std::uint16_t, raytrace::tile_packets>;
+
+/// Of the receivers that are there: bits per packet, each receiver in one of them.
+struct TileClasses {
+  LaneBits unreached;  ///< facing away from the light
+  LaneBits lit, shadowed;
+  LaneBits unsure;  ///< facing it, and the sheets cannot tell
+  LaneBits open;    ///< to be asked in double: whether it faces the light, or what the sheets say
+};
+
+/// No spot lights: a cone is not looked at.
+void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::CompactTile& tile,
+                   TileClasses& out);
+
+}  // namespace gnomon::hybrid
