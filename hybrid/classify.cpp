@@ -234,31 +234,33 @@ class Classifier {
   /// Some texels are known in parts.
   void put_off(std::size_t lane) {
     const SheetTile& sheet = sheet_at(lane);
-    if (sheet.split_of) {
-      __builtin_prefetch(&sheet.split_of[static_cast<std::size_t>(texel_[lane])]);
-      left_[left_count_++] = static_cast<std::uint8_t>(lane);
-    } else {
-      out_->unsure[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
+    if (sheet.parts.empty()) {
+      set(out_->unsure, lane);
+      return;
     }
+    const auto texel = static_cast<std::uint32_t>(texel_[lane]);
+    __builtin_prefetch(sheet.parts.place(SheetTile::part_at(texel, in_u(lane), in_v(lane))));
+    left_[left_count_++] = static_cast<std::uint8_t>(lane);
   }
 
   void judge_in_parts() {
-    const auto place = [&](std::size_t lane) {
-      return sheet_at(lane).part_of(static_cast<std::size_t>(texel_[lane]),
-                                    0.5 + double(from_middle_u_[lane]), 0.5 + double(from_middle_v_[lane]));
-    };
-    for (std::size_t k = 0; k < left_count_; ++k) __builtin_prefetch(place(left_[k]).bounds);
     for (std::size_t k = 0; k < left_count_; ++k) {
       const std::size_t lane = left_[k];
       const Certainty found =
-          place(lane).judge(origin_.nearness + static_cast<double>(nearness_[lane]), doubt_);
-      LaneBits& bits = found == Certainty::lit        ? out_->lit
-                       : found == Certainty::shadowed ? out_->shadowed
-                                                      : out_->unsure;
-      bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
+          sheet_at(lane).in_parts(static_cast<std::uint32_t>(texel_[lane]), in_u(lane), in_v(lane),
+                                  origin_.nearness + static_cast<double>(nearness_[lane]), doubt_);
+      set(found == Certainty::lit        ? out_->lit
+          : found == Certainty::shadowed ? out_->shadowed
+                                         : out_->unsure,
+          lane);
     }
   }
 
+  double in_u(std::size_t lane) const { return 0.5 + static_cast<double>(from_middle_u_[lane]); }
+  double in_v(std::size_t lane) const { return 0.5 + static_cast<double>(from_middle_v_[lane]); }
+  static void set(LaneBits& bits, std::size_t lane) {
+    bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
+  }
   /// A vector's bits.
   void add(LaneBits& bits, unsigned more) const {
     bits[lane_ / packet_rays] |= static_cast<std::uint16_t>(more << (lane_ % packet_rays));

@@ -141,14 +141,14 @@ ShadowCounts sum_of(const std::vector<ShadowCounts>& tiles) {
   return sum;
 }
 
-/// The texels that receivers without an answer look up.
-std::vector<std::uint64_t> texels_in_doubt(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
-                                           const std::vector<LaneBits>& unsure) {
+/// The parts of texels that receivers without an answer look up.
+std::vector<std::uint64_t> parts_in_doubt(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
+                                          const std::vector<LaneBits>& unsure) {
   tbb::enumerable_thread_specific<std::vector<std::uint64_t>> found;
   for_each_tile(raytrace::TileGrid{receivers.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
     for_each_lane({x0, y0, x1, y1}, unsure[i], [&](int x, int y, std::size_t) {
-      const auto texel = sheets.texel_of(receivers.at(x, y).position);
-      if (texel) found.local().push_back(*texel);
+      const auto part = sheets.part_of(receivers.at(x, y).position);
+      if (part) found.local().push_back(*part);
     });
   });
   std::vector<std::uint64_t> all;
@@ -203,7 +203,7 @@ ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cach
   };
   ShadowCounts counts = pass();
   if (share_of_rays(counts) > std::max(refine_above, 1.25 * cache.share_left)) {
-    if (cache.sheets.refine(texels_in_doubt(cache.sheets, receivers.points, unsure)) > 0) counts = pass();
+    if (cache.sheets.refine(parts_in_doubt(cache.sheets, receivers.points, unsure)) > 0) counts = pass();
     cache.share_left = share_of_rays(counts);
   }
   return counts;

@@ -35,14 +35,21 @@ std::int8_t facing_of(const std::array<Vec3, 3>& corners, const LightView& view,
   return value < 0.0 ? 1 : -1;
 }
 
+bool has_planes(const World& world) {
+  for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id)
+    if (std::holds_alternative<Plane>(world.shape(id).geometry)) return true;
+  return false;
+}
+
 }  // namespace
 
 WorldBounds world_bounds(const World& world, const LightView& view) {
   const Aabb& box = world.finite_bounds;
   const double origin = max_component(glm::abs(view.origin));
   const double finite = box.empty() ? 0.0 : max_component(glm::max(glm::abs(box.min), glm::abs(box.max)));
-  // Receivers on infinite planes lie farther away than anything finite.
-  const double reach = 16.0 * (finite + origin + (box.empty() ? 1.0 : box.diagonal()));
+  // Receivers on infinite planes lie farther away than anything finite, others within the bounds.
+  const double beyond = has_planes(world) ? 16.0 : 1.0;
+  const double reach = beyond * (finite + origin + (box.empty() ? 1.0 : box.diagonal()));
   return {reach, error_gamma(32) * 3.0 * (reach + origin)};
 }
 

@@ -9,7 +9,7 @@
 namespace gnomon::hybrid {
 namespace {
 
-constexpr std::uint64_t texels_per_tile = std::uint64_t{tile_texels} * tile_texels;
+constexpr std::uint64_t parts_per_tile = std::uint64_t{tile_texels} * tile_texels * parts_per_texel;
 
 std::vector<GridPoint> project(const World& world, const SheetGrid& grid, int face) {
   constexpr std::size_t grain = 4096;  // vertices per task
@@ -65,32 +65,32 @@ void LightSheets::count_bytes() {
   }
 }
 
-std::optional<std::uint64_t> LightSheets::texel_of(const Vec3& position) const {
+std::optional<std::uint64_t> LightSheets::part_of(const Vec3& position) const {
   const auto at = place_of(position);
   const double size = grid_.view.size;
   if (!at || !(at->u >= 0.0 && at->v >= 0.0 && at->u < size && at->v < size)) return std::nullopt;
   const int x = static_cast<int>(at->u), y = static_cast<int>(at->v);
-  const auto in_tile = static_cast<std::uint64_t>(y % tile_texels * tile_texels + x % tile_texels);
-  return grid_.tile_index(at->face, x / tile_texels, y / tile_texels) * texels_per_tile + in_tile;
+  const auto texel = static_cast<std::uint32_t>(y % tile_texels * tile_texels + x % tile_texels);
+  return grid_.tile_index(at->face, x / tile_texels, y / tile_texels) * parts_per_tile +
+         SheetTile::part_at(texel, at->u - x, at->v - y);
 }
 
-std::size_t LightSheets::refine(std::vector<std::uint64_t> texels) {
+std::size_t LightSheets::refine(std::vector<std::uint64_t> parts) {
   if (faces_.empty()) return 0;
   const Stopwatch watch;
-  std::sort(texels.begin(), texels.end());
-  texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
-  std::erase_if(texels,
-                [&](std::uint64_t t) { return tiles_[t / texels_per_tile].is_refined(t % texels_per_tile); });
-  std::vector<std::size_t> first;  // of each tile's texels
-  for (std::size_t i = 0; i < texels.size(); ++i)
-    if (i == 0 || texels[i] / texels_per_tile != texels[i - 1] / texels_per_tile) first.push_back(i);
-  first.push_back(texels.size());
+  const auto in_tile = [](std::uint64_t part) { return static_cast<std::uint32_t>(part % parts_per_tile); };
+  std::erase_if(parts, [&](std::uint64_t p) { return tiles_[p / parts_per_tile].is_known(in_tile(p)); });
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  std::vector<std::size_t> first;  // of each tile's parts
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (i == 0 || parts[i] / parts_per_tile != parts[i - 1] / parts_per_tile) first.push_back(i);
+  first.push_back(parts.size());
   const auto per_face = static_cast<std::size_t>(grid_.tiles) * static_cast<std::size_t>(grid_.tiles);
   tbb::parallel_for(std::size_t{0}, first.size() - 1, [&](std::size_t k) {
-    const std::size_t tile = texels[first[k]] / texels_per_tile, on_face = tile % per_face;
-    std::vector<std::uint16_t> asked;
-    for (std::size_t i = first[k]; i < first[k + 1]; ++i)
-      asked.push_back(static_cast<std::uint16_t>(texels[i] % texels_per_tile));
+    const std::size_t tile = parts[first[k]] / parts_per_tile, on_face = tile % per_face;
+    std::vector<std::uint32_t> asked;
+    for (std::size_t i = first[k]; i < first[k + 1]; ++i) asked.push_back(in_tile(parts[i]));
     const Face& face = faces_[tile / per_face];
     TileBuilder builder(world_, topology_, grid_, facing_, static_cast<int>(tile / per_face), face.points,
                         *store_);
@@ -99,7 +99,7 @@ std::size_t LightSheets::refine(std::vector<std::uint64_t> texels) {
   });
   count_bytes();
   stats_.refine_ms += watch.elapsed_ms();
-  return texels.size();
+  return parts.size();
 }
 
 // Light rays beside an orthographic map meet planes only, if everything finite lies on the map. Perspective

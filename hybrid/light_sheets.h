@@ -45,10 +45,11 @@ class LightSheets {
   /// the sheets.
   LightSheets(const World& world, const raytrace::Topology& topology, const LightView& view);
 
-  /// The texel that a receiver looks up, if it lies on the map.
-  std::optional<std::uint64_t> texel_of(const Vec3& position) const;
-  /// Looks at these texels more closely, those that were not before; returns how many. In parallel.
-  std::size_t refine(std::vector<std::uint64_t> texels);
+  /// The part of a texel that a receiver looks up, if it lies on the map.
+  std::optional<std::uint64_t> part_of(const Vec3& position) const;
+  /// Looks closely at these parts and their texels, those that it had not before; returns how many. In
+  /// parallel.
+  std::size_t refine(std::vector<std::uint64_t> parts);
 
   /// Of a receiver that the light can reach, on the surface of the world.
   Certainty at(const Vec3& position, std::uint32_t primitive) const;

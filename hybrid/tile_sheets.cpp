@@ -92,8 +92,7 @@ TexelBounds* TexelStore::take() {
 }
 
 std::uint64_t SheetTile::bytes() const {
-  return (texels ? texel_count * sizeof(TexelBounds) : 0) +
-         (split_of ? texel_count * sizeof(std::uint16_t) : 0) + parts.size() * sizeof(TexelBounds);
+  return (texels ? texel_count * sizeof(TexelBounds) : 0) + looks.size() * sizeof(Look) + parts.bytes();
 }
 
 SheetTile TileBuilder::build(int tile_x, int tile_y, std::span<const std::uint32_t> triangles) {
@@ -131,7 +130,8 @@ void TileBuilder::collect(int tile_x, int tile_y, std::span<const std::uint32_t>
 
 void TileBuilder::add_triangle(const TileTriangle& t) {
   for (int y = t.y0; y <= t.y1; ++y)
-    for (int x = t.x0; x <= t.x1; ++x) add_texel(t, x, y);
+    for (int x = t.x0; x <= t.x1; ++x)
+      if (is_wanted(x, y)) add_texel(t, x, y);
 }
 
 void TileBuilder::add_texel(const TileTriangle& t, int x, int y) {
@@ -179,6 +179,7 @@ void TileBuilder::add_sphere(const SphereColumns& sphere, bool anywhere_inside) 
   if (sphere.misses_tile()) return;
   for (int y = 0; y < tile_texels; ++y)
     for (int x = 0; x < tile_texels; ++x) {
+      if (!is_wanted(x, y)) continue;
       const auto sides = sphere.at(x, y);
       if (!sides) continue;
       if (!anywhere_inside) {
@@ -281,51 +282,54 @@ void TileBuilder::finish(SheetTile& tile) {
   }
 }
 
-void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> triangles,
-                         std::span<const std::uint16_t> texels, SheetTile& tile) {
-  collect(tile_x, tile_y, triangles);
-  sort_by_texel();
-  if (!tile.texels) {
-    tile.texels = store_.take();
-    for (std::size_t i = 0; i < texel_count; ++i) {
-      column_.clear();
-      tile.texels[i] = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds;
-    }
-  }
-  if (!tile.split_of) {
-    tile.split_of = std::unique_ptr<std::uint16_t[]>(new std::uint16_t[texel_count]);
-    std::fill_n(tile.split_of.get(), texel_count, SheetTile::not_split);
-  }
-  for (const std::uint16_t i : texels) {
-    if (tile.is_refined(i)) continue;
-    const std::span<const Piece> pieces(sorted_.data() + (i > 0 ? first_[i - 1] : 0),
-                                        sorted_.data() + first_[i]);
-    column_.assign(pieces.begin(), pieces.end());
-    const ColumnBounds found = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, false);
-    tile.split_of[i] = SheetTile::refined;
-    tile.texels[i] = found.bounds;
-    if (!found.decisive) split(i, pieces, tile);
-  }
+std::span<const Piece> TileBuilder::pieces_in(std::size_t texel) const {
+  return {sorted_.data() + (texel > 0 ? first_[texel - 1] : 0), sorted_.data() + first_[texel]};
 }
 
-void TileBuilder::split(std::size_t texel, std::span<const Piece> pieces, SheetTile& tile) {
-  constexpr std::size_t parts = std::size_t{parts_per_side} * parts_per_side;
-  constexpr float half = 0.5f / parts_per_side;
-  tile.split_of[texel] = static_cast<std::uint16_t>(tile.parts.size() / parts);
-  for (std::size_t part = 0; part < parts; ++part) {
-    const float x = static_cast<float>(texel % tile_texels) +
-                    (2.0f * static_cast<float>(part % parts_per_side) + 1.0f) * half;
-    const float y = static_cast<float>(texel / tile_texels) +
-                    (2.0f * static_cast<float>(part / parts_per_side) + 1.0f) * half;
-    column_.clear();
-    for (const Piece& piece : pieces) {
-      if (piece.slot == Piece::no_slot)
-        column_.push_back(piece);
-      else if (const auto there = meet(kept_[piece.slot], x, y, half))
-        column_.push_back(*there);
-    }
-    tile.parts.push_back(solve(x, y, half, false).bounds);
+void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> triangles,
+                         std::span<const std::uint32_t> parts, SheetTile& tile) {
+  using Look = SheetTile::Look;
+  if (tile.texels == nullptr) {
+    collect(tile_x, tile_y, triangles);
+    finish(tile);
   }
+  wanted_.assign(texel_count, false);
+  for (const std::uint32_t part : parts) wanted_[part / parts_per_texel] = true;
+  collect(tile_x, tile_y, triangles);
+  sort_by_texel();
+  if (tile.looks.empty()) tile.looks.assign(texel_count, Look::quick);
+  for (const std::uint32_t part : parts) {
+    const std::size_t texel = part / parts_per_texel;
+    Look& look = tile.looks[texel];
+    if (look == Look::quick) {
+      const auto pieces = pieces_in(texel);
+      column_.assign(pieces.begin(), pieces.end());
+      const ColumnBounds found =
+          solve(middle_of(texel % tile_texels), middle_of(texel / tile_texels), 0.5f, false);
+      tile.texels[texel] = found.bounds;
+      look = found.decisive ? Look::decided : Look::by_sheets;
+    }
+    if (!tile.is_known(part)) tile.parts.insert(part, solve_part(part));
+  }
+  wanted_.clear();
+}
+
+TexelBounds TileBuilder::solve_part(std::uint32_t part) {
+  constexpr float half = 0.5f / parts_per_side;
+  const std::uint32_t texel = part / parts_per_texel, in_texel = part % parts_per_texel;
+  const auto middle = [](std::uint32_t at, std::uint32_t step) {
+    return static_cast<float>(at) + (2.0f * static_cast<float>(step) + 1.0f) * half;
+  };
+  const float x = middle(texel % tile_texels, in_texel % parts_per_side);
+  const float y = middle(texel / tile_texels, in_texel / parts_per_side);
+  column_.clear();
+  for (const Piece& piece : pieces_in(texel)) {
+    if (piece.slot == Piece::no_slot)
+      column_.push_back(piece);
+    else if (const auto there = meet(kept_[piece.slot], x, y, half))
+      column_.push_back(*there);
+  }
+  return solve(x, y, half, false).bounds;
 }
 
 }  // namespace gnomon::hybrid

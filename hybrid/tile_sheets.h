@@ -5,15 +5,13 @@
 #include <mutex>
 #include <vector>
 
+#include "hybrid/texel_parts.h"
 #include "hybrid/tile_shapes.h"
 #include "raytrace/packet/huge_array.h"
 
 namespace gnomon::hybrid {
 
 enum class Certainty : std::uint8_t { shadowed = 0, lit = 1, unsure = 2 };
-
-/// A texel that stays in doubt when it is refined is split into parts_per_side^2 columns.
-inline constexpr int parts_per_side = 4;
 
 /// Room for tiles' texels, in large pages: what receivers look up lies all over the map.
 class TexelStore {
@@ -29,21 +27,19 @@ class TexelStore {
 /// All texels alike (the slope then counts from the tile's centre), or one by one, row by row.
 struct SheetTile {
   TexelBounds uniform = empty_texel;
-  TexelBounds* texels = nullptr;                                        ///< in a TexelStore; null: all alike
-  static constexpr std::uint16_t not_split = 0xffff, refined = 0xfffe;  ///< refined: and not split
-  std::unique_ptr<std::uint16_t[]>
-      split_of;                    ///< of each texel, its place among the split ones; null: none refined
-  std::vector<TexelBounds> parts;  ///< of the split ones, row by row
+  TexelBounds* texels = nullptr;  ///< in a TexelStore; null: all alike
+  /// Of each texel, how closely it has been looked at; empty: none closely.
+  enum class Look : std::uint8_t { quick, by_sheets, decided };  ///< decided: parts would tell no more
+  std::vector<Look> looks;
+  TexelParts parts;
   /// For the texel that holds (u, v), counted from the tile's corner.
   Certainty at(double u, double v, double nearness) const;
-  struct Part {
-    const TexelBounds* bounds;
-    double from_middle_u, from_middle_v;  ///< of the receiver, in texels
-    Certainty judge(double nearness, double doubt) const;
-  };
-  /// Where a place 0 ... 1 in a texel lies, of a tile with split_of.
-  Part part_of(std::size_t texel, double in_u, double in_v) const;
-  bool is_refined(std::size_t texel) const { return split_of && split_of[texel] != not_split; }
+  /// For a place 0 ... 1 in a texel that leaves it in doubt, of a tile with parts.
+  Certainty in_parts(std::uint32_t texel, double in_u, double in_v, double nearness, double doubt) const;
+  /// The part's place in `parts`.
+  static std::uint32_t part_at(std::uint32_t texel, double in_u, double in_v);
+  /// Asking for this part would change nothing.
+  bool is_known(std::uint32_t part) const;
   std::uint64_t bytes() const;
 };
 
@@ -57,27 +53,36 @@ inline Certainty judge(const TexelBounds& bounds, double from_middle_u, double f
                                                               : Certainty::unsure;
 }
 
-inline Certainty SheetTile::Part::judge(double nearness, double doubt) const {
-  return hybrid::judge(*bounds, from_middle_u, from_middle_v, nearness, doubt);
+inline std::uint32_t SheetTile::part_at(std::uint32_t texel, double in_u, double in_v) {
+  const auto step = [](double in) {
+    return static_cast<std::uint32_t>(std::min(static_cast<int>(in * parts_per_side), parts_per_side - 1));
+  };
+  return texel * parts_per_texel + step(in_v) * parts_per_side + step(in_u);
 }
 
-inline SheetTile::Part SheetTile::part_of(std::size_t texel, double in_u, double in_v) const {
-  if (split_of[texel] >= refined) return {&unsure_texel, 0.0, 0.0};
-  const auto part = [](double in) {
-    return std::min(static_cast<int>(in * parts_per_side), parts_per_side - 1);
-  };
-  const int i = part(in_u), j = part(in_v);
-  const auto place = static_cast<std::size_t>((split_of[texel] * parts_per_side + j) * parts_per_side + i);
-  return {&parts[place], in_u - (i + 0.5) / parts_per_side, in_v - (j + 0.5) / parts_per_side};
+inline Certainty SheetTile::in_parts(std::uint32_t texel, double in_u, double in_v, double nearness,
+                                     double doubt) const {
+  const std::uint32_t part = part_at(texel, in_u, in_v);
+  const TexelBounds* bounds = parts.find(part);
+  if (bounds == nullptr) return Certainty::unsure;
+  const auto from_middle = [](double in, std::uint32_t step) { return in - (step + 0.5) / parts_per_side; };
+  return judge(*bounds, from_middle(in_u, part % parts_per_side),
+               from_middle(in_v, part / parts_per_side % parts_per_side), nearness, doubt);
+}
+
+inline bool SheetTile::is_known(std::uint32_t part) const {
+  if (looks.empty()) return false;
+  const Look look = looks[part / parts_per_texel];
+  return look == Look::decided || (look == Look::by_sheets && !parts.empty() && parts.find(part) != nullptr);
 }
 
 inline Certainty SheetTile::at(double u, double v, double nearness) const {
   if (!texels) return judge(uniform, u - 0.5 * tile_texels, v - 0.5 * tile_texels, nearness);
-  const int x = static_cast<int>(u), y = static_cast<int>(v), texel = y * tile_texels + x;
+  const int x = static_cast<int>(u), y = static_cast<int>(v);
+  const auto texel = static_cast<std::uint32_t>(y * tile_texels + x);
   const double in_u = u - x, in_v = v - y;
   const Certainty whole = judge(texels[texel], in_u - 0.5, in_v - 0.5, nearness);
-  if (whole != Certainty::unsure || !split_of) return whole;
-  return part_of(static_cast<std::size_t>(texel), in_u, in_v).judge(nearness, 0.0);
+  return whole != Certainty::unsure || parts.empty() ? whole : in_parts(texel, in_u, in_v, nearness, 0.0);
 }
 
 /// Builds tiles one after the other; one per task, for it keeps its buffers.
@@ -97,9 +102,10 @@ class TileBuilder : private PieceRelations {
 
   /// `triangles`: all that may meet the tile. Shapes are found here.
   SheetTile build(int tile_x, int tile_y, std::span<const std::uint32_t> triangles);
-  /// Solves these texels of a tile again, by sheets and in parts: slower, and less is unsure.
+  /// Solves these parts of texels (ascending, as TexelParts has them) and the texels again, by sheets:
+  /// slower, and less is unsure.
   void refine(int tile_x, int tile_y, std::span<const std::uint32_t> triangles,
-              std::span<const std::uint16_t> texels, SheetTile& tile);
+              std::span<const std::uint32_t> parts, SheetTile& tile);
 
   std::uint64_t pieces() const { return piece_count_; }
 
@@ -129,7 +135,11 @@ class TileBuilder : private PieceRelations {
   ColumnBounds solve(float x, float y, float half_texels, bool quick);
   void collect(int tile_x, int tile_y, std::span<const std::uint32_t> triangles);
   void sort_by_texel();
-  void split(std::size_t texel, std::span<const Piece> pieces, SheetTile& tile);
+  std::span<const Piece> pieces_in(std::size_t texel) const;
+  TexelBounds solve_part(std::uint32_t part);
+  bool is_wanted(int x, int y) const {
+    return wanted_.empty() || wanted_[static_cast<std::size_t>(y * tile_texels + x)];
+  }
 
   const World& world_;
   const raytrace::Topology& topology_;
@@ -138,6 +148,7 @@ class TileBuilder : private PieceRelations {
   int face_;
   const std::vector<GridPoint>& points_;
   TexelStore& store_;
+  std::vector<bool> wanted_;  // texels; empty: all
   std::vector<Placed> placed_;
   std::vector<Cover> covers_;
   std::vector<std::uint32_t> first_;  // of each texel's pieces

@@ -59,7 +59,7 @@ TEST(HybridHardShadows, EqualRayTracingInEveryBuiltInScene) {
         EXPECT_EQ(out.different, 0u);
         // The share depends on the picture's size only by chance; the figure at 1080p is in gnomon bench.
         if (builtin.name == "courtyard" && size == 1024) {
-          EXPECT_LT(out.ray_share(), 0.09);
+          EXPECT_LT(out.ray_share(), 0.03);
         }
       }
   }

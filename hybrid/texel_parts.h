@@ -1,0 +1,45 @@
+// Bounds of small parts of a tile's texels, of those alone that a receiver in doubt has looked up: an open
+// hash table (Knuth, The Art of Computer Programming 3, section 6.4, algorithm L), at most half full.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hybrid/texel_bounds.h"
+
+namespace gnomon::hybrid {
+
+/// A texel that stays in doubt is looked at in parts_per_side^2 columns.
+inline constexpr int parts_per_side = 8;
+inline constexpr std::uint32_t parts_per_texel = parts_per_side * parts_per_side;
+
+class TexelParts {
+ public:
+  bool empty() const { return count_ == 0; }
+  /// `key`: the texel in its tile times parts_per_texel, and the part, row by row; null where none is known.
+  const TexelBounds* find(std::uint32_t key) const {
+    std::size_t i = slot(key);
+    while (entries_[i].key != key && entries_[i].key != free) i = (i + 1) & mask_;
+    return entries_[i].key == key ? &entries_[i].bounds : nullptr;
+  }
+  /// Where find() will look; of a table that is not empty.
+  const void* place(std::uint32_t key) const { return &entries_[slot(key)]; }
+  /// The key is new.
+  void insert(std::uint32_t key, const TexelBounds& bounds);
+  std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
+
+ private:
+  static constexpr std::uint32_t free = 0xffffffffu;
+  struct Entry {
+    std::uint32_t key = free;
+    TexelBounds bounds = unsure_texel;
+  };
+  std::size_t slot(std::uint32_t key) const { return (key * 0x9e3779b1u >> 7) & mask_; }
+  void put(const Entry& entry);
+
+  std::vector<Entry> entries_;
+  std::size_t mask_ = 0, count_ = 0;
+};
+
+}  // namespace gnomon::hybrid
