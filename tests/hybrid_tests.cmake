@@ -1,6 +1,9 @@
-gnomon_test(hybrid_test SOURCES hybrid_sheets_test.cpp hybrid_soft_test.cpp support /
-            raytrace_support.cpp LIBS gnomon::hybrid TBB::tbb)
-    target_include_directories(hybrid_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+gnomon_test(hybrid_test
+  SOURCES hybrid_sheets_test.cpp hybrid_soft_test.cpp support/raytrace_support.cpp
+  LIBS gnomon::hybrid TBB::tbb)
+target_include_directories(hybrid_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
-        gnomon_test(hybrid_gl_test SOURCES hybrid_gl_test.cpp LIBS gnomon::compare gnomon::hybrid)
-            target_include_directories(hybrid_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+gnomon_test(hybrid_gl_test
+  SOURCES hybrid_gl_test.cpp
+  LIBS gnomon::compare gnomon::hybrid)
+target_include_directories(hybrid_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
