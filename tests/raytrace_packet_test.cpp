@@ -8,7 +8,9 @@
 #include <filesystem>
 
 #include "raytrace/frame.h"
+#include "raytrace/packet/passes.h"
 #include "raytrace/packet/seen.h"
+#include "raytrace/tiles.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "scene/load.h"
@@ -78,6 +80,34 @@ void expect_same(const Scene& scene, const Tracer& tracer, const Reference& refe
   }
 }
 
+/// The same verdicts where a tile's receivers are kept as floats alone.
+void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
+                           ImageSize size) {
+  if (!packets_apply(tracer.structures())) return;
+  const View view = make_view(scene.camera, size);
+  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view);
+  const raytrace::TileGrid grid{size};
+  std::vector<raytrace::TileHits> hits(grid.count());
+  raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
+  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+    primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits[i], nullptr, &tiles[i]);
+  });
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const raytrace::Sight sight =
+        sight_of_light(tracer.structures(), scene.lights[l], {tiles.data(), tiles.size()});
+    Image<Verdict> verdicts(size, Verdict::lit);
+    for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      const raytrace::ReceiverSource source{
+          .tracer = tracer, .stored = nullptr, .view = &view, .eye = &eye, .hits = &hits[i]};
+      shadow_tile(source, scene.lights[l], sight, {x0, y0, x1, y1}, &tiles[i], verdicts);
+    });
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < verdicts.data.size(); ++i)
+      wrong += verdicts.data[i] == reference.verdicts[l][i] ? 0 : 1;
+    EXPECT_EQ(wrong, 0U) << "verdicts of light " << l << " by floats differ, " << raytrace::packet_target();
+  }
+}
+
 /// Every instruction set in turn.
 void check(const Scene& scene, ImageSize size) {
   const TestWorld w(scene);
@@ -87,6 +117,7 @@ void check(const Scene& scene, ImageSize size) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     expect_same(w.scene(), tracer, reference, size);
+    expect_same_by_floats(w.scene(), tracer, reference, size);
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());

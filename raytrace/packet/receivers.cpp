@@ -143,7 +143,7 @@ struct Reach {
   }
 };
 
-/// The same rows for a compact tile.
+/// The same rows for a compact tile; others of its lanes may have been written already.
 inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
                         std::size_t lane, CompactTile& tile, CompactDraft& draft, Reach& reach) {
   constexpr hn::Rebind<float, D> half;
@@ -152,10 +152,11 @@ inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* l
   tile.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
   for (std::size_t a = 0; a < 3; ++a) {
     const V position = hn::Load(d, rows.value[a]);
-    hn::Store(position, d, draft.position[a] + lane);
+    hn::BlendedStore(position, here, d, draft.position[a] + lane);
     reach.low[a] = hn::IfThenElse(here, hn::Min(reach.low[a], position), reach.low[a]);
     reach.high[a] = hn::IfThenElse(here, hn::Max(reach.high[a], position), reach.high[a]);
-    hn::Store(hn::DemoteTo(half, hn::Load(d, rows.value[6 + a])), half, tile.normal[a] + lane);
+    const auto normal = hn::DemoteTo(half, hn::Load(d, rows.value[6 + a]));
+    hn::BlendedStore(normal, hn::LoadMaskBits(half, bytes), half, tile.normal[a] + lane);
   }
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     if ((sound >> i & 1) != 0) tile.own[lane + i] = bvh.ids[leaf[i]];
