@@ -51,6 +51,13 @@ struct Bvh {
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
   /// The tree's depth is limited so that a stack of this size always suffices: three per level and one.
   static constexpr int max_depth = 80, stack_size = 3 * max_depth + 1;
+
+  /// Asks memory for a primitive ahead of need.
+  void prefetch(std::size_t leaf) const {
+    const char* bytes = reinterpret_cast<const char*>(&primitives[leaf]);
+    __builtin_prefetch(bytes), __builtin_prefetch(bytes + sizeof(LeafPrimitive) - 1);
+    __builtin_prefetch(&ids[leaf]);
+  }
 };
 
 /// A primitive's box relative to the centre, rounded outwards.

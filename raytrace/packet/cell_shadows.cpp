@@ -58,11 +58,12 @@ class CellShadows {
     const V nearness = rays.nearness(u_, v_);
     const M known = hn::Gt(nearness, all(p.depth_floor));
     const M behind = hn::And(hn::Lt(nearness, hn::Sub(far_, depth_error)), known);
-    M contact = hn::AndNot(behind, hn::And(asked, hn::Ge(edge, hn::Neg(edge_error))));
+    // A flat shape does not shadow itself; of others the double kernels know when.
+    const std::uint32_t not_by = p.edge_error < inf ? p.id & ~never_sure : no_id;
+    const M own = hn::RebindMask(f, hn::Eq(own_, hn::Set(ids, not_by)));
+    const M near = hn::AndNot(own, hn::And(asked, hn::Ge(edge, hn::Neg(edge_error))));
+    const M contact = hn::AndNot(behind, near);
     if (hn::AllFalse(f, contact)) return false;
-    // A shape may shadow itself; the double kernels know when.
-    const auto own = hn::Eq(own_, hn::Set(ids, p.id & ~never_sure));
-    if (p.edge_error < inf) contact = hn::AndNot(hn::RebindMask(f, own), contact);
     const M ahead = hn::And(hn::Gt(nearness, hn::Add(far_, depth_error)), known);
     const M inside = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
     const unsigned sure = (p.id & never_sure) == 0 ? bits_of(inside) : 0;
@@ -162,8 +163,10 @@ class CellTile {
       const std::uint32_t end = cells_.first[static_cast<std::size_t>(cell) + 1];
       if (begin == end) continue;
       groups_[group_count_++] = {static_cast<std::uint32_t>(at), bits, begin, end, 0, 0};
-      __builtin_prefetch(&cells_.nearest[begin]), __builtin_prefetch(&cells_.leaf[begin]);
-      __builtin_prefetch(&cells_.box[begin]);
+      for (const std::uint32_t i : {begin, begin + 16}) {  // where there is no more, nothing is asked for
+        __builtin_prefetch(cells_.nearest.data() + i), __builtin_prefetch(cells_.leaf.data() + i);
+        __builtin_prefetch(cells_.box.data() + i);
+      }
     }
     return outside;
   }

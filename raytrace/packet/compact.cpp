@@ -153,10 +153,7 @@ inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
   if (leaf[0] == leaf[packet_rays - 1]) return;
   const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
   for (std::size_t i = 0; i < packet_rays; ++i) {
-    if (leaf[i] >= count) continue;
-    const char* bytes = reinterpret_cast<const char*>(&bvh.primitives[leaf[i]]);
-    __builtin_prefetch(bytes), __builtin_prefetch(bytes + sizeof(LeafPrimitive) - 1);
-    __builtin_prefetch(&bvh.ids[leaf[i]]);
+    if (leaf[i] < count) bvh.prefetch(leaf[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "raytrace/packet/places.h"
 #include "raytrace/packet/prepare.h"
 #include "raytrace/packet/receivers.h"
+#include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -41,6 +42,16 @@ std::optional<Hit> closest_of_pixel(const Tracer& tracer, const Sight& eye, int 
   return tracer.closest_hit_among(ray, {cells.leaf.data() + begin, count});
 }
 
+/// Where in the tree a triangle of the pixel's list lies; unsure_hit where that is not known.
+std::uint32_t leaf_in_list(const Tracer& tracer, const Sight& eye, int x, int y, std::uint32_t triangle) {
+  if (!eye.by_cells || triangle == no_id || !tracer.world().is_triangle(triangle)) return unsure_hit;
+  const Cells& cells = eye.cells;
+  const auto cell = static_cast<std::size_t>(y / 4 * cells.columns() + x / 4);
+  for (std::size_t i = cells.first[cell]; i < cells.first[cell + 1]; ++i)
+    if (tracer.structures().bvh.ids[cells.leaf[i]] == triangle) return cells.leaf[i];
+  return unsure_hit;
+}
+
 void prepare_tile(const View& view, const Sight& eye, const TileRect& rect, TileRays& rays) {
   if (eye.by_cells) {
     prepare_framed(view, rect.x0, rect.y0, rays);
@@ -50,6 +61,13 @@ void prepare_tile(const View& view, const Sight& eye, const TileRect& rect, Tile
     prepare_primary(view, rect.x0, rect.y0, rays);
   }
   keep_within(rect, rays.alive);
+}
+
+TileHits those_of(const TileHits& hits, const PacketBits& bits) {
+  TileHits some;
+  for (std::size_t lane = 0; lane < tile_rays; ++lane)
+    some.leaf[lane] = (bits[lane / packet_rays] & bit_of(lane)) != 0 ? hits.leaf[lane] : nothing_hit;
+  return some;
 }
 
 /// Those receivers that are found many at a time; returns the bits of the others.
@@ -66,9 +84,7 @@ PacketBits vector_receivers(const Tracer& tracer, const View& view, const TileRe
                             .draft = &draft});
   const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *compact, draft);
   if (left.ill == PacketBits{}) return left.others;
-  TileHits ill;
-  for (std::size_t lane = 0; lane < tile_rays; ++lane)
-    ill.leaf[lane] = (left.ill[lane / packet_rays] & bit_of(lane)) != 0 ? hits.leaf[lane] : nothing_hit;
+  const TileHits ill = those_of(hits, left.ill);
   PacketBits still = store_receivers(bvh, view, rect.x0, rect.y0, axis, ill,
                                      {.points = nullptr, .stride = 0, .compact = compact, .draft = &draft});
   for (std::size_t p = 0; p < tile_packets; ++p)
@@ -111,6 +127,7 @@ void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, cons
     const std::uint32_t leaf = hits.leaf[lane];
     if (leaf == nothing_hit && receivers == nullptr) return;
     const SurfacePoint point = receiver_of(tracer, view, eye, x, y, leaf);
+    if (leaf == unsure_hit) hits.leaf[lane] = leaf_in_list(tracer, eye, x, y, point.primitive);
     if (receivers != nullptr) receivers->at(x, y) = point;
     if (compact != nullptr) compact->put(lane, point, draft);
   });
@@ -121,6 +138,23 @@ SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
   const TilePlace place = tile_place(lane);
   const int x = rect.x0 + place.x, y = rect.y0 + place.y;
   return stored != nullptr ? stored->at(x, y) : receiver_of(tracer, *view, *eye, x, y, hits->leaf[lane]);
+}
+
+void ReceiverSource::fill(const TileRect& rect, const PacketBits& asked, SurfacePoint* points) const {
+  PacketBits left = asked;
+  if (stored == nullptr) {
+    const Bvh& bvh = tracer.structures().bvh;
+    for_each_place(rect, asked, [&](int, int, std::size_t lane) {
+      if (hits->leaf[lane] < bvh.primitives.size()) bvh.prefetch(hits->leaf[lane]);
+    });
+    const PacketBits others =
+        store_receivers(bvh, *view, rect.x0, rect.y0, longest_axis(middle_ray(*view, rect)),
+                        those_of(*hits, asked), {.points = points, .stride = tile_pixels});
+    for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
+  }
+  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
+    points[tile_pixels * (y - rect.y0) + x - rect.x0] = at(rect, lane);
+  });
 }
 
 }  // namespace gnomon::raytrace

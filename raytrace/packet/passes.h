@@ -26,7 +26,8 @@ void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const T
 SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& eye, int x, int y,
                          std::uint32_t leaf);
 
-/// Fills the tile's receivers: in double, compact, or both (nullptr: not asked for); `hits` besides.
+/// Fills the tile's receivers: in double, compact, or both (nullptr: not asked for); `hits` besides, those
+/// that only the double kernels could tell included where they are on triangles.
 void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                   TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact);
 
@@ -38,6 +39,9 @@ struct ReceiverSource {
   const Sight* eye = nullptr;
   const TileHits* hits = nullptr;
   SurfacePoint at(const TileRect& rect, std::size_t lane) const;
+  /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
+  void fill(const TileRect& rect, const std::array<std::uint16_t, tile_packets>& asked,
+            SurfacePoint* points) const;
 };
 
 /// Fills the verdicts of the tile's receivers as Tracer::light_verdict does, `shadowed` where the light

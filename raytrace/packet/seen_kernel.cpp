@@ -2,6 +2,9 @@
 //
 // The bounds, with u = 2^-24 and M the largest coordinate in the pass:
 // - An edge function has 5 roundings of terms that sum to at most |d| (<= 2.35 for |u|, |v| <= 1.5): 12 u.
+//   Along a direction, with |u|, |v| <= 2 R for the world's radius R and no line farther than R from the
+//   middle, near an edge: of the coefficients and of (u, v) 2 * 2.83 R + R, of the inner sum 2 R, of products
+//   where they are not fused 2.83 R, of compact receivers' positions 4 R: below 16 u R.
 // - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
 // error
 //   boxes included: gamma(7) and gamma(24) of raytrace/ray_offset.h, gamma(12) of raytrace/verdict.cpp, times
@@ -133,7 +136,7 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
   const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
   const V doubt = all(0x1p-39 * m * corner);
   Out out;
-  out.edge_error = hn::Add(all(0x1p-19 * radius), hn::Div(doubt, min3(l[0], l[1], l[2])));
+  out.edge_error = hn::Add(all(0x1p-20 * radius), hn::Div(doubt, min3(l[0], l[1], l[2])));
   out.edge[0] = line(b, e0, inverse_or_zero(l[0], sign));
   out.edge[1] = line(c, e1, inverse_or_zero(l[1], sign));
   out.edge[2] = line(a, e2, inverse_or_zero(l[2], sign));
@@ -158,7 +161,7 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
                   pick(own[0].z, own[1].z, own[2].z)};
     const V off = hn::Mul(all(2.0), hn::Add(doubt, size));
     const V error = hn::IfThenElse(hn::Gt(longest, all(0.0)),
-                                   hn::Add(all(0x1p-19 * radius), hn::Div(off, longest)), all(infinity));
+                                   hn::Add(all(0x1p-20 * radius), hn::Div(off, longest)), all(infinity));
     lie_in_plane(thin, n, error, out);
   }
   return out;

@@ -41,7 +41,7 @@ void choose_axis(const Seen& seen, const Vec3& receiver, TileRays& rays) {
 /// Whether floats from the tile's origin are near enough to its receivers.
 bool compact_applies(const Seen& seen, const CompactTile& tile) {
   const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
-  return max_component(largest) < seen.reach && (!seen.directional || tile.extent < 2.0 * seen.lateral);
+  return max_component(largest) < seen.reach && (!seen.directional || tile.extent < seen.lateral);
 }
 
 /// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit.
@@ -60,6 +60,14 @@ constexpr LaneMask every_lane = [] {
 /// Below this many rays a tile's walk through the hierarchy costs more than single rays.
 constexpr int few_rays = 6;
 
+std::uint64_t number_of(const PacketBits& bits) {
+  std::array<std::uint64_t, sizeof(PacketBits) / sizeof(std::uint64_t)> words;
+  std::memcpy(words.data(), bits.data(), sizeof bits);
+  std::uint64_t sum = 0;
+  for (const std::uint64_t word : words) sum += static_cast<std::uint64_t>(std::popcount(word));
+  return sum;
+}
+
 /// One tile on its way from receivers to verdicts.
 class ShadowTile {
  public:
@@ -67,16 +75,16 @@ class ShadowTile {
       : receivers_(receivers), light_(light), sight_(sight), rect_(rect) {}
 
   std::uint64_t run(const CompactTile* compact, Image<Verdict>& verdicts) {
+    for (int y = rect_.y0; y < rect_.y1; ++y) __builtin_prefetch(&verdicts.at(rect_.x0, y), 1);
     prepare(compact, every_lane, false);
     if (compact != nullptr) prefetch(compact + 1);
     trace();
-    std::uint64_t count = 0;
-    PacketBits dark;
+    PacketBits dark, traced;
     for (std::size_t p = 0; p < tile_packets; ++p) {
       dark[p] = shadows_.shadowed[p] | lanes_.unreached[p];
-      count += static_cast<std::uint64_t>(
-          std::popcount(static_cast<unsigned>(rays_.alive[p]) | static_cast<unsigned>(lanes_.apart[p])));
+      traced[p] = rays_.alive[p] | lanes_.apart[p];
     }
+    const std::uint64_t count = number_of(traced);
     store_verdicts(rect_, dark, verdicts);
     decide_rest(verdicts);
     return count;
@@ -171,14 +179,18 @@ class ShadowTile {
   }
 
   void decide_rest(Image<Verdict>& verdicts) {
+    PacketBits asked;
+    for (std::size_t p = 0; p < tile_packets; ++p) asked[p] = shadows_.unsure[p] | lanes_.apart[p];
+    if (asked == PacketBits{}) return;
+    HugeArray<SurfacePoint> points(tile_rays);
+    receivers_.fill(rect_, asked, points.data());
     const bool listed = shadows_.doubt_count <= TileShadows::most_doubts;
-    for_each_place(rect_, shadows_.unsure, [&](int x, int y, std::size_t lane) {
-      const SurfacePoint point = receivers_.at(rect_, lane);
-      const bool in_list = listed && (outside_[lane / packet_rays] & bit_of(lane)) == 0;
+    for_each_place(rect_, asked, [&](int x, int y, std::size_t lane) {
+      const SurfacePoint& point =
+          points[static_cast<std::size_t>(tile_pixels * (y - rect_.y0) + x - rect_.x0)];
+      const std::size_t p = lane / packet_rays;
+      const bool in_list = listed && ((outside_[p] | lanes_.apart[p]) & bit_of(lane)) == 0;
       verdicts.at(x, y) = in_list ? verdict_of_doubts(point, lane) : full_verdict(point);
-    });
-    for_each_place(rect_, lanes_.apart, [&](int x, int y, std::size_t lane) {
-      verdicts.at(x, y) = full_verdict(receivers_.at(rect_, lane));
     });
   }
 

@@ -64,7 +64,7 @@ CellAxis axis_over(const Range& range, int cells) {
 /// Cells per axis. Within a cell primitives are told apart by their boxes, so that some sixteen of them in
 /// one are no loss, while rays of one packet in several cells are.
 int cells_per_axis(const Structures& s) {
-  const double wanted = 0.25 * std::sqrt(static_cast<double>(s.bvh.primitives.size()));
+  const double wanted = 0.2 * std::sqrt(static_cast<double>(s.bvh.primitives.size()));
   return std::clamp(static_cast<int>(wanted), 64, 512);
 }
 

@@ -219,8 +219,12 @@ class Bench {
 
   // Receivers against Embree's hits; how many pixels the floats left to double.
   void check_hits() {
-    our_receivers(sight_of_eye(structures(), view_), true), embree_.closest_packets(primary_, peer_);
+    const Sight eye = sight_of_eye(structures(), view_);
     std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
+    our_hits(eye);
+    for (const raytrace::TileHits& tile : hits_)
+      for (const std::uint32_t leaf : tile.leaf) unsure += leaf == raytrace::unsure_hit ? 1 : 0;
+    our_receivers(eye, true), embree_.closest_packets(primary_, peer_);
     const double doubt = 1e-4 * world_.finite_bounds.diagonal();
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
@@ -230,8 +234,6 @@ class Bench {
         ours += a ? 1 : 0, theirs += b ? 1 : 0;
         const double t = a ? glm::length(point.position - view_.eye) : 0.0;
         differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > doubt) ? 1 : 0;
-        unsure +=
-            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::unsure_hit ? 1 : 0;
       }
     fmt::print(
         "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding); "
