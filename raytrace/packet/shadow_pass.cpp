@@ -44,12 +44,15 @@ bool compact_applies(const Seen& seen, const CompactTile& tile) {
   return max_component(largest) < seen.reach && (!seen.directional || tile.extent < seen.lateral);
 }
 
-/// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit.
-void store_lit(unsigned lit, Verdict* out) {
+/// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit that is not set.
+constexpr auto four_verdicts = [] {
   static_assert(static_cast<int>(Verdict::shadowed) == 0 && static_cast<int>(Verdict::lit) == 1);
-  const std::uint32_t bytes = (lit * 0x204081u) & 0x01010101u;
-  std::memcpy(out, &bytes, sizeof bytes);
-}
+  std::array<std::array<Verdict, 4>, 16> table{};
+  for (std::size_t dark = 0; dark < 16; ++dark)
+    for (std::size_t i = 0; i < 4; ++i)
+      table[dark][i] = (dark >> i & 1) != 0 ? Verdict::shadowed : Verdict::lit;
+  return table;
+}();
 
 constexpr LaneMask every_lane = [] {
   LaneMask all{};
@@ -220,13 +223,13 @@ class ShadowTile {
 
 void store_verdicts(const TileRect& rect, const PacketBits& dark, Image<Verdict>& verdicts) {
   if (is_whole(rect)) {
-    for (int y = 0; y < tile_pixels; ++y)
-      for (int x = 0; x < tile_pixels; x += 4) {
-        const std::size_t lane = tile_lane(x, y);
-        const unsigned lit =
-            ~(static_cast<unsigned>(dark[lane / packet_rays]) >> (lane % packet_rays)) & 0xfu;
-        store_lit(lit, &verdicts.at(rect.x0 + x, rect.y0 + y));
-      }
+    const auto stride = static_cast<std::size_t>(verdicts.size.width);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      const TilePlace place = tile_place(p * packet_rays);
+      Verdict* out = &verdicts.at(rect.x0 + place.x, rect.y0 + place.y);
+      for (std::size_t row = 0; row < 4; ++row)
+        std::memcpy(out + row * stride, four_verdicts[dark[p] >> (4 * row) & 15].data(), 4);
+    }
     return;
   }
   for_each_place(rect, [&](int x, int y, std::size_t lane) {
