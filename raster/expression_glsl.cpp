@@ -9,13 +9,17 @@
 namespace gnomon::raster {
 namespace {
 
-/// Two arithmetics of shaders/bounds.glsl that differ in their prefix and in how they write sums.
+/// The arithmetics differ in their prefix and in how they write sums. In the order of FunctionForm.
 struct Arithmetic {
+  const char* name;
   const char* type;
   const char* prefix;
   bool has_operators;
+  bool is_double = false;
 };
-constexpr Arithmetic slopes{"Slope", "s_", false}, gradients{"vec4", "g_", true};
+constexpr Arithmetic arithmetics[] = {{"function_slope", "Slope", "s_", false},
+                                      {"function_gradient", "vec4", "g_", true},
+                                      {"function_gradient64", "dvec4", "d_", true, true}};
 
 std::string number(double value) {
   const double largest = std::numeric_limits<float>::max();
@@ -23,6 +27,7 @@ std::string number(double value) {
 }
 
 std::string constant(const Arithmetic& a, double value) {
+  if (a.is_double) return fmt::format("d_constant({:.17e}LF)", value);
   if (a.has_operators) return fmt::format("g_constant({})", number(value));
   const auto rounded = static_cast<float>(value);
   const bool exact = static_cast<double>(rounded) == value;
@@ -83,14 +88,15 @@ std::string step_text(const Arithmetic& arithmetic, const ExpressionStep& s) {
   return "";
 }
 
-std::string function_text(const Arithmetic& a, const char* name, std::size_t index, const Expression& e) {
-  std::string out = fmt::format("{0} {1}{2}({0} x, {0} y, {0} z) {{ ", a.type, name, index);
+std::string function_text(const Arithmetic& a, std::size_t index, const Expression& e) {
+  std::string out = fmt::format("{0} {1}{2}({0} x, {0} y, {0} z) {{ ", a.type, a.name, index);
   for (std::size_t i = 0; i < e.steps.size(); ++i)
     out += fmt::format("{} e{} = {}; ", a.type, i, step_text(a, e.steps[i]));
   return out + fmt::format("return e{}; }} ", e.steps.size() - 1);
 }
 
-std::string choice_text(const Arithmetic& a, const char* name, std::size_t first, std::size_t count) {
+std::string choice_text(const Arithmetic& a, std::size_t first, std::size_t count) {
+  const char* name = a.name;
   std::string out = fmt::format("{0} {1}(uint function, {0} x, {0} y, {0} z) {{ ", a.type, name);
   for (std::size_t i = first + 1; i < first + count; ++i)
     out += fmt::format("if (function == {}u) return {}{}(x, y, z); ", i, name, i);
@@ -114,14 +120,13 @@ FunctionTable function_table(const World& world) {
 }
 
 std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count,
-                           bool with_slopes) {
+                           std::span<const FunctionForm> forms) {
   std::string out;
-  for (const auto& [arithmetic, name] :
-       {std::pair(slopes, "function_slope"), std::pair(gradients, "function_gradient")}) {
-    if (!with_slopes && arithmetic.type == slopes.type) continue;
+  for (const FunctionForm form : forms) {
+    const Arithmetic& arithmetic = arithmetics[static_cast<std::size_t>(form)];
     for (std::size_t i = first; i < first + count; ++i)
-      out += function_text(arithmetic, name, i, *table.functions[i]);
-    out += choice_text(arithmetic, name, first, count);
+      out += function_text(arithmetic, i, *table.functions[i]);
+    out += choice_text(arithmetic, first, count);
   }
   return out;
 }

@@ -17,9 +17,13 @@ struct FunctionTable {
 };
 FunctionTable function_table(const World& world);
 
-/// `Slope function_slope(uint, Slope, Slope, Slope)` and `vec4 function_gradient(uint, vec4, vec4, vec4)` on
-/// one line, for the functions from `first` on, `count` of them. Without `slopes` the second alone, which is
-/// what shading needs.
-std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count, bool slopes);
+/// What is asked of a function: `Slope function_slope(uint, Slope, Slope, Slope)` (shaders/bounds.glsl),
+/// `vec4 function_gradient(uint, vec4, vec4, vec4)`, or that in double precision, `dvec4
+/// function_gradient64(uint, dvec4, dvec4, dvec4)` (shaders/izb/functions.glsl).
+enum class FunctionForm : std::uint8_t { slope, gradient, gradient64 };
+
+/// The forms asked for, on one line, for the functions from `first` on, `count` of them.
+std::string functions_glsl(const FunctionTable& table, std::size_t first, std::size_t count,
+                           std::span<const FunctionForm> forms);
 
 }  // namespace gnomon::raster

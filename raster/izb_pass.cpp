@@ -17,18 +17,47 @@ struct IzbBlock {
   glm::ivec4 size;
 };
 
+/// The twin of DoubleShape there.
 struct DoubleShape {
-  Vec4 center_and_radius, normal;
+  Vec4 center_and_radius, normal, tangent, bitangent, coefficients, box_min, box_max;
 };
 
 constexpr std::size_t point_bytes = 3 * sizeof(double), error_bytes = 3 * sizeof(float), link_bytes = 8,
                       shadow_bytes = 4;
 
+DoubleShape double_solid(const ShapeGeometry& solid) {
+  const ShapeFrame& frame = frame_of(solid);
+  const Aabb box = local_box(solid);
+  DoubleShape out{};
+  out.center_and_radius = Vec4(frame.origin, 0.0);
+  out.tangent = Vec4(frame.axes[0], 0.0);
+  out.bitangent = Vec4(frame.axes[1], 0.0);
+  out.normal = Vec4(frame.axes[2], 0.0);
+  double constant = 0.0;
+  bool uncut = false;
+  if (const auto* quadric = std::get_if<Quadric>(&solid)) {
+    uncut = quadric->kind == QuadricKind::ellipsoid;
+    constant = quadric->one;
+    out.coefficients = Vec4(quadric->xx, quadric->yy, quadric->zz, quadric->z);
+  } else if (const auto* torus = std::get_if<Torus>(&solid)) {
+    out.coefficients = Vec4(torus->major, torus->minor, 0.0, 0.0);
+  }
+  out.box_min = Vec4(box.min, constant);
+  out.box_max = Vec4(box.max, uncut ? 2.0 : is_closed(solid) ? 1.0 : 0.0);
+  return out;
+}
+
 DoubleShape double_shape(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-    return {Vec4(sphere->center, sphere->radius), Vec4(0.0)};
+  if (is_solid(shape.geometry)) return double_solid(shape.geometry);
+  DoubleShape out{};
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    out.center_and_radius = Vec4(sphere->center, sphere->radius);
+    return out;
+  }
   const auto& plane = std::get<Plane>(shape.geometry);
-  return {Vec4(plane.point, 0.0), Vec4(plane.normal, 0.0)};
+  out.center_and_radius = Vec4(plane.point, 0.0);
+  out.normal = Vec4(plane.normal, 0.0);
+  return out;
 }
 
 }  // namespace
@@ -50,16 +79,7 @@ Expected<void> IzbPass::upload_world(const World& world) {
   if (world_ == &world) return {};
   vertices_.write(std::span<const Vec3>(world.positions));
   std::vector<DoubleShape> shapes;
-  for (const Shape& shape : world.shapes) {
-    if (is_solid(shape.geometry))
-      return fail(
-          ErrorKind::usage,
-          fmt::format(
-              "technique izb tests triangles, spheres and planes exactly (got shape '{}'); hybrid and "
-              "raytrace are exact for every shape",
-              shape.name));
-    shapes.push_back(double_shape(shape));
-  }
+  for (const Shape& shape : world.shapes) shapes.push_back(double_shape(shape));
   shapes_.write(std::span<const DoubleShape>(shapes));
   if (auto ok = gl_->check("uploading the scene in double precision"); !ok) return ok;
   world_ = &world;
@@ -124,20 +144,52 @@ void IzbPass::write_block(const MapJob& job) {
   block_.write_one(block);
 }
 
-Expected<const Program*> IzbPass::program(Stage stage, LightType light) {
-  const auto key = std::pair(stage, light);
+IzbPass::Stage IzbPass::stage_of(const Shape& shape) {
+  switch (impostor_kind(shape)) {
+    case ImpostorKind::quadric:
+      return Stage::quadrics;
+    case ImpostorKind::torus:
+      return Stage::tori;
+    case ImpostorKind::implicit:
+      return Stage::implicits;
+    case ImpostorKind::sphere:
+    case ImpostorKind::plane:
+      break;
+  }
+  return Stage::spheres;
+}
+
+Expected<const Program*> IzbPass::program(Stage stage, LightType light, std::uint32_t function) {
+  const auto key = std::tuple(stage, light, function);
   if (const auto found = programs_.find(key); found != programs_.end()) return &found->second;
+  const SceneFeatures& features = cache_->features();
+  const bool insert = stage == Stage::insert;
+  const std::size_t functions = features.functions.functions.size();
+  // A receiver may be any solid, a blocker is of one kind; only the latter is searched for along rays.
+  const std::string text =
+      insert ? functions_define(features.functions, 0, functions, {FunctionForm::gradient64})
+             : functions_define(features.functions, function, stage == Stage::implicits ? 1 : 0,
+                                {FunctionForm::slope, FunctionForm::gradient64});
   std::vector<std::string_view> defines;
-  defines.emplace_back(light == LightType::directional ? "DIRECTIONAL" : "PERSPECTIVE");
-  if (light == LightType::point) defines.emplace_back("CUBE");
-  if (stage == Stage::spheres) defines.emplace_back("SPHERE");
-  if (cache_->features().alpha_mask) defines.emplace_back("ALPHA_MASK");
-  if (cache_->features().alpha_mask && cache_->features().textures) defines.emplace_back("TEXTURES");
-  const std::string_view vertex = stage == Stage::insert      ? "fullscreen.vert"
+  const auto add = [&](bool wanted, std::string_view name) {
+    if (wanted) defines.push_back(name);
+  };
+  add(light == LightType::directional, "DIRECTIONAL");
+  add(light != LightType::directional, "PERSPECTIVE");
+  add(light == LightType::point, "CUBE");
+  add(stage == Stage::spheres, "SPHERE");
+  add(insert && features.solids(), "SOLIDS");
+  add(stage >= Stage::quadrics, "SOLID");
+  add(stage == Stage::quadrics || (insert && features.quadrics), "QUADRIC");
+  add(stage == Stage::tori || (insert && features.tori), "TORUS");
+  add(!text.empty(), "IMPLICIT");
+  add(!text.empty(), text);
+  add(features.alpha_mask, "ALPHA_MASK");
+  add(features.alpha_mask && features.textures, "TEXTURES");
+  const std::string_view vertex = insert                      ? "fullscreen.vert"
                                   : stage == Stage::triangles ? "izb/triangle.vert"
                                                               : "impostor.vert";
-  auto made =
-      Program::link(*gl_, vertex, stage == Stage::insert ? "izb/insert.frag" : "izb/block.frag", defines);
+  auto made = Program::link(*gl_, vertex, insert ? "izb/insert.frag" : "izb/block.frag", defines);
   if (!made) return fail(made.error());
   return &programs_.emplace(key, std::move(*made)).first->second;
 }
@@ -201,21 +253,30 @@ Expected<void> IzbPass::block(const MapJob& job) {
     (*triangles)->use();
     gl->ProgramUniform1i((*triangles)->id(), shaders::face_uniform, face);
     gl->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * world.triangle_count()));
-    const Projection projection = face_projection(job.view, face);
-    for (std::size_t i = 0; i < world.shapes.size(); ++i) {
-      if (!std::holds_alternative<Sphere>(world.shapes[i].geometry)) continue;  // planes: with the receivers
-      const auto bounds = shape_bounds(projection, world.shapes[i]);
-      if (!bounds) continue;
-      const auto spheres = program(Stage::spheres, job.light.type);
-      if (!spheres) return fail(spheres.error());
-      (*spheres)->use();
-      const Vec4f rectangle(Vec4(bounds->min - projection.pixel, bounds->max + projection.pixel));
-      gl->ProgramUniform4f((*spheres)->id(), shaders::rectangle_uniform, rectangle.x, rectangle.y,
-                           rectangle.z, rectangle.w);
-      gl->ProgramUniform1i((*spheres)->id(), shaders::shape_uniform, static_cast<int>(i));
-      gl->ProgramUniform1i((*spheres)->id(), shaders::face_uniform, face);
-      gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    }
+    if (auto ok = block_shapes(job, face); !ok) return ok;
+  }
+  return {};
+}
+
+// Planes are tested with the receivers, which need no list for them.
+Expected<void> IzbPass::block_shapes(const MapJob& job, int face) {
+  const Gl& gl = *gl_;
+  const World& world = job.world.world();
+  const Projection projection = face_projection(job.view, face);
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const Shape& shape = world.shapes[i];
+    if (std::holds_alternative<Plane>(shape.geometry)) continue;
+    const auto bounds = shape_bounds(projection, shape);
+    if (!bounds) continue;
+    const auto found = program(stage_of(shape), job.light.type, cache_->features().functions.of_shape[i]);
+    if (!found) return fail(found.error());
+    (*found)->use();
+    const GLuint id = (*found)->id();
+    const Vec4f rectangle(Vec4(bounds->min - projection.pixel, bounds->max + projection.pixel));
+    gl->ProgramUniform4f(id, shaders::rectangle_uniform, rectangle.x, rectangle.y, rectangle.z, rectangle.w);
+    gl->ProgramUniform1i(id, shaders::shape_uniform, static_cast<int>(i));
+    gl->ProgramUniform1i(id, shaders::face_uniform, face);
+    gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   return {};
 }

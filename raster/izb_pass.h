@@ -1,8 +1,10 @@
 // The irregular z-buffer (shaders/izb/izb.glsl): lists of the pixels in each texel of a grid over the light's
-// view, then every triangle and sphere against the pixels of the texels that it touches. Private to raster.
+// view, then every triangle, sphere and solid against the pixels of the texels that it touches. Private to
+// raster.
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "raster/technique_pass.h"
 
@@ -19,18 +21,21 @@ class IzbPass final : public TechniquePass {
   std::uint64_t bytes() const override;
 
  private:
-  enum class Stage : std::uint8_t { insert, triangles, spheres };
-  Expected<const Program*> program(Stage stage, LightType light);
+  enum class Stage : std::uint8_t { insert, triangles, spheres, quadrics, tori, implicits };
+  static Stage stage_of(const Shape& shape);
+  /// `function`: which one, of implicit surfaces.
+  Expected<const Program*> program(Stage stage, LightType light, std::uint32_t function = 0);
   Expected<void> upload_world(const World& world);
   Expected<void> reserve_pixels(ImageSize size);
   void write_block(const MapJob& job);
   void bind_all() const;
   Expected<void> insert(const MapJob& job);
   Expected<void> block(const MapJob& job);
+  Expected<void> block_shapes(const MapJob& job, int face);
 
   Gl* gl_;
   ProgramCache* cache_;
-  std::map<std::pair<Stage, LightType>, Program> programs_;
+  std::map<std::tuple<Stage, LightType, std::uint32_t>, Program> programs_;
   const World* world_ = nullptr;
   ImageSize size_{0, 0};
   Buffer block_, vertices_, shapes_, points_, normals_, errors_, links_, shadows_;

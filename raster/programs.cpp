@@ -22,11 +22,6 @@ class Defines {
   std::vector<std::string_view> names_;
 };
 
-/// The define that holds the text of a range of implicit functions; empty for none.
-std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count, bool slopes) {
-  return count == 0 ? std::string() : "IMPLICIT_FUNCTIONS " + functions_glsl(table, first, count, slopes);
-}
-
 template <class Typed>
 Expected<Typed> typed(Expected<Program> program) {
   if (!program) return fail(program.error());
@@ -36,6 +31,12 @@ Expected<Typed> typed(Expected<Program> program) {
 }
 
 }  // namespace
+
+std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count,
+                             std::initializer_list<FunctionForm> forms) {
+  if (count == 0) return {};
+  return "IMPLICIT_FUNCTIONS " + functions_glsl(table, first, count, std::span(forms.begin(), forms.size()));
+}
 
 SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
   SceneFeatures features;
@@ -93,7 +94,8 @@ ImpostorKind impostor_kind(const Shape& shape) {
 Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation& p,
                                                 const FunctionTable& functions) {
   const bool implicit = p.kind == ImpostorKind::implicit;
-  const std::string text = functions_define(functions, p.function, implicit ? 1 : 0, true);
+  const std::string text = functions_define(functions, p.function, implicit ? 1 : 0,
+                                            {FunctionForm::slope, FunctionForm::gradient});
   const auto defines = Defines()
                            .add(p.kind == ImpostorKind::sphere, "SPHERE")
                            .add(p.kind >= ImpostorKind::quadric, "SOLID")
@@ -136,7 +138,7 @@ void ImpostorProgram::set_face(int face, Cull cull) const {
 Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, const SceneFeatures& features) {
   const bool lit = !p.no_light;
   const std::size_t functions = features.functions.functions.size();
-  const std::string text = functions_define(features.functions, 0, functions, false);
+  const std::string text = functions_define(features.functions, 0, functions, {FunctionForm::gradient});
   const std::string technique = "TECHNIQUE " + p.technique.name;
   auto defines = Defines()
                      .add(lit, technique)

@@ -17,6 +17,10 @@
 
 namespace gnomon::raster {
 
+/// The define that holds the text of a range of implicit functions; empty for none.
+std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count,
+                             std::initializer_list<FunctionForm> forms);
+
 /// The effects that change shader text.
 struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;

@@ -154,8 +154,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   }
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
-  visibility_.bind(shaders::visibility_unit);
-  if (solid_distance_) solid_distance_.bind(shaders::solid_distance_unit);
+  bind_visibility();
   const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
@@ -176,6 +175,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
 
 void ShadingPass::bind_visibility() const {
   visibility_.bind(shaders::visibility_unit);
+  if (solid_distance_) solid_distance_.bind(shaders::solid_distance_unit);
 }
 
 void ShadingPass::read_color(ColorImage& out) const {

@@ -64,26 +64,7 @@ bool quadric_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
 #endif
 
 #ifdef MARCHED
-Slope solid_slope(ShapeData s, vec3 o, vec3 d, vec2 range) {
-  unsure = false;
-  nothing = false;
-  Slope x = Slope(i_add(vec2(o.x), i_mul(range, vec2(d.x))), vec2(d.x));
-  Slope y = Slope(i_add(vec2(o.y), i_mul(range, vec2(d.y))), vec2(d.y));
-  Slope z = Slope(i_add(vec2(o.z), i_mul(range, vec2(d.z))), vec2(d.z));
-#ifdef TORUS
-  if (s.kind == uint(shape_torus)) {
-    Slope around = s_sqrt(s_add(s_power(x, 2), s_power(y, 2)));
-    Slope off = s_sub(around, s_constant(s.coefficients.x, s.coefficients.x));
-    vec2 rr = outward(vec2(s.coefficients.y * s.coefficients.y));
-    return s_sub(s_add(s_power(off, 2), s_power(z, 2)), s_constant(rr.x, rr.y));
-  }
-#endif
-#ifdef IMPLICIT
-  return function_slope(s.function, x, y, z);
-#else
-  return x;
-#endif
-}
+#include "solid_slope.glsl"
 
 // Where f changes its sign between two places, if it does: false position with halved weights (Dowell and Jarratt 1971,
 // "Illinois"). The first two rounds look at the ends.
@@ -118,13 +99,15 @@ bool solve_between(ShapeData s, vec3 o, vec3 d, vec2 at, out float middle) {
   return true;
 }
 
-// Where the ray is in the solid's box.
+// Where the ray is in the solid's box. A torus touches its own, and is looked for in a larger one: what begins on the
+// surface would miss it.
 vec2 box_range(ShapeData s, vec3 origin, vec3 d) {
-  vec3 low = (s.box_min.xyz - origin) / d, high = (s.box_max.xyz - origin) / d;
+  float margin = s.kind == uint(shape_torus) ? 1e-3 * s.box_max.z : 0.0;
+  vec3 low = (s.box_min.xyz - margin - origin) / d, high = (s.box_max.xyz + margin - origin) / d;
   vec3 first = min(low, high), last = max(low, high);
   for (int a = 0; a < 3; ++a) {
     if (d[a] != 0.0) continue;
-    bool within = origin[a] >= s.box_min[a] && origin[a] <= s.box_max[a];
+    bool within = origin[a] >= s.box_min[a] - margin && origin[a] <= s.box_max[a] + margin;
     first[a] = within ? -infinite_t : infinite_t;
     last[a] = -first[a];
   }
@@ -161,7 +144,7 @@ bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
     float to = min(at + step, end);
     if (!(to > at)) break;
     float middle = 0.5 * (at + to);
-    Slope f = solid_slope(s, o, d, probing ? vec2(middle) : vec2(at, to));
+    Slope f = solid_slope(s, o, d, probing ? vec2(middle) : vec2(at, to), 0.0);
     if (probing) {
       probing = false;
       bool rounding = !(f.v.x > 0.0 || f.v.y < 0.0) && bounds.y - bounds.x <= 4.0 * (f.v.y - f.v.x);

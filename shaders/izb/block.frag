@@ -1,4 +1,5 @@
-// Second pass of the irregular z-buffer: one triangle (or sphere, permutation SPHERE) against the pixels of one texel.
+// Second pass of the irregular z-buffer: one triangle (or sphere or solid, permutations SPHERE, SOLID) against the pixels of
+// one texel.
 #include "shared_constants.h"
 
 layout(location = face_uniform) uniform int face;
@@ -34,6 +35,39 @@ bool blocks(Receiver64 r, ShadowRay ray) {
   bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(ray, t_near);
   if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(ray, t_far))) return false;
   return !is_below(r, center, radius) && !is_beyond(ray, center, radius);
+}
+#elif defined(SOLID)
+#include "izb/solid_blocks.glsl"
+layout(location = shape_uniform) uniform int shape_index;
+
+// Where the ray first meets it (verdict.cpp, solid_here).
+bool solid_is_hole(ShadowRay ray, double t) {
+#ifdef ALPHA_MASK
+  vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
+  return masked_hole(shapes[shape_index].material, shape_uv(shapes[shape_index], p));
+#else
+  return false;
+#endif
+}
+
+// The reach of the solid's box from its centre along a world direction.
+double reach_along(DoubleShape s, dvec3 direction) {
+  return dot(abs(to_solid64(s, direction)), 0.5LF * (s.box_max.xyz - s.box_min.xyz));
+}
+
+bool blocks(Receiver64 r, ShadowRay ray) {
+  ShapeData shape = shapes[shape_index];
+  DoubleShape s = double_shapes[shape_index];
+  int own = 0;
+  if (r.primitive == shape.primitive) {
+    dvec3 local = to_solid64(s, r.position - s.center_and_radius.xyz);
+    own = dot(solid_normal64(shape, s, local), r.normal) > 0.0LF ? 1 : -1;
+  }
+  double t;
+  dvec3 origin = to_solid64(s, ray.origin - s.center_and_radius.xyz);
+  if (!solid_crossed(shape, s, origin, to_solid64(s, ray.direction), ray.end, own, t) || solid_is_hole(ray, t)) return false;
+  dvec3 center = s.center_and_radius.xyz + from_solid64(s, 0.5LF * (s.box_min.xyz + s.box_max.xyz));
+  return !is_below(r, center, reach_along(s, r.normal)) && !is_beyond(ray, center, reach_along(s, ray.direction));
 }
 #else
 flat in uint primitive;

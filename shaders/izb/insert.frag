@@ -10,15 +10,20 @@ struct TriangleData {
   uint material;
 };
 layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+#ifdef SOLIDS
+#define NO_SLOPES
+#include "izb/solid.glsl"
+layout(binding = solid_distance_unit) uniform sampler2D solid_distance;
+#endif
 layout(location = triangle_count_uniform) uniform uint triangle_count;
 
 const uint no_id = 0xffffffffu;
 
-dvec3 pixel_ray(dvec2 window) {
+// Not normalised: its part along the view direction is 1.
+dvec3 pixel_direction64(dvec2 window) {
   double x = (2.0LF * window.x / double(izb.size.x) - 1.0LF) * izb.right_and_tan_x.w;
   double y = (1.0LF - 2.0LF * window.y / double(izb.size.y)) * izb.up_and_tan_y.w;
-  dvec3 d = izb.forward.xyz + x * izb.right_and_tan_x.xyz + y * izb.up_and_tan_y.xyz;
-  return d / sqrt(dot(d, d));
+  return izb.forward.xyz + x * izb.right_and_tan_x.xyz + y * izb.up_and_tan_y.xyz;
 }
 
 Receiver64 triangle_receiver(uint id, dvec3 direction) {
@@ -65,6 +70,47 @@ Receiver64 plane_receiver(uint index, dvec3 direction) {
   r.normal = n;
   return r;
 }
+
+#ifdef SOLIDS
+// The impostor's crossing, followed along the ray to double precision, then put onto the surface (raytrace/solid.cpp,
+// solid_point).
+Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
+  ShapeData shape = shapes[index];
+  DoubleShape s = double_shapes[index];
+  dvec3 o = to_solid64(s, izb.eye.xyz - s.center_and_radius.xyz), d = to_solid64(s, direction);
+  double diagonal = box_diagonal64(s), cap, steepness = 0.0LF;
+  int axis = -1;
+  dvec3 p = o + t * d;
+  dvec4 f = dvec4(0.0LF);
+  for (int step = 0; step < 7; ++step) {  // four along the ray, two along the gradient, and what is left
+    f = solid_gradient64(shape, s, p);
+    steepness = sqrt(dot(f.xyz, f.xyz));
+    if (step == 0) axis = nearest_cap(shape, s, p, f, cap);
+    if (axis >= 0) {
+      t = (cap - o[axis]) / d[axis];
+      p = o + t * d;
+      p[axis] = cap;
+      break;
+    }
+    double along = f.w / dot(f.xyz, d);
+    dvec3 move = f.w / dot(f.xyz, f.xyz) * f.xyz;
+    if (step < 4) {
+      if (abs(along) < 1e-4LF * diagonal) t -= along;
+      p = o + t * d;
+    } else if (step < 6 && dot(move, move) < 1e-6LF * diagonal * diagonal) {
+      p -= move;
+    }
+  }
+  double off = axis >= 0 ? 0.0LF : min(2.0LF * abs(f.w) / steepness, 1e-6LF * diagonal);
+  if (isnan(off)) off = 1e-6LF * diagonal;
+  Receiver64 r;
+  r.position = s.center_and_radius.xyz + from_solid64(s, p);
+  double size = max_component(abs(p)) + diagonal;
+  r.error = error_gamma(8) * (abs(r.position) + abs(s.center_and_radius.xyz)) + dvec3(error_gamma(64) * size + off);
+  r.normal = solid_normal64(shape, s, p);
+  return r;
+}
+#endif
 
 bool faces_away(Receiver64 r) {
 #ifdef DIRECTIONAL
@@ -116,10 +162,18 @@ void main() {
   uint primitive = texelFetch(visible_primitive, ivec2(gl_FragCoord.xy), 0).r;
   shadows[pixel] = 0u;
   if (primitive == no_id) return;
-  dvec3 direction = pixel_ray(floor(dvec2(gl_FragCoord.xy)) + 0.5LF);
+  dvec3 direction = pixel_direction64(floor(dvec2(gl_FragCoord.xy)) + 0.5LF);
+  double length = sqrt(dot(direction, direction));
+  direction /= length;
   Receiver64 r;
   if (primitive < triangle_count) r = triangle_receiver(primitive, direction);
   else if (shapes[primitive - triangle_count].kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
+#ifdef SOLIDS
+  else if (shapes[primitive - triangle_count].kind >= uint(shape_quadric)) {
+    double t = double(texelFetch(solid_distance, ivec2(gl_FragCoord.xy), 0).r) * length;
+    r = solid_receiver(primitive - triangle_count, direction, t);
+  }
+#endif
   else r = sphere_receiver(primitive - triangle_count, direction);
   if (dot(r.normal, direction) > 0.0LF) r.normal = -r.normal;
   r.primitive = primitive;

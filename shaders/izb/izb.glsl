@@ -19,9 +19,14 @@ layout(std140, binding = izb_block) uniform Izb {
 } izb;
 
 layout(std430, binding = izb_vertices_buffer) readonly buffer IzbVertices { double vertices[]; };
-struct DoubleShape {
-  dvec4 center_and_radius;  // of a sphere; of a plane: a point
-  dvec4 normal;             // of a plane
+struct DoubleShape {         // as ShapeData (world.glsl), in the world
+  dvec4 center_and_radius;  // of a sphere; of a plane: a point; of a solid: its origin
+  dvec4 normal;             // of a plane; or a solid's local z axis
+  dvec4 tangent;            // of a solid: its local x and y axes
+  dvec4 bitangent;
+  dvec4 coefficients;       // quadric: of x^2, y^2, z^2, z; torus: both radii
+  dvec4 box_min;            // of a solid, local; w: a quadric's constant
+  dvec4 box_max;            // w: solid_open, solid_closed, solid_uncut
 };
 layout(std430, binding = izb_shapes_buffer) readonly buffer IzbShapes { DoubleShape double_shapes[]; };
 layout(std430, binding = izb_points_buffer) buffer IzbPoints { double points[]; };    // position of each pixel's receiver
