@@ -131,6 +131,8 @@ struct RasterOptions {
   int runs = 3;  ///< timed repetitions of each pass after one warm-up; 0: render once, untimed
   bool analysis =
       true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
+  /// analysis: hand on the map's depths and primitive ids too (izb and hybrid always do).
+  bool map_contents = true;
   int shadow_samples = 0;  ///< Technique::hybrid, lights with size: rays per point; 0: as the light says
   std::uint64_t seed = 0;  ///< of those samples
   bool operator==(const RasterOptions&) const = default;

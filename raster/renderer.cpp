@@ -21,6 +21,13 @@
 namespace gnomon::raster {
 namespace {
 
+// izb and hybrid draw a depth map for the records alone.
+bool hands_on_map(const RasterOptions& options) {
+  const bool for_records =
+      options.map.technique == Technique::izb || options.map.technique == Technique::hybrid;
+  return options.analysis && (options.map_contents || for_records);
+}
+
 class GlRenderer final : public Renderer {
  public:
   GlRenderer(std::unique_ptr<Context> context, std::unique_ptr<Gl> gl, const World& world,
@@ -204,7 +211,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   }
   const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
   const VisibilityRequest request{index, *view, job.view, job.options.shadow_samples, job.options.seed};
-  const bool with_ids = record != nullptr && job.options.analysis;
+  const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (map.technique == Technique::hybrid) {
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
     if (!with_ids) return shade(job, map_job, request, record);
@@ -277,7 +284,7 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     });
     if (!ok) return ok;
   }
-  const bool with_ids = record != nullptr && job.options.analysis;
+  const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (auto ok = draw_map(map, with_ids); !ok) return ok;
   if (with_ids) map_pass_.read(record->map, true);
   if (with_ids && technique_pass_ != nullptr) technique_pass_->read(record->map);

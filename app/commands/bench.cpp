@@ -9,10 +9,12 @@
 
 #include "app/bench/row.h"
 #include "app/bench/techniques.h"
+#include "app/bench/tune.h"
 #include "app/bench/whole.h"
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/values.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -25,6 +27,7 @@ struct BenchCommand {
   std::vector<raytrace::Accel> accels = all_accels();
   bool precision = false;
   TechniqueBench techniques;
+  TuneBench tune;
   std::uint64_t rays = 1'000'000, seed = 1;
   std::optional<int> runs;
   int threads = 0;
@@ -45,12 +48,26 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
   return ExitCode::done;
 }
 
+Expected<ExitCode> run_tune(const BenchCommand& command) {
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  TuneBench bench = command.tune;
+  bench.size = command.size;
+  bench.runs = command.runs.value_or(bench.runs);
+  bench.json = command.json;
+  bench.quiet = command.quiet;
+  const auto done = run_tune_bench(bench, console);
+  if (!done) return fail(done.error());
+  return ExitCode::done;
+}
+
 Expected<ExitCode> run_bench(const BenchCommand& command) {
   constexpr int usual_runs = 3;
   if (!command.idle.empty())
     return fail(ErrorKind::usage,
                 fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
   if (!command.techniques.scenes.empty()) return run_techniques(command);
+  if (!command.tune.scenes.empty()) return run_tune(command);
   if (command.scene.empty() && command.precision) return fail(ErrorKind::usage, "--precision: needs a SCENE");
   if (command.scene.empty())
     return run_whole_bench(
@@ -107,6 +124,29 @@ void add_technique_options(CLI::App& app, TechniqueBench& bench) {
              "the table of --techniques as Markdown [default none]");
 }
 
+void add_tune_options(CLI::App& app, TuneBench& bench) {
+  app.add_option("--tune", bench.scenes,
+                 "what tune answers against the best of a full grid of techniques, biases and map sizes "
+                 "[scenes with commas between; default off]")
+      ->delimiter(',')
+      ->type_name("SCENE[,SCENE]");
+  app.add_option("--technique", bench.techniques,
+                 "of --tune: the grid's techniques [names with commas between; default all]")
+      ->delimiter(',')
+      ->check(CLI::IsMember(technique_names()))
+      ->type_name("NAME[,NAME]");
+  app.add_option_function<std::string>(
+         "--max-error",
+         [&bench](const std::string& text) {
+           const auto share = parse_share(text);
+           if (!share) throw CLI::ValidationError("--max-error", share.error().reason);
+           bench.max_error = *share;
+         },
+         "of --tune: the largest share of wrong pixels that is good enough [0% to 100%, or 0 to 1; default "
+         "1%]")
+      ->type_name("SHARE");
+}
+
 }  // namespace
 
 void add_bench(CLI::App& program, Invocation& invocation) {
@@ -119,6 +159,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "gnomon bench                           every figure, against Embree 3 (built with the tests)\n"
       "gnomon bench --precision bunny.ply     speed and wrong verdicts of fast, robust and exact\n"
       "gnomon bench --techniques fence,teapot -o table.md   every shadow technique on the same pixels\n"
+      "gnomon bench --tune fence,teapot       the tuner's answers against full grids\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
       "gnomon bench field --accel bvh,grid    where it is at its best");
   const auto command = std::make_shared<BenchCommand>();
@@ -130,6 +171,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "fast, robust and exact side by side: rays per second, and wrong verdicts on adversarial rays "
       "[default off]");
   add_technique_options(*app, command->techniques);
+  add_tune_options(*app, command->tune);
   add_ray_count(*app, command->rays);
   add_seed(*app, command->seed, "of the adversarial rays");
   add_size(*app, command->size);
@@ -143,9 +185,12 @@ void add_bench(CLI::App& program, Invocation& invocation) {
         if (meaningless && app->count(option) > 0) command->idle = option;
     };
     const bool techniques = !command->techniques.scenes.empty();
-    reject(techniques, {"SCENE", "--accel", "--precision"});
+    const bool tune = !command->tune.scenes.empty();
+    reject(techniques || tune, {"SCENE", "--accel", "--precision"});
+    reject(techniques, {"--tune"});
+    reject(!tune, {"--max-error", "--technique"});
     reject(!techniques, {"--map-size", "--output"});
-    reject(command->scene.empty() && !techniques, {"--accel", "--threads", "--quiet"});
+    reject(command->scene.empty() && !techniques && !tune, {"--accel", "--threads", "--quiet"});
     reject(command->precision, {"--accel"});
     reject(!command->precision, {"--rays", "--seed"});
     command->size_given = app->count("--size") > 0;

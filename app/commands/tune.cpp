@@ -16,6 +16,7 @@
 #include "app/session.h"
 #include "app/shell.h"
 #include "app/sweep/axes.h"
+#include "app/tune_families.h"
 #include "app/values.h"
 #include "compare/number_text.h"
 #include "compare/outputs.h"
@@ -27,7 +28,7 @@ namespace gnomon::app {
 
 namespace {
 
-using Values = std::vector<std::pair<std::string, std::string>>;
+using Values = OptionValues;
 
 constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 
@@ -41,114 +42,6 @@ struct TuneCommand {
   int threads = 0;
   bool quiet = false;
 };
-
-/// A family and the options that make it.
-struct Family {
-  compare::TuneFamily tuned;
-  Values values;
-};
-
-bool is_named(const Values& values, const std::string& name) {
-  return std::any_of(values.begin(), values.end(), [&](const auto& entry) { return entry.first == name; });
-}
-
-bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
-  return is_named(fixed, name) || std::any_of(grid.axes().begin(), grid.axes().end(),
-                                              [&](const auto& axis) { return axis.name == name; });
-}
-
-/// What is tried of the options that nothing was said about.
-std::vector<Values> default_kinds() {
-  return {
-      {}, {{"slope-bias", "1"}}, {{"normal-offset", "1"}}, {{"receiver-plane", "on"}}, {{"cull", "front"}}};
-}
-
-std::string family_name(const Values& values) {
-  std::string name;
-  bool kind = false;
-  for (const auto& [option, value] : values) {
-    kind = kind || option != "technique";
-    name +=
-        (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
-  }
-  if (kind) return name;
-  return name.empty() ? "constant bias alone" : name + ", constant bias alone";
-}
-
-/// Everything fixed, with the values of one family that its technique reads.
-Expected<Family> make_family(Values values, const Values& fixed) {
-  Values all = fixed;
-  all.insert(all.end(), values.begin(), values.end());
-  const Values read = values_read(all);
-  std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
-  const auto parsed = parse_setting(read);
-  if (!parsed) return fail(parsed.error());
-  return Family{{family_name(values), parsed->options.raster.map}, std::move(values)};
-}
-
-/// What tune tries when no technique is named: cube differs from hard at the seams of a map alone.
-std::vector<std::string> tuned_techniques() {
-  std::vector<std::string> names = technique_names();
-  std::erase(names, "cube");
-  return names;
-}
-
-bool has_family(const std::vector<Family>& families, const Family& family) {
-  return std::any_of(families.begin(), families.end(),
-                     [&](const Family& other) { return other.values == family.values; });
-}
-
-/// The combinations of what was given as lists, and of the defaults where nothing was given.
-Expected<std::vector<Family>> make_families(const TuneCommand& command) {
-  const auto grid = command.options.grid(false);
-  if (!grid) return fail(grid.error());
-  const Values fixed = command.options.fixed();
-  std::vector<compare::Axis> axes;
-  for (const compare::Axis& axis : grid->axes())
-    if (axis.name != "map-size") axes.push_back(axis);
-  if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
-  std::vector<Values> kinds = default_kinds();
-  for (const char* name : {"slope-bias", "normal-offset", "receiver-plane", "cull"})
-    if (is_given(fixed, *grid, name)) kinds = {{}};
-  const auto product = compare::Grid::make(axes, false);
-  if (!product) return fail(product.error());
-  std::vector<Family> families;
-  std::optional<Error> unsound;
-  for (std::size_t cell = 0; cell < product->cells(); ++cell)
-    for (const Values& kind : kinds) {
-      Values values;
-      for (std::size_t k = 0; k < axes.size(); ++k)
-        values.emplace_back(axes[k].name, product->value(k, cell));
-      values.insert(values.end(), kind.begin(), kind.end());
-      auto family = make_family(std::move(values), fixed);
-      if (!family) return fail(family.error());
-      const auto sound = raster::check_map_options(family->tuned.map);
-      if (!sound) unsound = sound.error();
-      if (!sound) continue;                         // a bias that does not go with the technique
-      if (has_family(families, *family)) continue;  // but for what the technique does not read
-      families.push_back(std::move(*family));
-    }
-  if (families.empty() && unsound) return fail(*unsound);
-  return families;
-}
-
-/// Without the techniques that have no map for a light compared.
-Expected<std::vector<Family>> families_for(const std::vector<Family>& families, const Scene& scene,
-                                           const std::vector<std::uint32_t>& lights) {
-  std::vector<Family> out;
-  for (const Family& family : families) {
-    const bool drawn = std::all_of(lights.begin(), lights.end(), [&](std::uint32_t light) {
-      return raster::has_map_for(family.tuned.map.technique, scene.lights[light].type);
-    });
-    if (drawn) out.push_back(family);
-  }
-  if (out.empty() && !families.empty())
-    return fail(
-        ErrorKind::usage,
-        "--technique: has no map for a light of this scene (csm and lispsm are for directional lights, "
-        "cube for point lights)");
-  return out;
-}
 
 /// --map-size as a list, or the powers of two from 64 to what the context allows.
 Expected<std::vector<int>> choose_sizes(const TuneCommand& command, int limit) {
@@ -184,7 +77,8 @@ Expected<void> check_lists(const TuneCommand& command) {
 }
 
 /// The options of an answer, in the order that compare takes them.
-Values answer_values(const TuneCommand& command, const Family& family, const compare::Attempt& attempt) {
+Values answer_values(const TuneCommand& command, const OptionFamily& family,
+                     const compare::Attempt& attempt) {
   Values values;
   for (const auto& entry : command.options.fixed())
     if (entry.first != "map-size") values.push_back(entry);
@@ -200,7 +94,7 @@ const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
 
 struct Answer {
   const TuneCommand& command;
-  const std::vector<Family>& families;
+  const std::vector<OptionFamily>& families;
   const compare::TuneResult& result;
 
   std::string line(std::size_t family) const {
@@ -244,10 +138,17 @@ std::string json_answer(const Answer& answer) {
     Json options = Json::object();
     for (const auto& [name, value] : answer_values(answer.command, answer.families[i], attempt))
       options[name] = value;
-    return Json{{"command", answer.line(i)},  {"technique", options.value("technique", std::string("hard"))},
-                {"options", options},         {"error", attempt.error},
-                {"time_ms", attempt.time_ms}, {"feasible", family.answer.has_value()},
-                {"why", family.why}};
+    return Json{
+        {"command", answer.line(i)},
+        {"technique", options.value("technique", std::string("hard"))},
+        {"options", options},
+        {"error", attempt.error},
+        {"time_ms", attempt.time_ms},
+        {"runs_ms", attempt.times.runs},
+        {"costs",
+         {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
+        {"feasible", family.answer.has_value()},
+        {"why", family.why}};
   };
   Json json = block(answer.result.winner);
   json["feasible"] = answer.result.feasible;
@@ -306,7 +207,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
-  const auto families = make_families(command);
+  const auto families = make_families(command.options);
   if (!families) return fail(families.error());
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
   if (!command.folder.empty())
@@ -324,10 +225,12 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());
-  const auto fitting = families_for(*families, *loaded->scene, setting->compared);
+  const auto fitting = fitting_families(*families, *loaded->scene, setting->compared);
   if (!fitting) return fail(fitting.error());
-  compare::TuneOptions options{command.goal, {}, *sizes};
-  for (const Family& family : *fitting) options.families.push_back(family.tuned);
+  compare::TuneOptions options;
+  options.goal = command.goal;
+  options.sizes = *sizes;
+  for (const OptionFamily& family : *fitting) options.families.push_back(family.tuned);
   compare::Engine engine(*loaded->scene, *loaded->world, **renderer, with_page);
   const auto result = compare::tune(
       engine, *setting, options, [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {

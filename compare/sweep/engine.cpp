@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,13 @@ void count(const LadderInput& in, bool with_gaps, Probe& probe) {
     probe.wrong += std::abs(in.record.visibility.data[i] - (lit ? 1.0f : 0.0f)) > 0.5f;
     if (with_gaps) (lit ? probe.gaps.lit : probe.gaps.shadowed).push_back(in.record.gap.data[i]);
   }
+}
+
+double raster_ms(const raster::RasterFrame& frame) {
+  double sum = 0.0;
+  for (const raster::LightRecord& light : frame.lights)
+    sum += light.map_pass.median() + light.shade_pass.median();
+  return sum;
 }
 
 }  // namespace
@@ -222,24 +230,42 @@ Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
   return {};
 }
 
-Expected<Probe> Engine::Impl::probe(const Setting& setting) {
-  trace(setting);
-  if (auto drawn = draw(setting); !drawn) return fail(drawn.error());
+// Draws for what is not a comparison: nothing of what stood before holds for it.
+Expected<void> Engine::Impl::draw_alone(const Setting& setting) {
+  auto drawn = draw(setting);
   table.clear();
   lower.clear();
   drawn_for.reset();
+  return drawn;
+}
+
+Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
+  Setting bare = setting;
+  bare.raster.analysis = false;
+  if (auto drawn = draw_alone(bare); !drawn) return fail(drawn.error());
+  return raster_ms(comparison.raster);
+}
+
+Expected<Probe> Engine::Impl::probe(const Setting& setting) {
+  trace(setting);
+  Setting without_map = setting;
+  without_map.raster.map_contents = false;
+  if (auto drawn = draw_alone(without_map); !drawn) return fail(drawn.error());
   Probe probe;
   const raster::RasterFrame& frame = comparison.raster;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     count(input(frame, i), biases_follow_from_gaps(setting.raster.map), probe);
-    probe.raster_ms += frame.lights[i].map_pass.median() + frame.lights[i].shade_pass.median();
+    if (frame.lights[i].external) probe.rays += frame.lights[i].external->rays;
   }
+  probe.raster_ms = raster_ms(frame);
+  probe.map_texels = frame.map_texels;
+  probe.map_bytes = frame.map_bytes;
   if (!frame.lights.empty()) {
     probe.bias_world = frame.lights.front().bias_constant_world;
     probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
   }
-  std::sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
-  std::sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
+  tbb::parallel_sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
+  tbb::parallel_sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
   return probe;
 }
 
@@ -254,6 +280,10 @@ Engine::~Engine() = default;
 
 Expected<Probe> Engine::probe(const Setting& setting) {
   return impl_->probe(setting);
+}
+
+Expected<double> Engine::time_drawing(const Setting& setting) {
+  return impl_->time_drawing(setting);
 }
 
 bool Engine::last_was_derived() const {

@@ -38,6 +38,8 @@ struct Probe {
   double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
   double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
   double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
+  std::uint64_t map_texels = 0, map_bytes = 0;
+  std::uint64_t rays = 0;  ///< of the hybrid
 };
 
 class Engine {
@@ -62,6 +64,9 @@ class Engine {
 
   /// Draws at a setting and counts. A comparison that stood before is no longer valid.
   Expected<Probe> probe(const Setting& setting);
+
+  /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
+  Expected<double> time_drawing(const Setting& setting);
 
   /// The last comparison in small, `width` pixels wide (or as wide as the picture, if that is less): the
   /// ray-traced picture in grey with false shadow and missed shadow of any light compared in their two

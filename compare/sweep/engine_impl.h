@@ -35,6 +35,7 @@ struct Engine::Impl {
 
   Expected<void> compare(const Setting& setting, Detail detail);
   Expected<Probe> probe(const Setting& setting);
+  Expected<double> time_drawing(const Setting& setting);
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
   void make_backdrop();
@@ -46,6 +47,7 @@ struct Engine::Impl {
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);
+  Expected<void> draw_alone(const Setting& setting);
   /// The bias alone, or the images with it.
   void derive(const Setting& setting, Detail detail);
   /// The lower rungs of all lights, kept where the maps are the same as before.

@@ -5,9 +5,13 @@
 // wrong less, so that the least size good enough, or the largest one cheap enough, is found by bisection. At
 // each size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one;
 // where a technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need
-// there are tried. The family that wins is drawn once more at its own bias: what is printed was measured.
+// there are tried. A family is left as soon as it costs clearly more than the best so far without being good
+// enough. Exact techniques (izb, hybrid) are right at any size, and their cost has a least size of its own:
+// it is walked down to. The families that come close to the best are then drawn at their own biases, in turn
+// and several times over, and the best of those medians wins: what is printed was measured side by side.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,16 +32,25 @@ struct TuneFamily {
   raster::MapOptions map;
 };
 
+/// What a drawing costs; the milliseconds of map and shading where none is given. One that does not hang on
+/// the machine is for tests.
+using TuneCost = std::function<double(const Setting& setting, const Probe& probe)>;
+
 struct TuneOptions {
   TuneGoal goal;
   std::vector<TuneFamily> families;
   std::vector<int> sizes;  ///< ascending, texels
+  TuneCost cost;           ///< empty: milliseconds
 };
 
 /// One drawing, at its best constant bias.
 struct Attempt {
   int size = 0;
-  double bias_world = 0.0, error = 0.0, time_ms = 0.0;
+  double bias_world = 0.0, error = 0.0;
+  double time_ms = 0.0;  ///< median of `times`, or of the search's one drawing
+  double cost = 0.0;     ///< by TuneOptions::cost
+  Times times;           ///< measured in turn with the others; empty: not among the best
+  std::uint64_t map_texels = 0, map_bytes = 0, rays = 0;
   BestBias best;                      ///< with the proof, where no constant bias is right everywhere
   std::uint64_t compared = 0;         ///< pixels, all lights
   std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
@@ -48,6 +61,7 @@ struct FamilyResult {
   TuneFamily family;
   std::optional<Attempt> answer;  ///< the cheapest (or best) that meets the goal
   Attempt closest;                ///< otherwise the one that comes nearest to it
+  bool left = false;              ///< larger maps were not tried: this one costs too much already
   std::string why;                ///< why it lost, or won
 };
 
@@ -61,7 +75,14 @@ struct TuneResult {
 /// Called before each drawing with the family and the size.
 using TuneProgress = std::function<void(const TuneFamily& family, int size, std::uint64_t renders)>;
 
-/// `base` gives everything but the map's options; its runs say how often each pass is timed.
+/// Has no bias, and is right wherever its rays are: izb, hybrid.
+bool is_exact(raster::Technique technique);
+
+/// How many biases a technique is tried with whose gaps do not tell them, and which: multiples of the bias of
+/// its family, and of the best bias of hard shadows at the same size.
+inline constexpr std::array<double, 2> tried_closed_forms{1.0, 0.25}, tried_of_hard{1.0, 2.0};
+
+/// `base` gives everything but the map's options; its runs say how often the best are drawn again.
 Expected<TuneResult> tune(Engine& engine, const Setting& base, const TuneOptions& options,
                           const TuneProgress& progress = {});
 

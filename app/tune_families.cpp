@@ -1,0 +1,122 @@
+#include "app/tune_families.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/options.h"
+#include "app/setting.h"
+#include "app/values.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using Values = OptionValues;
+
+bool is_named(const Values& values, const std::string& name) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+/// What is tried of the options that nothing was said about.
+std::vector<Values> default_kinds() {
+  return {
+      {}, {{"slope-bias", "1"}}, {{"normal-offset", "1"}}, {{"receiver-plane", "on"}}, {{"cull", "front"}}};
+}
+
+std::string family_name(const Values& values) {
+  std::string name;
+  bool kind = false;
+  for (const auto& [option, value] : values) {
+    kind = kind || option != "technique";
+    name +=
+        (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
+  }
+  if (kind) return name;
+  return name.empty() ? "constant bias alone" : name + ", constant bias alone";
+}
+
+/// Everything fixed, with the values of one family that its technique reads.
+Expected<OptionFamily> make_family(Values values, const Values& fixed) {
+  Values all = fixed;
+  all.insert(all.end(), values.begin(), values.end());
+  const Values read = values_read(all);
+  std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
+  const auto parsed = parse_setting(read);
+  if (!parsed) return fail(parsed.error());
+  return OptionFamily{{family_name(values), parsed->options.raster.map}, std::move(values)};
+}
+
+/// What tune tries when no technique is named: cube differs from hard at the seams of a map alone.
+std::vector<std::string> tuned_techniques() {
+  std::vector<std::string> names = technique_names();
+  std::erase(names, "cube");
+  return names;
+}
+
+bool has_family(const std::vector<OptionFamily>& families, const OptionFamily& family) {
+  return std::any_of(families.begin(), families.end(),
+                     [&](const OptionFamily& other) { return other.values == family.values; });
+}
+
+}  // namespace
+
+bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
+  return is_named(fixed, name) || std::any_of(grid.axes().begin(), grid.axes().end(),
+                                              [&](const auto& axis) { return axis.name == name; });
+}
+
+/// The combinations of what was given as lists, and of the defaults where nothing was given.
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
+  const auto grid = options.grid(false);
+  if (!grid) return fail(grid.error());
+  const Values fixed = options.fixed();
+  std::vector<compare::Axis> axes;
+  for (const compare::Axis& axis : grid->axes())
+    if (axis.name != "map-size") axes.push_back(axis);
+  if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
+  std::vector<Values> kinds = default_kinds();
+  for (const char* name : {"slope-bias", "normal-offset", "receiver-plane", "cull"})
+    if (is_given(fixed, *grid, name)) kinds = {{}};
+  const auto product = compare::Grid::make(axes, false);
+  if (!product) return fail(product.error());
+  std::vector<OptionFamily> families;
+  std::optional<Error> unsound;
+  for (std::size_t cell = 0; cell < product->cells(); ++cell)
+    for (const Values& kind : kinds) {
+      Values values;
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        values.emplace_back(axes[k].name, product->value(k, cell));
+      values.insert(values.end(), kind.begin(), kind.end());
+      auto family = make_family(std::move(values), fixed);
+      if (!family) return fail(family.error());
+      const auto sound = raster::check_map_options(family->tuned.map);
+      if (!sound) unsound = sound.error();
+      if (!sound) continue;                         // a bias that does not go with the technique
+      if (has_family(families, *family)) continue;  // but for what the technique does not read
+      families.push_back(std::move(*family));
+    }
+  if (families.empty() && unsound) return fail(*unsound);
+  return families;
+}
+
+/// Without the techniques that have no map for a light compared.
+Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,
+                                                     const Scene& scene,
+                                                     const std::vector<std::uint32_t>& lights) {
+  std::vector<OptionFamily> out;
+  for (const OptionFamily& family : families) {
+    const bool drawn = std::all_of(lights.begin(), lights.end(), [&](std::uint32_t light) {
+      return raster::has_map_for(family.tuned.map.technique, scene.lights[light].type);
+    });
+    if (drawn) out.push_back(family);
+  }
+  if (out.empty() && !families.empty())
+    return fail(
+        ErrorKind::usage,
+        "--technique: has no map for a light of this scene (csm and lispsm are for directional lights, "
+        "cube for point lights)");
+  return out;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,34 @@
+// What the tuner chooses from: the combinations of the options that were given as lists, and of defaults
+// where nothing was said.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/sweep/axes.h"
+#include "compare/tune/tune.h"
+
+namespace gnomon::app {
+
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
+
+/// A family and the options that make it.
+struct OptionFamily {
+  compare::TuneFamily tuned;
+  OptionValues values;
+};
+
+/// An option was given one value, or several.
+bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::string& name);
+
+/// Every technique, with each kind of bias that goes with it, unless `options` say which. Errors are
+/// ErrorKind::usage.
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options);
+
+/// Without the techniques that have no map for a light compared.
+Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,
+                                                     const Scene& scene,
+                                                     const std::vector<std::uint32_t>& lights);
+
+}  // namespace gnomon::app

@@ -1,0 +1,96 @@
+// Who wins: single times of the search are too rough for that. The families near the best are drawn again,
+// one after the other and round after round, so that whatever else the machine does falls on all of them
+// alike.
+#include <algorithm>
+
+#include "compare/tune/tuner.h"
+
+namespace gnomon::compare {
+namespace {
+
+// Of the best price: nearer than what single times are off.
+constexpr double near_the_best = 1.25;
+
+Attempt& attempt_of(FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+const Attempt& attempt_of(const FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+
+}  // namespace
+
+bool Tuner::better(const FamilyResult& a, const FamilyResult& b) const {
+  if (a.answer.has_value() != b.answer.has_value()) return a.answer.has_value();
+  const Attempt &x = attempt_of(a), &y = attempt_of(b);
+  const bool answered = a.answer.has_value();
+  const double first_x = answered ? price(x) : shortfall(x), first_y = answered ? price(y) : shortfall(y);
+  return first_x != first_y ? first_x < first_y : x.cost < y.cost;
+}
+
+std::size_t Tuner::best_of(const TuneResult& result) const {
+  return static_cast<std::size_t>(
+      std::min_element(result.families.begin(), result.families.end(),
+                       [this](const auto& a, const auto& b) { return better(a, b); }) -
+      result.families.begin());
+}
+
+// At its own bias: what is promised from the gaps is what is drawn.
+Expected<void> Tuner::confirm(FamilyResult& result) {
+  Attempt& answer = attempt_of(result);
+  raster::Bias bias = result.family.map.bias;
+  bias.constant = answer.bias_world;
+  bias.unit = raster::BiasUnit::world;
+  auto drawn = draw(result.family, answer.size, bias, nullptr);
+  if (!drawn) return fail(drawn.error());
+  answer.error = drawn->error;
+  answer.times.runs = {drawn->time_ms};
+  if (options_.cost) answer.cost = drawn->cost;
+  return {};
+}
+
+Expected<void> Tuner::measure_in_turn(const std::vector<FamilyResult*>& finalists) {
+  for (FamilyResult* finalist : finalists)
+    if (auto confirmed = confirm(*finalist); !confirmed) return confirmed;
+  for (int round = 1; round < base_.raster.runs; ++round)
+    for (FamilyResult* finalist : finalists) {
+      Attempt& answer = attempt_of(*finalist);
+      raster::Bias bias = finalist->family.map.bias;
+      bias.constant = answer.bias_world;
+      bias.unit = raster::BiasUnit::world;
+      const auto ms = engine_.time_drawing(setting_of(finalist->family, answer.size, bias));
+      if (!ms) return fail(ms.error());
+      answer.times.runs.push_back(*ms);
+    }
+  for (FamilyResult* finalist : finalists) {
+    Attempt& answer = attempt_of(*finalist);
+    answer.time_ms = answer.times.median();
+    if (!options_.cost) answer.cost = answer.time_ms;
+    if (finalist->answer && !good(*finalist->answer)) {  // cheap enough in the search, not now
+      finalist->closest = *finalist->answer;
+      finalist->answer.reset();
+    }
+  }
+  return {};
+}
+
+// The best and all that come near it; those measured before once more with the new ones, until nobody near
+// the best is left unmeasured.
+Expected<void> Tuner::measure_best(TuneResult& result) {
+  for (;;) {
+    const FamilyResult& best = result.families[best_of(result)];
+    std::vector<FamilyResult*> finalists;
+    bool all_measured = true;
+    for (FamilyResult& family : result.families) {
+      const bool near = &family == &best || (best.answer && family.answer &&
+                                             price(*family.answer) <= near_the_best * price(*best.answer));
+      const bool measured = !attempt_of(family).times.runs.empty();
+      if (near || measured) finalists.push_back(&family);
+      all_measured = all_measured && (measured || !near);
+    }
+    if (all_measured) return {};
+    if (auto done = measure_in_turn(finalists); !done) return done;
+  }
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,59 @@
+// The tuner's insides. Parts: tune.cpp (the search), measure_in_turn.cpp (who wins), explain.cpp (why).
+#pragma once
+
+#include <limits>
+#include <map>
+
+#include "compare/tune/tune.h"
+
+namespace gnomon::compare {
+
+class Tuner {
+ public:
+  Tuner(Engine& engine, const Setting& base, const TuneOptions& options, const TuneProgress& progress)
+      : engine_(engine), base_(base), options_(options), progress_(progress) {}
+
+  Expected<TuneResult> run();
+
+ private:
+  bool good(const Attempt& a) const {
+    return options_.goal.max_error ? a.error <= *options_.goal.max_error
+                                   : a.cost <= *options_.goal.max_time_ms;
+  }
+  /// What is to be small among those that are good.
+  double price(const Attempt& a) const { return options_.goal.max_error ? a.cost : a.error; }
+  /// What is to be small where none is good.
+  double shortfall(const Attempt& a) const { return options_.goal.max_error ? a.error : a.cost; }
+  /// Costs so much more than the best answer that no larger map can win.
+  bool hopeless(const Attempt& a) const;
+
+  Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
+  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps);
+  Expected<Attempt> attempt(const TuneFamily& family, int size);
+  Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
+  Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
+  void take(FamilyResult& result, const Attempt& attempt) const;
+  Expected<FamilyResult> search(const TuneFamily& family);
+  Expected<FamilyResult> bisect(const TuneFamily& family);
+  Expected<FamilyResult> walk_down(const TuneFamily& family);
+  Expected<void> search_all(TuneResult& result);
+
+  bool better(const FamilyResult& a, const FamilyResult& b) const;
+  std::size_t best_of(const TuneResult& result) const;
+  Expected<void> measure_best(TuneResult& result);
+  Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
+  Expected<void> confirm(FamilyResult& result);
+
+  void explain(TuneResult& result) const;
+  std::string reason(const FamilyResult& loser, const FamilyResult& winner) const;
+
+  Engine& engine_;
+  const Setting& base_;
+  const TuneOptions& options_;
+  const TuneProgress& progress_;
+  std::uint64_t renders_ = 0;
+  std::map<int, double> hard_bias_;  ///< by size, of the first family whose gaps told it
+  double least_cost_ = std::numeric_limits<double>::infinity();  ///< of the answers so far
+};
+
+}  // namespace gnomon::compare

@@ -1,0 +1,106 @@
+// The tuner against full grids on six scenes, in costs that do not hang on the machine: texels rendered and
+// texels looked up. (gnomon bench --tune does the same in milliseconds.)
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compare/tune/full_grid.h"
+#include "scene/load.h"
+#include "support/one_world.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::GridCheck;
+using compare::Probe;
+using compare::Setting;
+using compare::TuneFamily;
+using compare::TuneOptions;
+using raster::Technique;
+
+constexpr double allowed = 1.1;  // of the grid's best cost
+
+TuneFamily family(const char* name, Technique technique, double slope = 0.0) {
+  TuneFamily out{name, {}};
+  out.map.technique = technique;
+  out.map.bias.slope = slope;
+  return out;
+}
+
+double lookups(Technique technique) {
+  return technique == Technique::pcf ? 9.0 : 1.0;
+}
+
+// The exact technique has a least size of its own, as lists per texel have: here 128, and dearer than maps.
+double cost(const Setting& setting, const Probe& probe) {
+  const raster::MapOptions& map = setting.raster.map;
+  const auto pixels = static_cast<double>(setting.raster.size.pixels());
+  if (map.technique == Technique::izb) return 60.0 * pixels * (1.0 + std::abs(std::log2(map.size / 128.0)));
+  return static_cast<double>(probe.map_texels) + pixels * lookups(map.technique);
+}
+
+GridCheck check(const std::string& scene_name, double max_error) {
+  auto scene = load_scene(scene_name);
+  if (!scene) {
+    ADD_FAILURE() << scene.error().message();
+    return {};
+  }
+  OneWorld world(*scene);
+  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  Setting base;
+  base.raster.size = base.raytrace.size = {128, 72};
+  base.raster.runs = 0;
+  base.raytrace.picture = false;
+  base.camera = world.scene.camera;
+  base.lights = world.scene.lights;
+  for (std::uint32_t i = 0; i < base.lights.size(); ++i) base.compared.push_back(i);
+  TuneOptions options;
+  options.goal.max_error = max_error;
+  options.sizes = {32, 64, 128, 256, 512};
+  options.families = {family("constant", Technique::hard), family("slope", Technique::hard, 1.0),
+                      family("pcf", Technique::pcf), family("izb", Technique::izb)};
+  options.cost = cost;
+  const std::vector<raster::Bias> biases{
+      {0.25, raster::BiasUnit::texel}, {1.0, raster::BiasUnit::texel}, {4.0, raster::BiasUnit::texel}};
+  auto checked = check_against_grid(engine, base, options, biases, 0);
+  if (!checked) {
+    ADD_FAILURE() << checked.error().message();
+    return {};
+  }
+  return *checked;
+}
+
+TEST(TuneAgainstGrid, AnswersCostNoMoreThanTheGridsBest) {
+  std::uint64_t tune_drawings = 0, grid_drawings = 0;
+  for (const auto& [scene, max_error] :
+       {std::pair("fence", 0.04), std::pair("acne-floor", 0.01), std::pair("floating-box", 0.01),
+        std::pair("thin-wall", 0.01), std::pair("sphere-plane", 0.005), std::pair("teapot", 0.03)}) {
+    const GridCheck checked = check(scene, max_error);
+    tune_drawings += checked.tune_drawings, grid_drawings += checked.grid_drawings;
+    ASSERT_TRUE(checked.best) << scene << ": no setting of the grid is good enough";
+    ASSERT_TRUE(checked.tuned.feasible) << scene;
+    const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
+    const compare::FamilyResult& best = checked.tuned.families[checked.best->family];
+    std::printf("%-14s %3llu of %3llu drawings, ratio %.3f: %s %d; grid %s %d, %zu good\n", scene,
+                static_cast<unsigned long long>(checked.tune_drawings),
+                static_cast<unsigned long long>(checked.grid_drawings), checked.ratio(),
+                winner.family.name.c_str(), winner.answer->size, best.family.name.c_str(),
+                checked.best->attempt.size, checked.good_cells);
+    EXPECT_LE(checked.ratio(), allowed) << scene;
+    EXPECT_LE(winner.answer->error, max_error) << scene;
+  }
+  EXPECT_LT(3 * tune_drawings, 2 * grid_drawings);
+}
+
+// A goal that only exact shadows meet: their least size is walked to.
+TEST(TuneAgainstGrid, ExactTechniqueIsTakenAtItsCheapestSize) {
+  const GridCheck checked = check("fence", 1e-4);
+  ASSERT_TRUE(checked.tuned.feasible);
+  const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
+  EXPECT_EQ(winner.family.name, "izb");
+  EXPECT_EQ(winner.answer->size, 128);
+  EXPECT_EQ(checked.ratio(), 1.0);
+}
+
+}  // namespace
+}  // namespace gnomon::test
