@@ -17,6 +17,8 @@ struct Times {
     const std::size_t n = sorted.size();
     return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
   }
+  /// What else the machine does can only add: the least holds the least of it. 0 when there are no runs.
+  double least() const { return runs.empty() ? 0.0 : *std::min_element(runs.begin(), runs.end()); }
 };
 
 /// Milliseconds since construction.

@@ -31,11 +31,11 @@ double lookups(Technique technique) {
   return technique == Technique::pcf ? 9.0 : 1.0;
 }
 
-// The exact technique has a least size of its own, as lists per texel have: here 128, and dearer than maps.
+// The exact technique has a least size of its own, as lists per texel have: here 64, and dearer than maps.
 double cost(const Setting& setting, const Probe& probe) {
   const raster::MapOptions& map = setting.raster.map;
   const auto pixels = static_cast<double>(setting.raster.size.pixels());
-  if (map.technique == Technique::izb) return 60.0 * pixels * (1.0 + std::abs(std::log2(map.size / 128.0)));
+  if (map.technique == Technique::izb) return 60.0 * pixels * (1.0 + std::abs(std::log2(map.size / 64.0)));
   return static_cast<double>(probe.map_texels) + pixels * lookups(map.technique);
 }
 
@@ -98,7 +98,7 @@ TEST(TuneAgainstGrid, ExactTechniqueIsTakenAtItsCheapestSize) {
   ASSERT_TRUE(checked.tuned.feasible);
   const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
   EXPECT_EQ(winner.family.name, "izb");
-  EXPECT_EQ(winner.answer->size, 128);
+  EXPECT_EQ(winner.answer->size, 64);
   EXPECT_EQ(checked.ratio(), 1.0);
 }
 

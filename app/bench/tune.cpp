@@ -101,7 +101,7 @@ Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
   const bool with_table = bench.json != "-" && !bench.quiet;
   if (with_table)
     print_data(
-        fmt::format("At most {:.3g} % wrong, {}x{} pixels, milliseconds, medians of {} in turn; goal: a "
+        fmt::format("At most {:.3g} % wrong, {}x{} pixels, milliseconds, the least of {} in turn; goal: a "
                     "ratio of at most {}\n",
                     100.0 * bench.max_error, bench.size.width, bench.size.height, bench.runs, allowed) +
         fmt::format(head, "scene", "cells", "good ones", "drawn", "tuned", "best", "ratio",

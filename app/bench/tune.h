@@ -14,7 +14,7 @@ struct TuneBench {
   std::vector<std::string> scenes, techniques;  ///< techniques empty: all
   double max_error = 0.01;                      ///< share of wrong pixels, the tuner's goal
   ImageSize size{640, 360};
-  int runs = 5;      ///< drawings in turn: of the tuner's finalists, and of its answer and the grid's best
+  int runs = 9;      ///< drawings in turn: of the tuner's finalists, and of its answer and the grid's best
   std::string json;  ///< file to write; empty: none
   bool quiet = false;
 };

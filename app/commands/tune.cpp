@@ -32,6 +32,9 @@ using Values = OptionValues;
 
 constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 
+/// Drawings in turn of those that come near the best.
+constexpr int usual_runs = 5;
+
 struct TuneCommand {
   std::string scene, json, folder;
   double report_max_mb = compare::default_report_max_mb;
@@ -218,7 +221,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (!parsed) return fail(parsed.error());
   auto setting = resolve_setting(*parsed, *loaded->scene, *loaded->world);
   if (!setting) return fail(setting.error());
-  setting->raster.runs = command.runs.value_or(setting->raster.runs);
+  setting->raster.runs = command.runs.value_or(usual_runs);
   const bool with_page = !command.folder.empty();
   setting->raytrace.picture = with_page;
   const auto renderer = make_renderer(command.backend, *loaded);
@@ -296,7 +299,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_report_max_mb(*app, command->report_max_mb);
   add_backend(*app, command->backend);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
-  add_runs(*app, command->runs, std::to_string(raster::RasterOptions{}.runs).c_str());
+  add_runs(*app, command->runs, std::to_string(usual_runs).c_str());
   add_json(*app, command->json, "the answer");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation] { invocation.action = [command] { return run_tune(*command); }; });

@@ -1,6 +1,7 @@
 // Who wins: single times of the search are too rough for that. The families near the best are drawn again,
 // one after the other and round after round, so that whatever else the machine does falls on all of them
-// alike.
+// alike. The least time of each counts: disturbances only add. Who falls behind is not drawn in further
+// rounds.
 #include <algorithm>
 
 #include "compare/tune/tuner.h"
@@ -9,7 +10,7 @@ namespace gnomon::compare {
 namespace {
 
 // Of the best price: nearer than what single times are off.
-constexpr double near_the_best = 1.25;
+constexpr double near_the_best = 1.5, still_near = 1.25;
 
 Attempt& attempt_of(FamilyResult& family) {
   return family.answer ? *family.answer : family.closest;
@@ -49,22 +50,31 @@ Expected<void> Tuner::confirm(FamilyResult& result) {
   return {};
 }
 
+Expected<void> Tuner::draw_again(FamilyResult& result) {
+  Attempt& answer = attempt_of(result);
+  raster::Bias bias = result.family.map.bias;
+  bias.constant = answer.bias_world;
+  bias.unit = raster::BiasUnit::world;
+  const auto ms = engine_.time_drawing(setting_of(result.family, answer.size, bias));
+  if (!ms) return fail(ms.error());
+  answer.times.runs.push_back(*ms);
+  return {};
+}
+
 Expected<void> Tuner::measure_in_turn(const std::vector<FamilyResult*>& finalists) {
   for (FamilyResult* finalist : finalists)
     if (auto confirmed = confirm(*finalist); !confirmed) return confirmed;
-  for (int round = 1; round < base_.raster.runs; ++round)
-    for (FamilyResult* finalist : finalists) {
-      Attempt& answer = attempt_of(*finalist);
-      raster::Bias bias = finalist->family.map.bias;
-      bias.constant = answer.bias_world;
-      bias.unit = raster::BiasUnit::world;
-      const auto ms = engine_.time_drawing(setting_of(finalist->family, answer.size, bias));
-      if (!ms) return fail(ms.error());
-      answer.times.runs.push_back(*ms);
-    }
+  for (int round = 1; round < base_.raster.runs; ++round) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const FamilyResult* finalist : finalists)
+      least = std::min(least, attempt_of(*finalist).times.least());
+    for (FamilyResult* finalist : finalists)
+      if (attempt_of(*finalist).times.least() <= still_near * least)
+        if (auto drawn = draw_again(*finalist); !drawn) return drawn;
+  }
   for (FamilyResult* finalist : finalists) {
     Attempt& answer = attempt_of(*finalist);
-    answer.time_ms = answer.times.median();
+    answer.time_ms = answer.times.least();
     if (!options_.cost) answer.cost = answer.time_ms;
     if (finalist->answer && !good(*finalist->answer)) {  // cheap enough in the search, not now
       finalist->closest = *finalist->answer;

@@ -117,6 +117,7 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
     take(result, *attempt);
     if (good(*attempt) == want_least) {
       high = middle;
+      if (want_least) result.answer = *attempt;  // the smaller the cheaper, whatever one rough time says
       continue;
     }
     low = middle + 1;

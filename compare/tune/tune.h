@@ -8,7 +8,7 @@
 // there are tried. A family is left as soon as it costs clearly more than the best so far without being good
 // enough. Exact techniques (izb, hybrid) are right at any size, and their cost has a least size of its own:
 // it is walked down to. The families that come close to the best are then drawn at their own biases, in turn
-// and several times over, and the best of those medians wins: what is printed was measured side by side.
+// and several times over, and the least times decide: what is printed was measured side by side.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct TuneOptions {
 struct Attempt {
   int size = 0;
   double bias_world = 0.0, error = 0.0;
-  double time_ms = 0.0;  ///< median of `times`, or of the search's one drawing
+  double time_ms = 0.0;  ///< least of `times`, or of the search's one drawing
   double cost = 0.0;     ///< by TuneOptions::cost
   Times times;           ///< measured in turn with the others; empty: not among the best
   std::uint64_t map_texels = 0, map_bytes = 0, rays = 0;

@@ -43,6 +43,7 @@ class Tuner {
   Expected<void> measure_best(TuneResult& result);
   Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
   Expected<void> confirm(FamilyResult& result);
+  Expected<void> draw_again(FamilyResult& result);
 
   void explain(TuneResult& result) const;
   std::string reason(const FamilyResult& loser, const FamilyResult& winner) const;
