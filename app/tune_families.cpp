@@ -47,19 +47,18 @@ Expected<OptionFamily> make_family(Values values, const Values& fixed) {
   return OptionFamily{{family_name(values), parsed->options.raster.map}, std::move(values)};
 }
 
-/// What tune tries when no technique is named: cube differs from hard at the seams of a map alone.
-std::vector<std::string> tuned_techniques() {
-  std::vector<std::string> names = technique_names();
-  std::erase(names, "cube");
-  return names;
-}
-
 bool has_family(const std::vector<OptionFamily>& families, const OptionFamily& family) {
   return std::any_of(families.begin(), families.end(),
                      [&](const OptionFamily& other) { return other.values == family.values; });
 }
 
 }  // namespace
+
+std::vector<std::string> tuned_techniques() {
+  std::vector<std::string> names = technique_names();
+  std::erase(names, "cube");
+  return names;
+}
 
 bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
   return is_named(fixed, name) || std::any_of(grid.axes().begin(), grid.axes().end(),

@@ -19,6 +19,9 @@ struct OptionFamily {
   OptionValues values;
 };
 
+/// What is tried when no technique is named: cube differs from hard at the seams of a map alone.
+std::vector<std::string> tuned_techniques();
+
 /// An option was given one value, or several.
 bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::string& name);
 
