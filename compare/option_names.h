@@ -14,4 +14,10 @@ std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d2
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
 std::string_view program_version();
 
+/// Whether a stored depth is compared with the receiver's, with a bias; izb and hybrid decide exactly,
+/// without.
+constexpr bool compares_depths(raster::Technique technique) {
+  return technique != raster::Technique::izb && technique != raster::Technique::hybrid;
+}
+
 }  // namespace gnomon::compare

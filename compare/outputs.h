@@ -34,6 +34,9 @@ Rgb8Image label_picture(const Comparison& comparison, const LightComparison& lig
 Rgb8Image error_picture(const LightComparison& light);
 Rgb8Image flip_picture(const LightComparison& light);
 Rgb8Image ssim_picture(const LightComparison& light);
+/// Of the hybrid, who decided each pixel: the picture in grey, tinted where the sheets were sure, one plain
+/// colour where rays were cast. Needs the record's decisions.
+Rgb8Image decision_picture(const Comparison& comparison, const LightComparison& light);
 /// Stored depths, near = bright, on one fixed scale over the map's depth range (logarithmic for a
 /// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);

@@ -11,6 +11,9 @@ inline constexpr glm::u8vec3 false_shadow_colour{0xd5, 0x5e, 0x00};
 inline constexpr glm::u8vec3 missed_shadow_colour{0x56, 0xb4, 0xe9};
 /// A right pixel in shadow, in the label picture (a right lit pixel has label_colour(Label::right)).
 inline constexpr glm::u8vec3 right_in_shadow_colour{0xc6, 0xc6, 0xc2};
+/// Who decided a pixel of the hybrid; the first two tint the grey picture.
+inline constexpr glm::u8vec3 surely_lit_colour{0xf0, 0xe4, 0x42}, surely_shadowed_colour{0x00, 0x72, 0xb2},
+    traced_colour{0xa0, 0x00, 0x30};
 /// Where nothing was stored in a depth map, and the gaps between its faces.
 inline constexpr glm::u8vec3 nothing_stored_colour{0x3c, 0x42, 0x4c};
 

@@ -50,6 +50,11 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
   jobs.push_back({&out.difference, [&c, &light] { return difference_picture(c, light); }});
   jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
   jobs.push_back({&out.error, [&light] { return error_picture(light); }});
+  const auto& external = drawn_record(c, light).external;
+  if (external && !external->decision.data.empty()) {
+    out.decisions.file_name = "decisions" + suffix + ".png";
+    jobs.push_back({&out.decisions, [&c, &light] { return decision_picture(c, light); }});
+  }
   if (light.flip_map.data.empty()) return;
   out.flip.file_name = "flip" + suffix + ".png";
   out.ssim.file_name = "ssim" + suffix + ".png";

@@ -3,11 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/palette.h"
+#include "hybrid/hard_shadows.h"
 #include "scene/files/image_io.h"
 
 namespace gnomon::compare {
@@ -86,6 +88,20 @@ Rgb8Image flip_picture(const LightComparison& light) {
 Rgb8Image ssim_picture(const LightComparison& light) {
   return picture(light.ssim_map.size,
                  [&](std::size_t i) { return magma(1.0 - double{light.ssim_map.data[i]}); });
+}
+
+Rgb8Image decision_picture(const Comparison& c, const LightComparison& light) {
+  constexpr std::array tints{surely_shadowed_colour, surely_lit_colour};
+  constexpr float strength = 0.3f;
+  const Rgb8Image drawn = raster_picture(c);
+  const Image<std::uint8_t>& decision = drawn_record(c, light).external->decision;
+  return picture(drawn.size, [&](std::size_t i) {
+    const std::uint8_t who = decision.data[i];
+    if (who == static_cast<std::uint8_t>(hybrid::Decision::traced)) return traced_colour;
+    const glm::u8vec3 grey = backdrop(drawn.data[i]);
+    if (who >= tints.size()) return grey;
+    return glm::u8vec3(glm::mix(Vec3f(grey), Vec3f(tints[who]), strength) + 0.5f);
+  });
 }
 
 Rgb8Image depth_map_picture(const raster::ShadowMap& map) {

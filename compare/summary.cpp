@@ -72,7 +72,7 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   std::string text = fmt::format(
       "{}, {} x {}{} texels", technique_name(map.technique), record.map.view.size, record.map.view.size,
       record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
-  if (map.technique == raster::Technique::hybrid) return text;  // no depths, no bias
+  if (!compares_depths(map.technique)) return text;
   text += fmt::format(", {}, bias {}", depth_format_name(record.map.format),
                       plain_number(record.bias_constant_world));
   if (texel > 0.0)

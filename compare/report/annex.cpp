@@ -31,12 +31,12 @@ std::vector<TimeRow> light_rows(const Comparison& c, std::size_t i) {
   const std::uint64_t texels = static_cast<std::uint64_t>(drawn.map.view.face_count) *
                                static_cast<std::uint64_t>(drawn.map.view.size) *
                                static_cast<std::uint64_t>(drawn.map.view.size);
-  return {
-      {light_key(i, "times_ms.map_pass"), "depth map" + suffix, drawn.map_pass, grouped(texels) + " texels"},
-      {light_key(i, "times_ms.shade_pass"), "shading" + suffix, drawn.shade_pass,
-       "the picture with its shadow lookups"},
-      {light_key(i, "times_ms.shadow_rays"), "shadow rays" + suffix, truth.shadow_rays,
-       keyed_count(light_key(i, "shadow_rays"), truth.rays) + " exact rays", true}};
+  return {{light_key(i, "times_ms.map_pass"), (drawn.external ? "sheets" : "depth map") + suffix,
+           drawn.map_pass, grouped(texels) + " texels"},
+          {light_key(i, "times_ms.shade_pass"), "shading" + suffix, drawn.shade_pass,
+           "the picture with its shadow lookups"},
+          {light_key(i, "times_ms.shadow_rays"), "shadow rays" + suffix, truth.shadow_rays,
+           keyed_count(light_key(i, "shadow_rays"), truth.rays) + " exact rays", true}};
 }
 
 std::string time_row(const TimeRow& row, double longest) {

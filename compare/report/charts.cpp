@@ -100,14 +100,17 @@ std::string feasible_interval(const BestBias& best, const Scale& scale) {
 
 std::string description(const LightComparison& light, double used_bias) {
   const BestBias& b = light.best_bias;
-  return fmt::format("Used: a bias of {}, {} of the compared pixels wrong. Best: {}, {} wrong.",
-                     plain_number(used_bias), percent(light.error.wrong_fraction),
-                     plain_number(b.constant_world), percent(b.wrong_fraction));
+  const std::string best =
+      fmt::format("Best: {}, {} wrong.", plain_number(b.constant_world), percent(b.wrong_fraction));
+  if (std::isnan(used_bias)) return best;
+  return fmt::format("Used: a bias of {}, {} of the compared pixels wrong. {}", plain_number(used_bias),
+                     percent(light.error.wrong_fraction), best);
 }
 
 // Used and best bias as marks with their names above the plot, the right one's name to the right of its line.
 std::string marks(const LightComparison& light, const Scale& scale, double used_bias) {
-  const double best = scale.clamp_x(light.best_bias.constant_world), used = scale.clamp_x(used_bias);
+  const double best = scale.clamp_x(light.best_bias.constant_world);
+  const double used = std::isnan(used_bias) ? best : scale.clamp_x(used_bias);
   const bool best_is_right = best >= used;
   std::string out = vertical(best, "best");
   out += label(best + (best_is_right ? 5 : -5), top - 7, best_is_right ? "note" : "note end", "best");

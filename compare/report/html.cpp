@@ -38,7 +38,8 @@ std::string flowing(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool after_digit = i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1])) != 0;
-    if (text[i] == ' ' && after_digit)
+    const bool after_times = i >= 2 && text.substr(i - 2, 2) == "\u00d7";
+    if (text[i] == ' ' && (after_digit || after_times))
       out += "\u00a0";
     else
       out += text[i];
@@ -84,6 +85,13 @@ std::string keyed_count(std::string_view key, std::uint64_t count) {
 
 std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
   return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
+}
+
+std::string swatch(const glm::u8vec3& c, std::string_view letter) {
+  return fmt::format(
+      R"(<svg class="swatch" viewBox="0 0 22 22" aria-hidden="true" focusable="false"><rect width="22"
+height="22" rx="3" fill="{}"/><text x="11" y="16" fill="{}">{}</text></svg>)",
+      hex_colour(c.r, c.g, c.b), 2 * c.r + 5 * c.g + c.b > 8 * 110 ? "#000" : "#fff", letter);
 }
 
 }  // namespace gnomon::compare

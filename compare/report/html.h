@@ -6,11 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "scene/image.h"
+
 namespace gnomon::compare {
 
 /// Text for element content and quoted attributes. Control characters become spaces.
 std::string escaped(std::string_view text);
-/// The same, with numbers held together with the word behind them ("4.1 %" does not break).
+/// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break).
 std::string flowing(std::string_view text);
 std::string base64(std::string_view bytes);
 std::string data_uri(std::string_view mime, std::string_view bytes);
@@ -21,6 +23,9 @@ std::string script_safe(std::string_view json);
 std::string keyed(std::string_view key, double value, std::string_view text);
 std::string keyed_count(std::string_view key, std::uint64_t count);
 
+/// A small square of a colour with a letter on it, as legends show it; decoration, hidden from screen
+/// readers.
+std::string swatch(const glm::u8vec3& colour, std::string_view letter);
 /// "#d55e00"
 std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b);
 

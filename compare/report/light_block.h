@@ -28,6 +28,8 @@ std::string ladder_block(const LightBlock& block);
 std::string bias_block(const LightBlock& block);
 /// Edges, detachment, texel width, FLIP, mean error.
 std::string facts_block(const LightBlock& block);
+/// The hybrid's decisions; empty for other techniques.
+std::string hybrid_block(const LightBlock& block);
 std::string depth_map_block(const LightBlock& block);
 
 }  // namespace gnomon::compare

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/report/charts.h"
 #include "compare/report/explanations.h"
@@ -161,10 +162,14 @@ picture.</p>
 }
 
 std::string bias_block(const LightBlock& b) {
-  const double used = drawn_record(b.in.comparison, b.light).bias_constant_world;
+  const raster::Technique technique = b.in.comparison.raster.options.map.technique;
+  const bool has_bias = compares_depths(technique);
+  const double used = has_bias ? drawn_record(b.in.comparison, b.light).bias_constant_world : std::nan("");
   const std::string chart = bias_chart(b.light, used, fmt::format("bias-{}", b.index));
   if (chart.empty()) return "";
-  return "<h3>Every constant bias, from this one render</h3>\n<p>" + bias_words(b) + "</p>\n" +
+  const std::string_view whose =
+      has_bias ? "from this one render" : "if a hard test looked up a map of this size";
+  return fmt::format("<h3>Every constant bias, {}</h3>\n<p>", whose) + bias_words(b) + "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
                        chart) +
          lesson_details(lesson("bias"));
@@ -196,7 +201,7 @@ std::string depth_map_block(const LightBlock& b) {
   return fmt::format(
       R"(<h3>The depth map</h3>
 <figure class="depth">{}<figcaption><span class="scale-row"><span>far {}</span>{}<span>near {}</span></span>
-Depth from the light in world units{}; dark grey where nothing is stored.{}{}</figcaption></figure>
+Depth from the light in world units{}; dark grey where nothing is stored.{}{}{}</figcaption></figure>
 )",
       picture(b.in, pictures.depth_map_small,
               "The depth map: near surfaces bright yellow, far ones dark purple.", ""),
@@ -207,7 +212,10 @@ Depth from the light in world units{}; dark grey where nothing is stored.{}{}</f
       : view.projection == LightProjection::perspective
           ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z."
           : " Each cascade's own map, the finest first.",
-      step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "");
+      step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "",
+      compares_depths(b.in.comparison.raster.options.map.technique)
+          ? ""
+          : " This technique does not read it: it is what a hard test would look up.");
 }
 
 }  // namespace gnomon::compare

@@ -16,13 +16,6 @@
 namespace gnomon::compare {
 namespace {
 
-std::string swatch(const glm::u8vec3& c, std::string_view letter) {
-  return fmt::format(
-      R"(<svg class="swatch" viewBox="0 0 22 22" aria-hidden="true" focusable="false"><rect width="22"
-height="22" rx="3" fill="{}"/><text x="11" y="16" fill="{}">{}</text></svg>)",
-      hex_colour(c.r, c.g, c.b), 2 * c.r + 5 * c.g + c.b > 8 * 110 ? "#000" : "#fff", letter);
-}
-
 std::string viewer(const LightBlock& b) {
   std::string options;
   const auto add = [&options](std::string_view id, std::string_view name) {
@@ -32,6 +25,8 @@ std::string viewer(const LightBlock& b) {
   add("picture-raytraced", "ray traced");
   add(fmt::format("picture-difference-{}", b.index), "difference");
   add(fmt::format("picture-labels-{}", b.index), "labels");
+  if (!b.in.pictures.lights[b.index].decisions.png.empty())
+    add(fmt::format("picture-decisions-{}", b.index), "who decided");
   return viewer_block(
       options, std::to_string(b.index),
       R"(Point at a pixel to read it, click to pin it; its story is below. Drag to move the divider, or the
@@ -40,6 +35,11 @@ picture once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips, <k
 go. Exposure is in stops, on linear light, of both pictures. Scales are fixed: the same colour means the same
 in every picture.)",
       true);
+}
+
+std::string bias_text(const Comparison& c, const LightComparison& light) {
+  if (!compares_depths(c.raster.options.map.technique)) return "";
+  return fmt::format(", bias {} world units", plain_number(drawn_record(c, light).bias_constant_world));
 }
 
 std::string difference_figure(const LightBlock& b) {
@@ -192,7 +192,7 @@ std::string light_section(const PageInput& in, std::size_t i) {
       i, escaped(shown_light_name(in.comparison, i)), light_type_name(light.type), where(light),
       map.view.size,
       map.view.face_count > 1 ? fmt::format("\u202f\u00d7\u202f{}", map.view.face_count) : std::string(),
-      plain_number(drawn_record(in.comparison, b.light).bias_constant_world),
+      bias_text(in.comparison, b.light),
       // A single light's verdict stands right above, on the first screen.
       in.comparison.lights.size() == 1 ? ""
                                        : fmt::format(R"(<p class="lead">{}</p>
@@ -206,7 +206,7 @@ std::string light_section(const PageInput& in, std::size_t i) {
   out += R"(<div class="columns">
 <div>)" + label_table(b) +
          "</div>\n<div>" + explanations(b) + "</div>\n</div>\n";
-  out += ladder_block(b) + bias_block(b) + facts_block(b) + depth_map_block(b);
+  out += hybrid_block(b) + ladder_block(b) + bias_block(b) + facts_block(b) + depth_map_block(b);
   return out + "</section>\n";
 }
 

@@ -45,11 +45,13 @@ std::string shadow_time(const Comparison& c, std::string_view pass,
 std::string raster_caption(const Comparison& c) {
   if (c.lights.empty()) return "<b>Rasterizer</b>, shadow maps";
   const LightComparison& first = c.lights.front();
-  return fmt::format("<b>Rasterizer</b>, shadow map{}: {} for the map{}, {} to shade with {}",
-                     c.lights.size() > 1 ? "s" : "", shadow_time(c, "map_pass", map_times),
-                     c.lights.size() > 1 ? "s" : "",
+  const bool is_hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  return fmt::format("<b>{}</b>, {}{}: {} for the {}{}, {} to shade with {}",
+                     is_hybrid ? "Hybrid" : "Rasterizer", is_hybrid ? "sheets and rays" : "shadow map",
+                     c.lights.size() > 1 && !is_hybrid ? "s" : "", shadow_time(c, "map_pass", map_times),
+                     is_hybrid ? "sheet" : "map", c.lights.size() > 1 || is_hybrid ? "s" : "",
                      timed(light_key(0, "times_ms.shade_pass"), drawn_record(c, first).shade_pass),
-                     c.lights.size() > 1 ? "them" : "it");
+                     c.lights.size() > 1 || is_hybrid ? "them" : "it");
 }
 
 std::string raytraced_caption(const Comparison& c) {
@@ -67,8 +69,10 @@ std::string figure(const PageInput& in, const EncodedPicture& encoded, std::stri
 
 std::string map_text(const Comparison& c) {
   const raster::MapOptions& map = c.raster.options.map;
-  std::string text = fmt::format("{} shadows, map {}\u202f\u00d7\u202f{} {}", technique_name(map.technique),
-                                 map.size, map.size, depth_format_name(map.depth_format));
+  std::string text = fmt::format("{} shadows, map {}\u202f\u00d7\u202f{}", technique_name(map.technique),
+                                 map.size, map.size);
+  if (!compares_depths(map.technique)) return text;
+  text += fmt::format(" {}", depth_format_name(map.depth_format));
   if (c.lights.size() == 1) {
     const double bias = drawn_record(c, c.lights[0]).bias_constant_world, texel = c.lights[0].texel_world[1];
     text += fmt::format(", bias {}", plain_number(bias));

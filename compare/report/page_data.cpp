@@ -159,6 +159,13 @@ void add_metrics(Channels& channels, const LightComparison& light) {
   });
 }
 
+void add_decisions(Channels& channels, const raster::LightRecord& record) {
+  if (!record.external || record.external->decision.data.empty()) return;
+  const auto& decision = record.external->decision.data;
+  channels.add("decision", decision.size(), {1, false},
+               [&decision](std::size_t i) { return std::uint32_t{decision[i]}; });
+}
+
 void add_receiver(Channels& channels, const Comparison& c) {
   const auto& points = c.raytraced.receiver.data;
   channels.add("primitive", points.size(), {4, true},
@@ -225,13 +232,15 @@ Json light_data(const PageInput& in, std::size_t index) {
   add_ladder(channels, light);
   add_lookup(channels, c, light);
   add_metrics(channels, light);
+  add_decisions(channels, record);
   const raster::MapOptions& map = c.raster.options.map;
   return {{"name", shown_light_name(c, index)},
           {"view", view_json(record.map.view)},
           {"technique", technique_name(map.technique)},
           {"gaps_decide", biases_follow_from_gaps(map)},
+          {"compares_depths", compares_depths(map.technique)},
           {"bias",
-           {{"constant", record.bias_constant_world},
+           {{"constant", compares_depths(map.technique) ? record.bias_constant_world : 0.0},
             {"slope", bias.slope},
             {"normal_offset", bias.normal_offset_texels},
             {"receiver_plane", bias.receiver_plane}}},

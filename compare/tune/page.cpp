@@ -52,7 +52,7 @@ std::string family_row(const TunePageInput& in, std::size_t i) {
   const bool winner = i == in.result.winner;
   return fmt::format(
       R"(<tr{}><th scope="row">{}{}<small>{}</small></th><td class="n">{}</td><td class="n">{}</td><td
-class="n">{}</td><td class="n">{}</td><td class="command"><code>{}</code></td></tr>
+class="n">{}</td><td class="n">{}</td><td class="run"><code>{}</code></td></tr>
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
@@ -65,7 +65,7 @@ std::string family_table(const TunePageInput& in) {
   return scroll_region("What was tried",
                        R"(<table class="families"><thead><tr><th scope="col">technique and bias</th><th
 scope="col" class="n">texels</th><th scope="col" class="n">bias</th><th scope="col" class="n">wrong</th><th
-scope="col" class="n">time</th><th scope="col">command</th></tr></thead><tbody>
+scope="col" class="n">time</th><th scope="col" class="run">command</th></tr></thead><tbody>
 )" + rows + "</tbody></table>");
 }
 

@@ -57,7 +57,8 @@ export class BiasPanel {
     const chart = document.getElementById(`bias-${index}-title`)?.closest("svg");
     if (!chart) return null;
     if (!light.json.gaps_decide) {
-      hostAfter(chart).append(html("p", { class: "hint" }, `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +
+      if (light.json.compares_depths)
+        hostAfter(chart).append(html("p", { class: "hint" }, `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +
         "gnomon sweep SCENE --bias 0:0.1:16 draws each bias by itself."));
       return null;
     }

@@ -14,7 +14,7 @@ async function copy(text: string): Promise<void> {
 }
 
 /** A button that copies a command and says so. */
-export function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
+function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
   const button = html("button", { type: "button", class: "copy" }, name);
   button.addEventListener("click", async () => {
     await copy(code.textContent!);
@@ -26,4 +26,9 @@ export function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
 
 export function addCopyButtons(): void {
   for (const code of document.querySelectorAll<HTMLElement>(".command code")) code.after(copyButton(code, "Copy the command"));
+  for (const code of document.querySelectorAll<HTMLElement>(".run code")) {
+    const button = copyButton(code, "Copy");
+    button.setAttribute("aria-label", "Copy the command");
+    code.before(button);
+  }
 }

@@ -25,6 +25,7 @@ export interface LightJson {
   view: LightView;
   technique: string;
   gaps_decide: boolean;  // a pixel is drawn dark exactly when its gap exceeds the constant bias
+  compares_depths: boolean;  // false: an exact technique, without a bias
   bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean };
   texel_world: number;
   depth_step: number;
@@ -132,6 +133,7 @@ export class Light {
   readonly truth: Int16Array;
   readonly drawn: Int16Array;
   readonly flip: Uint8Array | null;  // in steps of 1/255
+  readonly decision: Int8Array | null;  // of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced, 3 not asked
   readonly ssim: Int8Array | null;   // in steps of 1/127; -128 where no window fits
   private readonly us: Numbers;
   private readonly vs: Numbers;
@@ -144,6 +146,7 @@ export class Light {
     this.drawn = channels.V6 as Int16Array;
     this.flip = channels.flip ? new Uint8Array(channels.flip.buffer) : null;
     this.ssim = (channels.ssim as Int8Array | undefined) ?? null;
+    this.decision = (channels.decision as Int8Array | undefined) ?? null;
     this.us = channels.u!;
     this.vs = channels.v!;
     this.faces = channels.face!;

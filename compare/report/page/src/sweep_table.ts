@@ -1,5 +1,4 @@
 // The table of cells: sorted by a click on a column's name, and a button that copies a cell's command.
-import { copyButton } from "./clipboard";
 import type { SweepState } from "./state";
 
 type Key = number | string | null;
@@ -32,11 +31,6 @@ export class SweepTable {
         this.show();
         changed();
       });
-    }
-    for (const code of table.querySelectorAll<HTMLElement>(".run code")) {
-      const button = copyButton(code, "Copy");
-      button.setAttribute("aria-label", "Copy the command");
-      code.before(button);
     }
   }
 

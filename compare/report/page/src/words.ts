@@ -27,6 +27,21 @@ function mapTest(light: Light, pixel: Pixel, bias: number): string {
                                    : `That is no more than the bias of ${number(bias, 3)}: the test draws it lit.`);
 }
 
+const decisions = [
+  "In this texel another surface without an edge lies wholly before the pixel's own: surely in shadow, no ray was cast.",
+  "In this texel nothing lies before the pixel's own surface, which has no edge there: surely lit, no ray was cast.",
+  "The texel is not sure here, because of an edge or of surfaces that overlap in depth: a ray was cast.",
+];
+
+/** Techniques that decide exactly: how, and beside it what a hard test of a map of this size would make of the pixel. */
+function exactly(light: Light, pixel: Pixel, bias: number): string {
+  const [truth, drawn] = [pixel.rungs[0]!, pixel.rungs[6]!];
+  const how = light.decision ? decisions[light.decision[pixel.index]!] ?? ""
+                             : `${light.json.technique} tests this very point against all that the texel's list holds.`;
+  const said = drawn === truth ? `Drawn ${number(drawn, 3)}, as the exact rays say.` : `Drawn ${number(drawn, 3)}; the exact rays give ${number(truth, 3)}.`;
+  return `${how} ${said} A hard test without bias, for comparison: ${mapTest(light, pixel, bias)}`;
+}
+
 /** Where more than the one texel decides: the single test (V5) first, then what the technique makes of it (V6). */
 function filtered(light: Light, pixel: Pixel, bias: number): string {
   const [truth, single, drawn] = [pixel.rungs[0]!, pixel.rungs[5]!, pixel.rungs[6]!], words = wordsOf(pixel.label);
@@ -42,6 +57,7 @@ function filtered(light: Light, pixel: Pixel, bias: number): string {
 export function story(light: Light, pixel: Pixel, bias: number): string {
   const words = wordsOf(pixel.label);
   if (pixel.label < 0) return `Not compared: ${words.what}.`;
+  if (!light.json.compares_depths) return exactly(light, pixel, bias);
   if (!light.json.gaps_decide) return filtered(light, pixel, bias);
   const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
   const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel.rungs[0]!)}.`;
