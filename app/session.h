@@ -22,7 +22,8 @@ struct LoadedScene {
   double load_ms = 0.0;
 };
 
-/// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles (scene/tessellate.h); 0: they stay exact.
+/// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles
+/// (scene/tessellate.h); 0: they stay exact.
 Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate = 0);
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.

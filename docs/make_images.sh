@@ -30,7 +30,14 @@ pair aliasing raster difference fence --map-size 256
 pair soft-shadows raster raytrace penumbra --slope-bias 1
 pair filtering difference error fence --technique pcf --filter-radius 2 --map-size 512 --slope-bias 2
 pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --bias 0 --map-size 4096
+picture hybrid decisions courtyard --technique hybrid
 pair error-budget raytrace labels courtyard --map-size 512
+
+# One map and four cascades of one scene.
+for technique in hard csm; do
+  "$program" compare courtyard --map-size 512 --slope-bias 1 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
+done
+oiiotool "$work/map-hard/difference.png" "$work/map-csm/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-cascades.png"
 
 # Two biases of one scene.
 for bias in 0.25texel 4texel; do

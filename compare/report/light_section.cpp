@@ -187,7 +187,7 @@ std::string light_section(const PageInput& in, std::size_t i) {
   std::string out = fmt::format(
       R"(<section id="light-{0}" aria-labelledby="light-{0}-title">
 <h2 id="light-{0}-title">Light: {1}</h2>
-<p class="setting">{2}, {3}; map of {4} × {4}{5} texels, bias {6} world units</p>
+<p class="setting">{2}, {3}; map of {4} × {4}{5} texels{6}</p>
 {7})",
       i, escaped(shown_light_name(in.comparison, i)), light_type_name(light.type), where(light),
       map.view.size,

@@ -118,10 +118,11 @@ function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: n
 
 function offScale(frame: Frame, x: number, stored: number, pixel: Pixel): SVGElement {
   const above = stored < frame.low, y = above ? top + 4 : height - bottom - 4, d = above ? 14 : -14;
+  const crowded = x + 16 + 230 > width, text = { x: crowded ? width - side : x + 16, class: crowded ? "end" : "" };
   return svg("g", { class: "note" },
     svg("path", { class: "bracket", d: `M${x + 6},${y + d}v${-d}m-4,${d / 2}l4,${-d / 2}l4,${d / 2}` }),
-    svg("text", { x: x + 16, y: above ? y + 12 : y - 4 },
-      `stored: ${number(Math.abs(pixel.at.depth - stored), 3)} ${above ? "nearer the light" : "farther"}, off this drawing`));
+    svg("text", { ...text, y: above ? y + 12 : y - 22 }, `stored: ${number(Math.abs(pixel.at.depth - stored), 3)} ${above ? "nearer the light" : "farther"},`),
+    svg("text", { ...text, y: above ? y + 30 : y - 4 }, "off this drawing"));
 }
 
 // Where the normal offset moves the point before it looks up the map.
