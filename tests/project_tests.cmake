@@ -9,3 +9,8 @@ add_test(NAME project_tidy_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_tidy_test.sh" "/scene/[a-z_]+[.]cpp$")
 set_tests_properties(project_tidy_test PROPERTIES
   SKIP_RETURN_CODE 77 TIMEOUT 900 ENVIRONMENT "GNOMON_BUILD_DIR=${PROJECT_BINARY_DIR}")
+
+# The Debian package that cpack makes of this build.
+add_test(NAME project_package_test
+  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_package_test.sh" "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/package")
+set_tests_properties(project_package_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
