@@ -54,7 +54,8 @@ void add_bias_options(CLI::App& command, raster::Bias& bias) {
   add_value(command, "--bias", "B|Btexel",
             describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
                      "world units along the light ray, or texels with the suffix texel, any finite number",
-                     bias_text(bias)),
+                     fmt::format("{}, csm and lispsm {}texel", bias_text(bias),
+                                 raster::default_bias_texels(raster::Technique::csm))),
             [&bias](const std::string& text) -> Expected<void> {
               const Expected<BiasValue> value = parse_bias(text);
               if (!value) return fail(value.error());

@@ -119,6 +119,12 @@ std::string given_text(std::span<const Technique> techniques, std::span<const Fi
 
 }  // namespace
 
+raster::MapOptions with_default_bias(raster::MapOptions map) {
+  map.bias.constant = raster::default_bias_texels(map.technique);
+  map.bias.unit = raster::BiasUnit::texel;
+  return map;
+}
+
 std::vector<std::string_view> technique_options() {
   std::vector<std::string_view> names;
   for (const Row& row : rows) names.push_back(row.option);
@@ -160,13 +166,14 @@ void name_readers(CLI::App& command) {
   }
 }
 
-void refuse_unread_options(const CLI::App& command, const raster::MapOptions& map) {
+void finish_map_options(const CLI::App& command, raster::MapOptions& map) {
   for (const Row& row : rows) {
     const CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.option));
     if (option == nullptr || option->count() == 0) continue;
     const auto read = check_read(row.option, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
     if (!read) throw CLI::ValidationError(read.error().field, read.error().reason);
   }
+  if (command.count("--bias") == 0) map.bias = with_default_bias(map).bias;
 }
 
 }  // namespace gnomon::app

@@ -19,7 +19,7 @@ struct OptionFamily {
   OptionValues values;
 };
 
-/// What is tried when no technique is named: cube differs from hard at the seams of a map alone.
+/// What is tried when no technique is named: cube is the map that hard has of a point light.
 std::vector<std::string> tuned_techniques();
 
 /// An option was given one value, or several.

@@ -42,7 +42,7 @@ Expected<LightView> fit_map(const World& world, const Light& light, double aspec
                   ? fit_warped(world, light, camera, aspect, options.size)
                   : fit_light_view(world, light, camera, aspect, options.size);
   if (!view) return view;
-  view->seamless = options.technique == Technique::cube;
+  view->seamless = light.type == LightType::point;
   view->reversed = options.depth_format == DepthFormat::d32f_reversed;
   return view;
 }
@@ -51,7 +51,6 @@ std::vector<std::string> map_defines(const MapOptions& options) {
   std::vector<std::string> defines;
   if (options.technique == Technique::csm) defines.emplace_back("CASCADES");
   if (options.technique == Technique::lispsm) defines.emplace_back("WARP");
-  if (options.technique == Technique::cube) defines.emplace_back("SEAMLESS");
   if (options.depth_format == DepthFormat::d32f_reversed) defines.emplace_back("REVERSED");
   if (scales_bias(options)) defines.emplace_back("TEXEL_BIAS");
   if (options.bias.adaptive) defines.emplace_back("ADAPTIVE_BIAS");

@@ -117,6 +117,10 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   return check_map_options(options.map);
 }
 
+double default_bias_texels(Technique technique) {
+  return technique == Technique::csm || technique == Technique::lispsm ? 2.0 : 1.0;
+}
+
 bool scales_bias(const MapOptions& map) {
   return (map.technique == Technique::csm || map.technique == Technique::lispsm) &&
          map.bias.unit == BiasUnit::texel;

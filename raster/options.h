@@ -112,6 +112,13 @@ struct MapOptions {
 /// lights.
 bool has_map_for(Technique technique, LightType type);
 
+/// The constant bias, in texels, that a technique has where none is asked for: 2 for csm and lispsm, else 1.
+/// A constant of b texels leaves no acne on a plane whose depth rises by 2 b texels over one. The one map of
+/// the others is fitted to the scene: what a low sun makes long of a texel's shadow it makes short of the
+/// map, so that the side along which the ground rises is the narrow one, and the bias is taken by the wide
+/// one. Cascades are squares, and their texels too.
+double default_bias_texels(Technique technique);
+
 /// A bias in texels is taken by the texel looked up, not by the texel at the scene's centre: csm and lispsm.
 bool scales_bias(const MapOptions& map);
 

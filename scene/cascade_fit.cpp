@@ -1,6 +1,7 @@
 #include "scene/cascade_fit.h"
 
 #include "scene/light_fit_parts.h"
+#include "scene/solid.h"
 
 namespace gnomon {
 namespace {
@@ -62,6 +63,58 @@ Interval sample_depths(const Fit& fit, std::span<const Vec3> visible) {
     seen.min = std::min(seen.min, depth), seen.max = std::max(seen.max, depth);
   }
   return seen;
+}
+
+// The part of a polygon on the inner side of a plane through the origin (Sutherland and Hodgman 1974).
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inwards) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double at_a = glm::dot(inwards, a), at_b = glm::dot(inwards, b);
+    if (at_a >= 0.0) out.push_back(a);
+    if ((at_a < 0.0) != (at_b < 0.0)) out.push_back(a + at_a / (at_a - at_b) * (b - a));
+  }
+  return out;
+}
+
+// The nearest depth at which the camera can see a surface, at most `limit`: triangles cut with the view's
+// pyramid, the boxes of shapes, the planes along the pyramid's edges.
+double nearest_seen(const World& world, const View& view, double limit) {
+  const std::array<Vec3, 4> sides{
+      view.forward * view.tan_half_x + view.right, view.forward * view.tan_half_x - view.right,
+      view.forward * view.tan_half_y + view.up, view.forward * view.tan_half_y - view.up};
+  const auto depth = [&](const Vec3& p) { return glm::dot(p - view.eye, view.forward); };
+  double nearest = limit;
+  for (const auto& triangle : world.triangles) {
+    std::vector<Vec3> polygon;
+    double least = infinity;
+    for (const std::uint32_t v : triangle) least = std::min(least, depth(world.positions[v]));
+    if (least >= nearest) continue;
+    for (const std::uint32_t v : triangle) polygon.push_back(world.positions[v] - view.eye);
+    for (const Vec3& side : sides) polygon = clipped(polygon, side);
+    for (const Vec3& p : polygon) nearest = std::min(nearest, std::max(0.0, glm::dot(p, view.forward)));
+  }
+  for (const Shape& shape : world.shapes) {
+    if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
+      for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+        const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
+        const double t = glm::dot(plane->normal, plane->point - view.eye) / glm::dot(plane->normal, d);
+        if (t > 0.0) nearest = std::min(nearest, t);
+      }
+      continue;
+    }
+    const auto* sphere = std::get_if<Sphere>(&shape.geometry);
+    const Vec3 center = sphere != nullptr ? sphere->center : solid_center(shape.geometry);
+    const auto reach = [&](const Vec3& direction) {
+      return sphere != nullptr ? sphere->radius * glm::length(direction)
+                               : reach_along(shape.geometry, direction);
+    };
+    const bool seen = std::all_of(sides.begin(), sides.end(), [&](const Vec3& side) {
+      return glm::dot(side, center - view.eye) >= -reach(side);
+    });
+    if (seen) nearest = std::min(nearest, std::max(0.0, depth(center) - reach(view.forward)));
+  }
+  return nearest;
 }
 
 // The practical split scheme (Zhang et al. 2006, equation 9). Slice i lies between splits i and i + 1; the
@@ -135,12 +188,20 @@ Rect with_border(const Rect& rect, int size) {
   return {rect.middle() - half, rect.middle() + half};
 }
 
+// Along each axis the range of one rectangle or the other, whichever is shorter: where the casters' own is,
+// it stands as still as a snapped one.
+Rect each_way_smaller(const Rect& a, const Rect& b) {
+  Rect out = a;
+  for (int axis = 0; axis < 2; ++axis)
+    if (b.extent()[axis] < a.extent()[axis]) out.min[axis] = b.min[axis], out.max[axis] = b.max[axis];
+  return out;
+}
+
 Rect cascade_rect(const Fit& fit, double from, double to, int size, const CascadeOptions& options,
                   std::span<const Vec3> visible) {
   const Rect whole = with_border(fit.casters, size);
   if (options.snap && !options.fit_samples) {
-    const Rect square = snapped_square(fit, from, to, size);
-    return area(square) < area(whole) ? square : whole;
+    return each_way_smaller(snapped_square(fit, from, to, size), whole);
   }
   const Rect rect = options.fit_samples ? sample_rect(fit, from, to, visible) : tight_rect(fit, from, to);
   return rect.empty() || !(area(rect) > 0.0) ? whole : with_border(rect, size);
@@ -241,9 +302,9 @@ Expected<LightView> fit_warped(const World& world, const Light& light, const Cam
     return fit_light_view(world, light, camera, aspect, size);
   const Fit fit = make_fit(world, light, view, light_fit::face_along(light.direction, view.forward));
   const Interval seen = seen_depths(fit);
-  const double far = seen.max, near = std::max(seen.min, nearest_share * far);
+  const double far = seen.max, near = std::max(nearest_seen(world, view, far), nearest_share * far);
   if (!(far > 0.0)) return fit_light_view(world, light, camera, aspect, size);
-  const std::vector<Vec2> polygon = light_fit::hull_in_rect(slice_corners(fit, 0.0, far), fit.casters);
+  const std::vector<Vec2> polygon = light_fit::hull_in_rect(slice_corners(fit, near, far), fit.casters);
   Rect rect = around(polygon);
   if (rect.empty() || !(rect.extent().x > 0.0 && rect.extent().y > 0.0))
     return fit_light_view(world, light, camera, aspect, size);

@@ -67,8 +67,15 @@ int cube_face(const Vec3& d) {
 }
 
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world) {
-  if (is_perspective(view))
-    return project_to_face(view, view.face_count == 6 ? cube_face(world - view.origin) : 0, world);
+  if (is_perspective(view) && view.face_count == 6) {
+    TexelCoordinate t = project_to_face(view, cube_face(world - view.origin), world);
+    if (!view.seamless || !(t.depth > 0.0)) return t;
+    const double last = std::nextafter(static_cast<double>(view.size), 0.0);
+    t.u = std::clamp(t.u, 0.0, last), t.v = std::clamp(t.v, 0.0, last);
+    t.inside = true;
+    return t;
+  }
+  if (is_perspective(view)) return project_to_face(view, 0, world);
   for (int face = 0; face + 1 < view.face_count; ++face) {
     const TexelCoordinate t = project_to_face(view, face, world);
     if (holds_neighbours(view, t)) return t;
@@ -92,10 +99,6 @@ TexelCoordinate project_to_face(const LightView& view, int face_index, const Vec
   const double y = up / (w * face.half_extent.y);
   t.u = 0.5 * (x + 1.0) * view.size;
   t.v = 0.5 * (y + 1.0) * view.size;
-  if (view.seamless && w > 0.0) {
-    const double last = std::nextafter(static_cast<double>(view.size), 0.0);
-    t.u = std::clamp(t.u, 0.0, last), t.v = std::clamp(t.v, 0.0, last);
-  }
   t.inside = w > 0.0 && t.u >= 0.0 && t.v >= 0.0 && t.u < view.size && t.v < view.size;
   return t;
 }

@@ -1,6 +1,6 @@
 // The light's depth map: which texel a point looks up, and what a stored depth means. Twin of scene/light_view.h.
-// Permutations PERSPECTIVE (spot and point lights; else orthographic), CUBE (six faces), SEAMLESS (no point falls beside
-// its face of a cube), CASCADES (several orthographic faces, finest first), WARP (a face warped along up) and REVERSED
+// Permutations PERSPECTIVE (spot and point lights; else orthographic), CUBE (six faces; no point falls beside
+// its own), CASCADES (several orthographic faces, finest first), WARP (a face warped along up) and REVERSED
 // (stored depth is 1 at the near depth and 0 at the far one).
 
 layout(std140, binding = light_block) uniform Light {
@@ -71,9 +71,6 @@ Texel project_to_face(int face, vec3 position) {
 #endif
   float size = light.origin_and_size.w;
   t.uv = 0.5 * (shown / (w * extent) + 1.0) * size;
-#ifdef SEAMLESS
-  if (w > 0.0) t.uv = clamp(t.uv, vec2(0.0), vec2(size * (1.0 - 6e-8)));  // the last float below size
-#endif
   t.inside = w > 0.0 && all(greaterThanEqual(t.uv, vec2(0.0))) && all(lessThan(t.uv, vec2(size)));
   return t;
 }
@@ -81,7 +78,13 @@ Texel project_to_face(int face, vec3 position) {
 // A point in several cascades belongs to the first that holds it and the four texels around it.
 Texel project_to_texel(vec3 position) {
 #if defined(CUBE)
-  return project_to_face(cube_face(position - light.origin_and_size.xyz), position);
+  // On an edge of the face rounding may leave it.
+  Texel t = project_to_face(cube_face(position - light.origin_and_size.xyz), position);
+  if (t.local.z > 0.0) {
+    t.uv = clamp(t.uv, vec2(0.0), vec2(light.origin_and_size.w * (1.0 - 6e-8)));  // the last float below size
+    t.inside = true;
+  }
+  return t;
 #elif defined(CASCADES)
   int last = light.counts.x - 1;
   for (int face = 0; face < last; ++face) {

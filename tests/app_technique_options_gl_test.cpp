@@ -207,6 +207,19 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
   EXPECT_EQ(app::setting_arguments(app::values_read(values)), " --technique izb --map-size 64");
 }
 
+TEST(TechniqueOptions, AnUnaskedBiasIsTheTechniquesOwn) {
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  const auto bias = [](const Values& values) {
+    const auto parsed = app::parse_setting(values);
+    EXPECT_TRUE(parsed.has_value());
+    return parsed ? parsed->options.raster.map.bias.constant : -1.0;
+  };
+  EXPECT_EQ(bias({}), 1.0);
+  EXPECT_EQ(bias({{"technique", "csm"}}), 2.0);
+  EXPECT_EQ(bias({{"technique", "lispsm"}}), 2.0);
+  EXPECT_EQ(bias({{"technique", "csm"}, {"bias", "1texel"}}), 1.0);
+}
+
 // The scene's matter, not the command line's: said in a note.
 TEST(EffectOptions, WhatTheSceneDoesNotCallForIsNamed) {
   Scene scene = still_life();

@@ -116,6 +116,31 @@ Scene closed_bodies(const Light& light) {
   return scene;
 }
 
+/// Second-depth stores the backs of closed bodies. A front that is shadowed falsely lies in a texel that the
+/// body's outline crosses, and nowhere else: there the body is a wedge, thinner at the texel's centre than
+/// its front rises towards the light from the receiver to there, so that even the back is nearer to the light
+/// than the receiver. Such a texel has neighbours that hold nothing.
+void expect_outlines_alone(const compare::Comparison& c) {
+  const compare::LightComparison& light = c.lights[0];
+  const raster::LightRecord& record = c.raster.lights[0];
+  const raster::ShadowMap& map = record.map;
+  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+    if (!compare::is_compared(light.labels.data[i])) continue;
+    if (!(light.rungs[0].data[i] > 0.5f && light.rungs[6].data[i] < 0.5f)) continue;
+    const Vec2f uv = record.texel_uv.data[i];
+    const int column = static_cast<int>(uv.x), row = static_cast<int>(uv.y), face = record.face.data[i];
+    int empty = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        empty += map.primitive[map.texel_index(face, column + dx, row + dy)] == no_id;
+    std::printf("    false shadow: label %s, texel holds %u, receiver on %u, gap %g, %d empty neighbours\n",
+                std::string(compare::label_name(light.labels.data[i])).c_str(),
+                map.primitive[map.texel_index(face, column, row)], c.raster.primitive.data[i],
+                static_cast<double>(record.gap.data[i]), empty);
+    EXPECT_GT(empty, 0);
+  }
+}
+
 class ClosedBodies : public testing::TestWithParam<LightType> {};
 
 TEST_P(ClosedBodies, SecondDepthLeavesNoAcneAndMidpointLess) {
@@ -128,6 +153,7 @@ TEST_P(ClosedBodies, SecondDepthLeavesNoAcneAndMidpointLess) {
     options.raster.map.technique = technique;
     const compare::Comparison c = one.compare(options);
     EXPECT_GT(c.lights[0].pixels.compared, 3000u);
+    if (technique == raster::Technique::second_depth) expect_outlines_alone(c);
     return c.lights[0].error.false_shadow;
   };
   const auto hard = false_shadow(raster::Technique::hard),
@@ -137,8 +163,6 @@ TEST_P(ClosedBodies, SecondDepthLeavesNoAcneAndMidpointLess) {
               static_cast<unsigned long long>(hard), static_cast<unsigned long long>(second),
               static_cast<unsigned long long>(midpoint));
   EXPECT_GT(hard, 1000u);
-  // A texel that the body's outline crosses may hold its back nearer than a steep front beside it; nothing
-  // else.
   EXPECT_LE(second, GetParam() == LightType::directional ? 0 : hard / 1000);
   EXPECT_LT(midpoint, hard / 20);
 }

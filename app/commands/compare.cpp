@@ -197,7 +197,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   command->command_line = invocation.command_line;
   add_options(*app, *command);
   app->callback([command, &invocation, app] {
-    refuse_unread_options(*app, command->setting.options.raster.map);
+    finish_map_options(*app, command->setting.options.raster.map);
     command->given = given_options(*app);
     invocation.action = [command] { return run_compare(*command); };
   });

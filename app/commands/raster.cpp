@@ -98,7 +98,7 @@ void add_raster(CLI::App& program, Invocation& invocation) {
   add_exposure(*app, command->exposure);
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation, app] {
-    refuse_unread_options(*app, command->options.map);
+    finish_map_options(*app, command->options.map);
     command->given = given_options(*app);
     invocation.action = [command] { return run_raster(*command); };
   });

@@ -217,7 +217,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
     if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
-  const auto parsed = parse_setting(command.options.fixed());
+  const auto parsed = parse_setting(values_read(command.options.fixed()));
   if (!parsed) return fail(parsed.error());
   auto setting = resolve_setting(*parsed, *loaded->scene, *loaded->world);
   if (!setting) return fail(setting.error());

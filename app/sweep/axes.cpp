@@ -69,7 +69,10 @@ Values values_read(const Values& values) {
   return read;
 }
 
-Expected<SettingOptions> parse_setting(const Values& values) {
+namespace {
+
+/// `whole`: a setting, not one value to be checked.
+Expected<SettingOptions> parse(const Values& values, bool whole) {
   Parser parser;
   std::vector<std::string> arguments;  // CLI11 wants them last first
   for (const auto& [name, value] : values) {
@@ -84,10 +87,17 @@ Expected<SettingOptions> parse_setting(const Values& values) {
   std::reverse(arguments.begin(), arguments.end());
   try {
     parser.app.parse(arguments);
+    if (whole) finish_map_options(parser.app, parser.setting.options.raster.map);
   } catch (const CLI::ParseError& error) {
     return fail(ErrorKind::usage, error.what());
   }
   return parser.setting;
+}
+
+}  // namespace
+
+Expected<SettingOptions> parse_setting(const Values& values) {
+  return parse(values, true);
 }
 
 std::string setting_arguments(const Values& values) {
@@ -115,7 +125,7 @@ void SweepOptions::add_to(CLI::App& command) {
       auto values = compare::expand_values(text, given.kind);
       if (!values) throw CLI::ValidationError(name, values.error().reason);
       for (const std::string& value : *values) {
-        const auto parsed = parse_setting({{given.name, value}});
+        const auto parsed = parse({{given.name, value}}, false);
         if (!parsed) throw CLI::ValidationError(parsed.error().reason, CLI::ExitCodes::ValidationError);
       }
       given.values = std::move(*values);

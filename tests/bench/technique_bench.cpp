@@ -1,15 +1,18 @@
-// technique_bench: each filtering technique's frame through raster::Renderer against a minimal OpenGL program
+// technique_bench: each technique's frame through raster::Renderer against a minimal OpenGL program
 // that issues the same draw calls and nothing else (no checks, no records, no costs counted). The two take
 // turns; the medians of their CPU times are compared, which other programs on the machine disturb little.
 //   technique_bench [SCENE [TURNS]]     a built-in scene without analytic shapes, one directional light
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
+#include "raster/izb_pass.h"
 #include "raster/light_block.h"
+#include "raster/map_shape.h"
 #include "raster/moment_pass.h"
 #include "raster/options_check.h"
 #include "raster/renderer.h"
@@ -55,6 +58,7 @@ class MinimalProgram {
     make_map();
     make_moments();
     make_images();
+    make_lists();
   }
 
   void frame() {
@@ -62,17 +66,18 @@ class MinimalProgram {
     const raster::Gl& gl = *gl_;
     buffers_->bind();
     bind_blocks();
-    begin(GL_LOWER_LEFT, map_target_, options_.map.size, options_.map.size, GL_LESS);
-    const float far = shaders::map_clear_depth;
-    gl->ClearNamedFramebufferfv(map_target_.id(), GL_DEPTH, 0, &far);
-    buffers_->draw_triangles(*map_program_, *map_masked_, map_clip_);
-    depth_.bind(shaders::depth_map_unit);
+    if (!izb_) {
+      draw_map(map_targets_, *map_program_, *map_masked_);
+      if (middle_) draw_middle();
+      (middle_ ? middle_ : depth_).bind(shaders::depth_map_unit);
+    }
     if (raster::uses_moments(options_.map.technique)) draw_moments();
     begin(GL_UPPER_LEFT, visibility_target_, options_.size.width, options_.size.height, GL_GREATER);
     const float back = shaders::camera_clear_depth;
     gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &back);
     gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
     buffers_->draw_triangles(*camera_program_, *camera_masked_, camera_clip_);
+    if (izb_) draw_lists();
     fullscreen(color_target_, options_.size, *shade_program_);
     gl->Finish();
   }
@@ -81,20 +86,68 @@ class MinimalProgram {
   void make_map() {
     const Light& light = world_.scene->lights[0];
     const double aspect = double(options_.size.width) / options_.size.height;
-    light_view_ = must(fit_light_view(world_, light, world_.scene->camera, aspect, options_.map.size));
+    light_view_ = must(raster::fit_map(world_, light, aspect, options_.map, {}));
     const double bias = raster::constant_bias_world(options_.map.bias, light_view_, world_);
     const Vec3& reference = buffers_->reference();
     const auto rounding = raster::bias_rounding(options_.map, light_view_, world_, reference);
     light_block_ = raster::Buffer(*gl_);
     light_block_.write_one(
         raster::make_light_block(light, light_view_, options_.map, bias, rounding, reference));
-    depth_ = Texture2D(*gl_, GL_DEPTH_COMPONENT32F, {options_.map.size, options_.map.size}, 1);
-    map_target_ = Framebuffer(*gl_);
-    map_target_.attach(GL_DEPTH_ATTACHMENT, depth_, 0);
-    map_target_.draw_to(0);
+    if (options_.map.technique == raster::Technique::izb) return;
+    depth_ = make_depth(map_targets_);
     map_program_ = must(programs_->triangles(false, false));
     map_masked_ = features_.alpha_mask ? must(programs_->triangles(false, true)) : map_program_;
-    map_clip_ = light_clip_from_relative(light_view_, 0, buffers_->reference());
+    for (int face = 0; face < light_view_.face_count; ++face)
+      map_clips_.push_back(light_clip_from_relative(light_view_, face, buffers_->reference()));
+    if (options_.map.technique == raster::Technique::midpoint) make_middle();
+  }
+
+  Texture2D make_depth(std::vector<Framebuffer>& targets) {
+    Texture2D depth(*gl_, GL_DEPTH_COMPONENT32F, {options_.map.size, options_.map.size},
+                    light_view_.face_count);
+    for (int face = 0; face < light_view_.face_count; ++face) {
+      targets.emplace_back(*gl_).attach(GL_DEPTH_ATTACHMENT, depth, face);
+      targets.back().draw_to(0);
+    }
+    return depth;
+  }
+
+  void make_middle() {
+    second_ = make_depth(second_targets_);
+    peel_program_ = must(programs_->triangles({.peel = true}));
+    peel_masked_ =
+        features_.alpha_mask ? must(programs_->triangles({.alpha_mask = true, .peel = true})) : peel_program_;
+    for (const auto* program : {peel_program_, peel_masked_}) program->set_peel(0, std::exp2(-23.0f));
+    middle_ = Texture2D(*gl_, GL_R32F, {options_.map.size, options_.map.size}, 1);
+    middle_target_ = Framebuffer(*gl_);
+    middle_target_.attach(GL_COLOR_ATTACHMENT0, middle_, 0);
+    middle_target_.draw_to(1);
+    middle_program_ = must(raster::Program::link(*gl_, "fullscreen.vert", "midpoint.frag", {}));
+  }
+
+  // The lists' buffers are those of the pass, bound by drawing once; the programs and calls are its own.
+  void make_lists() {
+    if (options_.map.technique != raster::Technique::izb) return;
+    const raster::Gl& gl = *gl_;
+    izb_ = std::make_unique<raster::IzbPass>(*gl_, *programs_);
+    unused_map_ = std::make_unique<raster::DepthMapPass>(*gl_, *programs_);
+    const Light& light = world_.scene->lights[0];
+    const raster::MapJob job{*buffers_,    light,  light_view_,   *unused_map_,
+                             options_.map, &view_, shading_.get()};
+    must(shading_->draw_visibility(*buffers_, view_));
+    must(izb_->prepare(job));
+    must(izb_->draw(job));
+    GLint heads = 0;
+    gl->GetIntegeri_v(GL_IMAGE_BINDING_NAME, shaders::izb_heads_image, &heads);
+    heads_ = static_cast<GLuint>(heads);
+    std::vector<std::string_view> defines{"DIRECTIONAL"};
+    if (features_.alpha_mask) defines.emplace_back("ALPHA_MASK");
+    if (features_.alpha_mask && features_.textures) defines.emplace_back("TEXTURES");
+    insert_ = must(raster::Program::link(gl, "fullscreen.vert", "izb/insert.frag", defines));
+    block_ = must(raster::Program::link(gl, "izb/triangle.vert", "izb/block.frag", defines));
+    gl->ProgramUniform1ui(insert_.id(), shaders::triangle_count_uniform, world_.triangle_count());
+    gl->ProgramUniform1i(block_.id(), shaders::face_uniform, 0);
+    no_target_ = Framebuffer(gl);
   }
 
   void make_moments() {
@@ -147,6 +200,8 @@ class MinimalProgram {
     permutation.light = world_.scene->lights[0].type;
     permutation.receiver_plane = options_.map.bias.receiver_plane;
     permutation.technique = raster::technique_shader(options_.map, world_.scene->lights[0]);
+    for (std::string& define : raster::map_defines(options_.map))
+      permutation.technique.defines.push_back(std::move(define));
     shade_program_ = must(programs_->shade(permutation));
   }
 
@@ -169,12 +224,57 @@ class MinimalProgram {
   void fullscreen(const Framebuffer& target, ImageSize size, const raster::Program& program) const {
     const raster::Gl& gl = *gl_;
     visible_.bind(shaders::visibility_unit);
+    gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     if (moments_) moments_.bind(shaders::moments_unit);
     gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
     gl->Viewport(0, 0, size.width, size.height);
     gl->Disable(GL_DEPTH_TEST);
     program.use();
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void draw_map(const std::vector<Framebuffer>& targets, const raster::TriangleProgram& opaque,
+                const raster::TriangleProgram& masked) const {
+    const float far = shaders::map_clear_depth;
+    for (std::size_t face = 0; face < targets.size(); ++face) {
+      begin(GL_LOWER_LEFT, targets[face], options_.map.size, options_.map.size, GL_LESS);
+      (*gl_)->ClearNamedFramebufferfv(targets[face].id(), GL_DEPTH, 0, &far);
+      buffers_->draw_triangles(opaque, masked, map_clips_[face]);
+    }
+  }
+
+  void draw_middle() const {
+    const raster::Gl& gl = *gl_;
+    depth_.bind(shaders::first_layer_unit);
+    draw_map(second_targets_, *peel_program_, *peel_masked_);
+    depth_.bind(shaders::depth_map_unit);
+    second_.bind(shaders::second_layer_unit);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, middle_target_.id());
+    middle_program_.use();
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void draw_lists() const {
+    const raster::Gl& gl = *gl_;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, no_target_.id());
+    gl->Disable(GL_DEPTH_TEST);
+    const GLuint nothing = 0;
+    gl->ClearTexImage(heads_, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
+    const auto pass = [&](GLenum origin, int width, int height, const raster::Program& program,
+                          GLsizei vertices) {
+      gl->NamedFramebufferParameteri(no_target_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+      gl->NamedFramebufferParameteri(no_target_.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+      gl->ClipControl(origin, GL_ZERO_TO_ONE);
+      gl->Viewport(0, 0, width, height);
+      program.use();
+      gl->DrawArrays(GL_TRIANGLES, 0, vertices);
+      gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    };
+    visible_.bind(shaders::visibility_unit);
+    pass(GL_UPPER_LEFT, options_.size.width, options_.size.height, insert_, 3);
+    pass(GL_LOWER_LEFT, options_.map.size, options_.map.size, block_,
+         static_cast<GLsizei>(6 * world_.triangle_count()));
   }
 
   void draw_moments() const {
@@ -206,13 +306,19 @@ class MinimalProgram {
   std::unique_ptr<raster::ShadingPass> shading_;
   View view_;
   LightView light_view_;
-  Mat4 map_clip_{1.0}, camera_clip_{1.0};
+  std::vector<Mat4> map_clips_;
+  Mat4 camera_clip_{1.0};
   raster::Buffer light_block_;
   GLuint camera_block_ = 0;
-  Texture2D depth_, moments_, rows_, visible_, camera_depth_, color_;
-  Framebuffer map_target_, moment_target_, row_target_, visibility_target_, color_target_;
+  GLuint heads_ = 0;
+  Texture2D depth_, second_, middle_, moments_, rows_, visible_, camera_depth_, color_;
+  std::vector<Framebuffer> map_targets_, second_targets_;
+  std::unique_ptr<raster::IzbPass> izb_;
+  std::unique_ptr<raster::DepthMapPass> unused_map_;
+  raster::Program middle_program_, insert_, block_;
+  Framebuffer middle_target_, no_target_, moment_target_, row_target_, visibility_target_, color_target_;
   const raster::TriangleProgram *map_program_ = nullptr, *map_masked_ = nullptr, *camera_program_ = nullptr,
-                                *camera_masked_ = nullptr;
+                                *camera_masked_ = nullptr, *peel_program_ = nullptr, *peel_masked_ = nullptr;
   const raster::Program *convert_ = nullptr, *blur_ = nullptr, *shade_program_ = nullptr;
 };
 
@@ -245,6 +351,7 @@ Frames race(const World& world, raster::Technique technique, int turns) {
   raster::RasterOptions options;
   options.size = {640, 360};
   options.map.technique = technique;
+  options.map.bias.constant = raster::default_bias_texels(technique);
   options.map = raster::effective_options(options.map);
   options.analysis = false;
   auto renderer = must(raster::Renderer::create(must(raster::create_context(raster::Backend::automatic)),
@@ -279,9 +386,12 @@ int run(const std::string& name, int turns) {
     return 1;
   }
   const std::pair<const char*, raster::Technique> techniques[] = {
-      {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf}, {"pcss", raster::Technique::pcss},
-      {"vsm", raster::Technique::vsm},   {"esm", raster::Technique::esm}, {"evsm", raster::Technique::evsm},
-      {"msm", raster::Technique::msm}};
+      {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf},
+      {"pcss", raster::Technique::pcss}, {"vsm", raster::Technique::vsm},
+      {"esm", raster::Technique::esm},   {"evsm", raster::Technique::evsm},
+      {"msm", raster::Technique::msm},   {"midpoint", raster::Technique::midpoint},
+      {"csm", raster::Technique::csm},   {"lispsm", raster::Technique::lispsm},
+      {"izb", raster::Technique::izb}};
   fmt::print("{:8} {:>10} {:>12} {:>7}\n", "", "Gnomon ms", "minimal ms", "ratio");
   for (const auto& [label, technique] : techniques) {
     const Frames ms = race(world, technique, turns);
