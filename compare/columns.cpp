@@ -52,13 +52,13 @@ bool Column::faces_light(std::uint32_t primitive) const {
 bool Column::same_sheet(std::uint32_t a, std::uint32_t b) const {
   if (a == b) return true;
   if (input_ == nullptr || !input_->world.is_triangle(a) || !input_->world.is_triangle(b)) return false;
-  const std::size_t sheet = raytrace::sheet_of(sheets_, a, faces_light(a));
-  return sheet < sheets_.size() && sheet == raytrace::sheet_of(sheets_, b, faces_light(b));
+  const std::size_t sheet = raytrace::sheet_of(*sheets_, a, faces_light(a));
+  return sheet < sheets_->size() && sheet == raytrace::sheet_of(*sheets_, b, faces_light(b));
 }
 
 ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
                      const std::vector<TexelCentre>& centres)
-    : input_(in), groups_(groups), batch_of_group_(groups.keys.size(), no_id) {
+    : input_(in), groups_(groups), batch_of_group_(groups.keys.size(), no_id), kept_(groups.keys.size()) {
   std::vector<char> needed(groups.keys.size(), 0);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     for (const std::uint32_t pixel : groups[g])
@@ -78,13 +78,23 @@ void ColumnSet::add(const std::vector<char>& marked) {
     lists_.push_back(raytrace::build_texel_lists(input_.tracer, input_.record.map.view, std::move(keys)));
 }
 
-Column ColumnSet::column(std::size_t group) const {
-  if (batch_of_group_[group] == no_id) return Column();
+Column::Sheets ColumnSet::find(std::size_t group) const {
   const TexelKey key = groups_.keys[group];
   const raytrace::TexelLists& lists = lists_[batch_of_group_[group]];
-  return Column(input_, key,
-                raytrace::find_sheets(input_.world, input_.topology, input_.record.map.view, key,
-                                      lists[lists.find(key)]));
+  return std::make_shared<const std::vector<raytrace::Sheet>>(raytrace::find_sheets(
+      input_.world, input_.topology, input_.record.map.view, key, lists[lists.find(key)]));
+}
+
+Column ColumnSet::column(std::size_t group) const {
+  if (batch_of_group_[group] == no_id) return Column();
+  const Column::Sheets& kept = kept_[group];
+  return Column(input_, groups_.keys[group], kept ? kept : find(group));
+}
+
+Column ColumnSet::kept_column(std::size_t group) {
+  if (batch_of_group_[group] == no_id) return Column();
+  if (!kept_[group]) kept_[group] = find(group);
+  return Column(input_, groups_.keys[group], kept_[group]);
 }
 
 }  // namespace gnomon::compare

@@ -2,6 +2,7 @@
 // column. Sheets are found only for columns where a decision hangs on them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,8 @@ std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vect
 class Column {
  public:
   Column() = default;
-  Column(const LadderInput& input, raytrace::TexelKey key, std::vector<raytrace::Sheet> sheets)
+  using Sheets = std::shared_ptr<const std::vector<raytrace::Sheet>>;
+  Column(const LadderInput& input, raytrace::TexelKey key, Sheets sheets)
       : input_(&input), key_(key), sheets_(std::move(sheets)) {}
   raytrace::TexelKey key() const { return key_; }
   /// Whether two primitives, both met by light rays on the side that faces the light, hang together in this
@@ -35,7 +37,7 @@ class Column {
   bool faces_light(std::uint32_t primitive) const;
   const LadderInput* input_ = nullptr;
   raytrace::TexelKey key_;
-  std::vector<raytrace::Sheet> sheets_;
+  Sheets sheets_;
 };
 
 /// Triangle lists for the groups that need sheets; the sheets themselves are found on demand, per column.
@@ -47,12 +49,16 @@ class ColumnSet {
   void add(const std::vector<char>& marked_groups);
   /// Empty for a group that was never marked.
   Column column(std::size_t group) const;
+  /// The same, kept for the next frame that looks at it; by one thread at a time for each group.
+  Column kept_column(std::size_t group);
 
  private:
+  Column::Sheets find(std::size_t group) const;
   const LadderInput& input_;
   const TexelGroups& groups_;
   std::vector<raytrace::TexelLists> lists_;
   std::vector<std::uint32_t> batch_of_group_;  ///< index in lists_, or no_id
+  std::vector<Column::Sheets> kept_;           ///< by group; null: not asked for yet
 };
 
 }  // namespace gnomon::compare

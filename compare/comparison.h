@@ -76,12 +76,16 @@ struct EdgeStats {
   std::uint64_t edges = 0;   ///< true shadow edges measured (pixel pairs)
   double mean_texels = 0.0;  ///< signed, > 0 where the drawn shadow is larger than the true one
   double rms_texels = 0.0, rms_pixels = 0.0;
+  double mean_absolute_texels = 0.0;
+  /// The same along the receiver, world units.
+  double mean_world = 0.0, mean_absolute_world = 0.0, rms_world = 0.0;
 };
 
 /// How far the drawn shadow starts from its caster, on pixels that the bias lets light through to.
 struct Detachment {
   std::uint64_t pixels = 0;
   double mean_world = 0.0, max_world = 0.0;
+  double rms_world = 0.0;
 };
 
 struct BiasCurvePoint {
@@ -160,6 +164,9 @@ struct LightComparison {
   std::array<Image<float>, rung_count>
       rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not compared and no receiver
   Image<Label> labels;
+  /// Displacement of shadow edges in texels, and detachment in world units (edges.h); NaN where there is
+  /// none, empty where not made.
+  Image<float> edge_map, detachment_map;
   /// FLIP of each pixel, and SSIM of each window by its middle pixel (NaN where no window fits); empty where
   /// not computed.
   Image<float> flip_map, ssim_map;

@@ -11,11 +11,16 @@ constexpr double reach = 64.0;  // of the walk, pixels
 
 struct EdgeSums {
   std::uint64_t edges = 0;
-  double texels = 0.0, texels_squared = 0.0, pixels_squared = 0.0;
+  double texels = 0.0, texels_absolute = 0.0, texels_squared = 0.0, pixels_squared = 0.0;
+  double world = 0.0, world_absolute = 0.0, world_squared = 0.0;
 
-  void add(double moved_texels, double offset_pixels) {
+  void add(double moved_texels, double offset_pixels, double moved_world) {
     ++edges;
     texels += moved_texels;
+    texels_absolute += std::abs(moved_texels);
+    world += moved_world;
+    world_absolute += std::abs(moved_world);
+    world_squared += moved_world * moved_world;
     texels_squared += moved_texels * moved_texels;
     pixels_squared += offset_pixels * offset_pixels;
   }
@@ -24,6 +29,10 @@ struct EdgeSums {
     texels += other.texels;
     texels_squared += other.texels_squared;
     pixels_squared += other.pixels_squared;
+    texels_absolute += other.texels_absolute;
+    world += other.world;
+    world_absolute += other.world_absolute;
+    world_squared += other.world_squared;
   }
   EdgeStats stats() const {
     EdgeStats out;
@@ -33,16 +42,21 @@ struct EdgeSums {
     out.mean_texels = texels / n;
     out.rms_texels = std::sqrt(texels_squared / n);
     out.rms_pixels = std::sqrt(pixels_squared / n);
+    out.mean_absolute_texels = texels_absolute / n;
+    out.mean_world = world / n;
+    out.mean_absolute_world = world_absolute / n;
+    out.rms_world = std::sqrt(world_squared / n);
     return out;
   }
 };
 
-struct EdgeWalk {
-  const raster::RasterFrame& drawn;
-  const raster::LightRecord& record;
-  const Image<float>& truth;
-  const Image<Label>& labels;
-  const World& world;
+// The way of a walk from an edge to the pixel where it ended.
+struct Moved {
+  double texels = 0.0, world = 0.0;
+};
+
+struct EdgeWalk : EdgeInput {
+  explicit EdgeWalk(const EdgeInput& input) : EdgeInput(input) {}
 
   bool usable(int x, int y) const {
     const ImageSize& s = labels.size;
@@ -97,31 +111,48 @@ struct EdgeWalk {
   static Vec2 middle_of(int px, int py, int qx, int qy) {
     return {0.5 * (px + qx) + 0.5, 0.5 * (py + qy) + 0.5};
   }
-  Vec2 start_uv(int px, int py, int qx, int qy) const {
-    return 0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy)));
+  // Where a true edge between two pixels lies: in the picture, on the map, in the world.
+  struct Start {
+    Vec2 middle, uv;
+    Vec3 position;
+  };
+  Start start_at(int px, int py, int qx, int qy) const {
+    return {middle_of(px, py, qx, qy),
+            0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy))),
+            0.5 * (receivers.at(px, py).position + receivers.at(qx, qy).position)};
   }
-  // Map positions are those of pixel centres, while a walk ends where it enters a pixel: the way on the map
-  // to the pixel's centre, scaled to the way that was walked.
-  double moved_texels(const Vec2& middle, const Vec2& start, std::size_t end, double offset) const {
+  // Map positions and receivers are those of pixel centres, while a walk ends where it enters a pixel: the
+  // way to the pixel's centre, scaled to the way that was walked.
+  Moved moved(const Start& start, std::size_t end, double offset) const {
     const auto width = static_cast<std::size_t>(labels.size.width);
     const Vec2 centre(double(end % width) + 0.5, double(end / width) + 0.5);
-    const double way = glm::length(Vec2(record.texel_uv.data[end]) - start);
-    return way * offset / glm::length(centre - middle);
+    const double scale = offset / glm::length(centre - start.middle);
+    return {glm::length(Vec2(record.texel_uv.data[end]) - start.uv) * scale,
+            glm::length(receivers.data[end].position - start.position) * scale};
   }
 
-  // Offset of the drawn edge at a true edge between pixels p (shadowed) and q (lit).
-  void measure(int px, int py, int qx, int qy, EdgeSums& sums) const {
+  // A true edge between pixels p (shadowed) and q (lit), and where the drawn one lies: along `normal`, in
+  // pixels, infinite where it was not found.
+  struct Found {
+    Start start;
+    Vec2 normal{0.0};
+    double offset = infinity;
+    std::size_t end = 0;
+  };
+  Found find_drawn(int px, int py, int qx, int qy) const {
     const std::size_t p = labels.index(px, py);
+    Found found{start_at(px, py, qx, qy), towards_light(px, py), infinity, p};
+    if (found.normal == Vec2(0.0)) return found;
     const std::uint32_t own = object(p);
-    const Vec2 normal = towards_light(px, py);
-    if (normal == Vec2(0.0)) return;
-    const Vec2 middle = middle_of(px, py, qx, qy);
-    std::size_t end = p;
-    double offset = walk(middle, normal, true, own, end);
-    if (offset == 0.0) offset = -walk(middle, -normal, false, own, end);
-    if (!std::isfinite(offset)) return;
-    const double moved = moved_texels(middle, start_uv(px, py, qx, qy), end, std::abs(offset));
-    sums.add(std::copysign(moved, offset), offset);
+    found.offset = walk(found.start.middle, found.normal, true, own, found.end);
+    if (found.offset == 0.0) found.offset = -walk(found.start.middle, -found.normal, false, own, found.end);
+    return found;
+  }
+  void measure(int px, int py, int qx, int qy, EdgeSums& sums) const {
+    const Found found = find_drawn(px, py, qx, qy);
+    if (!std::isfinite(found.offset)) return;
+    const Moved way = moved(found.start, found.end, std::abs(found.offset));
+    sums.add(std::copysign(way.texels, found.offset), found.offset, std::copysign(way.world, found.offset));
   }
 
   // act(shadowed pixel, lit pixel) where a true edge runs between two neighbours.
@@ -148,9 +179,9 @@ struct EdgeWalk {
 
 }  // namespace
 
-EdgeStats measure_edges(const raster::RasterFrame& drawn, const raster::LightRecord& record,
-                        const Image<float>& truth, const Image<Label>& labels, const World& world) {
-  const EdgeWalk walk{drawn, record, truth, labels, world};
+EdgeStats measure_edges(const EdgeInput& input) {
+  const EdgeWalk walk(input);
+  const Image<Label>& labels = input.labels;
   std::vector<EdgeSums> rows(static_cast<std::size_t>(labels.size.height));
   tbb::parallel_for(0, labels.size.height, [&](int y) {
     EdgeSums& sums = rows[static_cast<std::size_t>(y)];
@@ -161,33 +192,63 @@ EdgeStats measure_edges(const raster::RasterFrame& drawn, const raster::LightRec
   return all.stats();
 }
 
-EdgePaths::EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord& record,
-                     const Image<float>& truth, const Image<Label>& labels, const World& world) {
-  const EdgeWalk walk{drawn, record, truth, labels, world};
+Image<float> edge_displacement_map(const EdgeInput& input) {
+  const EdgeWalk walk(input);
+  Image<float> map(input.labels.size, std::numeric_limits<float>::quiet_NaN());
+  const auto paint = [&map](std::size_t pixel, float texels) {
+    float& there = map.data[pixel];
+    if (std::isnan(there) || std::abs(there) < std::abs(texels)) there = texels;
+  };
+  const auto paint_edge = [&](int px, int py, int qx, int qy) {
+    const EdgeWalk::Found found = walk.find_drawn(px, py, qx, qy);
+    if (!std::isfinite(found.offset)) return;
+    const std::size_t p = map.index(px, py);
+    const double texels = walk.moved(found.start, found.end, std::abs(found.offset)).texels;
+    const auto value = static_cast<float>(std::copysign(texels, found.offset));
+    paint(p, value);
+    paint(map.index(qx, qy), value);
+    const bool outwards = found.offset > 0.0;
+    walk.follow(found.start.middle, outwards ? found.normal : -found.normal, outwards, walk.object(p),
+                [&](std::size_t pixel, double offset) {
+                  if (offset < std::abs(found.offset)) paint(pixel, value);
+                  return offset >= std::abs(found.offset);
+                });
+  };
+  for (int y = 0; y < map.size.height; ++y) walk.at_edges_of_row(y, paint_edge);
+  return map;
+}
+
+EdgePaths::EdgePaths(const EdgeInput& input) {
+  const EdgeWalk walk(input);
+  const raster::LightRecord& record = input.record;
+  const Image<Label>& labels = input.labels;
   const auto count = [&] { return static_cast<std::uint32_t>(stops_.size()); };
   const auto add_edge = [&](int px, int py, int qx, int qy) {
     const Vec2 normal = walk.towards_light(px, py);
     if (normal == Vec2(0.0)) return;
     const std::uint32_t own = walk.object(labels.index(px, py));
-    const Vec2 middle = EdgeWalk::middle_of(px, py, qx, qy), start = walk.start_uv(px, py, qx, qy);
+    const EdgeWalk::Start start = walk.start_at(px, py, qx, qy);
+    const auto add_stop = [&](float gap, double offset, std::size_t pixel) {
+      const Moved way = walk.moved(start, pixel, offset);
+      stops_.push_back({gap, offset, way.texels, way.world});
+    };
     Edge edge{count(), 0, 0};
     // Only a pixel whose gap undercuts (on the shadowed side: exceeds) all before it can end a walk.
     float record_gap = std::numeric_limits<float>::infinity();
-    walk.follow(middle, normal, true, own, [&](std::size_t i, double offset) {
+    walk.follow(start.middle, normal, true, own, [&](std::size_t i, double offset) {
       const float gap = record.gap.data[i];
       if (gap < record_gap || (std::isnan(gap) && record_gap > -std::numeric_limits<float>::infinity())) {
         // NaN exceeds no bias: drawn lit at every one.
         record_gap = std::isnan(gap) ? -std::numeric_limits<float>::infinity() : gap;
-        stops_.push_back({record_gap, offset, walk.moved_texels(middle, start, i, offset)});
+        add_stop(record_gap, offset, i);
       }
       return false;
     });
     edge.turn = count();
     record_gap = -std::numeric_limits<float>::infinity();
-    walk.follow(middle, -normal, false, own, [&](std::size_t i, double offset) {
+    walk.follow(start.middle, -normal, false, own, [&](std::size_t i, double offset) {
       const float gap = record.gap.data[i];
-      if (gap > record_gap)
-        stops_.push_back({record_gap = gap, offset, walk.moved_texels(middle, start, i, offset)});
+      if (gap > record_gap) add_stop(record_gap = gap, offset, i);
       return false;
     });
     edge.end = count();
@@ -211,14 +272,14 @@ EdgeStats EdgePaths::at(float bias) const {
                                     [bias](const Stop& stop) { return !(stop.gap > bias); });
       if (lit == begin + edge.turn) continue;
       if (lit->offset_pixels != 0.0) {
-        row.add(lit->moved_texels, lit->offset_pixels);
+        row.add(lit->moved_texels, lit->offset_pixels, lit->moved_world);
         continue;
       }
       const auto dark = std::find_if(begin + edge.turn, begin + edge.end,
                                      [bias](const Stop& stop) { return stop.gap > bias; });
       if (dark == begin + edge.end) continue;
       const bool moved = dark->offset_pixels != 0.0;
-      row.add(moved ? -dark->moved_texels : -0.0, -dark->offset_pixels);
+      row.add(moved ? -dark->moved_texels : -0.0, -dark->offset_pixels, moved ? -dark->moved_world : -0.0);
     }
     all.add(row);
   }
@@ -232,20 +293,37 @@ std::optional<double> detachment_distance(const raytrace::Tracer& tracer, const 
   return occluder->t * glm::length(glm::cross(light_at(light, x.position).to_light, x.normal));
 }
 
-Detachment measure_detachment(const raytrace::Tracer& tracer, const Light& light,
-                              const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
-  Detachment out;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < labels.data.size(); ++i) {
-    if (labels.data[i] != Label::peter_panning) continue;
-    const auto distance = detachment_distance(tracer, light, receivers.data[i]);
-    if (!distance) continue;
-    ++out.pixels;
-    sum += *distance;
-    out.max_world = std::max(out.max_world, *distance);
-  }
-  if (out.pixels > 0) out.mean_world = sum / static_cast<double>(out.pixels);
+void DetachmentSum::add(double distance) {
+  ++sums_.pixels;
+  sums_.mean_world += distance;
+  sums_.rms_world += distance * distance;
+  sums_.max_world = std::max(sums_.max_world, distance);
+}
+
+Detachment DetachmentSum::stats() const {
+  Detachment out = sums_;
+  if (out.pixels == 0) return out;
+  out.mean_world /= static_cast<double>(out.pixels);
+  out.rms_world = std::sqrt(out.rms_world / static_cast<double>(out.pixels));
   return out;
+}
+
+Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
+                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
+  Image<float> map(labels.size, std::numeric_limits<float>::quiet_NaN());
+  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+    if (labels.data[i] != Label::peter_panning) return;
+    if (const auto distance = detachment_distance(tracer, light, receivers.data[i]))
+      map.data[i] = static_cast<float>(*distance);
+  });
+  return map;
+}
+
+Detachment measure_detachment(const Image<float>& map) {
+  DetachmentSum sum;
+  for (const float distance : map.data)
+    if (!std::isnan(distance)) sum.add(double{distance});
+  return sum.stats();
 }
 
 }  // namespace gnomon::compare

@@ -11,23 +11,33 @@ namespace gnomon::compare {
 /// normal (the gradient of the truth over a 7x7 window) in half-pixel steps until the drawn shadow has its
 /// edge there; edges that are not found within 64 pixels are missing features, not displaced edges, and are
 /// left out. Offsets are > 0 where the drawn shadow is larger. Texel figures are distances between looked-up
-/// map positions.
-EdgeStats measure_edges(const raster::RasterFrame& drawn, const raster::LightRecord& record,
-                        const Image<float>& truth, const Image<Label>& labels, const World& world);
+/// map positions, world figures between receivers.
+struct EdgeInput {
+  const raster::RasterFrame& drawn;
+  const raster::LightRecord& record;
+  const Image<raytrace::SurfacePoint>& receivers;
+  const Image<float>& truth;
+  const Image<Label>& labels;
+  const World& world;
+};
+EdgeStats measure_edges(const EdgeInput& input);
+
+/// The offsets in texels on the pixels that were walked over, the larger one where several walks meet; NaN
+/// elsewhere.
+Image<float> edge_displacement_map(const EdgeInput& input);
 
 /// The same for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed
 /// the bias: each walk is made once and keeps the pixels that can end it.
 class EdgePaths {
  public:
   /// `labels`: which pixels are compared, and no more.
-  EdgePaths(const raster::RasterFrame& drawn, const raster::LightRecord& record, const Image<float>& truth,
-            const Image<Label>& labels, const World& world);
+  explicit EdgePaths(const EdgeInput& input);
   EdgeStats at(float bias) const;
 
  private:
   struct Stop {
     float gap;
-    double offset_pixels, moved_texels;
+    double offset_pixels, moved_texels, moved_world;
   };
   /// Stops [first, turn) on the lit side, gaps falling; [turn, end) on the shadowed side, gaps rising.
   struct Edge {
@@ -41,8 +51,19 @@ class EdgePaths {
 /// Distance along the receiver between each pixel that the bias wrongly lights next to its caster
 /// (peter_panning) and the occluder that should shadow it: t sin(angle between light and normal) for the
 /// nearest occluder at t.
-Detachment measure_detachment(const raytrace::Tracer& tracer, const Light& light,
-                              const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+Detachment measure_detachment(const Image<float>& map);
+/// The distances by pixel, world units; NaN where there is none.
+Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
+                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+/// Adds distances up one by one, in the order of the pixels.
+class DetachmentSum {
+ public:
+  void add(double distance);
+  Detachment stats() const;
+
+ private:
+  Detachment sums_;
+};
 /// Of one pixel; none where nothing occludes it.
 std::optional<double> detachment_distance(const raytrace::Tracer& tracer, const Light& light,
                                           const raytrace::SurfacePoint& receiver);

@@ -169,7 +169,7 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
     if (!drawn_wrong(in, out, pixel)) continue;
     std::array<float, rung_count> v{};
     for (std::size_t k = 0; k < rung_count; ++k) v[k] = out.rungs[k].data[pixel];
-    if (!column) column = lower.columns->column(group);
+    if (!column) column = lower.columns->kept_column(group);
     out.labels.data[pixel] = label_wrong_pixel(in, *column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
   }
 }

@@ -66,6 +66,10 @@ void measure_perceptual(LightComparison& light) {
   light.ssim_map = ssim_by_pixel(windows, truth.size);
 }
 
+MapMeasures measure_map(const LadderInput& in, const Image<Label>& labels) {
+  return {texel_sizes(in, labels), predict(in, labels)};
+}
+
 LightComparison measure_light(const LadderInput& in, std::size_t record, Climb climbed,
                               const MeasureOptions& options) {
   LightComparison out;
@@ -76,12 +80,17 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   measure_pixels(out);
   if (options.perceptual) measure_perceptual(out);
   const Image<float>& truth = out.rungs[0];
-  out.edges = measure_edges(in.drawn, in.record, truth, out.labels, in.world);
-  out.detachment = measure_detachment(in.tracer, in.light, in.traced.receiver, out.labels);
+  const EdgeInput edges{in.drawn, in.record, in.traced.receiver, truth, out.labels, in.world};
+  out.edges = measure_edges(edges);
+  if (options.perceptual) out.edge_map = edge_displacement_map(edges);
+  Image<float> detached = detachment_map(in.tracer, in.light, in.traced.receiver, out.labels);
+  out.detachment = measure_detachment(detached);
+  if (options.perceptual) out.detachment_map = std::move(detached);
   out.bleeding = measure_bleeding(in, out.rungs, out.labels);
   if (!in.truth.visibility.data.empty()) out.penumbra = measure_penumbra(in, truth, out.labels);
-  out.texel_world = texel_sizes(in, out.labels);
-  out.theory = predict(in, out.labels);
+  const MapMeasures map = options.map != nullptr ? *options.map : measure_map(in, out.labels);
+  out.texel_world = map.texel_world;
+  out.theory = map.theory;
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);
   out.bias_curve = draw_bias_curve(gaps, out.texel_world[1], in.record.bias_constant_world,

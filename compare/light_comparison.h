@@ -5,9 +5,18 @@
 
 namespace gnomon::compare {
 
+/// What hangs on the map and on which pixels are compared, but not on how the map is looked up.
+struct MapMeasures {
+  std::array<double, 3> texel_world{};
+  TheoryStats theory;
+};
+MapMeasures measure_map(const LadderInput& input, const Image<Label>& labels);
+
 struct MeasureOptions {
   int bias_curve_points = 129;
-  bool perceptual = true;  ///< FLIP and SSIM, which cost more than all the rest; NaN when left out
+  /// FLIP and SSIM, which cost more than all the rest (NaN when left out), and the maps of displacement.
+  bool perceptual = true;
+  const MapMeasures* map = nullptr;  ///< of the same map and the same compared pixels; null: made anew
 };
 
 /// `record` is the light's index in the frames' lists.

@@ -37,6 +37,14 @@ Rgb8Image ssim_picture(const LightComparison& light);
 /// Of the hybrid, who decided each pixel: the picture in grey, tinted where the sheets were sure, one plain
 /// colour where rays were cast. Needs the record's decisions.
 Rgb8Image decision_picture(const Comparison& comparison, const LightComparison& light);
+/// How far drawn shadow edges lie from the true ones, on the band between the two: from white (none) to the
+/// colours of false shadow (the drawn shadow is larger) and missed shadow (smaller) at edge_scale_texels and
+/// more. Grey: lit and shadowed, where no edge was measured. Needs the light's map.
+Rgb8Image edge_picture(const LightComparison& light);
+/// How far the drawn shadow starts from its caster, on the pixels that the bias lights there, on magma from
+/// 0 to detachment_scale_texels; black elsewhere. Needs the light's map.
+Rgb8Image detachment_picture(const LightComparison& light);
+inline constexpr double edge_scale_texels = 4.0, detachment_scale_texels = 16.0;
 /// Stored depths, near = bright, on one fixed scale over the map's depth range (logarithmic for a
 /// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);

@@ -55,6 +55,12 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
     out.decisions.file_name = "decisions" + suffix + ".png";
     jobs.push_back({&out.decisions, [&c, &light] { return decision_picture(c, light); }});
   }
+  if (!light.edge_map.data.empty()) {
+    out.edges.file_name = "edge-displacement" + suffix + ".png";
+    out.detachment.file_name = "detachment" + suffix + ".png";
+    jobs.push_back({&out.edges, [&light] { return edge_picture(light); }});
+    jobs.push_back({&out.detachment, [&light] { return detachment_picture(light); }});
+  }
   if (light.flip_map.data.empty()) return;
   out.flip.file_name = "flip" + suffix + ".png";
   out.ssim.file_name = "ssim" + suffix + ".png";

@@ -19,6 +19,7 @@ struct LightPictures {
   EncodedPicture difference, labels;
   EncodedPicture error, flip, ssim;  ///< maps of the metrics; FLIP and SSIM only where computed
   EncodedPicture decisions;          ///< of the hybrid alone
+  EncodedPicture edges, detachment;  ///< maps of displacement, where made
   EncodedPicture depth_map;          ///< as many pixels as texels, up to 4096 wide
   EncodedPicture depth_map_small;    ///< for the page: up to 1024 wide
   /// One pixel of the picture per step x step texels, which shows the nearest depth of them.

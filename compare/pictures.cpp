@@ -104,6 +104,28 @@ Rgb8Image decision_picture(const Comparison& c, const LightComparison& light) {
   });
 }
 
+Rgb8Image edge_picture(const LightComparison& light) {
+  const Image<float>& truth = light.rungs.front();
+  return picture(light.edge_map.size, [&](std::size_t i) {
+    const float texels = light.edge_map.data[i];
+    if (std::isnan(texels))
+      return is_compared(light.labels.data[i]) ? glm::u8vec3(truth.data[i] > 0.5f ? 0x50 : 0x30)
+                                               : glm::u8vec3(0);
+    const glm::u8vec3 colour = texels > 0.0f ? false_shadow_colour : missed_shadow_colour;
+    const double share = std::min(std::abs(double{texels}) / edge_scale_texels, 1.0);
+    return glm::u8vec3(glm::mix(Vec3f(255.0f), Vec3f(colour), static_cast<float>(share)) + 0.5f);
+  });
+}
+
+Rgb8Image detachment_picture(const LightComparison& light) {
+  const double texel = light.texel_world[1];
+  return picture(light.detachment_map.size, [&](std::size_t i) {
+    const double world = double{light.detachment_map.data[i]};
+    return std::isnan(world) || !(texel > 0.0) ? glm::u8vec3(0)
+                                               : magma(world / texel / detachment_scale_texels);
+  });
+}
+
 Rgb8Image depth_map_picture(const raster::ShadowMap& map) {
   const int n = map.view.size, faces = map.view.face_count;
   const int across = std::min(faces, 3), down = (faces + across - 1) / across;  // +x -x +y over -y +z -z

@@ -79,8 +79,13 @@ void add_errors(Row& row, const LightComparison& light) {
   row.emplace_back("edge_mean_texels", number(light.edges.mean_texels));
   row.emplace_back("edge_rms_texels", number(light.edges.rms_texels));
   row.emplace_back("edge_rms_pixels", number(light.edges.rms_pixels));
+  row.emplace_back("edge_mean_absolute_texels", number(light.edges.mean_absolute_texels));
+  row.emplace_back("edge_mean_world", number(light.edges.mean_world));
+  row.emplace_back("edge_mean_absolute_world", number(light.edges.mean_absolute_world));
+  row.emplace_back("edge_rms_world", number(light.edges.rms_world));
   row.emplace_back("detachment_mean_world", number(light.detachment.mean_world));
   row.emplace_back("detachment_max_world", number(light.detachment.max_world));
+  row.emplace_back("detachment_rms_world", number(light.detachment.rms_world));
   row.emplace_back("best_bias_world", number(light.best_bias.constant_world));
   row.emplace_back("best_bias_wrong_fraction", number(light.best_bias.wrong_fraction));
   row.emplace_back("best_bias_feasible", light.best_bias.feasible ? "true" : "false");

@@ -232,6 +232,12 @@ Json theory_json(const TheoryStats& t) {
           {"measured_aliasing", distribution_json(t.measured_aliasing)}};
 }
 
+// null where no receiver has a texel.
+Json in_texels(double world, const LightComparison& light) {
+  const double texel = light.texel_world[1];
+  return texel > 0.0 ? number(world / texel) : Json(nullptr);
+}
+
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
@@ -246,11 +252,18 @@ Json light_block(const Comparison& c, const LightComparison& light) {
               {{"count", light.edges.edges},
                {"mean_texels", number(light.edges.mean_texels)},
                {"rms_texels", number(light.edges.rms_texels)},
-               {"rms_pixels", number(light.edges.rms_pixels)}}},
+               {"rms_pixels", number(light.edges.rms_pixels)},
+               {"mean_absolute_texels", number(light.edges.mean_absolute_texels)},
+               {"mean_world", number(light.edges.mean_world)},
+               {"mean_absolute_world", number(light.edges.mean_absolute_world)},
+               {"rms_world", number(light.edges.rms_world)}}},
              {"detachment",
               {{"pixels", light.detachment.pixels},
                {"mean_world", number(light.detachment.mean_world)},
-               {"max_world", number(light.detachment.max_world)}}},
+               {"max_world", number(light.detachment.max_world)},
+               {"rms_world", number(light.detachment.rms_world)},
+               {"mean_texels", in_texels(light.detachment.mean_world, light)},
+               {"max_texels", in_texels(light.detachment.max_world, light)}}},
              {"bias_curve", bias_curve_json(light)},
              {"best_bias", best_bias_json(light.best_bias)},
              {"theory", theory_json(light.theory)},

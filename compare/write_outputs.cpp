@@ -19,8 +19,9 @@ std::vector<File> picture_files(const PictureSet& pictures, bool beside) {
   std::vector<File> files{{pictures.raster.file_name, pictures.raster.png},
                           {pictures.raytraced.file_name, pictures.raytraced.png}};
   for (const LightPictures& light : pictures.lights) {
-    for (const EncodedPicture* picture : {&light.difference, &light.labels, &light.error, &light.flip,
-                                          &light.ssim, &light.decisions, &light.depth_map})
+    for (const EncodedPicture* picture :
+         {&light.difference, &light.labels, &light.error, &light.flip, &light.ssim, &light.edges,
+          &light.detachment, &light.decisions, &light.depth_map})
       if (!picture->png.empty()) files.push_back({picture->file_name, picture->png});
     if (beside && light.depth_map_small.file_name != light.depth_map.file_name)
       files.push_back({light.depth_map_small.file_name, light.depth_map_small.png});

@@ -67,7 +67,18 @@ class GlRenderer final : public Renderer {
   Expected<void> shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
                        LightRecord* record);
   Expected<void> shade_without_light(Job& job);
-  Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass);
+  /// `warm`: no pass is needed before the timed ones.
+  Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass,
+                           bool warm = false);
+  /// The map of the last frame with records, as long as the device holds it.
+  struct KeptMap {
+    RasterOptions options;  ///< without the bias
+    Light light;
+    ShadowMap map;
+    Times map_pass;
+  };
+  bool take_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  void keep_map(const Job& job, const Light& light, const LightRecord& record);
   void restore_state() const;
 
   std::unique_ptr<Context> context_;
@@ -82,6 +93,8 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<TechniquePass> technique_pass_;
   Technique technique_ = Technique::hard;  ///< of technique_pass_
   ExternalPass external_;
+  std::optional<KeptMap> kept_map_;
+  std::optional<ShadePermutation> last_timed_;  ///< of the shading pass
 };
 
 struct GlRenderer::Job {
@@ -174,9 +187,12 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
 }
 
 // One warm-up, then the timed runs, each from an idle device to an idle device.
-Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass) {
+Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass,
+                                     bool warm) {
   if (runs == 0) return {};
-  if (auto ok = pass(); !ok) return ok;
+  if (!warm) {
+    if (auto ok = pass(); !ok) return ok;
+  }
   (*gl_)->Finish();
   Expected<void> result;
   for (int i = 0; i < runs && result; ++i) {
@@ -186,6 +202,31 @@ Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function
     });
   }
   return result;
+}
+
+// Everything that a map and its time hang on, where the camera is no part of that and one light has the maps
+// for itself. Only frames with whole records are kept, so that who asks for times alone gets new ones.
+std::optional<RasterOptions> map_key(const RasterOptions& options, std::size_t lights) {
+  const Technique technique = options.map.technique;
+  const bool of_camera = technique == Technique::csm || technique == Technique::lispsm;
+  const bool own_map = technique == Technique::izb || technique == Technique::hybrid;
+  if (of_camera || own_map || lights != 1 || !options.analysis || !options.map_contents) return std::nullopt;
+  RasterOptions key = options;
+  key.map.bias = {};
+  return key;
+}
+
+bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& record) const {
+  const auto key = map_key(job.options, world_->scene->lights.size());
+  if (!key || !kept_map_ || kept_map_->options != *key || kept_map_->light != light) return false;
+  record.map = kept_map_->map;
+  record.map_pass = kept_map_->map_pass;
+  return true;
+}
+
+void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
+  if (auto key = map_key(job.options, world_->scene->lights.size()))
+    kept_map_ = KeptMap{*key, light, record.map, record.map_pass};
 }
 
 Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {
@@ -213,11 +254,16 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   const VisibilityRequest request{index, *view, job.view, job.options.shadow_samples, job.options.seed};
   const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (map.technique == Technique::hybrid) {
+    kept_map_.reset();
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
     if (!with_ids) return shade(job, map_job, request, record);
   }
   if (auto ok = prepare_maps(job, map_job, with_ids); !ok) return ok;
-  if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
+  if (record == nullptr || !take_kept_map(job, light, *record)) {
+    kept_map_.reset();
+    if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
+    if (record != nullptr) keep_map(job, light, *record);
+  }
   return shade(job, map_job, request, record);
 }
 
@@ -310,12 +356,16 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr) {
     const ShadePermutation timed = shade_permutation(light, map, job.first_light, false);
-    auto ok = time_pass(job.options.runs, record->shade_pass, [&]() -> Expected<void> {
-      if (auto seen = see(job, asked); !seen) return seen;
-      job.visibility_drawn = true;
-      return shading_.draw_light(buffers_, timed, !job.first_light);
-    });
+    auto ok = time_pass(
+        job.options.runs, record->shade_pass,
+        [&]() -> Expected<void> {
+          if (auto seen = see(job, asked); !seen) return seen;
+          job.visibility_drawn = true;
+          return shading_.draw_light(buffers_, timed, !job.first_light);
+        },
+        last_timed_ == timed);
     if (!ok) return ok;
+    if (job.options.runs > 0) last_timed_ = timed;
   }
   if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {
     if (auto ok = see(job, asked); !ok) return ok;

@@ -70,6 +70,29 @@ TEST(Pictures, DifferencePictureColoursWrongPixelsOnly) {
   EXPECT_GT(missed_shadow, 0u);
 }
 
+TEST(Pictures, DisplacementMapsHaveFixedScales) {
+  const auto made = make_synthetic();
+  LightComparison& light = made->comparison.lights[0];
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  light.edge_map = light.detachment_map = Image<float>(light.labels.size, none);
+  const std::size_t a = light.labels.index(5, 61), b = a + 1, c = a + 2;
+  light.edge_map.data[a] = 4.0f, light.edge_map.data[b] = -9.0f, light.edge_map.data[c] = 0.0f;
+  light.detachment_map.data[a] = static_cast<float>(16.0 * light.texel_world[1]);
+  light.detachment_map.data[b] = static_cast<float>(4.0 * light.texel_world[1]);
+  const Rgb8Image edges = edge_picture(light), detached = detachment_picture(light);
+  EXPECT_EQ(packed(edges.data[a]), packed(false_shadow_colour));
+  EXPECT_EQ(packed(edges.data[b]), packed(missed_shadow_colour));
+  EXPECT_EQ(packed(edges.data[c]), 0xffffffu);
+  EXPECT_EQ(packed(edges.data[0]), 0u);  // the sky
+  EXPECT_EQ(packed(detached.data[a]), packed(magma(1.0)));
+  EXPECT_EQ(packed(detached.data[b]), packed(magma(0.25)));
+  EXPECT_EQ(packed(detached.data[c]), 0u);
+  const auto pictures = encode_pictures(made->comparison);
+  ASSERT_TRUE(pictures) << pictures.error().message();
+  EXPECT_EQ(pictures->lights[0].edges.file_name, "edge-displacement.png");
+  EXPECT_FALSE(pictures->lights[0].detachment.png.empty());
+}
+
 TEST(Pictures, DepthMapIsUpsideUpNearIsBrightAndFacesStandApart) {
   const auto made = make_synthetic(2);
   const raster::ShadowMap& one = made->comparison.raster.lights[0].map;

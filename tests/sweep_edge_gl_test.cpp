@@ -113,15 +113,22 @@ TEST(StraightEdge, AreaIsTheClosedForm) {
 // Texels of 5 to 10 pixels, so that the pixels' own steps add less than two percent to the offsets.
 TEST(StraightEdge, OffsetOfTheEdgeIsUniformOverATexel) {
   OneWorld world(plates_over_floor(0.0));
-  double squares = 0.0;
+  double squares = 0.0, absolute = 0.0;
   std::uint64_t edges = 0;
   for (int map_size = 40; map_size < 80; ++map_size) {
     const compare::Comparison run = world.compare(test_options(size, map_size, 0.01));
     const compare::EdgeStats& stats = run.lights[0].edges;
     squares += stats.rms_texels * stats.rms_texels * double(stats.edges);
     edges += stats.edges;
+    absolute += stats.mean_absolute_texels * double(stats.edges);
+    // The floor is square to the light: both figures are of the same way. The map's positions are floats.
+    const double texel = run.lights[0].texel_world[1];
+    EXPECT_NEAR(stats.rms_world, stats.rms_texels * texel, 1e-3 * texel) << map_size;
+    EXPECT_NEAR(stats.mean_world, stats.mean_texels * texel, 1e-3 * texel) << map_size;
+    EXPECT_NEAR(stats.mean_absolute_world, stats.mean_absolute_texels * texel, 1e-3 * texel) << map_size;
   }
   const double rms = std::sqrt(squares / double(edges));
+  EXPECT_NEAR(absolute / double(edges), 0.25, 0.05 * 0.25);  // of a uniform offset
   std::printf("  edge offset: RMS %.4f texel (1/sqrt(12) = %.4f)\n", rms, 1 / std::sqrt(12.0));
   EXPECT_NEAR(rms, 1 / std::sqrt(12.0), 0.05 / std::sqrt(12.0));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -106,7 +107,15 @@ struct Workshop {
   Console& console;
 };
 
-Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t index) {
+/// A cell that is made but for its pictures, which another thread encodes and writes. Its line goes into the
+/// journal once they are there.
+struct MadeCell {
+  std::string line, times;
+  CellPictureWriter::Job pictures;
+  std::future<Expected<void>> written;
+};
+
+Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   const Stopwatch watch;
   const std::size_t cell = shop.plan.cells[index];
   auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
@@ -121,27 +130,41 @@ Expected<void> make_cell(Workshop& shop, compare::Journal& journal, std::size_t 
   comparison.command = compare_command(shop.command, shop.plan, cell);
   comparison.seed = shop.command.seed;
   comparison.machine = shop.machine;
+  MadeCell made;
   const auto idle = json_names(shop.command.options.idle_axes(shop.plan.grid, cell));
-  const std::string line = compare::result_line(comparison, axis_values(shop.plan.grid, cell), idle);
-  const std::string times =
-      compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
-  if (compare::has_thumbnail(cell, shop.plan.grid.cells())) {
-    if (auto written = shop.pictures.write(cell, comparison); !written) return written;
-  }
-  const OutputGuard whole_lines;
-  return journal.append(line, times);
+  made.line = compare::result_line(comparison, axis_values(shop.plan.grid, cell), idle);
+  made.times = compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
+  if (compare::has_thumbnail(cell, shop.plan.grid.cells()))
+    made.pictures = shop.pictures.pictures(cell, comparison);
+  return made;
 }
 
+Expected<void> finish_cell(std::optional<MadeCell>& cell, compare::Journal& journal) {
+  if (!cell) return {};
+  if (cell->written.valid())
+    if (auto written = cell->written.get(); !written) return written;
+  const OutputGuard whole_lines;
+  auto appended = journal.append(cell->line, cell->times);
+  cell.reset();
+  return appended;
+}
+
+/// While one cell's pictures are written the next cell is made.
 Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
   const Stopwatch watch;
   const std::size_t all = shop.plan.cells.size(), before = journal.lines().size();
+  std::optional<MadeCell> last;
   for (std::size_t i = before; i < all; ++i) {
     shop.console.progress(
         fmt::format("cell {} of {}{}", i + 1, all, time_left(watch.elapsed_ms(), i - before, all - i)),
         double(i) / double(all));
-    if (auto made = make_cell(shop, journal, i); !made) return made;
+    auto made = make_cell(shop, i);
+    if (auto finished = finish_cell(last, journal); !finished) return finished;
+    if (!made) return fail(made.error());
+    last = std::move(*made);
+    if (last->pictures) last->written = std::async(std::launch::async, std::move(last->pictures));
   }
-  return {};
+  return finish_cell(last, journal);
 }
 
 Expected<void> discard(const std::string& folder) {

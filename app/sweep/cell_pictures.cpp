@@ -1,5 +1,8 @@
 #include "app/sweep/cell_pictures.h"
 
+#include <optional>
+#include <vector>
+
 #include "app/interrupt.h"
 #include "compare/outputs.h"
 #include "compare/sweep/cell_files.h"
@@ -13,30 +16,58 @@ Expected<void> CellPictureWriter::make_folders() const {
   return make_output_folder(compare::cells_folder(folder_));
 }
 
-Expected<void> CellPictureWriter::write_truth(const compare::Comparison& comparison) {
-  if (truths_ == engine_.work().truths) return {};
-  const auto png = encode_png(compare::raytraced_picture(comparison));
-  if (!png) return fail(png.error());
-  truth_ = compare::truth_name(*png);
-  truths_ = engine_.work().truths;
-  return write_file(compare::cells_folder(folder_) + "/" + truth_ + ".png", *png);
+namespace {
+
+struct Pictures {
+  std::string folder;
+  std::size_t cell = 0;
+  std::shared_ptr<std::string> truth_name;
+  std::optional<Rgb8Image> truth, drawing;  ///< empty: written before, not drawn
+  Image<std::uint8_t> codes;
+  Rgb8Image thumbnail;
+};
+
+Expected<void> write_pictures(const Pictures& p) {
+  const std::string cells = compare::cells_folder(p.folder) + "/";
+  std::vector<std::pair<std::string, std::string>> files;  // path, bytes
+  const auto add = [&files](const std::string& path, const Rgb8Image& image) -> Expected<void> {
+    auto png = encode_png(image);
+    if (!png) return fail(png.error());
+    files.emplace_back(path, std::move(*png));
+    return {};
+  };
+  if (p.truth) {
+    if (auto added = add({}, *p.truth); !added) return added;
+    *p.truth_name = compare::truth_name(files.back().second);
+    files.back().first = cells + *p.truth_name + ".png";
+  }
+  const std::string name = cells + compare::cell_name(p.cell);
+  files.emplace_back(name + ".js", compare::cell_data_file(p.cell, p.codes, *p.truth_name));
+  if (p.drawing)
+    if (auto added = add(name + ".png", *p.drawing); !added) return added;
+  if (auto added = add(compare::thumbnail_path(p.folder, p.cell), p.thumbnail); !added) return added;
+  const OutputGuard whole_files;
+  for (const auto& [path, bytes] : files)
+    if (auto written = write_file(path, bytes); !written) return written;
+  return {};
 }
 
-Expected<void> CellPictureWriter::write(std::size_t cell, const compare::Comparison& comparison) {
-  const OutputGuard whole_files;
-  if (auto written = write_truth(comparison); !written) return written;
-  const std::string name = compare::cells_folder(folder_) + "/" + compare::cell_name(cell);
-  if (auto written = write_file(name + ".js", compare::cell_data_file(cell, engine_.class_codes(), truth_));
-      !written)
-    return written;
-  if (!engine_.last_was_derived()) {
-    const auto drawing = encode_png(engine_.drawing(compare::drawing_width));
-    if (!drawing) return fail(drawing.error());
-    if (auto written = write_file(name + ".png", *drawing); !written) return written;
+}  // namespace
+
+CellPictureWriter::Job CellPictureWriter::pictures(std::size_t cell, const compare::Comparison& comparison) {
+  auto pictures = std::make_shared<Pictures>();
+  pictures->folder = folder_;
+  pictures->cell = cell;
+  if (truths_ != engine_.work().truths) {
+    truths_ = engine_.work().truths;
+    truth_ = std::make_shared<std::string>();
+    pictures->truth = compare::raytraced_picture(comparison);
   }
-  const auto thumbnail = encode_png(engine_.thumbnail(compare::thumbnail_width));
-  if (!thumbnail) return fail(thumbnail.error());
-  return write_file(compare::thumbnail_path(folder_, cell), *thumbnail);
+  pictures->truth_name = truth_;
+  pictures->codes = engine_.class_codes();
+  pictures->thumbnail = engine_.thumbnail(compare::thumbnail_width);
+  if (!engine_.last_was_derived()) pictures->drawing = engine_.drawing(compare::drawing_width);
+  return [pictures] { return write_pictures(*pictures); };
 }
 
 }  // namespace gnomon::app

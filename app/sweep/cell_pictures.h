@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "compare/sweep/engine.h"
@@ -16,16 +18,17 @@ class CellPictureWriter {
       : folder_(folder), engine_(engine) {}
 
   Expected<void> make_folders() const;
-  /// Writes the pictures of the engine's last comparison; all of them are there, or an error.
-  Expected<void> write(std::size_t cell, const compare::Comparison& comparison);
+  /// Encodes and writes pictures: all of them are there then, or an error. May run on any thread, while the
+  /// engine goes on.
+  using Job = std::function<Expected<void>()>;
+  /// The pictures of the engine's last comparison.
+  Job pictures(std::size_t cell, const compare::Comparison& comparison);
 
  private:
-  Expected<void> write_truth(const compare::Comparison& comparison);
-
   const std::string& folder_;
   const compare::Engine& engine_;
-  std::uint64_t truths_ = 0;  ///< made when the last one was written
-  std::string truth_;         ///< its name
+  std::uint64_t truths_ = 0;            ///< made when the last one was written
+  std::shared_ptr<std::string> truth_;  ///< its name; written by the job of the truth's first cell
 };
 
 }  // namespace gnomon::app

@@ -99,16 +99,10 @@ class BiasAxis {
   std::vector<WrongSpan> take_spans() { return std::move(spans_); }
   const Counts& counts(std::size_t bias) const { return totals_[bias]; }
   Detachment detachment(std::size_t bias) const {
-    Detachment out;
-    double sum = 0.0;
-    for (const Gap& gap : gaps_) {
-      if (bias < gap.from || bias >= gap.to) continue;
-      ++out.pixels;
-      sum += gap.distance;
-      out.max_world = std::max(out.max_world, gap.distance);
-    }
-    if (out.pixels > 0) out.mean_world = sum / static_cast<double>(out.pixels);
-    return out;
+    DetachmentSum sum;
+    for (const Gap& gap : gaps_)
+      if (bias >= gap.from && bias < gap.to) sum.add(gap.distance);
+    return sum.stats();
   }
 
  private:
@@ -188,7 +182,8 @@ class BiasAxis {
 
   void add_gap(std::uint32_t pixel, std::uint32_t from, std::uint32_t to) {
     if (const auto distance = detachment_distance(in_.tracer, in_.light, in_.traced.receiver.data[pixel]))
-      shares_.local().gaps.push_back({pixel, from, to, *distance});
+      // rounded as a map keeps it (detachment_map)
+      shares_.local().gaps.push_back({pixel, from, to, double{static_cast<float>(*distance)}});
   }
 
   const LowerClimb& lower_;
@@ -247,7 +242,7 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
                          std::span<const double> asked, int bias_curve_points) {
   BiasAxis axis(lower, in, asked);
   axis.run();
-  const EdgePaths edges(in.drawn, in.record, lower.rungs[0], lower.sorted, in.world);
+  const EdgePaths edges({in.drawn, in.record, in.traced.receiver, lower.rungs[0], lower.sorted, in.world});
   const GapLists gaps = sort_gaps(in.record, lower.rungs[0], lower.sorted);
   BiasTable out{std::vector<LightComparison>(asked.size()), axis.biases().place, axis.take_spans()};
   std::vector<LightComparison>& lights = out.lights;

@@ -152,10 +152,12 @@ void Engine::Impl::climb_lower() {
   for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
   if (same) return;
   lower.clear();
+  map_measures.clear();
   lower_frame = std::make_unique<raster::RasterFrame>(frame);
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const LadderInput in = input(*lower_frame, i);
     lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
+    map_measures.push_back(measure_map(in, lower.back()->sorted));
     ++work.lower_climbs;
   }
 }
@@ -204,7 +206,9 @@ void Engine::Impl::measure() {
     Times classify;
     Climb climbed;
     time_run(classify, [&] { climbed = climb_up(*lower[i], in); });
-    comparison.lights.push_back(measure_light(in, i, std::move(climbed), measure_options()));
+    MeasureOptions options = measure_options();
+    options.map = &map_measures[i];
+    comparison.lights.push_back(measure_light(in, i, std::move(climbed), options));
     comparison.lights.back().classify = classify;
   }
 }

@@ -22,7 +22,8 @@ struct Engine::Impl {
   /// The drawing that the lower climbs were made from, and one climb per light compared.
   std::unique_ptr<raster::RasterFrame> lower_frame;
   std::vector<std::unique_ptr<LowerClimb>> lower;
-  Rgb8Image backdrop;  ///< the ray-traced picture in grey; empty: not made yet
+  std::vector<MapMeasures> map_measures;  ///< as `lower`
+  Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
   bool has_images = false;
   std::vector<raster::Bias> expected;
   std::vector<BiasTable> table;  ///< by light; empty: not made yet
