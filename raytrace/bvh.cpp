@@ -1,10 +1,10 @@
 #include "raytrace/bvh.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
-#include <limits>
+#include <array>
+#include <atomic>
 #include <numeric>
 
 #include "raytrace/bvh_bins.h"
@@ -17,51 +17,91 @@ namespace {
 using namespace binned;
 
 constexpr std::size_t few_primitives = 64;
-constexpr std::uint32_t max_leaf_size = 4;
+constexpr std::uint32_t max_leaf_size = 4, small_leaf_size = 2;  // small: never split
 constexpr std::uint32_t parallel_threshold = 4096;  // primitives; below it a task costs more than it gains
 constexpr std::uint32_t parallel_scan = 1u << 16;   // so with a scan over a range
 constexpr float traversal_cost = 1.0f;              // of a box pair, in triangle tests
 constexpr int sah_depth =
     44;  // deeper than this, split at the median: at most 32 more levels (Bvh::max_depth)
 
-struct BinaryNode {
-  Box box;
-  std::uint32_t first, count;  // count > 0: leaf
-  std::uint32_t right;         // the left child follows its parent
+/// A range of primitives, to be split further or not.
+struct Range {
+  std::uint32_t first, count;
+  Bounds bounds;
+  int depth;             // in binary splits
+  bool is_leaf = false;  // known not to be split
 };
 
+// Top down, a node of four children at once: the largest range is split until there are four (the tree is
+// that of two children a node, folded). A thread takes a node's place when it begins it.
 class Builder {
  public:
-  explicit Builder(std::span<const BoxRef> boxes)
-      : count_(boxes.size()), refs_(boxes.size()), scratch_(boxes.size()), nodes_(2 * boxes.size()) {
-    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) { refs_[i] = ref_of(boxes[i]); });
-    build_range(0, 0, static_cast<std::uint32_t>(count_), 0);
+  explicit Builder(std::span<const BoxRef> boxes, HugeVector<BvhNode>& nodes)
+      : refs_(boxes.size()), scratch_(boxes.size()), nodes_(nodes) {
+    tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) { refs_[i] = ref_of(boxes[i]); });
+    nodes_.resize(boxes.size());  // without values: pages that are not reached cost nothing
+    Range all{0, static_cast<std::uint32_t>(boxes.size()), {}, 0};
+    all.bounds = bounds_of({refs_.data(), boxes.size()});
+    const BvhChild root = build(all);
+    if (root.is_leaf()) all.is_leaf = true, put_node(all.count, {&all, 1});
+    nodes_.resize(used_);
   }
-  const HugeArray<BinaryNode>& nodes() const { return nodes_; }
   std::uint32_t id(std::size_t i) const { return refs_[i].id(); }
 
  private:
-  // A subtree of n primitives owns the 2n - 1 node places from `node` on, so that threads never share a
-  // counter.
-  void build_range(std::uint32_t node, std::uint32_t first, std::uint32_t count, int depth) {
-    const std::span<Ref> refs(refs_.data() + first, count);
-    BinaryNode& out = nodes_[node];
-    const Bounds bounds = scan<Bounds>(
-        refs, [] { return Bounds{}; }, [](Bounds& b, const Ref& ref) { b.grow(ref); },
-        [](Bounds& a, const Bounds& b) { a.grow(b); });
-    out.box = bounds.box, out.count = 0;
-    const std::uint32_t left = split(refs, bounds, depth);
-    if (left == 0) {
-      out.first = first, out.count = count;
-      return;
+  BvhChild build(const Range& range) {
+    std::array<Range, 4> children{range};
+    std::size_t count = 1;
+    while (count < 4 && split_largest(children, count)) {
     }
-    out.right = node + 2 * left;
-    const auto build_left = [&] { build_range(node + 1, first, left, depth + 1); };
-    const auto build_right = [&] { build_range(node + 2 * left, first + left, count - left, depth + 1); };
-    if (count < parallel_threshold)
-      build_left(), build_right();
+    return count == 1 ? BvhChild::leaf(range.first, range.count)
+                      : BvhChild::node(put_node(range.count, {children.data(), count}));
+  }
+
+  std::uint32_t put_node(std::uint32_t primitives, std::span<const Range> children) {
+    const std::uint32_t index = used_++;
+    BvhNode& node = nodes_[index];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Box box = i < children.size() ? children[i].bounds.box : Box::empty();
+      for (std::size_t a = 0; a < 3; ++a) node.bounds[a][i] = box.min[a], node.bounds[3 + a][i] = box.max[a];
+      node.child[i] = BvhChild::empty();
+    }
+    const auto put_child = [&](std::size_t i) {
+      const Range& child = children[i];
+      node.child[i] = child.is_leaf ? BvhChild::leaf(child.first, child.count) : build(child);
+    };
+    if (primitives < parallel_threshold)
+      for (std::size_t i = 0; i < children.size(); ++i) put_child(i);
     else
-      tbb::parallel_invoke(build_left, build_right);
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, children.size(), 1),
+          [&](const auto& r) {
+            for (std::size_t i = r.begin(); i != r.end(); ++i) put_child(i);
+          },
+          tbb::simple_partitioner());
+    return index;
+  }
+
+  /// False when no range is left that can be split.
+  static bool largest_open(std::span<const Range> children, std::size_t& largest) {
+    largest = children.size();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (children[i].is_leaf) continue;
+      if (largest == children.size() ||
+          children[i].bounds.box.half_area() > children[largest].bounds.box.half_area())
+        largest = i;
+    }
+    return largest < children.size();
+  }
+  bool split_largest(std::array<Range, 4>& children, std::size_t& count) {
+    for (std::size_t i = 0; largest_open({children.data(), count}, i);) {
+      if (split(children[i], children[count])) {
+        ++count;
+        return true;
+      }
+      children[i].is_leaf = true;
+    }
+    return false;
   }
 
   /// add() over all of them, a large range over all threads. Joining is exact, so the parts do not matter.
@@ -80,37 +120,55 @@ class Builder {
           return a;
         });
   }
+  static Bounds bounds_of(std::span<const Ref> refs) {
+    return scan<Bounds>(
+        refs, [] { return Bounds{}; }, [](Bounds& b, const Ref& ref) { b.grow(ref); },
+        [](Bounds& a, const Bounds& b) { a.grow(b); });
+  }
 
-  // Reorders refs and returns how many go left; 0: make a leaf.
-  std::uint32_t split(std::span<Ref> refs, const Bounds& bounds, int depth) {
-    const auto count = static_cast<std::uint32_t>(refs.size());
-    if (count <= 1) return 0;
+  // Reorders the range's primitives and leaves it the left ones; false: make a leaf.
+  bool split(Range& left, Range& right) {
+    const std::uint32_t count = left.count;
+    if (count <= small_leaf_size) return false;
+    const std::span<Ref> refs(refs_.data() + left.first, count);
     const std::size_t used = count < few_primitives ? few_bins : most_bins;
-    const Binning binning(bounds.centroids, used);
+    const Binning binning(left.bounds.centroids, used);
     Split best;
-    if (depth < sah_depth) {
+    std::array<Bounds, 2> bounds;
+    if (left.depth < sah_depth) {
       const Bins bins = scan<Bins>(
-          refs, [used] { return Bins(used); }, [&](Bins& b, const Ref& ref) { b.put(ref, binning(ref)); },
+          refs, [used] { return Bins(used); }, [&](Bins& b, const Ref& ref) { b.put(ref, binning); },
           [used](Bins& a, const Bins& b) { a.join(b, used); });
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (binning.scale[axis] > 0.0f) best_on_axis(bins, used, axis, best);
+      const std::array<Box, 2> boxes = boxes_of(bins, used, best);
+      bounds[0].box = boxes[0], bounds[1].box = boxes[1];
     }
-    const float area = bounds.box.half_area();
+    const float area = left.bounds.box.half_area();
     const bool split_pays =
         best.bin >= 0 && best.cost + traversal_cost * area < area * static_cast<float>(count);
-    if (count <= max_leaf_size && !split_pays) return 0;
-    if (best.bin < 0) return median(refs, bounds.centroids);
-    return partition(refs, [&](const Ref& ref) { return binning(ref)[best.axis] <= best.bin; });
+    if (count <= max_leaf_size && !split_pays) return false;
+    std::uint32_t middle = 0;
+    if (best.bin >= 0) {
+      middle = partition(refs, bounds, [&](const Ref& ref) { return binning.is_left(ref, best); });
+    } else {
+      middle = median(refs, left.bounds.centroids);
+      bounds = {bounds_of(refs.first(middle)), bounds_of(refs.subspan(middle))};
+    }
+    right = {left.first + middle, count - middle, bounds[1], left.depth + 1};
+    left = {left.first, middle, bounds[0], left.depth + 1};
+    return true;
   }
 
-  // Keeps the order on both sides.
+  // Keeps the order on both sides, and finds the bounds of their centroids on the way.
   template <class GoesLeft>
-  std::uint32_t partition(std::span<Ref> refs, const GoesLeft& goes_left) {
+  std::uint32_t partition(std::span<Ref> refs, std::array<Bounds, 2>& bounds, const GoesLeft& goes_left) {
     Ref* scratch = scratch_.data() + (refs.data() - refs_.data());
     std::size_t left = 0, right = 0;
     for (std::size_t i = 0; i < refs.size(); ++i) {
       const Ref ref = refs[i];
       const std::size_t is_left = goes_left(ref) ? 1 : 0;
+      bounds[1 - is_left].grow_centroids(ref);
       refs[left] = ref, scratch[right] = ref;
       left += is_left, right += 1 - is_left;
     }
@@ -131,56 +189,9 @@ class Builder {
     return static_cast<std::uint32_t>(refs.size() / 2);
   }
 
-  std::size_t count_;
   HugeArray<Ref> refs_, scratch_;
-  HugeArray<BinaryNode> nodes_;
-};
-
-// Folds a binary node and its largest descendants into up to four children.
-class Folder {
- public:
-  Folder(const HugeArray<BinaryNode>& binary, HugeVector<BvhNode>& out) : binary_(binary), out_(out) {
-    out_.reserve(binary.size() / 5 + 16);  // usually enough
-  }
-
-  std::uint32_t fold(std::uint32_t root) {
-    std::array<std::uint32_t, 4> children{root};
-    std::size_t count = 1;
-    while (count < 4 && open_largest(children, count)) {
-    }
-    const auto index = static_cast<std::uint32_t>(out_.size());
-    out_.emplace_back();
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Box box = i < count ? binary_[children[i]].box : Box::empty();
-      for (std::size_t a = 0; a < 3; ++a)
-        out_[index].bounds[a][i] = box.min[a], out_[index].bounds[3 + a][i] = box.max[a];
-      out_[index].child[i] = BvhChild::empty();
-      if (i >= count) continue;
-      const BinaryNode& node = binary_[children[i]];
-      const BvhChild child =
-          node.count > 0 ? BvhChild::leaf(node.first, node.count) : BvhChild::node(fold(children[i]));
-      out_[index].child[i] = child;
-    }
-    return index;
-  }
-
- private:
-  bool open_largest(std::array<std::uint32_t, 4>& children, std::size_t& count) const {
-    std::size_t largest = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (binary_[children[i]].count > 0) continue;
-      if (largest == count || area(children[i]) > area(children[largest])) largest = i;
-    }
-    if (largest == count) return false;
-    const std::uint32_t opened = children[largest];
-    children[largest] = opened + 1;
-    children[count++] = binary_[opened].right;
-    return true;
-  }
-  float area(std::uint32_t node) const { return binary_[node].box.half_area(); }
-
-  const HugeArray<BinaryNode>& binary_;
-  HugeVector<BvhNode>& out_;
+  HugeVector<BvhNode>& nodes_;
+  std::atomic<std::uint32_t> used_{0};
 };
 
 LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {
@@ -233,27 +244,31 @@ bool usable_triangle(const World& world, std::uint32_t id) {
   return all_finite(a) && all_finite(b) && all_finite(c) && geometric_normal(world, id, a) != Vec3(0.0);
 }
 
-// In blocks over all threads, joined in the order of ids.
+// In blocks over all threads, each at the place of its ids; closed up where some were left out.
 void append_triangles(const World& world, FinitePrimitives& out) {
   constexpr std::uint32_t block_size = 8192;
-  std::vector<std::vector<BoxRef>> blocks((world.triangle_count() + block_size - 1) / block_size);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  const std::uint32_t count = world.triangle_count();
+  std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
+  out.boxes.resize(count);
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t block) {
     const auto first = static_cast<std::uint32_t>(block) * block_size;
-    const std::uint32_t end = std::min(first + block_size, world.triangle_count());
-    blocks[block].reserve(end - first);
-    for (std::uint32_t id = first; id < end; ++id)
-      if (usable_triangle(world, id)) blocks[block].push_back(triangle_box(world, id, out.center));
+    BoxRef* at = out.boxes.data() + first;
+    for (std::uint32_t id = first; id < std::min(first + block_size, count); ++id)
+      if (usable_triangle(world, id)) *at++ = triangle_box(world, id, out.center);
+    kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
   });
-  for (const std::vector<BoxRef>& block : blocks)
-    out.boxes.insert(out.boxes.end(), block.begin(), block.end());
-  out.dropped += world.triangle_count() - out.boxes.size();
+  std::size_t size = 0;
+  for (std::size_t block = 0; block < kept.size(); size += kept[block++])
+    if (size != block * block_size)
+      std::copy_n(out.boxes.data() + block * block_size, kept[block], out.boxes.data() + size);
+  out.boxes.resize(size);
+  out.dropped += count - size;
 }
 
 }  // namespace
 
 FinitePrimitives finite_primitives(const World& world) {
   FinitePrimitives out;
-  out.boxes.reserve(world.triangle_count());
   const Vec3 middle = world.finite_bounds.center();
   if (all_finite(middle)) out.center = middle;
   append_triangles(world, out);
@@ -283,16 +298,9 @@ Bvh build_bvh(const World& world) {
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
   if (finite.boxes.empty()) return bvh;
-  const Builder builder(finite.boxes);
-  tbb::parallel_invoke(
-      [&] {
-        Folder(builder.nodes(), bvh.nodes).fold(0);
-        bvh.nodes.shrink_to_fit();
-      },
-      [&] {
-        fill_leaves(
-            world, finite.boxes.size(), [&](std::size_t i) { return builder.id(i); }, bvh);
-      });
+  const Builder builder(finite.boxes, bvh.nodes);
+  fill_leaves(
+      world, finite.boxes.size(), [&](std::size_t i) { return builder.id(i); }, bvh);
   return bvh;
 }
 

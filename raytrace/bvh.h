@@ -68,7 +68,7 @@ struct BoxRef {
 
 /// The finite, non-degenerate triangles, spheres and solids of a world, in ascending order of ids.
 struct FinitePrimitives {
-  std::vector<BoxRef> boxes;
+  HugeVector<BoxRef> boxes;
   Vec3 center{0.0};  ///< of the world's finite bounds
   std::uint64_t dropped = 0;
 };

@@ -7,25 +7,31 @@
 #include <limits>
 
 #include "raytrace/bvh.h"
+#include "raytrace/float4.h"
 
 namespace gnomon::raytrace::binned {
 
 inline constexpr std::size_t most_bins = 16, few_bins = 8;  ///< few: where there are few to put in
 
-/// Four floats, the last of which means nothing here: loops over them become single instructions.
-using Row = std::array<float, 4>;
+/// Four floats, the last of which means nothing here.
+struct alignas(16) Row {
+  float at[4];
+  float& operator[](std::size_t i) { return at[i]; }
+  float operator[](std::size_t i) const { return at[i]; }
+  Float4 all() const { return Float4::load(at); }
+};
 inline void lower(Row& a, const Row& b) {
-  for (std::size_t i = 0; i < 4; ++i) a[i] = b[i] < a[i] ? b[i] : a[i];
+  min_keep(b.all(), a.all()).store(a.at);
 }
 inline void raise(Row& a, const Row& b) {
-  for (std::size_t i = 0; i < 4; ++i) a[i] = b[i] > a[i] ? b[i] : a[i];
+  max_keep(b.all(), a.all()).store(a.at);
 }
 
 struct alignas(16) Box {
   Row min, max;
   static Box empty() {
     constexpr float inf = std::numeric_limits<float>::infinity();
-    return {{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
+    return {{{inf, inf, inf, inf}}, {{-inf, -inf, -inf, -inf}}};
   }
   void grow(const Box& b) { lower(min, b.min), raise(max, b.max); }
   float half_area() const {
@@ -40,22 +46,24 @@ struct alignas(16) Ref {
   // Twice the centroid: halving would only lose the smallest numbers.
   Row centroid2() const {
     Row sum;
-    for (std::size_t i = 0; i < 4; ++i) sum[i] = box.min[i] + box.max[i];
+    (box.min.all() + box.max.all()).store(sum.at);
     return sum;
   }
 };
 
 inline Ref ref_of(const BoxRef& b) {
-  return {{{b.min[0], b.min[1], b.min[2], std::bit_cast<float>(b.id)}, {b.max[0], b.max[1], b.max[2], 0.0f}}};
+  return {
+      {{{b.min[0], b.min[1], b.min[2], std::bit_cast<float>(b.id)}}, {{b.max[0], b.max[1], b.max[2], 0.0f}}}};
 }
 
 /// Of a range of primitives: their box and that of their centroids, doubled.
 struct Bounds {
   Box box = Box::empty(), centroids = Box::empty();
-  void grow(const Ref& ref) {
+  void grow_centroids(const Ref& ref) {
     const Row c = ref.centroid2();
-    box.grow(ref.box), lower(centroids.min, c), raise(centroids.max, c);
+    lower(centroids.min, c), raise(centroids.max, c);
   }
+  void grow(const Ref& ref) { box.grow(ref.box), grow_centroids(ref); }
   void grow(const Bounds& b) { box.grow(b.box), centroids.grow(b.centroids); }
 };
 
@@ -78,16 +86,17 @@ struct Binning {
     }
     origin[3] = 0.0f;
   }
-  std::array<std::int32_t, 4> operator()(const Ref& ref) const {
-    const Row c = ref.centroid2();
-    const auto last = static_cast<float>(count - 1);
-    std::array<std::int32_t, 4> bin;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const float b = (c[i] - origin[i]) * scale[i];
-      const float above = b > 0.0f ? b : 0.0f;  // what is not a number, as in the last place, too
-      bin[i] = static_cast<std::int32_t>(above < last ? above : last);
-    }
-    return bin;
+  void operator()(const Ref& ref, std::int32_t* bin) const {
+    const Float4 b = (ref.centroid2().all() - origin.all()) * scale.all();
+    // What is not a number, as in the last place, becomes 0.
+    store_truncated(min_keep(max_keep(b, Float4::all(0.0f)), Float4::all(static_cast<float>(count - 1))),
+                    bin);
+  }
+  /// Whether its bin along the split's axis is one of the left ones.
+  bool is_left(const Ref& ref, const Split& split) const {
+    const std::size_t a = split.axis;
+    const float b = (ref.box.min[a] + ref.box.max[a] - origin[a]) * scale[a];
+    return !(b >= static_cast<float>(split.bin + 1));
   }
 };
 
@@ -98,7 +107,9 @@ struct Bins {
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < used; ++b) box[a][b] = Box::empty(), count[a][b] = 0;
   }
-  void put(const Ref& ref, const std::array<std::int32_t, 4>& bin) {
+  void put(const Ref& ref, const Binning& binning) {
+    alignas(16) std::int32_t bin[4];
+    binning(ref, bin);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto b = static_cast<std::size_t>(bin[a]);
       box[a][b].grow(ref.box), ++count[a][b];
@@ -110,6 +121,14 @@ struct Bins {
         box[a][b].grow(other.box[a][b]), count[a][b] += other.count[a][b];
   }
 };
+
+/// The boxes of the two sides of a split.
+inline std::array<Box, 2> boxes_of(const Bins& bins, std::size_t used, const Split& split) {
+  std::array<Box, 2> sides = {Box::empty(), Box::empty()};
+  for (std::size_t b = 0; b < used; ++b)
+    sides[static_cast<int>(b) <= split.bin ? 0 : 1].grow(bins.box[split.axis][b]);
+  return sides;
+}
 
 inline void best_on_axis(const Bins& bins, std::size_t used, std::size_t axis, Split& best) {
   std::array<float, most_bins> right_cost{};

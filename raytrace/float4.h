@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -34,6 +35,10 @@ inline Float4 min_keep(Float4 a, Float4 kept) {
 }
 inline Float4 magnitude(Float4 a) {
   return {_mm_andnot_ps(_mm_set1_ps(-0.0f), a.v)};
+}
+/// Towards zero; each must fit.
+inline void store_truncated(Float4 a, std::int32_t* aligned) {
+  _mm_store_si128(reinterpret_cast<__m128i*>(aligned), _mm_cvttps_epi32(a.v));
 }
 /// Bit i: a[i] <= b[i].
 inline int less_equal_mask(Float4 a, Float4 b) {
@@ -69,6 +74,9 @@ inline Float4 min_keep(Float4 a, Float4 k) {
 }
 inline Float4 magnitude(Float4 a) {
   return each(a, a, [](float x, float) { return std::fabs(x); });
+}
+inline void store_truncated(Float4 a, std::int32_t* out) {
+  for (int i = 0; i < 4; ++i) out[i] = static_cast<std::int32_t>(a.v[i]);
 }
 inline int less_equal_mask(Float4 a, Float4 b) {
   int mask = 0;
