@@ -51,6 +51,29 @@ TEST(Image, PngRoundTripIsExactAndUpright) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+// Deflated in parts, whose seams must not show: flat, noisy and smooth rows, so that each filter is chosen.
+TEST(Image, PngOfSeveralStripsIsExact) {
+  Rgb8Image image({1021, 611});
+  std::uint32_t noise = 1;
+  for (int y = 0; y < image.size.height; ++y)
+    for (int x = 0; x < image.size.width; ++x) {
+      noise = noise * 1664525u + 1013904223u;
+      const auto random = static_cast<std::uint8_t>(noise >> 24),
+                 smooth = static_cast<std::uint8_t>(x / 5 + y);
+      const auto value = y < 100 ? std::uint8_t{7} : y < 300 ? random : smooth;
+      image.at(x, y) = {value, smooth, y % 7 == 0 ? random : value};
+    }
+  const auto bytes = encode_png(image);
+  ASSERT_TRUE(bytes);
+  const auto read = read_texture_bytes("strips", *bytes, true);
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_EQ(read->size, image.size);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < image.data.size(); ++i)
+    wrong += read->texels[i] == glm::u8vec4(image.data[i], 255) ? 0 : 1;
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(Image, EncodedPngIsTheSameFile) {
   const TemporaryFolder folder;
   const auto bytes = encode_png(gradient(33, 5));

@@ -1,4 +1,5 @@
-// Every image file goes through OpenImageIO, in and out; writes are whole or not at all (write_file.h).
+// Image files: PNG is written by png_encode.cpp, everything else goes through OpenImageIO (image_library.h),
+// in and out. Writes are whole or not at all (write_file.h).
 #pragma once
 
 #include <span>

@@ -32,11 +32,18 @@ class ObjChecker {
  private:
   enum Kind : std::size_t { vertex, texcoord, normal };
 
+  // The first such character, or the end. (find_first_of asks memchr about every character.)
+  template <class Is>
+  static std::size_t next(std::string_view text, std::size_t at, const Is& is) {
+    while (at < text.size() && !is(text[at])) ++at;
+    return at;
+  }
+
   template <class Visit>
   void for_each_line(const Visit& visit) {
     seen_ = {};
     for (std::size_t at = 0; at < text_.size() && !error_;) {
-      const std::size_t end = std::min(text_.find_first_of("\r\n", at), text_.size());
+      const std::size_t end = next(text_, at, [](char c) { return c == '\r' || c == '\n'; });
       visit(text_.substr(at, end - at));
       at = end + 1;
     }
@@ -44,8 +51,9 @@ class ObjChecker {
 
   // Takes the next word off the line; empty at its end.
   static std::string_view next_word(std::string_view& line) {
-    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    const std::size_t begin = next(line, 0, [&](char c) { return !is_blank(c); });
+    const std::size_t end = next(line, begin, is_blank);
     const std::string_view word = line.substr(begin, end - begin);
     line.remove_prefix(end);
     return word;

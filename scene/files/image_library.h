@@ -1,0 +1,44 @@
+// What of OpenImageIO the program uses, behind an interface: the library brings some two hundred others
+// along, whose loading takes longer than most pictures do. So it sits in a module of its own
+// (image_module.cpp) that is loaded when an image file is read or an EXR is written, and not before.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/image.h"
+
+namespace gnomon {
+
+/// Pixel by pixel, channel by channel, row 0 at the top: in bytes, or in floats.
+struct DecodedImage {
+  ImageSize size;
+  std::vector<std::string> channels;
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> floats;
+};
+
+enum class DecodeAs { stored, floats };  ///< stored: floats where the file holds floating-point values
+
+class ImageLibrary {
+ public:
+  virtual ~ImageLibrary() = default;
+  /// An image file of at most max_side pixels a side, or one in memory whose format is known ("png", ...).
+  virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const = 0;
+  virtual Expected<DecodedImage> decode(const std::string& name, std::string_view bytes,
+                                        std::string_view format, int max_side) const = 0;
+  /// An EXR of float channels, interleaved; attributes: string metadata.
+  virtual Expected<std::string> encode_exr(
+      ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
+      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
+};
+
+/// Loads the module the first time. Error: where it was looked for, and why it could not be loaded.
+Expected<const ImageLibrary*> image_library();
+
+}  // namespace gnomon

@@ -1,0 +1,129 @@
+// OpenImageIO behind scene/files/image_library.h; built as a module that is loaded on first use. Nothing of
+// the project is linked into it: what it shares with the program are types that headers define.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "scene/files/image_library.h"
+
+namespace gnomon {
+namespace {
+
+constexpr int max_channels = 1024;
+
+tl::unexpected<Error> image_error(ErrorKind kind, const std::string& file, std::string reason) {
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  Error error{kind, std::move(reason)};
+  error.file = file;
+  return fail(std::move(error));
+}
+
+// Fetching the global error as well keeps OpenImageIO from printing it when the process ends.
+std::string library_error(const std::string& own) {
+  const std::string global = OIIO::geterror();
+  if (!own.empty()) return own;
+  return global.empty() ? "no reason given" : global;
+}
+
+// Alpha is kept as stored: OpenImageIO would otherwise multiply colours by it.
+OIIO::ImageSpec read_hints() {
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  return hints;
+}
+
+Expected<void> check_header(const std::string& name, const OIIO::ImageInput* input, int max_side) {
+  if (input == nullptr)
+    return image_error(ErrorKind::bad_input, name,
+                       fmt::format("cannot read the image: {}", library_error({})));
+  const OIIO::ImageSpec& spec = input->spec();
+  const bool sides_fit =
+      spec.width > 0 && spec.height > 0 && spec.width <= max_side && spec.height <= max_side;
+  if (!sides_fit || spec.depth > 1)
+    return image_error(ErrorKind::bad_input, name,
+                       fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", spec.width,
+                                   spec.height, max_side, max_side));
+  if (spec.nchannels < 1 || spec.nchannels > max_channels)
+    return image_error(ErrorKind::bad_input, name,
+                       fmt::format("channel count (got {}, allowed 1 to {})", spec.nchannels, max_channels));
+  return {};
+}
+
+bool is_floating(const OIIO::TypeDesc& type) {
+  return type.basetype == OIIO::TypeDesc::HALF || type.basetype == OIIO::TypeDesc::FLOAT ||
+         type.basetype == OIIO::TypeDesc::DOUBLE;
+}
+
+Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* input, int max_side,
+                                 DecodeAs as) {
+  if (const auto sound = check_header(name, input, max_side); !sound) return fail(sound.error());
+  const OIIO::ImageSpec spec = input->spec();
+  DecodedImage out{{spec.width, spec.height}, spec.channelnames, {}, {}};
+  const std::size_t count = out.size.pixels() * static_cast<std::size_t>(spec.nchannels);
+  bool done = false;
+  if (as == DecodeAs::floats || is_floating(spec.format)) {
+    out.floats.resize(count);
+    done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, out.floats.data());
+  } else {
+    out.bytes.resize(count);
+    done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, out.bytes.data());
+  }
+  if (done) return out;
+  return image_error(ErrorKind::bad_input, name,
+                     fmt::format("cannot read the image: {}", library_error(input->geterror())));
+}
+
+class OpenImageIo final : public ImageLibrary {
+ public:
+  Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
+    const OIIO::ImageSpec hints = read_hints();
+    const auto input = OIIO::ImageInput::open(path, &hints);
+    return pixels_of(path, input.get(), max_side, as);
+  }
+
+  Expected<DecodedImage> decode(const std::string& name, std::string_view bytes, std::string_view format,
+                                int max_side) const override {
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives `input`
+    const auto input = OIIO::ImageInput::create(std::string(format));
+    const OIIO::ImageSpec hints = read_hints();
+    OIIO::ImageSpec spec;
+    if (input && input->set_ioproxy(&memory) && !input->open("memory." + std::string(format), spec, hints)) {
+      const std::string reason = library_error(input->geterror());
+      return image_error(ErrorKind::bad_input, name, fmt::format("cannot read the image: {}", reason));
+    }
+    return pixels_of(name, input.get(), max_side, DecodeAs::stored);
+  }
+
+  Expected<std::string> encode_exr(
+      ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
+      std::span<const std::pair<std::string, std::string>> attributes) const override {
+    OIIO::ImageSpec spec(size.width, size.height, static_cast<int>(channels.size()), OIIO::TypeFloat);
+    spec.channelnames.assign(channels.begin(), channels.end());
+    spec.alpha_channel = -1;
+    spec.attribute("compression", "zip");
+    for (const auto& [key, value] : attributes) spec.attribute(key, value);
+    const auto output = OIIO::ImageOutput::create("openexr");
+    if (!output || !output->supports("ioproxy"))
+      return fail(ErrorKind::internal,
+                  fmt::format("OpenImageIO cannot encode openexr in memory: {}", library_error({})));
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const bool done = output->set_ioproxy(&memory) && output->open("memory.openexr", spec) &&
+                      output->write_image(OIIO::TypeFloat, pixels.data()) && output->close();
+    if (!done)
+      return fail(ErrorKind::cannot_write,
+                  fmt::format("cannot encode the image: {}", library_error(output->geterror())));
+    return std::string(bytes.begin(), bytes.end());
+  }
+};
+
+}  // namespace
+}  // namespace gnomon
+
+extern "C" __attribute__((visibility("default"))) const gnomon::ImageLibrary* gnomon_image_library() {
+  static const gnomon::OpenImageIo library;
+  return &library;
+}
