@@ -68,6 +68,7 @@ class Classifier {
         from_light_(tile.origin - light.position),
         perspective_(grid_.perspective),
         face_(face_of(grid_, tile)),
+        tile_texels_(sheets.texels_from(grid_.tile_index(face_, 0, 0))),
         origin_(grid_.point(face_, tile.origin)),
         base_u_(origin_.u / origin_.w),
         base_v_(origin_.v / origin_.w),
@@ -201,13 +202,12 @@ class Classifier {
     for (std::size_t p = 0; p < raytrace::tile_packets; ++p)
       for (unsigned left = asked_[p]; left != 0; left &= left - 1) {
         const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
-        const SheetTile& sheet = sheet_at(lane);
         const auto texel = static_cast<std::size_t>(texel_[lane]);
-        if (sheet.texels != nullptr) {
-          bounds_[lane] = sheet.texels[texel];
+        if (const TexelBounds* texels = tile_texels_[sheet_[lane]]) {
+          bounds_[lane] = texels[texel];
           continue;
         }
-        bounds_[lane] = sheet.uniform;
+        bounds_[lane] = sheet_at(lane).uniform;
         constexpr float to_middle = 0.5f * tile_texels - 0.5f;
         from_middle_u_[lane] += static_cast<float>(texel % tile_texels) - to_middle;
         from_middle_v_[lane] += static_cast<float>(texel / tile_texels) - to_middle;
@@ -273,6 +273,7 @@ class Classifier {
   Vec3 light_direction_, from_light_;
   bool perspective_;
   int face_;
+  const TexelBounds* const* tile_texels_;  // of the face
   GridPoint origin_;
   double base_u_, base_v_, texel_u_, texel_v_;
   Local u_, v_, w_;

@@ -36,7 +36,7 @@ LightSheets::LightSheets(const World& world, const raytrace::Topology& topology,
     for (int face = 0; face < view.face_count; ++face) build_face(face);
     lone_plane_ = find_lone_plane();
   }
-  count_bytes();
+  count_tiles();
   stats_.build_ms = watch.elapsed_ms();
 }
 
@@ -55,11 +55,13 @@ void LightSheets::build_face(int face) {
   for (const TileBuilder& builder : builders) stats_.pieces += builder.pieces();
 }
 
-void LightSheets::count_bytes() {
+void LightSheets::count_tiles() {
   stats_.bytes = tiles_.size() * sizeof(SheetTile) + facing_.size() * sizeof(TriangleFacing);
   for (const Face& face : faces_) stats_.bytes += face.points.size() * sizeof(GridPoint) + face.bins.bytes();
   stats_.detailed_tiles = 0;
+  texels_.clear();
   for (const SheetTile& tile : tiles_) {
+    texels_.push_back(tile.texels);
     stats_.detailed_tiles += tile.texels ? 1 : 0;
     stats_.bytes += tile.bytes();
   }
@@ -97,7 +99,7 @@ std::size_t LightSheets::refine(std::vector<std::uint64_t> parts) {
     builder.refine(static_cast<int>(on_face) % grid_.tiles, static_cast<int>(on_face) / grid_.tiles,
                    face.bins.triangles(on_face), asked, tiles_[tile]);
   });
-  count_bytes();
+  count_tiles();
   stats_.refine_ms += watch.elapsed_ms();
   return parts.size();
 }
