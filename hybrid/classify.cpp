@@ -50,9 +50,8 @@ struct Local {
       : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
   V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
 };
-/// Of the coefficient, the position (1.13, raytrace/packet/compact.h), three operations, a quotient's two and
-/// a last sum's: 2^-24 each.
-constexpr double rounding = 10.0 * 0x1p-24;
+/// Of the coefficient, the position (1.13, raytrace/packet/compact.h) and three operations: 2^-24 each.
+constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
 /// in double: texels from its texel, nearness from its nearness. On a perspective map a texel coordinate is a
@@ -68,7 +67,7 @@ class Classifier {
         from_light_(tile.origin - light.position),
         perspective_(grid_.perspective),
         face_(face_of(grid_, tile)),
-        tile_texels_(sheets.texels_from(grid_.tile_index(face_, 0, 0))),
+        tile_texels_(sheets.is_built() ? sheets.texels_from(grid_.tile_index(face_, 0, 0)) : nullptr),
         origin_(grid_.point(face_, tile.origin)),
         base_u_(origin_.u / origin_.w),
         base_v_(origin_.v / origin_.w),
@@ -79,13 +78,14 @@ class Classifier {
         w_(face().w, tile.extent) {
     const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
     usable_ = raytrace::max_component(largest) < grid_.bounds.reach;
-    // Perspective: all that is asked for lies at least half as deep as the origin.
-    least_depth_ = perspective_ ? std::max(grid_.near_limit, 0.5 * origin_.w) : 1.0;
     usable_ = usable_ && (!perspective_ || origin_.w > 2.0 * grid_.near_limit);
-    // What a column is wider (texel_slack) holds the error of u and v.
-    const double by_depth = perspective_ ? (w_.size + origin_.w) / least_depth_ : 0.0;
-    const double by_floats = rounding * (std::max(u_.size, v_.size) * (1.0 + by_depth));
-    const double lateral = (grid_.grid_error + by_floats) / least_depth_ + 0x1p-22;
+    // Perspective: what lies less deep is left to doubles.
+    least_depth_ = perspective_ ? std::max(0.5 * origin_.w, origin_.w - 2.0 * w_.size) : 1.0;
+    // What a column is wider (texel_slack) holds the error of u and v: of U - c w, of w (its constant's, no
+    // more than two, and a sum's), of the quotient's two operations, of a last sum.
+    const double by_depth = perspective_ ? rounding * w_.size / least_depth_ + 6.0 * 0x1p-24 : 0.0;
+    const double size = std::max(u_.size, v_.size) / least_depth_;
+    const double lateral = grid_.grid_error / least_depth_ + size * (rounding + by_depth + 0x1p-24) + 0x1p-22;
     usable_ = usable_ && lateral < texel_slack;
     // 1 / w - 1 / w0 = -(w - w0) / (w w0)
     nearness_scale_ = perspective_ ? 1.0 / (least_depth_ * origin_.w) : 1.0;
@@ -146,7 +146,7 @@ class Classifier {
       size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
                      hn::Add(hn::Abs(offset[2]), all(2.0 * tile_.extent)));
     }
-    const V doubt = hn::Mul(all(rounding), size);
+    const V doubt = hn::Mul(all(0x1p-21), size);  // eight roundings at most
     surely = bits_of(hn::Gt(cosine, doubt));
     perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(doubt))));
   }
@@ -156,7 +156,7 @@ class Classifier {
     V u = u_.at(local_), v = v_.at(local_), deeper = w_.at(local_);
     if (perspective_) {
       const V depth = hn::Add(deeper, all(origin_.w)), inverse = hn::Div(all(1.0), depth);
-      asked &= bits_of(hn::Gt(depth, all(least_depth_ * (1.0 + rounding))));
+      asked &= bits_of(hn::Gt(depth, all(least_depth_ * (1.0 + 0x1p-20))));
       u = hn::Mul(u, inverse), v = hn::Mul(v, inverse);
       deeper = hn::Mul(deeper, hn::Mul(inverse, all(origin_.nearness)));
     }
@@ -168,7 +168,8 @@ class Classifier {
         bits_of(hn::And(hn::Ge(hn::Min(x, y), all(0.0)), hn::Lt(hn::Max(x, y), all(grid_.view.size))));
     if ((asked & ~inside) != 0 && sheets_.lone_plane() != no_id) look_beside(asked & ~inside, x, y);
     asked &= inside;
-    if (asked == 0) return 0;
+    if (!sheets_.is_built()) add(out_->unsure, asked);
+    if (asked == 0 || !sheets_.is_built()) return 0;
     hn::Store(hn::Neg(deeper), f, nearness_ + lane_);
     hn::Store(hn::Sub(u, hn::Add(column, all(0.5))), f, from_middle_u_ + lane_);
     hn::Store(hn::Sub(v, hn::Add(row, all(0.5))), f, from_middle_v_ + lane_);

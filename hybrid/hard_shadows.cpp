@@ -160,21 +160,106 @@ double share_of_rays(const ShadowCounts& counts) {
   return static_cast<double>(counts.rays) / static_cast<double>(std::max<std::uint64_t>(counts.asked, 1));
 }
 
-/// For packets of rays from these receivers; null where packets do not apply.
+/// For packets of rays from the receivers of these tiles; null where packets do not apply.
 const raytrace::Sight* find_sight(const raytrace::Tracer& tracer, LightCache& cache,
-                                  const Receivers& receivers) {
+                                  const Receivers& receivers, std::span<const std::uint8_t> wanted) {
   const raytrace::Structures& s = tracer.structures();
   if (!packets_apply(s)) return nullptr;
-  if (!cache.sight || !covers(*cache.sight, receivers.compact()))
-    cache.sight = sight_of_light(s, cache.light, receivers.compact());
+  if (!cache.sight || !covers(*cache.sight, receivers.compact(), wanted))
+    cache.sight = sight_of_light(s, cache.light, receivers.compact(), wanted);
   return &*cache.sight;
 }
+
+/// One light's pass over a picture.
+class Pass {
+ public:
+  Pass(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
+       Image<Verdict>& verdicts, Image<Decision>* decisions)
+      : tracer_(tracer),
+        cache_(cache),
+        receivers_(receivers),
+        verdicts_(verdicts),
+        decisions_(decisions),
+        grid_{receivers.points.size},
+        tiles_(grid_.count()),
+        unsure_(grid_.count()),
+        wanted_(grid_.count()) {}
+
+  ShadowCounts run() {
+    const bool pays = cache_.frames >= cache_.frames_to_pay(receivers_.points.data.size());
+    if (!cache_.sheets.is_built() && pays) cache_.sheets.build();
+    ++cache_.frames;
+    if (!cache_.sheets.is_built() && cache_.sheets.lone_plane() == no_id && decisions_ == nullptr &&
+        packets_apply(tracer_.structures()))
+      return trace_all();
+    ShadowCounts counts = classify();
+    if (cache_.sheets.is_built() &&
+        share_of_rays(counts) > std::max(refine_above, 1.25 * cache_.share_left)) {
+      if (cache_.sheets.refine(parts_in_doubt(cache_.sheets, receivers_.points, unsure_)) > 0)
+        counts = classify();
+      cache_.share_left = share_of_rays(counts);
+    }
+    if (counts.rays > 0) trace();
+    return counts;
+  }
+
+ private:
+  ShadowCounts classify() {
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      Tile tile(cache_, receivers_, i, {x0, y0, x1, y1});
+      tiles_[i] = tile.classify(verdicts_, decisions_);
+      unsure_[i] = tile.unsure();
+      wanted_[i] = tiles_[i].rays > 0 ? 1 : 0;
+    });
+    return sum_of(tiles_);
+  }
+  /// As the pure tracer does.
+  ShadowCounts trace_all() {
+    const raytrace::Sight* sight = find_sight(tracer_, cache_, receivers_, {});
+    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      tiles_[i].rays = tiles_[i].asked =
+          shadow_tile(source, cache_.light, *sight, {x0, y0, x1, y1}, &receivers_.tiles[i], verdicts_);
+    });
+    return sum_of(tiles_);
+  }
+  void trace() {
+    const raytrace::Sight* sight = find_sight(tracer_, cache_, receivers_, wanted_);
+    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
+    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      if (wanted_[i] != 0)
+        shadow_lanes(source, cache_.light, sight, {x0, y0, x1, y1}, &receivers_.tiles[i], unsure_[i],
+                     verdicts_);
+    });
+  }
+
+  const raytrace::Tracer& tracer_;
+  LightCache& cache_;
+  const Receivers& receivers_;
+  Image<Verdict>& verdicts_;
+  Image<Decision>* decisions_;
+  raytrace::TileGrid grid_;
+  std::vector<ShadowCounts> tiles_;
+  std::vector<LaneBits> unsure_;
+  std::vector<std::uint8_t> wanted_;
+};
 
 }  // namespace
 
 LightCache::LightCache(const raytrace::Tracer& tracer, const raytrace::Topology& topology,
-                       const Light& its_light, const LightView& view)
-    : light(its_light), sheets(tracer.world(), topology, view), build_ms(sheets.stats().build_ms) {}
+                       const Light& its_light, const LightView& view, Sheets when)
+    : light(its_light), sheets(tracer.world(), topology, view), triangles_(tracer.world().triangle_count()) {
+  if (when == Sheets::at_once) sheets.build();
+}
+
+// Measured per triangle and texel of the map, and per pixel that is classified instead of traced (Zen 5,
+// one thread; the courtyard, the bunny and the armadillo at 1080p): only the ratio counts.
+std::uint64_t LightCache::frames_to_pay(std::uint64_t pixels) const {
+  constexpr std::uint64_t triangle_ns = 1000, texel_ns = 120, pixel_ns = 10;
+  const auto size = static_cast<std::uint64_t>(sheets.view().size);
+  const std::uint64_t texels = size * size * static_cast<std::uint64_t>(sheets.view().face_count);
+  return (triangle_ns * triangles_ + texel_ns * texels) / std::max<std::uint64_t>(pixel_ns * pixels, 1);
+}
 
 std::uint64_t LightCache::bytes() const {
   std::uint64_t bytes = sheets.stats().bytes;
@@ -185,28 +270,7 @@ std::uint64_t LightCache::bytes() const {
 ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
                                 Image<Verdict>& verdicts, Image<Decision>* decisions) {
   if (!(verdicts.size == receivers.points.size)) verdicts = Image<Verdict>(receivers.points.size);
-  const raytrace::TileGrid grid{receivers.points.size};
-  std::vector<ShadowCounts> tiles(grid.count());
-  std::vector<LaneBits> unsure(grid.count());
-  const raytrace::Sight* sight = find_sight(tracer, cache, receivers);
-  const raytrace::ReceiverSource source{.tracer = tracer, .stored = &receivers.points};
-  const auto pass = [&] {
-    for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      const TileRect rect{x0, y0, x1, y1};
-      Tile tile(cache, receivers, i, rect);
-      tiles[i] = tile.classify(verdicts, decisions);
-      unsure[i] = tile.unsure();
-      if (tiles[i].rays > 0)
-        shadow_lanes(source, cache.light, sight, rect, &receivers.tiles[i], unsure[i], verdicts);
-    });
-    return sum_of(tiles);
-  };
-  ShadowCounts counts = pass();
-  if (share_of_rays(counts) > std::max(refine_above, 1.25 * cache.share_left)) {
-    if (cache.sheets.refine(parts_in_doubt(cache.sheets, receivers.points, unsure)) > 0) counts = pass();
-    cache.share_left = share_of_rays(counts);
-  }
-  return counts;
+  return Pass(tracer, cache, receivers, verdicts, decisions).run();
 }
 
 }  // namespace gnomon::hybrid

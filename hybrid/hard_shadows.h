@@ -1,6 +1,13 @@
 // The hard-shadow pass: every receiver that the light reaches is classified by the light's sheets, and what
 // they leave unsure is traced, tile by tile, through the tracer's packets. The verdicts are the tracer's own
 // wherever it is certain itself.
+//
+// When sheets pay. A ray costs the packets some 20 ns, less than a texel's sheets; so no sheets are worth
+// their build for a single frame of a picture: they are, when the light stands still for a while. Who asks
+// for speed (Sheets::when_they_pay) therefore gets a new light traced, but for receivers beside the map,
+// which no map is needed for; and sheets once tracing has cost as much as they would have: by the rule of
+// Karlin et al. 1988 ("Competitive snoopy caching"), never more than twice the cheaper of the two. The
+// estimate counts triangles, texels and receivers, not milliseconds, so that runs repeat.
 #pragma once
 
 #include "hybrid/light_sheets.h"
@@ -14,16 +21,27 @@ namespace gnomon::hybrid {
 /// are cheap: to refine a texel costs as much as tens of them, and pays when the light stands still.
 inline constexpr double refine_above = 0.03;
 
+enum class Sheets : std::uint8_t { at_once, when_they_pay };
+
 /// What a light has ready for its rays and receivers. Good as long as world and light stand still.
-struct LightCache {
+class LightCache {
+ public:
+  /// Sheets::at_once builds them here.
   LightCache(const raytrace::Tracer& tracer, const raytrace::Topology& topology, const Light& light,
-             const LightView& view);
+             const LightView& view, Sheets when = Sheets::at_once);
+  /// Frames that a light must stand still before its sheets pay.
+  std::uint64_t frames_to_pay(std::uint64_t pixels) const;
+  std::uint64_t bytes() const;
+  double build_ms() const { return sheets.stats().build_ms; }
+
   Light light;
   LightSheets sheets;
   std::optional<raytrace::Sight> sight;  ///< for packets of rays, as the pure tracer makes it for each frame
-  double build_ms = 0.0;                 ///< of the sheets
   double share_left = 0.0;               ///< of the receivers, unsure after the sheets were last refined
-  std::uint64_t bytes() const;
+  std::uint64_t frames = 0;              ///< that the light has been looked at
+
+ private:
+  std::uint64_t triangles_;
 };
 
 struct ShadowCounts {

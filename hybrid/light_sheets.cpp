@@ -25,16 +25,19 @@ std::vector<GridPoint> project(const World& world, const SheetGrid& grid, int fa
 
 LightSheets::LightSheets(const World& world, const raytrace::Topology& topology, const LightView& view)
     : world_(world), topology_(topology), grid_(world, view) {
+  if (!grid_.hopeless) lone_plane_ = find_lone_plane();
+}
+
+void LightSheets::build() {
   const Stopwatch watch;
   const auto tile_count = static_cast<std::size_t>(grid_.tiles) * static_cast<std::size_t>(grid_.tiles) *
-                          static_cast<std::size_t>(view.face_count);
+                          static_cast<std::size_t>(grid_.view.face_count);
   tiles_.resize(tile_count);
   if (grid_.hopeless) {
     for (SheetTile& tile : tiles_) tile.uniform = unsure_texel;
   } else {
-    facing_ = find_facing(world, topology, view, grid_.bounds);
-    for (int face = 0; face < view.face_count; ++face) build_face(face);
-    lone_plane_ = find_lone_plane();
+    facing_ = find_facing(world_, topology_, grid_.view, grid_.bounds);
+    for (int face = 0; face < grid_.view.face_count; ++face) build_face(face);
   }
   count_tiles();
   stats_.build_ms = watch.elapsed_ms();

@@ -41,9 +41,12 @@ struct SheetStats {
 
 class LightSheets {
  public:
-  /// In parallel; the same for any number of threads. The view is a light's; world and topology must outlive
-  /// the sheets.
+  /// The view is a light's; world and topology must outlive the sheets. Without build() they know of
+  /// lone_plane() alone.
   LightSheets(const World& world, const raytrace::Topology& topology, const LightView& view);
+  /// Once. In parallel; the same for any number of threads.
+  void build();
+  bool is_built() const { return !tiles_.empty(); }
 
   /// The part of a texel that a receiver looks up, if it lies on the map.
   std::optional<std::uint64_t> part_of(const Vec3& position) const;
@@ -109,6 +112,7 @@ inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) 
     const bool far = u < -beside || v < -beside || u > size + beside || v > size + beside;
     return far && primitive == lone_plane_ && primitive != no_id ? Certainty::lit : Certainty::unsure;
   }
+  if (!is_built()) return Certainty::unsure;
   const int x = static_cast<int>(u) / tile_texels, y = static_cast<int>(v) / tile_texels;
   return tiles_[grid_.tile_index(at->face, x, y)].at(u - x * tile_texels, v - y * tile_texels, at->nearness);
 }

@@ -39,10 +39,12 @@ class HybridVisibility final : public raster::ExternalVisibility {
     if (kept.cache && kept.cache->light == light && same(kept.cache->sheets.view(), request.map)) {
       if (!anew) return {};
     } else {
+      // One picture shows what sheets can tell; of a light that moves from frame to frame only speed counts.
+      kept.when = kept.cache && !request.analysis ? Sheets::when_they_pay : Sheets::at_once;
       kept.build = {};
     }
     time_run(kept.build, [&] {
-      kept.cache.emplace(*tracer_, *topology_, light, request.map);
+      kept.cache.emplace(*tracer_, *topology_, light, request.map, kept.when);
       kept.soft.reset();
       if (has_size(light)) kept.soft.emplace(*tracer_, *topology_, request.light);
     });
@@ -95,6 +97,7 @@ class HybridVisibility final : public raster::ExternalVisibility {
  private:
   struct Kept {
     std::optional<LightCache> cache;
+    Sheets when = Sheets::at_once;
     std::optional<SoftLight> soft;  // of a light with size
     Times build, receivers_ms, shadow;
   };

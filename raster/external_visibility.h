@@ -19,6 +19,7 @@ struct VisibilityRequest {
   const View& camera;
   int shadow_samples = 0;  ///< to a light with size; 0: as the light says
   std::uint64_t seed = 0;  ///< of the samples
+  bool analysis = false;   ///< of one picture; else it may be one of many in a row, made for speed
 };
 
 /// What a light's visibility took. Shares are of `receivers`, the pixels that the light can reach.

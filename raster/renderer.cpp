@@ -251,7 +251,8 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->map.format = map.depth_format;
   }
   const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
-  const VisibilityRequest request{index, *view, job.view, job.options.shadow_samples, job.options.seed};
+  const VisibilityRequest request{
+      index, *view, job.view, job.options.shadow_samples, job.options.seed, job.options.analysis};
   const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (map.technique == Technique::hybrid) {
     kept_map_.reset();

@@ -55,17 +55,27 @@ TEST(HybridTechnique, KeepsItsSheetsWhileTheLightStandsStill) {
   raster::RasterOptions options = hybrid_options(256).raster;
   options.analysis = false;
   const std::vector<std::uint32_t> lights{0};
+  std::uint64_t rays = 0, all_rays = 0;
   const auto build_time = [&] {
     const auto frame = world->renderer->render(options, lights);
-    return frame ? frame->lights[0].external->build.runs : std::vector<double>{};
+    if (!frame) return std::vector<double>{};
+    rays = frame->lights[0].external->rays, all_rays = frame->lights[0].external->all_rays;
+    return frame->lights[0].external->build.runs;
   };
   const std::vector<double> first = build_time();
   ASSERT_EQ(first.size(), 1u);
   EXPECT_EQ(build_time(), first);
+  EXPECT_LT(rays, all_rays / 2);
   world->scene.lights[0].direction = glm::normalize(world->scene.lights[0].direction + Vec3(0.1, 0, 0));
   const std::vector<double> moved = build_time();
   ASSERT_EQ(moved.size(), 1u);
   EXPECT_NE(moved, first);  // made anew: another time
+  // A light that moves is traced; one picture, to be analysed, has its sheets.
+  EXPECT_EQ(rays, all_rays);
+  options.analysis = true;
+  world->scene.lights[0].direction = glm::normalize(world->scene.lights[0].direction + Vec3(0.1, 0, 0));
+  static_cast<void>(build_time());
+  EXPECT_LT(rays, all_rays / 2);
 }
 
 TEST(HybridTechnique, SaysWhenNobodyWorksItOut) {

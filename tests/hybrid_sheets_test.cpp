@@ -8,45 +8,9 @@
 namespace gnomon {
 namespace {
 
-using hybrid::Decision;
-using hybrid::LightCache;
-using hybrid::ShadowCounts;
-using raytrace::Verdict;
+using test::Outcome;
+using test::run;
 using test::Stage;
-
-struct Outcome {
-  ShadowCounts counts;
-  std::uint64_t different = 0;  ///< from the ray tracer's verdicts, where those are certain
-  double ray_share() const {
-    return counts.asked > 0 ? static_cast<double>(counts.rays) / static_cast<double>(counts.asked) : 0.0;
-  }
-};
-
-Outcome run(const Stage& stage, std::uint32_t light, int map_size) {
-  LightCache cache(stage.tracer, stage.topology, stage.scene.lights[light], stage.map(light, map_size));
-  Image<Verdict> verdicts;
-  Image<Decision> decisions(stage.size);
-  Outcome out;
-  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
-                                  &decisions);
-  for (std::size_t i = 0; i < verdicts.data.size(); ++i) {
-    const Verdict truth = stage.frame.lights[light].verdict.data[i];
-    const bool traced = decisions.data[i] == Decision::traced;
-    const bool differs = truth != verdicts.data[i] && (truth != Verdict::uncertain || traced);
-    if (differs && out.different == 0)
-      ADD_FAILURE() << stage.scene.name << " light " << light << " map " << map_size << " pixel "
-                    << i % static_cast<std::size_t>(stage.size.width) << ","
-                    << i / static_cast<std::size_t>(stage.size.width) << ": decision "
-                    << static_cast<int>(decisions.data[i]) << ", verdict "
-                    << static_cast<int>(verdicts.data[i]) << ", traced " << static_cast<int>(truth);
-    out.different += differs ? 1 : 0;
-  }
-  std::cout << stage.scene.name << " light " << light << " map " << map_size << ": "
-            << 100.0 * out.ray_share() << " % rays, build " << cache.build_ms << " + "
-            << cache.sheets.stats().refine_ms << " ms, " << cache.bytes() / 1024 << " KiB\n";
-  EXPECT_EQ(out.counts.lit + out.counts.shadowed + out.counts.rays, out.counts.asked);
-  return out;
-}
 
 TEST(HybridHardShadows, EqualRayTracingInEveryBuiltInScene) {
   for (const BuiltinScene& builtin : builtin_scenes()) {

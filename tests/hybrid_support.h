@@ -1,6 +1,9 @@
 // A scene on stage for the hybrid's tests: its world, tracer, topology, and the truth by pure ray tracing.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -40,6 +43,47 @@ struct Stage {
   ImageSize size;
   raytrace::RayTracedFrame frame;
 };
+
+struct Outcome {
+  hybrid::ShadowCounts counts;
+  std::uint64_t different = 0;  ///< from the ray tracer's verdicts, where those are certain
+  double ray_share() const {
+    return counts.asked > 0 ? static_cast<double>(counts.rays) / static_cast<double>(counts.asked) : 0.0;
+  }
+};
+
+/// The hard-shadow pass against the ray tracer's frame, whose receivers these are.
+inline Outcome compare_pass(const Stage& stage, std::uint32_t light, hybrid::LightCache& cache) {
+  Image<raytrace::Verdict> verdicts;
+  Image<hybrid::Decision> decisions(stage.size);
+  Outcome out;
+  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
+                                  &decisions);
+  for (std::size_t i = 0; i < verdicts.data.size(); ++i) {
+    const raytrace::Verdict truth = stage.frame.lights[light].verdict.data[i];
+    const bool traced = decisions.data[i] == hybrid::Decision::traced;
+    const bool differs = truth != verdicts.data[i] && (truth != raytrace::Verdict::uncertain || traced);
+    if (differs && out.different == 0)
+      ADD_FAILURE() << stage.scene.name << " light " << light << " map " << cache.sheets.view().size
+                    << " pixel " << i % static_cast<std::size_t>(stage.size.width) << ","
+                    << i / static_cast<std::size_t>(stage.size.width) << ": decision "
+                    << static_cast<int>(decisions.data[i]) << ", verdict "
+                    << static_cast<int>(verdicts.data[i]) << ", traced " << static_cast<int>(truth);
+    out.different += differs ? 1 : 0;
+  }
+  EXPECT_EQ(out.counts.lit + out.counts.shadowed + out.counts.rays, out.counts.asked);
+  return out;
+}
+
+inline Outcome run(const Stage& stage, std::uint32_t light, int map_size) {
+  hybrid::LightCache cache(stage.tracer, stage.topology, stage.scene.lights[light],
+                           stage.map(light, map_size));
+  const Outcome out = compare_pass(stage, light, cache);
+  std::cout << stage.scene.name << " light " << light << " map " << map_size << ": "
+            << 100.0 * out.ray_share() << " % rays, build " << cache.build_ms() << " + "
+            << cache.sheets.stats().refine_ms << " ms, " << cache.bytes() / 1024 << " KiB\n";
+  return out;
+}
 
 /// A model of ../shared/data over a ground, with a point light, a sun and a spot; null where it is absent.
 inline std::unique_ptr<Stage> model_stage(const std::string& file, ImageSize size, bool soft = false) {

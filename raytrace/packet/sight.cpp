@@ -13,10 +13,17 @@ struct Range {
   void grow(double v) { low = std::min(low, v), high = std::max(high, v); }
 };
 
+struct SightTiles {
+  std::span<const CompactTile> tiles;
+  std::span<const std::uint8_t> wanted;
+  bool is_wanted(std::size_t i) const { return tiles[i].any && (wanted.empty() || wanted[i] != 0); }
+};
+
 /// (u, v) of what the tiles hold, by the corners of their boxes; false: not all of it ahead and within reach.
-bool ranges_of(const Seen& seen, std::span<const CompactTile> tiles, Range& u, Range& v) {
-  for (const CompactTile& tile : tiles) {
-    if (!tile.any) continue;
+bool ranges_of(const Seen& seen, const SightTiles& all, Range& u, Range& v) {
+  for (std::size_t i = 0; i < all.tiles.size(); ++i) {
+    if (!all.is_wanted(i)) continue;
+    const CompactTile& tile = all.tiles[i];
     for (unsigned corner = 0; corner < 8; ++corner) {
       Vec3 p = tile.bounds.min;
       for (int a = 0; a < 3; ++a)
@@ -34,10 +41,11 @@ bool ranges_of(const Seen& seen, std::span<const CompactTile> tiles, Range& u, R
   return u.low <= u.high && v.low <= v.high;
 }
 
-std::size_t receivers_in(std::span<const CompactTile> tiles, Aabb& bounds) {
+std::size_t receivers_in(const SightTiles& all, Aabb& bounds) {
   std::size_t count = 0;
-  for (const CompactTile& tile : tiles) {
-    if (!tile.any) continue;
+  for (std::size_t i = 0; i < all.tiles.size(); ++i) {
+    if (!all.is_wanted(i)) continue;
+    const CompactTile& tile = all.tiles[i];
     bounds.grow(tile.bounds);
     for (const std::uint16_t bits : tile.present) count += static_cast<std::size_t>(std::popcount(bits));
   }
@@ -104,7 +112,9 @@ Sight sight_of_eye(const Structures& s, const View& view) {
   return sight;
 }
 
-Sight sight_of_light(const Structures& s, const Light& light, std::span<const CompactTile> tiles) {
+Sight sight_of_light(const Structures& s, const Light& light, std::span<const CompactTile> all_tiles,
+                     std::span<const std::uint8_t> wanted) {
+  const SightTiles tiles{all_tiles, wanted};
   Aabb bounds;
   const std::size_t rays = receivers_in(tiles, bounds);
   if (rays == 0 || !cells_pay(s, rays)) return by_hierarchy(s, light);
@@ -128,10 +138,10 @@ Sight sight_of_light(const Structures& s, const Light& light, std::span<const Co
   return sight.by_cells ? std::move(sight) : by_hierarchy(s, light);
 }
 
-bool covers(const Sight& sight, std::span<const CompactTile> tiles) {
+bool covers(const Sight& sight, std::span<const CompactTile> tiles, std::span<const std::uint8_t> wanted) {
   if (!sight.by_cells) return true;
   Range u, v;
-  if (!ranges_of(sight.seen, tiles, u, v)) return false;
+  if (!ranges_of(sight.seen, {tiles, wanted}, u, v)) return false;
   const auto holds = [](const CellAxis& axis, const Range& range) {
     return range.low >= axis.lo && range.high <= axis.lo + axis.count * axis.width;
   };

@@ -1,0 +1,123 @@
+// Receivers classified many at a time in floats: never surer than the sheets in double, and hardly less sure.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "hybrid/classify.h"
+#include "hybrid_support.h"
+#include "raytrace/tiles.h"
+#include "scene/load.h"
+
+namespace gnomon {
+namespace {
+
+using hybrid::Certainty;
+using raytrace::SurfacePoint;
+using test::Stage;
+
+struct Agreement {
+  std::uint64_t receivers = 0, contradicted = 0, withheld = 0;
+};
+
+bool has(const hybrid::LaneBits& bits, std::size_t lane) {
+  return (bits[lane / raytrace::packet_rays] >> (lane % raytrace::packet_rays) & 1) != 0;
+}
+
+void compare_receiver(const hybrid::LightSheets& sheets, const Light& light, const SurfacePoint& point,
+                      const hybrid::TileClasses& classes, std::size_t lane, Agreement& out) {
+  const bool unreached = light_cannot_reach(light, point.position, point.normal);
+  const Certainty truth = sheets.at(point.position, point.primitive);
+  const int said = has(classes.unreached, lane) + has(classes.lit, lane) + has(classes.shadowed, lane) +
+                   has(classes.unsure, lane) + has(classes.open, lane);
+  EXPECT_EQ(said, 1) << "each receiver is in one class";
+  ++out.receivers;
+  const bool right = has(classes.unreached, lane)  ? unreached
+                     : has(classes.lit, lane)      ? !unreached && truth == Certainty::lit
+                     : has(classes.shadowed, lane) ? !unreached && truth == Certainty::shadowed
+                                                   : true;
+  out.contradicted += right ? 0 : 1;
+  const bool withheld = has(classes.open, lane) || has(classes.unsure, lane);
+  out.withheld += withheld && (unreached || truth != Certainty::unsure) ? 1 : 0;
+}
+
+Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
+  const Light& light = stage.scene.lights[index];
+  hybrid::LightCache cache(stage.tracer, stage.topology, light, stage.map(index, map_size));
+  const hybrid::Receivers receivers = hybrid::make_receivers(stage.frame.receiver);
+  Image<raytrace::Verdict> verdicts;
+  static_cast<void>(trace_hard_shadows(stage.tracer, cache, receivers, verdicts, nullptr));  // looks closely
+  Agreement out;
+  const raytrace::TileGrid grid{stage.size};
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    const raytrace::CompactTile& tile = receivers.tiles[i];
+    if (!tile.any) continue;
+    hybrid::TileClasses classes;
+    classify_tile(cache.sheets, light, tile, classes);
+    for (std::size_t lane = 0; lane < raytrace::tile_rays; ++lane) {
+      if (!has(tile.present, lane)) continue;
+      const raytrace::TilePlace at = raytrace::tile_place(lane);
+      const auto x = static_cast<int>(i % grid.columns()) * raytrace::tile_pixels + at.x;
+      const auto y = static_cast<int>(i / grid.columns()) * raytrace::tile_pixels + at.y;
+      compare_receiver(cache.sheets, light, receivers.points.at(x, y), classes, lane, out);
+    }
+  }
+  return out;
+}
+
+// Withheld are receivers whose nearness lies within the floats' doubt of a bound, or that stand edge-on to
+// the light: a few in a thousand. Around a point light a tile's receivers on another face of the cube than
+// its middle are withheld too; tiles are large in so small a picture.
+TEST(HybridClassify, FloatsAreNeverSurerThanDoubles) {
+  for (const char* name : {"courtyard", "whitted", "fence", "penumbra"}) {
+    auto scene = load_scene(name);
+    ASSERT_TRUE(scene);
+    const Stage stage(std::move(*scene), {320, 180});
+    for (std::uint32_t light = 0; light < stage.scene.lights.size(); ++light) {
+      if (stage.scene.lights[light].type == LightType::spot) continue;
+      for (const int size : {64, 1000, 2048}) {
+        const Agreement out = compare(stage, light, size);
+        EXPECT_EQ(out.contradicted, 0u) << name << " light " << light << " map " << size;
+        const bool cube = stage.scene.lights[light].type == LightType::point;
+        if (cube && size > 1000) continue;
+        EXPECT_LT(out.withheld, out.receivers / (cube ? 5 : 100))
+            << name << " light " << light << " map " << size;
+      }
+    }
+  }
+}
+
+TEST(HybridClassify, FarFromTheOriginToo) {
+  const Vec3 offset(4096.5, -1023.25, 77.0);
+  Mesh soup = test::triangle_soup(200, 1.0, 0.3, 3);
+  for (Vec3& p : soup.positions) p += offset;
+  Scene scene = test::scene_of({std::move(soup)}, {test::plane(offset + Vec3(0, -1.1, 0), {0, 1, 0})});
+  scene.lights = {test::sun(glm::normalize(Vec3(-0.3, -1, -0.2))),
+                  test::point_light(offset + Vec3(0.1, 0.2, 0.0))};
+  scene.camera.eye = offset + Vec3(1.2, 1.5, 3.0), scene.camera.target = offset;
+  const Stage stage(std::move(scene), {160, 90});
+  for (std::uint32_t light = 0; light < 2; ++light)
+    EXPECT_EQ(compare(stage, light, 300).contradicted, 0u) << light;
+}
+
+TEST(TexelParts, FindsWhatWasPutIn) {
+  hybrid::TexelParts parts;
+  EXPECT_TRUE(parts.empty());
+  std::map<std::uint32_t, float> expected;
+  test::Random random(7);
+  for (int i = 0; i < 5000; ++i) {
+    const std::uint32_t key = random.below(65536);
+    if (!expected.emplace(key, static_cast<float>(i)).second) continue;
+    parts.insert(key, {static_cast<float>(i), 0.0f, 0.0f, 0.0f});
+  }
+  for (std::uint32_t key = 0; key < 65536; ++key) {
+    const hybrid::TexelBounds* found = parts.find(key);
+    const auto it = expected.find(key);
+    ASSERT_EQ(found != nullptr, it != expected.end()) << key;
+    if (found != nullptr) {
+      EXPECT_EQ(found->lit_above, it->second);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
