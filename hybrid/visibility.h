@@ -10,8 +10,9 @@
 namespace gnomon::hybrid {
 
 /// A light's sheets are made when it is first asked for; when it has moved since, once it has stood still for
-/// long enough (Sheets::when_they_pay). Its own ray tracer is built when it is first asked. The lights are read from the world's scene at each
-/// call, so they may move in between; the world must not change and must outlive the result.
+/// long enough (Sheets::when_they_pay). Its own ray tracer is built when it is first asked. The lights are
+/// read from the world's scene at each call, so they may move in between; the world must not change and must
+/// outlive the result.
 std::shared_ptr<raster::ExternalVisibility> make_visibility(const World& world);
 
 }  // namespace gnomon::hybrid
