@@ -11,6 +11,7 @@ find_package(CLI11 REQUIRED)
 find_package(hwy REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 
 # Debian's OpenImageIO exports OpenCV's header folder, which its headers that we use do not need; CMake refuses to

@@ -2,7 +2,7 @@
 # completion for bash, zsh and fish.
 install(TARGETS gnomon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 # Where scene/files/image_library.cpp looks for it from the folder of the program.
-install(TARGETS gnomon_images LIBRARY DESTINATION "${CMAKE_INSTALL_BINDIR}/../lib/gnomon")
+install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # gnomon_install_printed(OPTION FOLDER FILE): what the program prints for OPTION; FOLDER is below the data folder (share).

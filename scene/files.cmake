@@ -6,7 +6,7 @@ target_sources(gnomon_scene PRIVATE
   files/json_lights.cpp files/json_materials.cpp files/json_reader.cpp files/json_solids.cpp files/json_scene.cpp files/load.cpp
   files/merge.cpp files/obj.cpp files/obj_check.cpp files/obj_materials.cpp files/ply.cpp files/ply_header.cpp files/image_check.cpp files/polygon.cpp files/read_file.cpp files/sha256.cpp
   files/validate.cpp files/write_file.cpp)
-target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json TBB::tbb ZLIB::ZLIB ${CMAKE_DL_LIBS}
+target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG TBB::tbb ${CMAKE_DL_LIBS}
   tinyobjloader::tinyobjloader_double TinyGLTF::TinyGLTF)
 
 # OpenImageIO, loaded when an image file is read or an EXR written (scene/files/image_library.h).

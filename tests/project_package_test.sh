@@ -9,7 +9,7 @@ mkdir -p "$work"
 cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/cpack.log" 2>&1 || { cat "$work/cpack.log"; exit 1; }
 package=$(ls "$work"/gnomon_*.deb)
 dpkg-deb --contents "$package" >"$work/contents"
-for file in usr/bin/gnomon usr/share/man/man1/gnomon.1 usr/share/bash-completion/completions/gnomon \
+for file in usr/bin/gnomon usr/lib/gnomon/libgnomon_images.so usr/share/man/man1/gnomon.1 usr/share/bash-completion/completions/gnomon \
   usr/share/zsh/site-functions/_gnomon usr/share/fish/vendor_completions.d/gnomon.fish; do
   grep -q " \./$file\$" "$work/contents" || { echo "not in the package: $file"; cat "$work/contents"; exit 1; }
 done
@@ -19,3 +19,5 @@ for library in libosmesa6 libgl1-mesa-dri libopenimageio libtbb; do
 done
 dpkg-deb --extract "$package" "$work/root"
 "$work/root/usr/bin/gnomon" --version
+# EXR goes through a module that the program finds beside itself.
+"$work/root/usr/bin/gnomon" raytrace sphere-plane --size 32x18 --quiet -o "$work/picture.exr"

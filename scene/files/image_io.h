@@ -1,4 +1,4 @@
-// Image files: PNG is written by png_encode.cpp, everything else goes through OpenImageIO (image_library.h),
+// Image files: PNG is written by libpng (png_encode.cpp), everything else goes through OpenImageIO (image_library.h),
 // in and out. Writes are whole or not at all (write_file.h).
 #pragma once
 
