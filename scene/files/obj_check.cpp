@@ -179,11 +179,13 @@ void blank_continuations_and_comments(std::string& text) {
   }
   for (std::size_t line = 0; line < text.size();) {
     const std::size_t end = std::min(text.find('\n', line), text.size());
-    const std::size_t word = std::min(text.find_first_not_of(" \t", line), end);
-    const std::size_t comment = std::min(text.find('#', line), end);
-    const bool is_data = word < end && std::string_view("vflp").find(text[word]) != std::string_view::npos;
-    if (is_data)
-      std::fill(text.begin() + static_cast<std::ptrdiff_t>(comment),
+    const std::string_view row = std::string_view(text).substr(line, end - line);
+    const std::size_t word = std::min(row.find_first_not_of(" \t"), row.size());
+    const std::size_t comment = row.find('#');  // looked for in this line alone: a file may have none
+    const bool is_data =
+        word < row.size() && std::string_view("vflp").find(row[word]) != std::string_view::npos;
+    if (is_data && comment != std::string_view::npos)
+      std::fill(text.begin() + static_cast<std::ptrdiff_t>(line + comment),
                 text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
     line = end + 1;
   }

@@ -105,8 +105,29 @@ PeerRays shadow_rays(const raytrace::RayTracedFrame& frame, const Light& light, 
   return rays;
 }
 
+PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, double scale) {
+  PeerRays rays = empty_rays(frame.receiver.size);
+  for_each_place(frame.receiver.size, [&](int x, int y, std::size_t at) {
+    const raytrace::SurfacePoint& p = frame.receiver.at(x, y);
+    if (p.primitive == no_id) return;
+    const Vec3 d = pixel_ray(view, x + 0.5, y + 0.5).direction;
+    put(rays, at, p.position + 0x1p-14 * scale * p.normal, d - 2.0 * glm::dot(d, p.normal) * p.normal,
+        infinity);
+  });
+  return rays;
+}
+
 Embree::Embree(const World& world, bool low_quality)
-    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    : bytes_(std::make_unique<std::atomic<ssize_t>>(0)),
+      device_(rtcNewDevice(nullptr)),
+      scene_(rtcNewScene(device_)) {
+  rtcSetDeviceMemoryMonitorFunction(
+      device_,
+      [](void* sum, ssize_t bytes, bool) {
+        *static_cast<std::atomic<ssize_t>*>(sum) += bytes;
+        return true;
+      },
+      bytes_.get());
   rtcSetSceneBuildQuality(scene_, low_quality ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(

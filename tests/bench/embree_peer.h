@@ -5,7 +5,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raytrace/frame.h"
@@ -25,6 +27,9 @@ PeerRays primary_rays(const View& view);
 /// normal.
 PeerRays shadow_rays(const raytrace::RayTracedFrame& frame, const Light& light, double scale);
 
+/// Mirrored at the receivers: rays that share neither origin nor direction.
+PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, double scale);
+
 struct PeerHits {
   std::vector<float> t, u, v;
   std::vector<unsigned> primitive;
@@ -37,12 +42,15 @@ class Embree {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
+  /// What it holds once it is built: its tree and its copies of the vertices and indices.
+  std::size_t bytes() const { return static_cast<std::size_t>(*bytes_); }
   void closest_single(const PeerRays& rays, PeerHits& hits) const;
   void closest_packets(const PeerRays& rays, PeerHits& hits) const;
   void occluded_single(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const;
   void occluded_packets(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const;
 
  private:
+  std::unique_ptr<std::atomic<ssize_t>> bytes_;
   RTCDevice device_;
   RTCScene scene_;
 };

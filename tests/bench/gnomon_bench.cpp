@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/machine.h"
 #include "bench_scenes.h"
 #include "embree_peer.h"
 #include "raytrace/packet/passes.h"
@@ -94,6 +95,7 @@ class Bench {
                                       static_cast<std::size_t>(threads));
       primary(threads), shadows(0, threads), shadows(1, threads);
     }
+    two_threads(), mirrors(), memory();
     whole_frame();
     return rows_;
   }
@@ -189,6 +191,55 @@ class Bench {
           "Embree single", std::nullopt);
   }
 
+  /// The same pass on one thread and on two; wall clock both.
+  void two_threads() {
+    const Sight eye = sight_of_eye(structures(), view_);
+    our_receivers(eye, false);
+    const Sight light = sight_of(0);
+    const auto row = [&](std::string name, double rays, const auto& pass) {
+      const auto on = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        pass();
+      };
+      const auto ms = in_turn(
+          settings_.runs, 2, [&] { on(2); }, [&] { on(1); });
+      add(std::move(name), 2, rays, ms, "one thread", 1.8);
+    };
+    row("primary, float receivers", static_cast<double>(primary_.count), [&] { our_receivers(eye, false); });
+    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0, eye, light); });
+  }
+
+  /// One ray at a time, here and there.
+  void mirrors() {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const PeerRays rays = mirror_rays(frame_, view_, world_.finite_bounds.diagonal());
+    std::vector<Ray> ours;
+    for (std::size_t i = 0; i < rays.valid.size(); ++i)
+      if (rays.valid[i] != 0)
+        ours.push_back({Vec3(Vec3f(rays.ox[i], rays.oy[i], rays.oz[i])),
+                        Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
+    std::size_t hits = 0, theirs = 0;
+    const auto ms = in_turn(
+        std::min(settings_.runs, 3), 1,
+        [&] {
+          hits = 0;
+          for (const Ray& ray : ours) hits += tracer_.closest_hit(ray) ? 1 : 0;
+        },
+        [&] { embree_.closest_single(rays, peer_); });
+    for (std::size_t i = 0; i < rays.valid.size(); ++i)
+      theirs += rays.valid[i] != 0 && peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+    fmt::print("  mirrored rays that hit: {} here, {} by Embree\n", hits, theirs);
+    add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, "Embree single", 1.2);
+  }
+
+  void memory() {
+    const double ours = 0x1p-20 * static_cast<double>(tracer_.stats().bytes);
+    const double theirs = 0x1p-20 * static_cast<double>(embree_.bytes());
+    rows_.push_back({"memory of the structure", scene_.name, 1, ours, "MiB", "Embree medium", theirs,
+                     theirs / ours, 1.0 / 1.3});
+    print(rows_.back());
+  }
+
   void whole_frame() {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
     double build = 0.0, peer_build = 0.0;
@@ -222,8 +273,12 @@ class Bench {
     const Sight eye = sight_of_eye(structures(), view_);
     std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
     our_hits(eye);
-    for (const raytrace::TileHits& tile : hits_)
-      for (const std::uint32_t leaf : tile.leaf) unsure += leaf == raytrace::unsure_hit ? 1 : 0;
+    for (int y = 0; y < settings_.size.height; ++y)
+      for (int x = 0; x < settings_.size.width; ++x) {
+        const std::size_t at = place(x, y);
+        unsure +=
+            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::unsure_hit ? 1 : 0;
+      }
     our_receivers(eye, true), embree_.closest_packets(primary_, peer_);
     const double doubt = 1e-4 * world_.finite_bounds.diagonal();
     for (int y = 0; y < settings_.size.height; ++y)
@@ -287,7 +342,11 @@ nlohmann::ordered_json to_json(const std::vector<Row>& rows) {
     if (r.goal) row["goal"] = *r.goal, row["met"] = r.ratio >= *r.goal;
     list.push_back(row);
   }
-  return {{"schema", "gnomon/bench/1"}, {"target", raytrace::packet_target()}, {"rows", list}};
+  const compare::MachineInfo machine = app::machine_info();
+  return {{"schema", "gnomon/bench/1"},
+          {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}},
+          {"target", raytrace::packet_target()},
+          {"rows", list}};
 }
 
 int run(const Settings& settings) {
