@@ -28,8 +28,8 @@ Seen seen_from(const Structures& structures, const Light& light);
 /// Cells are packets of 4 x 4 pixels.
 Sight sight_of_eye(const Structures& structures, const View& view);
 
-/// Cells cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without are
-/// left out; empty: all are wanted.
+/// Cells cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without
+/// are left out; empty: all are wanted.
 Sight sight_of_light(const Structures& structures, const Light& light, std::span<const CompactTile> tiles,
                      std::span<const std::uint8_t> wanted = {});
 
