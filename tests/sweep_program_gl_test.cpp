@@ -130,6 +130,32 @@ TEST_F(SweepProgram, KilledAnywhereItEndsInTheSameBytes) {
   EXPECT_GT(died, 0);
 }
 
+// The ray tracer's own points: exact is wrong nowhere, and they survive merging and stand on the page.
+TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
+  ASSERT_EQ(run(words("part1", {"--shard", "1/2", "--ray-tracer"})), 0) << said();
+  ASSERT_EQ(run(words("part2", {"--shard", "2/2", "--ray-tracer"})), 0) << said();
+  EXPECT_FALSE(fs::exists(root / "part2/ray_tracer.json"));
+  ASSERT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
+      0)
+      << said();
+  const nlohmann::json points = nlohmann::json::parse(bytes(root / "merged/ray_tracer.json"))["points"];
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0]["name"], "fast");
+  EXPECT_EQ(points[2]["name"], "exact");
+  EXPECT_EQ(points[2]["wrong"], 0);
+  EXPECT_EQ(points[2]["uncertain"], 0);
+  for (const auto& point : points) {
+    EXPECT_GT(point["compared"], 96 * 54 / 4);
+    EXPECT_GT(point["rays"], 96 * 54);
+    EXPECT_GT(point["boxes_per_ray"], 1.0);
+    EXPECT_GT(point["times_ms"]["median"], 0.0);
+  }
+  const std::string page = bytes(root / "merged/report.html");
+  EXPECT_NE(page.find("The ray tracer itself"), std::string::npos);
+  EXPECT_NE(page.find("boxes per ray"), std::string::npos);
+}
+
 TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
   ASSERT_EQ(run(words("whole")), 0) << said();
   ASSERT_EQ(run(words("part1", {"--shard", "1/2"})), 0) << said();

@@ -8,6 +8,7 @@
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/interrupt.h"
 #include "app/invocation.h"
@@ -26,6 +27,7 @@
 #include "compare/sweep/journal.h"
 #include "compare/sweep/merge.h"
 #include "compare/sweep/page.h"
+#include "compare/sweep/ray_points.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
@@ -44,7 +46,7 @@ struct SweepCommand {
   compare::Shard shard;
   std::optional<int> slurm_tasks;
   double report_max_mb = compare::default_report_max_mb;
-  bool zip = false, perceptual = false, restart = false, quiet = false;
+  bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };
 
 Expected<Plan> plan_of(const SweepCommand& command) {
@@ -168,7 +170,8 @@ Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
 }
 
 Expected<void> discard(const std::string& folder) {
-  for (const char* name : {"sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "report.html"}) {
+  for (const char* name :
+       {"sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"}) {
     std::error_code error;
     std::filesystem::remove(std::filesystem::path(folder) / name, error);
     if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
@@ -190,6 +193,28 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
       if (const auto value = parse_bias(text)) biases.push_back({value->constant, value->unit});
   }
   return biases;
+}
+
+/// The ray tracer's own points, made by the first shard.
+Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan, const LoadedScene& loaded,
+                                  Console& console) {
+  if (!command.ray_tracer || command.shard.part != 1) return {};
+  if (std::filesystem::exists(compare::ray_points_path(command.folder))) return {};
+  auto options = command.options.parse_cell(plan.grid, 0);
+  if (!options) return fail(options.error());
+  options->options.raytrace.runs = command.runs.value_or(3);
+  options->options.raytrace.seed = command.seed;
+  const auto setting = resolve_setting(*options, *loaded.scene, *loaded.world);
+  if (!setting) return fail(setting.error());
+  const Camera given_camera = std::exchange(loaded.scene->camera, setting->camera);
+  const std::vector<Light> given_lights = std::exchange(loaded.scene->lights, setting->lights);
+  console.progress("the ray tracer's own points", 1.0);
+  const auto points =
+      compare::measure_ray_points(*loaded.world, setting->accel, setting->compared, setting->raytrace);
+  loaded.scene->camera = given_camera;
+  loaded.scene->lights = given_lights;
+  const OutputGuard whole_file;
+  return write_file(compare::ray_points_path(command.folder), compare::ray_points_json(points));
 }
 
 Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
@@ -222,7 +247,7 @@ std::string task_arguments(const SweepCommand& command) {
     text += command.backend == raster::Backend::egl ? " --backend egl" : " --backend osmesa";
   for (const auto& [given, name] :
        {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
-        std::pair(command.restart, " --restart")})
+        std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart")})
     if (given) text += name;
   return text;
 }
@@ -282,6 +307,8 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (!journal->lines().empty())
     console.message(
         fmt::format("{} of {} cells are there already", journal->lines().size(), plan->cells.size()));
+  if (auto measured = measure_ray_tracer(command, *plan, *loaded, console); !measured)
+    return fail(measured.error());
   if (journal->lines().size() < plan->cells.size()) {
     if (auto filled = fill(command, *plan, *loaded, *journal, console); !filled) return fail(filled.error());
   }
@@ -343,6 +370,10 @@ void add_options(CLI::App& app, SweepCommand& command) {
       ->type_name("N");
   app.add_flag("--perceptual", command.perceptual,
                "also FLIP and SSIM for every cell, which cost more than all the rest [default off]");
+  app.add_flag(
+      "--ray-tracer", command.ray_tracer,
+      "also time the ray tracer's precisions, and its samples of lights with size, at the first cell's "
+      "camera and lights, as points of the report's chart; ray_tracer.json has them [default off]");
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
   add_report_max_mb(app, command.report_max_mb);
   add_backend(app, command.backend);

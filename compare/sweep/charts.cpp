@@ -97,12 +97,33 @@ std::string point(const CellSummary& cell, std::string_view kind, double x, doub
       cell.cell, kind, x, y, radius, escaped(title));
 }
 
+double wrong_share(const RayPoint& tracer) {
+  return double(tracer.wrong) / double(std::max<std::uint64_t>(tracer.compared, 1));
+}
+
+// A point of the ray tracer; `below`: its name stands under it, so that neighbours' names keep apart.
+std::string diamond(const Plot& plot, const RayPoint& tracer, bool below) {
+  const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
+  const std::string mark = fmt::format(
+      "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} wrong, {4}</title></path>",
+      x, y - 7, escaped(tracer.name), tracer.wrong == 0 ? "none" : percent(wrong_share(tracer)),
+      milliseconds(tracer.times.median()));
+  return mark + text(std::min(x, width - right - 30), below ? y + 22 : y - 12, "note middle", tracer.name);
+}
+
 }  // namespace
 
-std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
+std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
+                         const std::vector<RayPoint>& measured) {
   if (front.empty()) return {};
-  const double rays = cells.front().rays_ms;
-  double low = rays, high = rays;
+  std::vector<RayPoint> tracers = measured;
+  if (tracers.empty() && cells.front().rays_ms > 0.0) {
+    tracers.emplace_back().name = "ray tracing";
+    tracers.back().times.runs = {cells.front().rays_ms};
+  }
+  double low = cells[front.front()].raster_ms, high = low;
+  for (const RayPoint& tracer : tracers)
+    low = std::min(low, tracer.times.median()), high = std::max(high, tracer.times.median());
   for (const CellSummary& cell : cells)
     if (std::isfinite(cell.raster_ms))
       low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
@@ -123,14 +144,7 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
                  fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
                              milliseconds(cell.raster_ms)));
   }
-  if (rays > 0.0) {
-    const double x = plot.x(rays), y = plot.y(least);
-    out += fmt::format(
-        "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>ray tracing: none wrong, "
-        "{2}</title></path>",
-        x, y - 7, milliseconds(rays));
-    out += text(std::min(x, width - right - 30), y - 12, "note middle", "ray tracing");
-  }
+  for (std::size_t i = 0; i < tracers.size(); ++i) out += diamond(plot, tracers[i], i % 2 == 1);
   return svg("Wrong pixels against time, each cell a point, the best of them joined", out);
 }
 

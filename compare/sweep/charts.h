@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/sweep/ray_points.h"
 #include "compare/sweep/summary.h"
 
 namespace gnomon::compare {
@@ -11,7 +12,10 @@ namespace gnomon::compare {
 /// Wrong pixels against milliseconds, both on logarithmic scales: every timed cell, the front, and the ray
 /// tracer. Errors of less than half a pixel in all that were compared stand on the lowest line, named "none".
 /// Empty when nothing is timed.
-std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front);
+/// `rays`: the ray tracer's own points; without them one stands for it, at the time that the cells' truth
+/// took.
+std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
+                         const std::vector<RayPoint>& rays = {});
 
 /// Wrong pixels against map size, log-log, the best cell of each size, beside the slope -1 of a pure sampling
 /// error. Empty with fewer than three sizes.

@@ -103,8 +103,11 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
     return fail(ErrorKind::usage, fmt::format("{} of {} cells are there: a shard is missing or not finished",
                                               cells.size(), header->cells));
   if (auto written = write_whole(cells, *header, target); !written) return fail(written.error());
-  for (const std::string& folder : folders)
+  for (const std::string& folder : folders) {
     if (auto copied = copy_truths(folder, target); !copied) return fail(copied.error());
+    if (auto copied = copy_existing(ray_points_path(folder), ray_points_path(target)); !copied)
+      return fail(copied.error());
+  }
   const auto page = write_sweep_page(target, report_max_mb);
   if (!page) return fail(page.error());
   return MergedSweep{cells.size(), *page};

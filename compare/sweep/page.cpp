@@ -37,15 +37,46 @@ std::string sentence(const std::vector<CellSummary>& cells, const std::vector<st
   return text;
 }
 
-std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
+// What the ray tracer's points cost, on this machine and on any.
+std::string ray_table(const std::vector<RayPoint>& rays) {
+  if (rays.empty()) return {};
+  std::string rows;
+  for (const RayPoint& p : rays)
+    rows += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+        "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td "
+        "class=\"n\">{:.1f}</td><td class=\"n\">{}</td></tr>\n",
+        escaped(p.name), milliseconds(p.times.median()), grouped(p.wrong), grouped(p.uncertain),
+        plain_number(p.mean_absolute), grouped(p.rays), p.boxes_per_ray, p.primitives_per_ray,
+        byte_count(p.bytes));
+  return "<h3>The ray tracer itself</h3>\n" +
+         scroll_region(
+             "The ray tracer itself",
+             "<table class=\"families\"><thead><tr><th scope=\"col\">precision, samples of lights with "
+             "size</th><th scope=\"col\" class=\"n\">time</th><th scope=\"col\" "
+             "class=\"n\">wrong</th><th scope=\"col\" class=\"n\">in doubt</th><th scope=\"col\" "
+             "class=\"n\">mean error</th><th scope=\"col\" class=\"n\">rays</th><th scope=\"col\" "
+             "class=\"n\">boxes per ray</th><th scope=\"col\" class=\"n\">primitives per "
+             "ray</th><th scope=\"col\" class=\"n\">structure</th></tr></thead><tbody>\n" +
+                 rows + "</tbody></table>") +
+         fmt::format(
+             "<p class=\"hint\">Camera and shadow rays of the first cell's picture, against exact "
+             "precision with {} samples.</p>\n",
+             reference_samples);
+}
+
+std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
+                        const std::vector<RayPoint>& rays) {
   std::string out =
       "<section id=\"cost\" aria-labelledby=\"cost-title\"><h2 id=\"cost-title\">What accuracy costs</h2>\n";
-  if (const std::string chart = pareto_chart(cells, front); !chart.empty()) {
+  if (const std::string chart = pareto_chart(cells, front, rays); !chart.empty()) {
     out += "<h3>Wrong pixels against time</h3>\n<figure>" +
            scroll_region("Wrong pixels against time", chart) +
            "<figcaption>Each cell is a point and opens its pictures; the line joins those "
            "that no "
-           "other beats in both. The diamond is the ray tracer, whose verdicts are the truth here.";
+           "other beats in both. ";
+    out += rays.empty() ? "The diamond is the ray tracer, whose verdicts are the truth here."
+                        : "The diamonds are the ray tracer itself.";
     if (std::any_of(cells.begin(), cells.end(), [](const CellSummary& c) { return c.derived; }))
       out += " Cells that differ in the constant bias alone come from one drawing and share its time.";
     out += "</figcaption></figure>\n";
@@ -55,7 +86,7 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
            scroll_region("Wrong pixels against map size", chart) +
            "<figcaption>The best cell of each size. An error that is all sampling falls along the dotted "
            "line.</figcaption></figure>\n";
-  return out + "</section>\n";
+  return out + ray_table(rays) + "</section>\n";
 }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -166,7 +197,7 @@ href="#provenance">Provenance</a></li>)";
       "<section id=\"overview\" aria-labelledby=\"title\"><h1 id=\"title\">Sweep of {}</h1>\n{}<p "
       "class=\"verdict\">{}</p></section>\n",
       escaped(scene), beside_line(in), escaped(sentence(in.cells, front)));
-  shell.main += grid_section(in) + cell_section() + cost_charts(in.cells, front) +
+  shell.main += grid_section(in) + cell_section() + cost_charts(in.cells, front, in.rays) +
                 cell_table(in.cells, front) + provenance(in.header);
   shell.data = sweep_page_data(in, front);
   shell.beside = in.beside;
@@ -193,7 +224,9 @@ Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_
   if (cells->empty()) return written;
   const std::map<std::size_t, CellPictures> pictures = read_pictures(folder, *cells);
   const std::map<std::string, std::string> truths = read_truths(folder);
-  SweepPageInput input{sweep->header, *cells, pictures, truths};
+  const auto rays = read_ray_points(folder);
+  if (!rays) return fail(rays.error());
+  SweepPageInput input{sweep->header, *cells, pictures, truths, *rays};
   std::string page = sweep_page(input);
   written.page_mb = static_cast<double>(page.size()) / 1e6;
   written.beside = input.beside = written.page_mb > report_max_mb;

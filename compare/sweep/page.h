@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/outputs.h"
+#include "compare/sweep/ray_points.h"
 #include "compare/sweep/summary.h"
 
 namespace gnomon::compare {
@@ -24,6 +25,7 @@ struct SweepPageInput {
   const std::vector<CellSummary>& cells;
   const std::map<std::size_t, CellPictures>& pictures;  ///< by cell
   const std::map<std::string, std::string>& truths;     ///< PNG by name
+  const std::vector<RayPoint>& rays;                    ///< the ray tracer's own points; may be none
   bool beside = false;                                  ///< the pictures are files beside the page
 };
 
