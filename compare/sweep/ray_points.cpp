@@ -166,7 +166,8 @@ Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder) {
   std::ifstream file(ray_points_path(folder));
   if (!file) return points;
   try {
-    for (const Json& json : Json::parse(file).at("points")) {
+    const Json whole = Json::parse(file);
+    for (const Json& json : whole.at("points")) {
       RayPoint& p = points.emplace_back();
       p.name = json.at("name").get<std::string>();
       p.compared = json.at("compared").get<std::uint64_t>();
