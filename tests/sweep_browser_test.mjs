@@ -65,7 +65,7 @@ async function checkGrid(page) {
   await pick("Columns", "map_size");
   assert.deepEqual(await grid.locator("thead th").allTextContents(), ["32", "64", "128"]);
   assert.deepEqual(await grid.locator("tbody th").allTextContents(), ["0", "0.05", "0.4"]);
-  await pick("slope_bias", "1");
+  await pick("slope bias", "1");
   // Each place of the grid shows the cell of its row, its column and the slice.
   for (const link of await grid.locator("a").all()) {
     const cell = Number((await link.getAttribute("href")).slice(6));

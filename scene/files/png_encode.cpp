@@ -1,6 +1,6 @@
-// PNG files of 8-bit RGB by libpng, in its quick setting (no filters, deflate level 3): rendered pictures come
-// out as large as with the thorough one, in a fifth of the time. Not through OpenImageIO, whose loading alone
-// takes longer than encoding does (image_library.h).
+// PNG files of 8-bit RGB by libpng, in its quick setting (no filters, deflate level 3): rendered pictures
+// come out as large as with the thorough one, in a fifth of the time. Not through OpenImageIO, whose loading
+// alone takes longer than encoding does (image_library.h).
 #include <fmt/format.h>
 #include <png.h>
 
