@@ -5,6 +5,8 @@
 
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/palette.h"
 #include "compare/report/charts.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
@@ -132,6 +134,25 @@ std::string texel_fact(const LightBlock& b) {
                                           fact_value(b, "map.texel_world.max", most)));
 }
 
+// Where the edges lie wrong and how far shadows stand off: empty where neither was measured.
+std::string edge_maps(const LightBlock& b) {
+  const LightPictures& pictures = b.in.pictures.lights[b.index];
+  if (pictures.edges.png.empty()) return "";
+  return fmt::format(
+      R"(<div class="pair">
+<figure>{}<figcaption>How far drawn shadow edges lie from the true ones, on the band between the two. White: not
+at all. {} the drawn shadow is larger, {} smaller; full colour from {:g} texels on.</figcaption></figure>
+<figure>{}<figcaption>How far shadows stand off what casts them: black not at all, pale yellow {:g} texels or
+more.</figcaption></figure>
+</div>
+)",
+      picture(b.in, pictures.edges,
+              "Bands between drawn and true shadow edges, coloured by their width and side.", ""),
+      swatch(false_shadow_colour, "\u2212"), swatch(missed_shadow_colour, "+"), edge_scale_texels,
+      picture(b.in, pictures.detachment, "Gaps between casters and their shadows, brighter where wider.", ""),
+      detachment_scale_texels);
+}
+
 }  // namespace
 
 std::string ladder_block(const LightBlock& b) {
@@ -191,7 +212,7 @@ std::string facts_block(const LightBlock& b) {
          fact("Mean error", fact_value(b, "error.mean_absolute", error.mean_absolute),
               fmt::format("mean |<i>V</i><sub>6</sub> \u2212 <i>V</i><sub>0</sub>|; root mean square {}",
                           fact_value(b, "error.rms", error.rms))) +
-         "</dl>\n";
+         "</dl>\n" + edge_maps(b);
 }
 
 std::string depth_map_block(const LightBlock& b) {

@@ -67,17 +67,21 @@ std::string svg(std::string_view title, const std::string& content) {
 }
 
 // What a logarithmic scale takes for none: well below the least error that there is.
-double least_error(const std::vector<CellSummary>& cells) {
+double least_error(const std::vector<double>& shares) {
   double least = 1.0;
-  for (const CellSummary& cell : cells)
-    if (cell.wrong > 0) least = std::min(least, cell.wrong_fraction / 4.0);
-  return least;
+  for (const double share : shares)
+    if (share > 0.0) least = std::min(least, share / 4.0);
+  return least < 1.0 ? least : 0.001;
 }
 
-double largest_error(const std::vector<CellSummary>& cells) {
-  double largest = 0.0;
-  for (const CellSummary& cell : cells) largest = std::max(largest, cell.wrong_fraction);
-  return largest;
+double largest_error(const std::vector<double>& shares) {
+  return *std::max_element(shares.begin(), shares.end());
+}
+
+std::vector<double> wrong_shares(const std::vector<CellSummary>& cells) {
+  std::vector<double> shares;
+  for (const CellSummary& cell : cells) shares.push_back(cell.wrong_fraction);
+  return shares;
 }
 
 std::string axes_text(const CellSummary& cell) {
@@ -127,8 +131,10 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
   for (const CellSummary& cell : cells)
     if (std::isfinite(cell.raster_ms))
       low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
-  const double least = least_error(cells);
-  const Plot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(cells))};
+  std::vector<double> shares = wrong_shares(cells);
+  for (const RayPoint& tracer : tracers) shares.push_back(wrong_share(tracer));
+  const double least = least_error(shares);
+  const Plot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(shares))};
   std::string out = frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
   std::string line;
   for (const std::size_t i : front)
@@ -155,9 +161,10 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
     if (!first && cell.wrong_fraction < entry->second->wrong_fraction) entry->second = &cell;
   }
   if (best.size() < 3) return {};
-  const double least = least_error(cells);
+  const std::vector<double> shares = wrong_shares(cells);
+  const double least = least_error(shares);
   const Plot plot{best.begin()->first / 1.1, best.rbegin()->first * 1.1, least,
-                  std::max(4.0 * least, 1.5 * largest_error(cells))};
+                  std::max(4.0 * least, 1.5 * largest_error(shares))};
   std::vector<double> sizes;
   std::string line, dots;
   for (const auto& [size, cell] : best) {
