@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <deque>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -141,32 +142,62 @@ Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   return made;
 }
 
-Expected<void> finish_cell(std::optional<MadeCell>& cell, compare::Journal& journal) {
-  if (!cell) return {};
-  if (cell->written.valid())
-    if (auto written = cell->written.get(); !written) return written;
-  const OutputGuard whole_lines;
-  auto appended = journal.append(cell->line, cell->times);
-  cell.reset();
-  return appended;
-}
+/// Cells on their way into the journal, in order: while some cells' pictures are written the next are made.
+class CellQueue {
+ public:
+  explicit CellQueue(compare::Journal& journal) : journal_(journal) {}
 
-/// While one cell's pictures are written the next cell is made.
+  Expected<void> push(MadeCell cell) {
+    if (cell.pictures) {
+      cell.written = std::async(std::launch::async, std::move(cell.pictures));
+      ++writing_;
+    }
+    cells_.push_back(std::move(cell));
+    return finish(most_writing);
+  }
+
+  /// Until at most so many cells' pictures are still being written, and the first of the queue's are.
+  Expected<void> finish(std::size_t writing) {
+    while (!cells_.empty() && (writing_ > writing || !cells_.front().written.valid()))
+      if (auto finished = finish_first(); !finished) return finished;
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t most_writing = 4;  // small pictures and codes of one light: some MB each
+
+  Expected<void> finish_first() {
+    MadeCell cell = std::move(cells_.front());
+    cells_.pop_front();
+    if (cell.written.valid()) {
+      --writing_;
+      if (auto written = cell.written.get(); !written) return written;
+    }
+    const OutputGuard whole_lines;
+    return journal_.append(cell.line, cell.times);
+  }
+
+  compare::Journal& journal_;
+  std::deque<MadeCell> cells_;
+  std::size_t writing_ = 0;
+};
+
 Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
   const Stopwatch watch;
   const std::size_t all = shop.plan.cells.size(), before = journal.lines().size();
-  std::optional<MadeCell> last;
+  CellQueue queue(journal);
   for (std::size_t i = before; i < all; ++i) {
     shop.console.progress(
         fmt::format("cell {} of {}{}", i + 1, all, time_left(watch.elapsed_ms(), i - before, all - i)),
         double(i) / double(all));
     auto made = make_cell(shop, i);
-    if (auto finished = finish_cell(last, journal); !finished) return finished;
-    if (!made) return fail(made.error());
-    last = std::move(*made);
-    if (last->pictures) last->written = std::async(std::launch::async, std::move(last->pictures));
+    if (!made) {
+      if (auto finished = queue.finish(0); !finished) return finished;
+      return fail(made.error());
+    }
+    if (auto pushed = queue.push(std::move(*made)); !pushed) return pushed;
   }
-  return finish_cell(last, journal);
+  return queue.finish(0);
 }
 
 Expected<void> discard(const std::string& folder) {

@@ -73,7 +73,8 @@ namespace {
 
 /// `whole`: a setting, not one value to be checked.
 Expected<SettingOptions> parse(const Values& values, bool whole) {
-  Parser parser;
+  static thread_local Parser parser;  // kept: to make all options takes longer than to read a line
+  parser.setting = SettingOptions{};
   std::vector<std::string> arguments;  // CLI11 wants them last first
   for (const auto& [name, value] : values) {
     if (!is_flag(*parser.app.get_option("--" + name))) {

@@ -17,8 +17,6 @@ std::string planes(const std::vector<std::uint32_t>& numbers, int bytes) {
   return out;
 }
 
-constexpr int level = 4;  // of zlib: the default takes twice the time for a few percent
-
 }  // namespace
 
 std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& options) {
@@ -30,7 +28,7 @@ std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& option
   // compress2 can only fail for a bad level or too small a buffer: neither can be here.
   [[maybe_unused]] const int state =
       compress2(reinterpret_cast<Bytef*>(deflated.data()), &length,
-                reinterpret_cast<const Bytef*>(raw.data()), static_cast<uLong>(raw.size()), level);
+                reinterpret_cast<const Bytef*>(raw.data()), static_cast<uLong>(raw.size()), options.level);
   assert(state == Z_OK);
   deflated.resize(length);
   return base64(deflated);

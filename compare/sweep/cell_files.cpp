@@ -32,7 +32,7 @@ std::string truth_name(std::string_view png) {
 }
 
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {
-  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, false});
+  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, false, 1});
   return data_file(
       {cell_name(cell),
        fmt::format(

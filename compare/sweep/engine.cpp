@@ -178,6 +178,7 @@ bool Engine::Impl::fill_table() {
   if (perceptual || comparison.lights.size() != lower.size()) return false;
   for (const auto& light : lower)
     if (!biases_add_up(*light)) return false;
+  right_codes = {};
   for (std::size_t i = 0; i < lower.size(); ++i) {
     const LadderInput in = input(comparison.raster, i);
     std::vector<double> biases;

@@ -26,8 +26,9 @@ struct Engine::Impl {
   Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
   bool has_images = false;
   std::vector<raster::Bias> expected;
-  std::vector<BiasTable> table;  ///< by light; empty: not made yet
-  std::size_t table_place = 0;   ///< of the bias that the comparison's numbers were last taken from it for
+  std::vector<BiasTable> table;     ///< by light; empty: not made yet
+  Image<std::uint8_t> right_codes;  ///< class_codes of the table's drawing as if no pixel were wrong
+  std::size_t table_place = 0;      ///< of the bias that the comparison's numbers were last taken from it for
   EngineWork work;
   bool derived = false;
 
@@ -40,11 +41,13 @@ struct Engine::Impl {
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
   void make_backdrop();
-  /// The mean colour of the pixels x0 … x1, y0 … y1 (ends excluded), with the errors' colours.
-  glm::u8vec3 mean_colour(int x0, int x1, int y0, int y1) const;
-  Image<std::uint8_t> class_codes() const;
+  /// The mean colour of the pixels x0 … x1, y0 … y1 (ends excluded), with the errors' colours. `codes`: those
+  /// of a hard test, or null.
+  glm::u8vec3 mean_colour(const Image<std::uint8_t>* codes, int x0, int x1, int y0, int y1) const;
+  Image<std::uint8_t> class_codes();
 
  private:
+  Image<std::uint8_t> codes_of_images() const;
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);

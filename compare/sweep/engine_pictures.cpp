@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "compare/outputs.h"
 #include "compare/palette.h"
@@ -26,6 +27,20 @@ Rgb8Image reduced(ImageSize full, int width, const Colour& colour) {
                               edge(y, rows, full.height), edge(y + 1, rows, full.height));
   });
   return small;
+}
+
+std::uint8_t code_of(Label label) {
+  return static_cast<std::uint8_t>(static_cast<int>(label) - static_cast<int>(Label::uncertain));
+}
+
+bool is_wrong_code(std::uint8_t code) {
+  return (code & code_label_mask) > code_of(Label::right);
+}
+
+/// Drawn minus true visibility where the test is hard.
+float error_of_code(std::uint8_t code) {
+  if (!is_wrong_code(code)) return 0.0f;
+  return (code & code_false_shadow) != 0 ? -1.0f : 1.0f;
 }
 
 }  // namespace
@@ -52,25 +67,29 @@ void Engine::Impl::make_backdrop() {
   }
 }
 
-glm::u8vec3 Engine::Impl::mean_colour(int x0, int x1, int y0, int y1) const {
-  Vec3f sum(0.0f);
-  for (int y = y0; y < y1; ++y)
+glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, int x1, int y0,
+                                      int y1) const {
+  glm::uvec3 whole(0u);  // of the pixels that are right, nearly all
+  Vec3f marked(0.0f);
+  for (int y = y0; y < y1; ++y) {
+    const std::size_t row = backdrop.index(0, y);
     for (int x = x0; x < x1; ++x) {
-      const std::size_t pixel = backdrop.index(x, y);
-      const float error = worst_error(pixel);
+      const glm::u8vec3 grey = backdrop.at(x, y);
+      const std::size_t pixel = row + static_cast<std::size_t>(x);
+      const float error = codes ? error_of_code(codes->data[pixel]) : worst_error(pixel);
+      if (error == 0.0f) {
+        whole += glm::uvec3(grey);
+        continue;
+      }
       const Vec3f mark(error < 0.0f ? false_shadow_colour : missed_shadow_colour);
-      sum += glm::mix(Vec3f(backdrop.data[pixel]), mark, std::min(std::abs(error), 1.0f));
+      marked += glm::mix(Vec3f(grey), mark, std::min(std::abs(error), 1.0f));
     }
-  return glm::u8vec3(sum / static_cast<float>((x1 - x0) * (y1 - y0)) + 0.5f);
+  }
+  return glm::u8vec3((Vec3f(whole) + marked) / static_cast<float>((x1 - x0) * (y1 - y0)) + 0.5f);
 }
 
-Image<std::uint8_t> Engine::Impl::class_codes() const {
+Image<std::uint8_t> Engine::Impl::codes_of_images() const {
   Image<std::uint8_t> codes(comparison.raytraced.receiver.size);
-  const auto code_of = [](Label label) {
-    return static_cast<std::uint8_t>(static_cast<int>(label) - static_cast<int>(Label::uncertain));
-  };
-  const std::uint8_t right = code_of(Label::right);
-  const auto is_wrong_code = [right](std::uint8_t code) { return (code & code_label_mask) > right; };
   tbb::parallel_for(std::size_t{0}, codes.data.size(), [&](std::size_t p) {
     std::uint8_t code = code_of(lower.empty() ? Label::background : lower.front()->sorted.data[p]);
     for (std::size_t i = 0; i < lower.size(); ++i) {
@@ -86,7 +105,13 @@ Image<std::uint8_t> Engine::Impl::class_codes() const {
     }
     codes.data[p] = code;
   });
-  if (has_images) return codes;
+  return codes;
+}
+
+Image<std::uint8_t> Engine::Impl::class_codes() {
+  if (has_images) return codes_of_images();
+  if (right_codes.data.empty()) right_codes = codes_of_images();
+  Image<std::uint8_t> codes = right_codes;
   for (const BiasTable& light : table) {
     const std::size_t place = light.place[table_place];
     for (const WrongSpan& span : light.spans) {
@@ -101,8 +126,12 @@ Image<std::uint8_t> Engine::Impl::class_codes() const {
 
 Rgb8Image Engine::thumbnail(int width) const {
   impl_->make_backdrop();
-  return reduced(impl_->backdrop.size, width,
-                 [this](int x0, int x1, int y0, int y1) { return impl_->mean_colour(x0, x1, y0, y1); });
+  // Of a hard test's many biases the codes say it all.
+  const std::optional<Image<std::uint8_t>> codes =
+      impl_->has_images ? std::nullopt : std::optional(impl_->class_codes());
+  return reduced(impl_->backdrop.size, width, [&](int x0, int x1, int y0, int y1) {
+    return impl_->mean_colour(codes ? &*codes : nullptr, x0, x1, y0, y1);
+  });
 }
 
 Rgb8Image Engine::drawing(int width) const {

@@ -5,8 +5,10 @@
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -246,9 +248,13 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   sweep.header = std::move(*header);
   sweep.lines = whole_lines(read_all(path_in(folder, "sweep.jsonl")));
   sweep.times = whole_lines(read_all(path_in(folder, "sweep_times.jsonl")));
-  for (std::size_t i = 0; i < sweep.lines.size(); ++i)
-    if (axes_of_line(sweep.lines[i]).empty())
-      return bad_line(path_in(folder, "sweep.jsonl"), i + 1, "not a line of a sweep");
+  std::vector<char> whole(sweep.lines.size(), 0);
+  tbb::parallel_for(std::size_t{0}, whole.size(), [&](std::size_t i) {
+    whole[i] = static_cast<char>(!axes_of_line(sweep.lines[i]).empty());
+  });
+  if (const auto bad = std::find(whole.begin(), whole.end(), 0); bad != whole.end())
+    return bad_line(path_in(folder, "sweep.jsonl"), static_cast<std::size_t>(bad - whole.begin()) + 1,
+                    "not a line of a sweep");
   if (sweep.times.size() < sweep.lines.size())
     return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
   sweep.times.resize(sweep.lines.size());

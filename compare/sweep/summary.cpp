@@ -1,5 +1,7 @@
 #include "compare/sweep/summary.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -98,9 +100,11 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
 }
 
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
+  std::vector<Expected<CellSummary>> read(sweep.lines.size());
+  tbb::parallel_for(std::size_t{0}, read.size(),
+                    [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
   std::vector<CellSummary> cells;
-  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
-    auto cell = summarise(sweep.lines[i], sweep.times[i]);
+  for (Expected<CellSummary>& cell : read) {
     if (!cell) return fail(cell.error());
     cells.push_back(std::move(*cell));
   }
