@@ -4,9 +4,9 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
 #include "hybrid/classify.h"
+#include "raytrace/packet/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::hybrid::HWY_NAMESPACE {
@@ -21,21 +21,11 @@ constexpr I index;
 constexpr hn::RebindToUnsigned<F> ids;
 using raytrace::CompactTile;
 using raytrace::packet_rays;
+using raytrace::HWY_NAMESPACE::bits_of;
+using raytrace::HWY_NAMESPACE::mask_of;
 
 inline V all(double v) {
   return hn::Set(f, static_cast<float>(v));
-}
-inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(f, mask, bytes);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
-inline M mask_of(unsigned bits) {
-  std::uint8_t bytes[8] = {};
-  std::memcpy(bytes, &bits, sizeof bits);
-  return hn::LoadMaskBits(f, bytes);
 }
 inline double sum_of_magnitudes(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
