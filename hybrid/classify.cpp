@@ -194,7 +194,7 @@ class Classifier {
       for (unsigned left = asked_[p]; left != 0; left &= left - 1) {
         const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
         const auto texel = static_cast<std::size_t>(texel_[lane]);
-        if (const TexelBounds* texels = tile_texels_[sheet_[lane]]) {
+        if (const PackedBounds* texels = tile_texels_[sheet_[lane]]) {
           bounds_[lane] = texels[texel];
           continue;
         }
@@ -205,18 +205,36 @@ class Classifier {
       }
   }
 
-  void judge(unsigned asked) {
-    static_assert(sizeof(TexelBounds) == 4 * sizeof(float));
-    V lit_above, dark_below, slope_u, slope_v;
-    hn::LoadInterleaved4(f, &bounds_[lane_].lit_above, lit_above, dark_below, slope_u, slope_v);
-    const V by_u = hn::Mul(slope_u, hn::Load(f, from_middle_u_ + lane_));
-    const V by_v = hn::Mul(slope_v, hn::Load(f, from_middle_v_ + lane_));
+  /// Where receivers lie in what their bounds are of, from its middle, and how much nearer than the origin.
+  struct Places {
+    V u, v, nearness;
+  };
+  struct Told {
+    unsigned lit, dark;
+  };
+  /// A vector of receivers, their bounds from here on.
+  Told tell(const PackedBounds* bounds, const Places& at) const {
+    static_assert(sizeof(PackedBounds) == 2 * sizeof(std::uint32_t));
+    hn::Vec<decltype(ids)> first, second;
+    hn::LoadInterleaved2(ids, &bounds->lit_above_slope_u, first, second);
+    const auto of_slope = hn::Set(ids, PackedBounds::slope_mask);
+    const auto bound = [&](auto packed) { return hn::BitCast(f, hn::AndNot(of_slope, packed)); };
+    const auto slope = [](auto packed) {
+      return hn::BitCast(f, hn::ShiftLeft<PackedBounds::slope_shift>(packed));
+    };
+    const V by_u = hn::Mul(slope(first), at.u), by_v = hn::Mul(slope(second), at.v);
     // The products' rounding, beside what widens the bounds (texel_slack times the slopes).
     const V doubt = hn::MulAdd(hn::Add(hn::Abs(by_u), hn::Abs(by_v)), all(0x1p-21), all(doubt_));
-    const V nearness = hn::Load(f, nearness_ + lane_);
-    const V value = hn::Add(hn::Sub(nearness, hn::Add(by_u, by_v)), all(origin_.nearness));
-    const unsigned lit = asked & bits_of(hn::Gt(hn::Sub(value, doubt), lit_above));
-    const unsigned dark = asked & bits_of(hn::Lt(hn::Add(value, doubt), dark_below));
+    const V value = hn::Add(hn::Sub(at.nearness, hn::Add(by_u, by_v)), all(origin_.nearness));
+    return {bits_of(hn::Gt(hn::Sub(value, doubt), bound(first))),
+            bits_of(hn::Lt(hn::Add(value, doubt), bound(second)))};
+  }
+
+  void judge(unsigned asked) {
+    const Told told =
+        tell(&bounds_[lane_], {hn::Load(f, from_middle_u_ + lane_), hn::Load(f, from_middle_v_ + lane_),
+                               hn::Load(f, nearness_ + lane_)});
+    const unsigned lit = asked & told.lit, dark = asked & told.dark;
     add(out_->lit, lit), add(out_->shadowed, dark);
     for (unsigned left = asked & ~(lit | dark); left != 0; left &= left - 1)
       put_off(lane_ + static_cast<std::size_t>(std::countr_zero(left)));
@@ -230,25 +248,46 @@ class Classifier {
       return;
     }
     const auto texel = static_cast<std::uint32_t>(texel_[lane]);
-    __builtin_prefetch(sheet.parts.place(SheetTile::part_at(texel, in_u(lane), in_v(lane))));
+    __builtin_prefetch(sheet.parts.place(
+        SheetTile::part_at(texel, in_texel(from_middle_u_[lane]), in_texel(from_middle_v_[lane]))));
     left_[left_count_++] = static_cast<std::uint8_t>(lane);
   }
 
   void judge_in_parts() {
-    for (std::size_t k = 0; k < left_count_; ++k) {
-      const std::size_t lane = left_[k];
-      const Certainty found =
-          sheet_at(lane).in_parts(static_cast<std::uint32_t>(texel_[lane]), in_u(lane), in_v(lane),
-                                  origin_.nearness + static_cast<double>(nearness_[lane]), doubt_);
-      set(found == Certainty::lit        ? out_->lit
-          : found == Certainty::shadowed ? out_->shadowed
-                                         : out_->unsure,
-          lane);
+    const std::size_t count = find_parts();
+    for (std::size_t k = 0; k < count; k += hn::Lanes(f)) {
+      const Told told = tell(&bounds_[k], {hn::Load(f, from_middle_u_ + k), hn::Load(f, from_middle_v_ + k),
+                                           hn::Load(f, nearness_ + k)});
+      for (std::size_t i = 0; i < std::min(hn::Lanes(f), count - k); ++i)
+        set((told.lit >> i & 1) != 0    ? out_->lit
+            : (told.dark >> i & 1) != 0 ? out_->shadowed
+                                        : out_->unsure,
+            left_[k + i]);
     }
   }
 
-  double in_u(std::size_t lane) const { return 0.5 + static_cast<double>(from_middle_u_[lane]); }
-  double in_v(std::size_t lane) const { return 0.5 + static_cast<double>(from_middle_v_[lane]); }
+  /// Puts what is known of those left side by side, each in the place of one that came before; returns how
+  /// many.
+  std::size_t find_parts() {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < left_count_; ++k) {
+      const std::uint8_t lane = left_[k];
+      const float u = in_texel(from_middle_u_[lane]), v = in_texel(from_middle_v_[lane]);
+      const std::uint32_t part = SheetTile::part_at(static_cast<std::uint32_t>(texel_[lane]), u, v);
+      const PackedBounds* found = sheet_at(lane).parts.find(part);
+      if (found == nullptr) {
+        set(out_->unsure, lane);
+        continue;
+      }
+      from_middle_u_[count] = SheetTile::from_middle_of_part(u, part % parts_per_side);
+      from_middle_v_[count] = SheetTile::from_middle_of_part(v, part / parts_per_side % parts_per_side);
+      nearness_[count] = nearness_[lane], bounds_[count] = *found;
+      left_[count++] = lane;
+    }
+    return count;
+  }
+
+  static float in_texel(float from_middle) { return from_middle + 0.5f; }
   static void set(LaneBits& bits, std::size_t lane) {
     bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
   }
@@ -264,7 +303,7 @@ class Classifier {
   Vec3 light_direction_, from_light_;
   bool perspective_;
   int face_;
-  const TexelBounds* const* tile_texels_;  // of the face
+  const PackedBounds* const* tile_texels_;  // of the face
   GridPoint origin_;
   double base_u_, base_v_, texel_u_, texel_v_;
   Local u_, v_, w_;
@@ -277,7 +316,7 @@ class Classifier {
   std::size_t left_count_ = 0;
   alignas(64) float nearness_[raytrace::tile_rays];  // less the origin's
   alignas(64) float from_middle_u_[raytrace::tile_rays], from_middle_v_[raytrace::tile_rays];  // of the texel
-  alignas(64) TexelBounds bounds_[raytrace::tile_rays];
+  alignas(64) PackedBounds bounds_[raytrace::tile_rays];
   alignas(64) std::int32_t texel_[raytrace::tile_rays], sheet_[raytrace::tile_rays];  // in its tile; the tile
 };
 

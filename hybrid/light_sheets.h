@@ -62,7 +62,7 @@ class LightSheets {
   const SheetStats& stats() const { return stats_; }
   const SheetTile& tile(std::size_t index) const { return tiles_[index]; }
   /// SheetTile::texels of the tiles from this one on, close together.
-  const TexelBounds* const* texels_from(std::size_t tile) const { return texels_.data() + tile; }
+  const PackedBounds* const* texels_from(std::size_t tile) const { return texels_.data() + tile; }
   /// What a receiver beside the map is: everything but infinite planes lies inside, and this plane alone is
   /// there; no_id: nothing is known.
   std::uint32_t lone_plane() const { return lone_plane_; }
@@ -89,7 +89,7 @@ class LightSheets {
   std::vector<Face> faces_;
   std::unique_ptr<TexelStore> store_ = std::make_unique<TexelStore>();
   std::vector<SheetTile> tiles_;
-  std::vector<const TexelBounds*> texels_;  // of the tiles
+  std::vector<const PackedBounds*> texels_;  // of the tiles
   std::uint32_t lone_plane_ = no_id;
   SheetStats stats_;
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "hybrid/packed_bounds.h"
+
 namespace gnomon::hybrid {
 namespace {
 
@@ -204,7 +206,7 @@ template <class Solve>
 ColumnBounds without_slope(std::span<Piece> pieces, float half_texels, const PieceRelations* relations,
                            const Solve& solve) {
   float u = 0.0f, v = 0.0f;
-  if (const Piece* front = front_of(pieces)) u = front->slope_u, v = front->slope_v;
+  if (const Piece* front = front_of(pieces)) u = round_slope(front->slope_u), v = round_slope(front->slope_v);
   take_off(u, v, half_texels, relations, pieces);
   ColumnBounds found = solve();
   found.bounds.slope_u = u, found.bounds.slope_v = v;

@@ -4,7 +4,7 @@
 
 namespace gnomon::hybrid {
 
-void TexelParts::insert(std::uint32_t key, const TexelBounds& bounds) {
+void TexelParts::insert(std::uint32_t key, const PackedBounds& bounds) {
   constexpr std::size_t least = 64;
   if (2 * (count_ + 1) > entries_.size()) {
     const std::vector<Entry> old =

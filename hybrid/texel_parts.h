@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hybrid/texel_bounds.h"
+#include "hybrid/packed_bounds.h"
 
 namespace gnomon::hybrid {
 
@@ -18,7 +18,7 @@ class TexelParts {
  public:
   bool empty() const { return count_ == 0; }
   /// `key`: the texel in its tile times parts_per_texel, and the part, row by row; null where none is known.
-  const TexelBounds* find(std::uint32_t key) const {
+  const PackedBounds* find(std::uint32_t key) const {
     std::size_t i = slot(key);
     while (entries_[i].key != key && entries_[i].key != free) i = (i + 1) & mask_;
     return entries_[i].key == key ? &entries_[i].bounds : nullptr;
@@ -26,14 +26,14 @@ class TexelParts {
   /// Where find() will look; of a table that is not empty.
   const void* place(std::uint32_t key) const { return &entries_[slot(key)]; }
   /// The key is new.
-  void insert(std::uint32_t key, const TexelBounds& bounds);
+  void insert(std::uint32_t key, const PackedBounds& bounds);
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
 
  private:
   static constexpr std::uint32_t free = 0xffffffffu;
   struct Entry {
     std::uint32_t key = free;
-    TexelBounds bounds = unsure_texel;
+    PackedBounds bounds{};
   };
   std::size_t slot(std::uint32_t key) const { return (key * 0x9e3779b1u >> 7) & mask_; }
   void put(const Entry& entry);

@@ -84,15 +84,15 @@ Polygon clip_to_square(const std::array<Vec2, 3>& triangle, const Vec2& center, 
 
 }  // namespace
 
-TexelBounds* TexelStore::take() {
-  constexpr std::size_t tiles = 512;  // 8 MiB, so that they are large pages
+PackedBounds* TexelStore::take() {
+  constexpr std::size_t tiles = 1024;  // 8 MiB, so that they are large pages
   const std::lock_guard lock(mutex_);
   if (left_ == 0) blocks_.emplace_back(tiles * texel_count), left_ = tiles;
   return blocks_.back().data() + --left_ * texel_count;
 }
 
 std::uint64_t SheetTile::bytes() const {
-  return (texels ? texel_count * sizeof(TexelBounds) : 0) + looks.size() * sizeof(Look) + parts.bytes();
+  return (texels ? texel_count * sizeof(PackedBounds) : 0) + looks.size() * sizeof(Look) + parts.bytes();
 }
 
 SheetTile TileBuilder::build(int tile_x, int tile_y, std::span<const std::uint32_t> triangles) {
@@ -101,7 +101,7 @@ SheetTile TileBuilder::build(int tile_x, int tile_y, std::span<const std::uint32
   SheetTile tile;
   if (placed_.empty()) {
     const ColumnBounds all = covers_alone();
-    tile.uniform = all.bounds;
+    tile.uniform = pack(all.bounds);
     if (all.decisive || covers_.size() == 1) return tile;
   }
   finish(tile);
@@ -278,7 +278,7 @@ void TileBuilder::finish(SheetTile& tile) {
   for (std::size_t i = 0; i < texel_count; ++i) {
     column_.assign(sorted_.begin() + begin, sorted_.begin() + first_[i]);
     begin = first_[i];
-    tile.texels[i] = solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds;
+    tile.texels[i] = pack(solve(middle_of(i % tile_texels), middle_of(i / tile_texels), 0.5f, true).bounds);
   }
 }
 
@@ -306,7 +306,7 @@ void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> 
       column_.assign(pieces.begin(), pieces.end());
       const ColumnBounds found =
           solve(middle_of(texel % tile_texels), middle_of(texel / tile_texels), 0.5f, false);
-      tile.texels[texel] = found.bounds;
+      tile.texels[texel] = pack(found.bounds);
       look = found.decisive ? Look::decided : Look::by_sheets;
     }
     if (!tile.is_known(part)) tile.parts.insert(part, solve_part(part));
@@ -314,7 +314,7 @@ void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> 
   wanted_.clear();
 }
 
-TexelBounds TileBuilder::solve_part(std::uint32_t part) {
+PackedBounds TileBuilder::solve_part(std::uint32_t part) {
   constexpr float half = 0.5f / parts_per_side;
   const std::uint32_t texel = part / parts_per_texel, in_texel = part % parts_per_texel;
   const auto middle = [](std::uint32_t at, std::uint32_t step) {
@@ -329,7 +329,7 @@ TexelBounds TileBuilder::solve_part(std::uint32_t part) {
     else if (const auto there = meet(kept_[piece.slot], x, y, half))
       column_.push_back(*there);
   }
-  return solve(x, y, half, false).bounds;
+  return pack(solve(x, y, half, false).bounds);
 }
 
 }  // namespace gnomon::hybrid

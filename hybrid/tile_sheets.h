@@ -16,18 +16,18 @@ enum class Certainty : std::uint8_t { shadowed = 0, lit = 1, unsure = 2 };
 /// Room for tiles' texels, in large pages: what receivers look up lies all over the map.
 class TexelStore {
  public:
-  TexelBounds* take();  ///< a tile's, without values; by any thread
+  PackedBounds* take();  ///< a tile's, without values; by any thread
 
  private:
   std::mutex mutex_;
-  std::vector<raytrace::HugeArray<TexelBounds>> blocks_;
+  std::vector<raytrace::HugeArray<PackedBounds>> blocks_;
   std::size_t left_ = 0;  // tiles in the last block
 };
 
 /// All texels alike (the slope then counts from the tile's centre), or one by one, row by row.
 struct SheetTile {
-  TexelBounds uniform = empty_texel;
-  TexelBounds* texels = nullptr;  ///< in a TexelStore; null: all alike
+  PackedBounds uniform = pack(empty_texel);
+  PackedBounds* texels = nullptr;  ///< in a TexelStore; null: all alike
   /// Of each texel, how closely it has been looked at; empty: none closely.
   enum class Look : std::uint8_t { quick, by_sheets, decided };  ///< decided: parts would tell no more
   std::vector<Look> looks;
@@ -37,15 +37,22 @@ struct SheetTile {
   /// For a place 0 ... 1 in a texel that leaves it in doubt, of a tile with parts.
   Certainty in_parts(std::uint32_t texel, double in_u, double in_v, double nearness, double doubt) const;
   /// The part's place in `parts`.
-  static std::uint32_t part_at(std::uint32_t texel, double in_u, double in_v);
+  template <class Float>
+  static std::uint32_t part_at(std::uint32_t texel, Float in_u, Float in_v);
+  /// For the place in the texel and the part's step along it.
+  template <class Float>
+  static Float from_middle_of_part(Float in_texel, std::uint32_t step) {
+    return in_texel - (static_cast<Float>(step) + Float(0.5)) / parts_per_side;
+  }
   /// Asking for this part would change nothing.
   bool is_known(std::uint32_t part) const;
   std::uint64_t bytes() const;
 };
 
 /// `doubt`: of the nearness, beyond that of GridPoint's.
-inline Certainty judge(const TexelBounds& bounds, double from_middle_u, double from_middle_v, double nearness,
-                       double doubt = 0.0) {
+inline Certainty judge(const PackedBounds& packed, double from_middle_u, double from_middle_v,
+                       double nearness, double doubt = 0.0) {
+  const TexelBounds bounds = unpack(packed);
   const double n = nearness - (static_cast<double>(bounds.slope_u) * from_middle_u +
                                static_cast<double>(bounds.slope_v) * from_middle_v);
   return n - doubt > static_cast<double>(bounds.lit_above)    ? Certainty::lit
@@ -53,8 +60,9 @@ inline Certainty judge(const TexelBounds& bounds, double from_middle_u, double f
                                                               : Certainty::unsure;
 }
 
-inline std::uint32_t SheetTile::part_at(std::uint32_t texel, double in_u, double in_v) {
-  const auto step = [](double in) {
+template <class Float>
+std::uint32_t SheetTile::part_at(std::uint32_t texel, Float in_u, Float in_v) {
+  const auto step = [](Float in) {
     return static_cast<std::uint32_t>(std::min(static_cast<int>(in * parts_per_side), parts_per_side - 1));
   };
   return texel * parts_per_texel + step(in_v) * parts_per_side + step(in_u);
@@ -63,11 +71,10 @@ inline std::uint32_t SheetTile::part_at(std::uint32_t texel, double in_u, double
 inline Certainty SheetTile::in_parts(std::uint32_t texel, double in_u, double in_v, double nearness,
                                      double doubt) const {
   const std::uint32_t part = part_at(texel, in_u, in_v);
-  const TexelBounds* bounds = parts.find(part);
+  const PackedBounds* bounds = parts.find(part);
   if (bounds == nullptr) return Certainty::unsure;
-  const auto from_middle = [](double in, std::uint32_t step) { return in - (step + 0.5) / parts_per_side; };
-  return judge(*bounds, from_middle(in_u, part % parts_per_side),
-               from_middle(in_v, part / parts_per_side % parts_per_side), nearness, doubt);
+  return judge(*bounds, from_middle_of_part(in_u, part % parts_per_side),
+               from_middle_of_part(in_v, part / parts_per_side % parts_per_side), nearness, doubt);
 }
 
 inline bool SheetTile::is_known(std::uint32_t part) const {
@@ -136,7 +143,7 @@ class TileBuilder : private PieceRelations {
   void collect(int tile_x, int tile_y, std::span<const std::uint32_t> triangles);
   void sort_by_texel();
   std::span<const Piece> pieces_in(std::size_t texel) const;
-  TexelBounds solve_part(std::uint32_t part);
+  PackedBounds solve_part(std::uint32_t part);
   bool is_wanted(int x, int y) const {
     return wanted_.empty() || wanted_[static_cast<std::size_t>(y * tile_texels + x)];
   }

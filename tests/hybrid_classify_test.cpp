@@ -102,21 +102,54 @@ TEST(HybridClassify, FarFromTheOriginToo) {
 TEST(TexelParts, FindsWhatWasPutIn) {
   hybrid::TexelParts parts;
   EXPECT_TRUE(parts.empty());
-  std::map<std::uint32_t, float> expected;
+  std::map<std::uint32_t, std::uint32_t> expected;
   test::Random random(7);
   for (int i = 0; i < 5000; ++i) {
     const std::uint32_t key = random.below(65536);
-    if (!expected.emplace(key, static_cast<float>(i)).second) continue;
-    parts.insert(key, {static_cast<float>(i), 0.0f, 0.0f, 0.0f});
+    if (!expected.emplace(key, static_cast<std::uint32_t>(i)).second) continue;
+    parts.insert(key, {static_cast<std::uint32_t>(i), 0u});
   }
   for (std::uint32_t key = 0; key < 65536; ++key) {
-    const hybrid::TexelBounds* found = parts.find(key);
+    const hybrid::PackedBounds* found = parts.find(key);
     const auto it = expected.find(key);
     ASSERT_EQ(found != nullptr, it != expected.end()) << key;
     if (found != nullptr) {
-      EXPECT_EQ(found->lit_above, it->second);
+      EXPECT_EQ(found->lit_above_slope_u, it->second);
     }
   }
+}
+
+// Bounds only ever move towards doubt, by less than 2^-12 of themselves; rounded slopes come back whole.
+TEST(PackedBounds, RoundTowardsDoubt) {
+  test::Random random(11);
+  constexpr float inf = hybrid::no_nearness;
+  const auto any = [&] {
+    const float size = std::ldexp(1.0f, static_cast<int>(random.below(60)) - 30);
+    return size * static_cast<float>(random.uniform(-1.0, 1.0));
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const hybrid::TexelBounds b{any(), any(), hybrid::round_slope(any()), hybrid::round_slope(any())};
+    const hybrid::TexelBounds back = hybrid::unpack(hybrid::pack(b));
+    ASSERT_GE(back.lit_above, b.lit_above);
+    ASSERT_LE(back.lit_above - b.lit_above, 0x1p-12f * std::abs(b.lit_above));
+    ASSERT_LE(back.dark_below, b.dark_below);
+    ASSERT_LE(b.dark_below - back.dark_below, 0x1p-12f * std::abs(b.dark_below));
+    ASSERT_EQ(back.slope_u, b.slope_u);
+    ASSERT_EQ(back.slope_v, b.slope_v);
+    const float slope = any();
+    ASSERT_LE(std::abs(hybrid::round_slope(slope) - slope), 0.125f * std::abs(slope));
+  }
+  for (const hybrid::TexelBounds& b : {hybrid::unsure_texel, hybrid::empty_texel}) {
+    const hybrid::TexelBounds back = hybrid::unpack(hybrid::pack(b));
+    EXPECT_EQ(back.lit_above, b.lit_above);
+    EXPECT_EQ(back.dark_below, b.dark_below);
+  }
+  const hybrid::TexelBounds zero = hybrid::unpack(hybrid::pack({0.0f, -0.0f, 0.0f, -0.0f}));
+
+  EXPECT_EQ(zero.lit_above, 0.0f);
+  EXPECT_EQ(zero.dark_below, 0.0f);
+  EXPECT_GT(hybrid::unpack(hybrid::pack({3.4e38f, 0.0f, 0.0f, 0.0f})).lit_above, 3.3e38f);
+  EXPECT_EQ(hybrid::unpack(hybrid::pack({inf, -inf, 0.0f, 0.0f})).lit_above, inf);
 }
 
 }  // namespace
