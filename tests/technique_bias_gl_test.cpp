@@ -149,19 +149,29 @@ TEST_P(ClosedBodies, SecondDepthLeavesNoAcneAndMidpointLess) {
                           : lamp(GetParam(), {0.3, 6.0, 4.0}, {0.0, 0.0, 0.0});
   OneWorld one(closed_bodies(light));
   compare::CompareOptions options = test_options({320, 200}, 256);
-  const auto false_shadow = [&](raster::Technique technique) {
-    options.raster.map.technique = technique;
+  const auto false_shadow = [&](raster::Technique technique, const raster::Bias& bias) {
+    options.raster.map.technique = technique, options.raster.map.bias = bias;
     const compare::Comparison c = one.compare(options);
     EXPECT_GT(c.lights[0].pixels.compared, 3000u);
     if (technique == raster::Technique::second_depth) expect_outlines_alone(c);
     return c.lights[0].error.false_shadow;
   };
-  const auto hard = false_shadow(raster::Technique::hard),
-             second = false_shadow(raster::Technique::second_depth),
-             midpoint = false_shadow(raster::Technique::midpoint);
-  std::printf("  false shadow at bias 0: hard %llu, second-depth %llu, midpoint %llu\n",
-              static_cast<unsigned long long>(hard), static_cast<unsigned long long>(second),
-              static_cast<unsigned long long>(midpoint));
+  const auto without_bias = [&](raster::Technique technique) {
+    return false_shadow(technique, {.constant = 0.0});
+  };
+  const auto hard = without_bias(raster::Technique::hard),
+             second = without_bias(raster::Technique::second_depth),
+             midpoint = without_bias(raster::Technique::midpoint),
+             hard_biased = false_shadow(raster::Technique::hard, raster::Bias{}),
+             second_biased = false_shadow(raster::Technique::second_depth, raster::Bias{});
+  std::printf(
+      "  false shadow at bias 0: hard %llu, second-depth %llu, midpoint %llu; with the bias that is the "
+      "default: hard %llu, second-depth %llu\n",
+      static_cast<unsigned long long>(hard), static_cast<unsigned long long>(second),
+      static_cast<unsigned long long>(midpoint), static_cast<unsigned long long>(hard_biased),
+      static_cast<unsigned long long>(second_biased));
+  EXPECT_GT(hard_biased, 100u);
+  EXPECT_EQ(second_biased, 0u);
   EXPECT_GT(hard, 1000u);
   EXPECT_LE(second, GetParam() == LightType::directional ? 0 : hard / 1000);
   EXPECT_LT(midpoint, hard / 20);
