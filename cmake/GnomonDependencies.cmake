@@ -12,7 +12,13 @@ find_package(hwy REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
-find_package(ZLIB REQUIRED)
+
+# libdeflate 1.14, Debian 12's, has no CMake file.
+find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
+find_path(LIBDEFLATE_HEADERS libdeflate.h REQUIRED)
+add_library(libdeflate INTERFACE)
+target_link_libraries(libdeflate INTERFACE ${LIBDEFLATE_LIBRARY})
+target_include_directories(libdeflate SYSTEM INTERFACE ${LIBDEFLATE_HEADERS})
 
 # Debian's OpenImageIO exports OpenCV's header folder, which its headers that we use do not need; CMake refuses to
 # generate when an exported folder does not exist.

@@ -1,10 +1,7 @@
 #include "compare/report/packing.h"
 
-#include <zlib.h>
-
-#include <cassert>
-
 #include "compare/report/html.h"
+#include "scene/files/deflate.h"
 
 namespace gnomon::compare {
 namespace {
@@ -22,16 +19,7 @@ std::string planes(const std::vector<std::uint32_t>& numbers, int bytes) {
 std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& options) {
   if (options.difference)
     for (std::size_t i = numbers.size(); i-- > 1;) numbers[i] -= numbers[i - 1];
-  const std::string raw = planes(numbers, options.bytes);
-  uLongf length = compressBound(static_cast<uLong>(raw.size()));
-  std::string deflated(length, '\0');
-  // compress2 can only fail for a bad level or too small a buffer: neither can be here.
-  [[maybe_unused]] const int state =
-      compress2(reinterpret_cast<Bytef*>(deflated.data()), &length,
-                reinterpret_cast<const Bytef*>(raw.data()), static_cast<uLong>(raw.size()), options.level);
-  assert(state == Z_OK);
-  deflated.resize(length);
-  return base64(deflated);
+  return base64(deflate(planes(numbers, options.bytes), options.level));
 }
 
 }  // namespace gnomon::compare
