@@ -1,5 +1,7 @@
 // The output folder: pictures first, then the tables, the page last, so that a page always finds its files
 // beside it. Each file appears whole or not at all (scene/files/write_file.h).
+#include <future>
+
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/picture_set.h"
@@ -14,8 +16,7 @@ struct File {
   std::string_view bytes;
 };
 
-// `beside`: also those that only the page shows.
-std::vector<File> picture_files(const PictureSet& pictures, bool beside) {
+std::vector<File> picture_files(const PictureSet& pictures) {
   std::vector<File> files{{pictures.raster.file_name, pictures.raster.png},
                           {pictures.raytraced.file_name, pictures.raytraced.png}};
   for (const LightPictures& light : pictures.lights) {
@@ -23,10 +24,34 @@ std::vector<File> picture_files(const PictureSet& pictures, bool beside) {
          {&light.difference, &light.labels, &light.error, &light.flip, &light.ssim, &light.edges,
           &light.detachment, &light.decisions, &light.depth_map})
       if (!picture->png.empty()) files.push_back({picture->file_name, picture->png});
-    if (beside && light.depth_map_small.file_name != light.depth_map.file_name)
-      files.push_back({light.depth_map_small.file_name, light.depth_map_small.png});
   }
   return files;
+}
+
+/// The page last; before it what only the page shows, if it has files beside it, and the tables.
+std::vector<File> other_files(const PictureSet& pictures, const BuiltPage& page, std::string_view json,
+                              std::string_view csv) {
+  std::vector<File> files;
+  for (const LightPictures& light : pictures.lights)
+    if (!page.files.empty() && light.depth_map_small.file_name != light.depth_map.file_name)
+      files.push_back({light.depth_map_small.file_name, light.depth_map_small.png});
+  for (const PageFile& file : page.files) files.push_back({file.name, file.bytes});
+  files.push_back({"result.json", json});
+  files.push_back({"result.csv", csv});
+  files.push_back({"report.html", page.html});
+  return files;
+}
+
+using Paths = std::vector<std::string>;
+
+Expected<Paths> write_files(const std::string& folder, const std::vector<File>& files) {
+  Paths paths;
+  for (const File& file : files) {
+    paths.push_back(folder + (folder.ends_with('/') ? "" : "/") + file.name);
+    if (const Expected<void> written = write_file(paths.back(), file.bytes); !written)
+      return fail(written.error());
+  }
+  return paths;
 }
 
 Expected<void> make_folders(const std::string& folder, const BuiltPage& page) {
@@ -44,6 +69,9 @@ Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::
   if (const Expected<void> made = make_output_folder(folder); !made) return fail(made.error());
   const Expected<PictureSet> pictures = encode_pictures(comparison);
   if (!pictures) return fail(pictures.error());
+  // Waiting for the disk, while the page is made.
+  auto written_pictures =
+      std::async(std::launch::async, [&] { return write_files(folder, picture_files(*pictures)); });
 
   // What the files say about the time of their own making: up to the point where their text is fixed.
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
@@ -53,19 +81,13 @@ Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::
   const BuiltPage page =
       report_page({comparison, *pictures, json, csv, total_ms, introduction}, report_max_mb);
 
-  std::vector<File> files = picture_files(*pictures, !page.files.empty());
-  for (const PageFile& file : page.files) files.push_back({file.name, file.bytes});
-  files.push_back({"result.json", json});
-  files.push_back({"result.csv", csv});
-  files.push_back({"report.html", page.html});
+  Expected<Paths> paths = written_pictures.get();
+  if (!paths) return fail(paths.error());
   if (const auto made = make_folders(folder, page); !made) return fail(made.error());
-  WrittenOutputs out{{}, !page.files.empty(), page.megabytes()};
-  for (const File& file : files) {
-    out.paths.push_back(folder + (folder.ends_with('/') ? "" : "/") + file.name);
-    if (const Expected<void> written = write_file(out.paths.back(), file.bytes); !written)
-      return fail(written.error());
-  }
-  return out;
+  const Expected<Paths> others = write_files(folder, other_files(*pictures, page, json, csv));
+  if (!others) return fail(others.error());
+  paths->insert(paths->end(), others->begin(), others->end());
+  return WrittenOutputs{std::move(*paths), !page.files.empty(), page.megabytes()};
 }
 
 }  // namespace gnomon::compare

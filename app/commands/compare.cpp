@@ -128,6 +128,10 @@ ExitCode judge(const CompareCommand& command, const compare::Comparison& compari
   return code;
 }
 
+/// A large picture's shadow map and shading take long enough to be timed once.
+constexpr std::size_t large_picture = 1'000'000;  // pixels
+constexpr int runs_of_large = 1;
+
 Expected<ExitCode> run_compare(CompareCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
@@ -135,6 +139,8 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (command.folder.empty()) command.folder = default_output(command.scene);
   if (command.runs)
     command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
+  else if (command.setting.options.raster.size.pixels() > large_picture)
+    command.setting.options.raster.runs = runs_of_large;
   command.setting.options.raytrace.size = command.setting.options.raster.size;
   command.setting.options.raytrace.seed = command.seed;
 
@@ -169,10 +175,11 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
-  add_runs(app, command.runs,
-           fmt::format("{} for shadow maps, {} for rays", command.setting.options.raster.runs,
-                       command.setting.options.raytrace.runs)
-               .c_str());
+  add_runs(
+      app, command.runs,
+      fmt::format("{} for shadow maps ({} above a million pixels), {} for rays",
+                  command.setting.options.raster.runs, runs_of_large, command.setting.options.raytrace.runs)
+          .c_str());
   add_exposure(app, command.exposure);
   add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
   add_report_max_mb(app, command.report_max_mb);
