@@ -26,6 +26,23 @@ std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<
   return centres;
 }
 
+double plane_rounding(const Ray& ray, const raytrace::SurfacePoint& receiver) {
+  const double facing = std::abs(glm::dot(receiver.normal, ray.direction));
+  const double size =
+      glm::length(receiver.position) + glm::length(ray.origin) + glm::length(receiver.position_error);
+  return 32.0 * std::numeric_limits<double>::epsilon() * size / facing;
+}
+
+bool meets_plane_unhindered(const LadderInput& in, const TexelCentre& centre,
+                            const raytrace::SurfacePoint& receiver) {
+  if (!centre.hit) return true;
+  const double facing = glm::dot(receiver.normal, centre.ray.direction);
+  if (!(facing < 0.0)) return false;
+  const double t = glm::dot(receiver.normal, receiver.position - centre.ray.origin) / facing;
+  const bool ahead = in.record.map.view.projection == LightProjection::orthographic || t > 0.0;
+  return ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver);
+}
+
 namespace {
 
 // A triangle faces the light when its right-hand normal points against the light rays; shapes are met on the
@@ -38,9 +55,12 @@ bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
   return glm::dot(glm::cross(b - a, c - a), along) < 0.0;
 }
 
-// The lower rungs hang on sheets where the centre ray's first hit is another primitive than the receiver.
+// The lower rungs hang on sheets where the centre ray is stopped before the receiver's tangent plane, and by
+// another primitive than the receiver's.
 bool needs_sheets(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
-  return centre.hit && centre.hit->primitive != in.traced.receiver.data[pixel].primitive;
+  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  return centre.hit && centre.hit->primitive != receiver.primitive &&
+         !meets_plane_unhindered(in, centre, receiver);
 }
 
 }  // namespace

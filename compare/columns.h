@@ -21,6 +21,13 @@ struct TexelCentre {
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);
 std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vector<raytrace::TexelKey>& keys);
 
+/// Rounding of a plane-ray intersection: the terms of t = n.(x - o) / n.d, each with a few units in the last
+/// place.
+double plane_rounding(const Ray& ray, const raytrace::SurfacePoint& receiver);
+/// The centre's ray meets nothing, or nothing before the receiver's tangent plane.
+bool meets_plane_unhindered(const LadderInput& input, const TexelCentre& centre,
+                            const raytrace::SurfacePoint& receiver);
+
 /// One texel's sheets; empty when none of its pixels needs them.
 class Column {
  public:

@@ -50,15 +50,6 @@ float lit(bool is_lit) {
   return is_lit ? 1.0f : 0.0f;
 }
 
-// Rounding of a plane-ray intersection: the terms of t = n.(x - o) / n.d, each with a few units in the last
-// place.
-double plane_rounding(const Ray& ray, const SurfacePoint& receiver) {
-  const double facing = std::abs(glm::dot(receiver.normal, ray.direction));
-  const double size =
-      glm::length(receiver.position) + glm::length(ray.origin) + glm::length(receiver.position_error);
-  return 32.0 * std::numeric_limits<double>::epsilon() * size / facing;
-}
-
 // A sphere's or closed solid's inside is another sheet than the outside that the light meets first.
 bool on_inner_side(const LadderInput& in, const SurfacePoint& receiver) {
   if (in.world.is_triangle(receiver.primitive)) return false;
@@ -86,13 +77,7 @@ bool on_one_piece(const LadderInput& in, const SurfacePoint& receiver, const Tex
 // plane unhindered.
 float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint& receiver,
                  const TexelCentre& centre) {
-  if (!centre.hit) return 1.0f;
-  const double facing = glm::dot(receiver.normal, centre.ray.direction);
-  if (facing < 0.0) {
-    const double t = glm::dot(receiver.normal, receiver.position - centre.ray.origin) / facing;
-    const bool ahead = in.record.map.view.projection == LightProjection::orthographic || t > 0.0;
-    if (ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver)) return 1.0f;
-  }
+  if (meets_plane_unhindered(in, centre, receiver)) return 1.0f;
   if (on_inner_side(in, receiver) || !column.same_sheet(receiver.primitive, centre.hit->primitive))
     return 0.0f;
   return lit(on_one_piece(in, receiver, centre));
