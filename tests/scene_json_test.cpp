@@ -196,6 +196,28 @@ TEST(JsonScene, IncludesMerge) {
   EXPECT_EQ(scene->notes[0], "The camera of the included file " + folder.file("lib.json") + " is not used.");
 }
 
+TEST(JsonScene, IncludedPictureSettingsAreToldOf) {
+  const TemporaryFolder folder;
+  folder.put("lib.json",
+             R"({"schema": "gnomon/scene/1", "ambient": 0.5, "background": [0, 0, 1], "exposure": 2,
+    "max_depth": 3, "glossy": {"samples": 4}, "indirect": {"samples": 4}, "materials": [{"name": "a"}],
+    "shapes": [{"sphere": {"center": [0,0,0], "radius": 2}, "material": "a"}]})");
+  const std::string path =
+      folder.put("s.json", R"({"schema": "gnomon/scene/1", "ambient": 0.1, "include": ["lib.json"]})");
+  const auto scene = load_scene(path);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->ambient, Vec3f(0.1f));
+  EXPECT_EQ(scene->max_depth, Scene{}.max_depth);
+  const auto noted = [&](const std::string& note) {
+    return std::find(scene->notes.begin(), scene->notes.end(), note) != scene->notes.end();
+  };
+  const std::string of_file = " of the included file " + folder.file("lib.json");
+  for (const char* name : {"ambient light", "background", "exposure", "recursion limit"})
+    EXPECT_TRUE(noted("The " + std::string(name) + of_file + " is not used.")) << name;
+  for (const char* name : {"glossy samples", "indirect samples"})
+    EXPECT_TRUE(noted("The " + std::string(name) + of_file + " are not used.")) << name;
+}
+
 TEST(JsonScene, TexturesOfFilesAndGenerators) {
   const TemporaryFolder folder;
   Rgb8Image image({2, 1});

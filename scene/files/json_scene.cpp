@@ -62,6 +62,26 @@ void adopt_mesh_names(SceneReader& reader, const JsonNode& node, std::uint32_t f
   }
 }
 
+/// What an included file says of the whole picture is the including file's to say.
+void note_unused_settings(const Scene& included, bool has_camera, const std::string& path,
+                          std::vector<std::string>& notes) {
+  const Scene usual;
+  std::vector<std::string_view> unused;
+  const auto check = [&](bool differs, std::string_view name) {
+    if (differs) unused.push_back(name);
+  };
+  check(has_camera, "camera");
+  check(included.ambient != usual.ambient, "ambient light");
+  check(included.background != usual.background, "background");
+  check(included.exposure != usual.exposure, "exposure");
+  check(included.max_depth != usual.max_depth, "recursion limit");
+  check(included.glossy_samples != usual.glossy_samples, "glossy samples");
+  check(included.indirect_samples != usual.indirect_samples, "indirect samples");
+  for (const std::string_view name : unused)
+    notes.push_back(fmt::format("The {} of the included file {} {} not used.", name, path,
+                                name.ends_with("samples") ? "are" : "is"));
+}
+
 void read_include(SceneReader& reader, const JsonNode& node) {
   const std::string path = reader.resolve(node);
   if (reader.failed()) return;
@@ -71,8 +91,7 @@ void read_include(SceneReader& reader, const JsonNode& node) {
   if (!bytes) return reader.adopt(node, bytes.error());
   auto loaded = read_by_extension(*bytes, path, reader.options, reader.includes);
   if (!loaded) return reader.adopt(node, loaded.error());
-  if (loaded->has_camera)
-    reader.scene.notes.push_back(fmt::format("The camera of the included file {} is not used.", path));
+  note_unused_settings(loaded->scene, loaded->has_camera, path, reader.scene.notes);
   const bool named = !loaded->is_model;  // the names inside a model are its own affair
   const MergeOffsets offsets = merge_scene(reader.scene, std::move(loaded->scene), true);
   if (!named) return;
