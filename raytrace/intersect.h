@@ -12,6 +12,7 @@
 // chapter 7.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <optional>
 
@@ -30,21 +31,34 @@ struct RayFrame {
   Interval t;              ///< hits count in the open interval (t.min, t.max)
 };
 
-/// Nothing for a ray that cannot hit: NaN or infinite origin or direction, direction zero, interval empty or
-/// NaN.
-inline std::optional<RayFrame> make_ray_frame(const Ray& ray) {
-  if (!all_finite(ray.origin) || !all_finite(ray.direction)) return std::nullopt;
+/// Fills origin, direction, t and their scale. False for a ray that cannot hit: NaN or infinite origin or
+/// direction, direction zero, interval empty or NaN.
+inline bool scale_ray(const Ray& ray, RayFrame& frame) {
+  if (!all_finite(ray.origin) || !all_finite(ray.direction)) return false;
   const double largest = max_component(glm::abs(ray.direction));
-  if (!(largest > 0.0) || !(ray.t.min <= ray.t.max)) return std::nullopt;
-  RayFrame frame;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  frame.kernel_t_from_t = std::ldexp(1.0, std::min(exponent, 1023));
-  frame.t = {ray.t.min * frame.kernel_t_from_t, ray.t.max * frame.kernel_t_from_t};
-  for (int a = 0; a < 3; ++a) {
-    frame.origin[static_cast<std::size_t>(a)] = ray.origin[a];
-    frame.direction[static_cast<std::size_t>(a)] = std::ldexp(ray.direction[a], -exponent);
+  if (!(largest > 0.0) || !(ray.t.min <= ray.t.max)) return false;
+  constexpr int exponent_bits = 52, bias = 1023;
+  int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> exponent_bits) - (bias - 1);
+  double scale = 1.0;  // 2^-exponent
+  if (exponent > 1 - bias && exponent < bias) [[likely]] {
+    const auto power = [](int e) {
+      return std::bit_cast<double>(static_cast<std::uint64_t>(bias + e) << exponent_bits);
+    };
+    frame.kernel_t_from_t = power(exponent), scale = power(-exponent);
+    for (std::size_t a = 0; a < 3; ++a) frame.direction[a] = ray.direction[static_cast<int>(a)] * scale;
+  } else {
+    std::frexp(largest, &exponent);
+    frame.kernel_t_from_t = std::ldexp(1.0, std::min(exponent, bias));
+    for (std::size_t a = 0; a < 3; ++a)
+      frame.direction[a] = std::ldexp(ray.direction[static_cast<int>(a)], -exponent);
   }
+  frame.t = {ray.t.min * frame.kernel_t_from_t, ray.t.max * frame.kernel_t_from_t};
+  frame.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
+  return true;
+}
+
+/// The rest of a scaled frame.
+inline void shear_ray(RayFrame& frame) {
   const auto& d = frame.direction;
   frame.kz = std::abs(d[0]) >= std::abs(d[1]) ? 0 : 1;
   if (std::abs(d[2]) > std::abs(d[frame.kz])) frame.kz = 2;
@@ -53,6 +67,12 @@ inline std::optional<RayFrame> make_ray_frame(const Ray& ray) {
   frame.shear_x = d[frame.kx] / d[frame.kz];
   frame.shear_y = d[frame.ky] / d[frame.kz];
   frame.shear_z = 1.0 / d[frame.kz];
+}
+
+inline std::optional<RayFrame> make_ray_frame(const Ray& ray) {
+  RayFrame frame;
+  if (!scale_ray(ray, frame)) return std::nullopt;
+  shear_ray(frame);
   return frame;
 }
 

@@ -1,11 +1,14 @@
 // The two verbs, specialised by whether the world has alpha masks and whether work is counted.
 #pragma once
 
+#include <utility>
+
 #include "raytrace/accel/structure.h"
 #include "raytrace/solid.h"
 #include "raytrace/surface_uv.h"
 #include "raytrace/tracer.h"
 #include "raytrace/traverse.h"
+#include "raytrace/wide/tree.h"
 
 namespace gnomon::raytrace {
 
@@ -19,7 +22,8 @@ struct Structures {
   const World* world = nullptr;
   Bvh bvh;              ///< the default hierarchy; else the primitives alone, in ascending order of ids
   Structure structure;  ///< when it is neither that nor brute force
-  std::vector<std::uint32_t> planes;  ///< primitive ids, ascending
+  std::unique_ptr<WideOnDemand> wide;  ///< beside the default hierarchy, for single rays
+  std::vector<std::uint32_t> planes;   ///< primitive ids, ascending
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
@@ -106,8 +110,16 @@ inline bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
 
-/// Among the planes and the leaves that offer(boxes, visit) offers to visit(leaf). The primitive `skip`
-/// (no_id: none) is left out. The result's t is the ray's own.
+/// The least double above; infinity stays.
+inline double next_above(double t) {
+  if (!(t < infinity)) return t;
+  const auto bits = std::bit_cast<std::int64_t>(t + 0.0);  // -0 becomes 0
+  return std::bit_cast<double>(bits >= 0 ? bits + 1 : bits - 1);
+}
+
+/// Among the planes and the leaves that offer(ray, visit) offers to visit(leaf). `ray` is shortened on the
+/// way; visit returns whether it was. The primitive `skip` (no_id: none) is left out. The result's t is the
+/// ray's own.
 template <bool masks, class Arithmetic = RobustArithmetic, class Offer>
 std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, std::uint32_t skip,
                                    const Offer& offer_leaves) {
@@ -118,7 +130,7 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
   const auto offer = [&](const Hit& hit) {
     if (!precedes(hit, best)) return false;
     best = hit;
-    ray.t.max = std::min(frame.t.max, std::nextafter(best.t, infinity));
+    ray.t.max = std::min(frame.t.max, next_above(best.t));
     return true;
   };
   const auto keep = [&](Hit& hit) {
@@ -129,11 +141,8 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
   Hit hit;
   for (const std::uint32_t plane : s.planes)
     if (plane != skip && arithmetic.plane(s, ray, plane, hit)) keep(hit);
-  BoxRay boxes(ray, s.bvh.center);
-  offer_leaves(boxes, [&](std::uint32_t i) {
-    if (arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit))
-      boxes.t_max = float_above(best.t);
-    return false;
+  offer_leaves(std::as_const(ray), [&](std::uint32_t i) {
+    return arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit);
   });
   if (best.primitive == no_id) return std::nullopt;
   best.t /= frame.kernel_t_from_t;
@@ -143,8 +152,13 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
 /// Among all primitives.
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
-  return closest_offered<masks, Arithmetic>(
-      s, frame, skip, [&](BoxRay& boxes, const auto& visit) { walk(s, boxes, stats, visit); });
+  return closest_offered<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& ray, const auto& visit) {
+    BoxRay boxes(ray, s.bvh.center);
+    walk(s, boxes, stats, [&](std::uint32_t i) {
+      if (visit(i)) boxes.t_max = float_above(ray.t.max);
+      return false;
+    });
+  });
 }
 
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>

@@ -5,6 +5,7 @@
 #include "raytrace/precision/fast.h"
 #include "raytrace/ray_offset.h"
 #include "raytrace/verdict.h"
+#include "raytrace/wide/single.h"
 #include "scene/timing.h"
 
 namespace gnomon::raytrace {
@@ -16,6 +17,7 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   s.precision = precision;
   s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
   s.structure = build_structure(world, accel);
+  if (accel == Accel::bvh && precision != Precision::fast) s.wide = std::make_unique<WideOnDemand>();
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
     if (plane == nullptr)
@@ -52,8 +54,21 @@ auto specialise(const Structures& s, const Verb& verb) {
   return with.template operator()<RobustArithmetic>();
 }
 
+// Queries without counts go through the wide tree where it is there. What is counted is always the default
+// hierarchy: counts are to be compared with other structures', and not to depend on the rays that came
+// before.
+
 template <class Stats>
 std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
+  if constexpr (std::is_same_v<Stats, NoStats>) {
+    if (const WideTree* tree = wide_tree(s)) {
+      std::optional<Hit> best;
+      if (specialise(s, [&]<bool masks, class Arithmetic>() {
+            return closest_wide<masks, Arithmetic>(s, *tree, ray, skip, best);
+          }))
+        return best;
+    }
+  }
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return std::nullopt;
   return specialise(
@@ -62,6 +77,15 @@ std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t
 
 template <class Stats>
 bool any_of(const Structures& s, const Ray& ray, Stats stats) {
+  if constexpr (std::is_same_v<Stats, NoStats>) {
+    if (const WideTree* tree = wide_tree(s)) {
+      bool found = false;
+      if (specialise(s, [&]<bool masks, class Arithmetic>() {
+            return any_wide<masks, Arithmetic>(s, *tree, ray, found);
+          }))
+        return found;
+    }
+  }
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return false;
   return specialise(s,
@@ -191,7 +215,7 @@ std::optional<Hit> Tracer::closest_hit_among(const Ray& ray, std::span<const std
   if (!frame) return std::nullopt;
   const Structures& s = impl_->structures;
   return specialise(s, [&]<bool masks, class Arithmetic>() {
-    return closest_offered<masks, Arithmetic>(s, *frame, no_id, [&](BoxRay&, const auto& visit) {
+    return closest_offered<masks, Arithmetic>(s, *frame, no_id, [&](const RayFrame&, const auto& visit) {
       for (const std::uint32_t leaf : leaves) visit(leaf);
     });
   });

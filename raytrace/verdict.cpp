@@ -2,6 +2,7 @@
 
 #include "raytrace/precision/exact_shadow.h"
 #include "raytrace/solid_verdict.h"
+#include "raytrace/wide/single.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -23,7 +24,7 @@ class Query {
   /// exact: none, or what decides every doubt.
   Query(const Structures& s, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
         const ExactShadow* exact = nullptr)
-      : s_(s), from_(from), ray_(frame), exact_(exact), surely_out_(frame.t.max) {
+      : s_(s), from_(from), given_(ray), ray_(frame), exact_(exact), surely_out_(frame.t.max) {
     const Vec3 error = from.position_error + glm::abs(ray.origin - from.position);
     error_ = error;
     error_x_ = axis(error, frame.kx) + std::abs(frame.shear_x) * axis(error, frame.kz);
@@ -51,10 +52,7 @@ class Query {
     if (among != nullptr) {
       sure = std::any_of(among->begin(), among->end(), visit_leaf);
     } else {
-      BoxRay boxes(ray_, s_.bvh.center, error_);
-      boxes.t_max = float_above(surely_out_);
-      NoStats stats;
-      sure = walk(s_, boxes, stats, visit_leaf);
+      sure = walk_all(visit_leaf);
     }
     if (sure || (doubts_ > 0 && neighbours_cover())) return Verdict::shadowed;
     return doubts_ > 0 ? Verdict::uncertain : Verdict::lit;
@@ -66,6 +64,23 @@ class Query {
   static constexpr std::size_t remembered_doubts = 8;
 
   static double axis(const Vec3& v, std::size_t a) { return v[static_cast<int>(a)]; }
+
+  /// The floats of the wide tree leave out no triangle that meet_triangle() would not (raytrace/wide/ray.h).
+  template <class Visit>
+  bool walk_all(const Visit& visit_leaf) const {
+    if (const WideTree* tree = wide_tree(s_)) {
+      const auto visit_one = [&](std::uint32_t leaf, WideRay&) { return visit_leaf(leaf); };
+      Ray ray = given_;
+      ray.t.max = surely_out_ / ray_.kernel_t_from_t;
+      const WideWalk walked =
+          visit_candidates(*tree, ray, {.origin_error = max_component(error_)}, visitor_of(visit_one));
+      if (walked != WideWalk::refused) return walked == WideWalk::ended;
+    }
+    BoxRay boxes(ray_, s_.bvh.center, error_);
+    boxes.t_max = float_above(surely_out_);
+    NoStats stats;
+    return walk(s_, boxes, stats, visit_leaf);
+  }
 
   // True ends the walk: a sure hit.
   template <bool masks>
@@ -315,6 +330,7 @@ class Query {
 
   const Structures& s_;
   const SurfacePoint& from_;
+  const Ray& given_;
   const RayFrame& ray_;
   const ExactShadow* exact_;
   double surely_out_;  ///< nothing from here on can be in the way

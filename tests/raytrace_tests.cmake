@@ -14,6 +14,11 @@ gnomon_test(raytrace_packet_test
   LIBS gnomon::raytrace TBB::tbb hwy::hwy)
 target_include_directories(raytrace_packet_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
+gnomon_test(raytrace_wide_test
+  SOURCES raytrace_wide_test.cpp support/raytrace_support.cpp
+  LIBS gnomon::raytrace TBB::tbb hwy::hwy)
+target_include_directories(raytrace_wide_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
 gnomon_test(raytrace_accel_test
   SOURCES raytrace_accel_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb)

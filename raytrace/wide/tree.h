@@ -1,0 +1,71 @@
+// The hierarchy as single rays walk it: nodes of eight children and leaves of up to eight triangles in float,
+// folded from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough single rays have
+// come to pay for it. The floats only say which triangles a ray surely misses; the doubles decide.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "raytrace/bvh.h"
+
+namespace gnomon::raytrace {
+
+inline constexpr std::size_t wide_lanes = 8;
+
+/// A node's index, or a leaf's with the top bit set.
+struct WideChild {
+  std::uint32_t bits;
+  static constexpr std::uint32_t leaf_flag = 0x80000000u;
+  bool is_leaf() const { return (bits & leaf_flag) != 0; }
+  std::uint32_t index() const { return bits & ~leaf_flag; }
+};
+
+/// bounds as in BvhNode. order: lane i has in bits 3k..3k+2 the child that rays of octant k (bit a: backwards
+/// along axis a) visit as the i-th from the end.
+struct alignas(64) WideNode {
+  float bounds[6][wide_lanes];
+  std::uint32_t child[wide_lanes];
+  std::uint32_t order[wide_lanes];
+};
+
+/// Triangles by rows: the first corner relative to the centre, then the two edges that leave it. Shapes are
+/// NaN, which no test of floats rejects.
+struct alignas(64) WideLeaf {
+  float rows[9][wide_lanes];
+  float size;           ///< no component of an edge is above this, and it is not below 2^-16 of `reach`
+  std::uint32_t first;  ///< position in leaf order of the first
+  std::uint32_t lanes;  ///< bit i: there is a primitive
+};
+
+struct WideTree {
+  HugeVector<WideNode> nodes;  ///< node 0 is the root
+  HugeVector<WideLeaf> leaves;
+  alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
+  float reach = 0.0;                           ///< no coordinate of a box is above this
+  std::uint64_t bytes() const { return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf); }
+};
+
+/// Nothing where the floats' bounds would not hold: no tree, or a scene larger or smaller than 2^30.
+std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world);
+
+/// Folds the tree when so many rays have asked for it that it pays. Any number of threads may ask.
+class WideOnDemand {
+ public:
+  ~WideOnDemand() { delete ready_.load(); }
+  /// Null until it is there; counts the ray.
+  const WideTree* for_ray(const Bvh& bvh, const World& world) {
+    const WideTree* tree = ready_.load(std::memory_order_acquire);
+    return tree != nullptr ? tree : count_ray(bvh, world);
+  }
+  /// Folds now, unless it has been or is being done.
+  void fold(const Bvh& bvh, const World& world);
+  std::uint64_t bytes() const;
+
+ private:
+  const WideTree* count_ray(const Bvh& bvh, const World& world);
+  std::atomic<const WideTree*> ready_{nullptr};
+  std::atomic<std::uint64_t> rays_{0};
+  std::atomic<bool> begun_{false};
+};
+
+}  // namespace gnomon::raytrace

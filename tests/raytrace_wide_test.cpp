@@ -1,0 +1,280 @@
+// The wide tree of single rays against brute force in double, to the last bit, for every instruction set that
+// this machine has: rays that a filter of floats or a box may lose, scenes that strain its bounds, verdicts
+// of points in doubt. And that nobody pays for it who casts no such rays.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <functional>
+
+#include "raytrace/kernels.h"
+#include "raytrace/packet/seen.h"
+#include "raytrace/wide/walk.h"
+#include "raytrace_support.h"
+#include "scene/light.h"
+
+namespace gnomon {
+namespace {
+
+using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::Random;
+using test::TestWorld;
+
+bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
+}
+
+void for_each_target(const std::function<void()>& check) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    check();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+void fold(const Tracer& tracer) {
+  const Structures& s = tracer.structures();
+  s.wide->fold(s.bvh, *s.world);
+}
+
+/// Rays on which the wide walk and brute force differ, over all instruction sets; at least `least` must hit.
+void expect_same(const World& world, const std::vector<Ray>& rays, std::size_t least,
+                 Precision precision = Precision::robust) {
+  const Tracer tracer(world, Accel::bvh, precision), brute(world, Accel::brute, precision);
+  fold(tracer);
+  std::vector<std::optional<Hit>> truth(rays.size());
+  tbb::parallel_for(std::size_t{0}, rays.size(),
+                    [&](std::size_t i) { truth[i] = brute.closest_hit(rays[i]); });
+  const auto hits =
+      std::count_if(truth.begin(), truth.end(), [](const auto& hit) { return hit.has_value(); });
+  EXPECT_GE(static_cast<std::size_t>(hits), least);
+  for_each_target([&] {
+    std::atomic<std::size_t> wrong = 0, dark = 0;
+    tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+      wrong += same(tracer.closest_hit(rays[i]), truth[i]) ? 0 : 1;
+      dark += tracer.occluded(rays[i]) == truth[i].has_value() ? 0 : 1;
+    });
+    EXPECT_EQ(wrong, 0u) << "closest hits differ, " << packet_target();
+    EXPECT_EQ(dark, 0u) << "occlusion differs, " << packet_target();
+  });
+}
+
+Vec3 some_corner(const World& world, Random& random) {
+  return world.corners(random.below(world.triangle_count()))[random.below(3)];
+}
+
+Vec3 axis_of(Random& random) {  // zeros of either sign
+  Vec3 axis(0.0);
+  for (int a = 0; a < 3; ++a) axis[a] = random.below(2) == 0 ? 0.0 : -0.0;
+  axis[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0 : -1.0;
+  return axis;
+}
+
+/// From up to `reach` around the world's middle: at corners and edges but for a few last places, along edges
+/// and in the planes of triangles, along axes, in planes of boxes, with ends near hits, of any length.
+std::vector<Ray> hard_rays(const World& world, int count, double reach, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Ray> rays;
+  const Vec3 middle = world.finite_bounds.center();
+  for (int i = 0; i < count; ++i) {
+    const auto [p, q, r] = world.corners(random.below(world.triangle_count()));
+    const Vec3 corner = some_corner(world, random), from = middle + random.in_box(reach);
+    const Vec3 on_edge = p + random.uniform(0.0, 1.0) * (q - p);
+    const Vec3 inside = p + random.uniform(0.0, 0.5) * (q - p) + random.uniform(0.0, 0.5) * (r - p);
+    const Vec3 axis = axis_of(random);
+    Ray ray;
+    switch (i % 10) {
+      case 0:
+        ray = {from, random.nudged(corner, 2) - from};
+        break;
+      case 1:
+        ray = {from, random.nudged(on_edge, 2) - from};
+        break;
+      case 2:
+        ray = {corner - 2.0 * reach * axis, axis};
+        break;
+      case 3:
+        ray = {on_edge - 2.0 * reach * axis, axis};
+        break;
+      case 4:
+        ray = {p - random.uniform(0.0, 3.0) * (q - p), q - p};
+        break;
+      case 5:
+        ray = {random.nudged(inside, 1), random.direction()};
+        break;
+      case 6: {  // a component so small that its reciprocal is not a float
+        Vec3 d = random.direction();
+        d[static_cast<int>(random.below(3))] *= std::exp2(random.uniform(-1060.0, -20.0));
+        ray = {inside - 2.0 * reach * d, d};
+        break;
+      }
+      case 7:
+        ray = {inside - reach * axis, axis, {0.0, reach * random.uniform(0.5, 1.5)}};
+        break;
+      case 8:
+        ray = {from, inside - from, {random.uniform(0.5, 1.0), random.uniform(1.0, 1.5)}};
+        break;
+      default:
+        ray = {from, (inside - from) * std::exp2(random.uniform(-300.0, 300.0))};
+        break;
+    }
+    if (i % 7 == 0) {  // ends exactly at a hit, or next to it
+      const double t = 1.0 + static_cast<double>(random.below(3) - 1.0) * 0x1p-52;
+      ray = {from, corner - from, {i % 2 == 0 ? 0.0 : t, i % 2 == 0 ? t : infinity}};
+    }
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
+  for (Vec3& p : mesh.positions) p = scale * p + offset;
+  return mesh;
+}
+
+TEST(Wide, SoupOfAllSizes) {
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 5; ++i)
+    meshes.push_back(
+        test::triangle_soup(200, 2.0, std::exp2(-6.0 * i + 2.0), static_cast<std::uint64_t>(i) + 1));
+  const TestWorld w(test::scene_of(std::move(meshes)));
+  expect_same(w.world(), hard_rays(w.world(), 20000, 3.0, 2), 9000);
+}
+
+TEST(Wide, ClosedMeshesFarFromTheOriginAndSeenFromFar) {
+  for (const Vec3& offset : {Vec3(0.0), Vec3(1e6, -1e6, 1e6), Vec3(148376.0, 1234.0, -223423.0)})
+    for (const double reach : {2.0, 60.0, 1e5}) {
+      const TestWorld w(test::scene_of({test::uv_sphere(offset, 1.0, 24, 32, 0.1, 3)}));
+      expect_same(w.world(), hard_rays(w.world(), 5000, reach, 4), 2500);
+    }
+}
+
+TEST(Wide, TinyAndHugeWorlds) {
+  for (const double scale : {1e-12, 1e-8, 1e-3, 1e6, 1e8, 1e12}) {  // the first and last have no wide tree
+    const TestWorld w(test::scene_of({moved(test::triangle_soup(300, 2.0, 0.5, 5), scale, Vec3(0.0))}));
+    expect_same(w.world(), hard_rays(w.world(), 5000, 3.0 * scale, 6), 2000);
+  }
+}
+
+TEST(Wide, NeedlesAndATriangleAsLargeAsTheRest) {
+  Random random(7);
+  Mesh needles = test::triangle_soup(300, 2.0, 1.0, 8);
+  for (std::size_t i = 2; i < needles.positions.size(); i += 3)
+    needles.positions[i] = needles.positions[i - 1] + random.in_box(std::exp2(random.uniform(-50.0, -5.0)));
+  const TestWorld w(
+      test::scene_of({needles, test::quad(Vec3(-1e3, -2.5, -1e3), Vec3(2e3, 0, 0), Vec3(0, 0, 2e3))}));
+  expect_same(w.world(), hard_rays(w.world(), 20000, 3.0, 9), 8000);
+}
+
+TEST(Wide, LatticeOfBoxesWhosePlanesCoincide) {
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 216; ++i) {
+    const Vec3 at(i % 6, i / 6 % 6, i / 36);
+    if ((i % 6 + i / 6 % 6 + i / 36) % 2 == 0) meshes.push_back(test::box(at, at + Vec3(1.0)));
+  }
+  const TestWorld w(test::scene_of(std::move(meshes)));
+  auto rays = hard_rays(w.world(), 10000, 8.0, 10);
+  Random random(11);
+  for (int i = 0; i < 10000; ++i) {  // in walls, through many corners
+    const Vec3 a(random.below(7), random.below(7), random.below(7)), b(random.below(7), random.below(7), 3);
+    rays.push_back({a - 3.0 * (b - a), b - a, {0.0, 10.0}});
+  }
+  expect_same(w.world(), rays, 9000);
+  expect_same(w.world(), hard_rays(w.world(), 20000, 150.0, 22), 9000);
+}
+
+/// Shapes, a plane, and holes cut by a mask beside solid triangles.
+Scene mixed_scene() {
+  std::vector<Shape> shapes{test::plane(Vec3(0, -4, 0), Vec3(0, 1, 0)),
+                            test::plane(Vec3(0, 9, 0), Vec3(0, 1, 0))};
+  Random random(12);
+  for (int i = 0; i < 40; ++i)
+    shapes.push_back(test::sphere(random.in_box(3.0), random.uniform(0.05, 0.6), i % 3 == 0 ? 1 : 0));
+  Scene scene = test::scene_of(
+      {test::triangle_soup(400, 3.0, 1.0, 13), test::triangle_soup(200, 3.0, 1.0, 21)}, std::move(shapes));
+  scene.materials.resize(2);
+  scene.materials[1].alpha_mode = AlphaMode::mask, scene.materials[1].alpha = 0.25f;
+  scene.instances[1].material = 1;
+  return scene;
+}
+
+TEST(Wide, ShapesPlanesAndMasks) {
+  const TestWorld w(mixed_scene());
+  expect_same(w.world(), hard_rays(w.world(), 20000, 5.0, 14), 15000);
+  expect_same(w.world(), hard_rays(w.world(), 4000, 5.0, 15), 3000, Precision::exact);
+}
+
+TEST(Wide, VerdictsAndNearestOccluders) {
+  Scene scene = mixed_scene();
+  scene.materials[1].alpha = 1.0f;
+  scene.lights = {test::point_light(Vec3(2.0, 6.0, 1.0)), test::sun(Vec3(0.0, -1.0, 0.0))};
+  const TestWorld w(std::move(scene));
+  for (const Precision precision : {Precision::robust, Precision::exact}) {
+    const Tracer tracer(w.world(), Accel::bvh, precision), brute(w.world(), Accel::brute, precision);
+    fold(tracer);
+    const auto rays = hard_rays(w.world(), 4000, 5.0, 16);
+    for_each_target([&] {
+      std::atomic<std::size_t> wrong = 0, open = 0;
+      tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+        const auto hit = brute.closest_hit(rays[i]);
+        if (!hit || !std::isfinite(hit->t)) return;
+        const SurfacePoint point = brute.surface_point(rays[i], *hit);
+        for (const Light& light : w.scene().lights) {
+          const Verdict truth = brute.light_verdict(point, light);
+          open += truth == Verdict::uncertain ? 1 : 0;
+          wrong += tracer.light_verdict(point, light) == truth ? 0 : 1;
+          wrong += same(tracer.nearest_occluder(point, light), brute.nearest_occluder(point, light)) ? 0 : 1;
+        }
+      });
+      EXPECT_EQ(wrong, 0u) << packet_target();
+      if (precision == Precision::robust) {
+        EXPECT_GT(open, 10u);
+      }
+    });
+  }
+}
+
+/// What the floats leave over is nearly only what is hit: the filter is worth its name.
+TEST(Wide, FewCandidatesBesideTheHit) {
+  const TestWorld w(test::scene_of({test::uv_sphere(Vec3(0.0), 1.0, 64, 96, 0.05, 17)}));
+  const Tracer tracer(w.world(), Accel::bvh);
+  const auto tree = fold_wide(tracer.structures().bvh, w.world());
+  ASSERT_NE(tree, nullptr);
+  Random random(18);
+  std::size_t hits = 0, candidates = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 from = random.in_box(3.0);
+    const Ray ray{from, random.in_box(0.9) - from};
+    LeafCandidates found;
+    ASSERT_EQ(closest_candidates(*tree, ray, found), WideWalk::done);
+    for (std::size_t k = 0; k < found.count; ++k) candidates += found.t[k] <= found.t_max ? 1 : 0;
+    hits += tracer.closest_hit(ray) ? 1 : 0;
+  }
+  EXPECT_GT(hits, 2000u);
+  EXPECT_LT(static_cast<double>(candidates), 1.05 * static_cast<double>(hits));
+}
+
+TEST(Wide, IsThereOnlyWhenManyRaysHaveAskedForIt) {
+  const TestWorld w(test::scene_of({test::uv_sphere(Vec3(0.0), 1.0, 64, 96, 0.05, 19)}));
+  const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::kdtree);
+  const Ray ray{Vec3(0.0), Vec3(1.0, 2.0, 3.0)};
+  for (int i = 0; i < 3000; ++i) EXPECT_TRUE(tracer.occluded(ray));
+  EXPECT_EQ(tracer.structures().wide->bytes(), 0u);
+  for (int i = 0; i < 20000; ++i) EXPECT_TRUE(tracer.occluded(ray));
+  EXPECT_GT(tracer.structures().wide->bytes(), 0u);
+  EXPECT_EQ(other.structures().wide, nullptr);
+}
+
+TEST(Wide, Bunny) {
+  auto bunny = test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+  if (!bunny) GTEST_SKIP() << "no bunny beside the sources";
+  const TestWorld w(test::scene_of({test::normalised(std::move(*bunny))}));
+  expect_same(w.world(), hard_rays(w.world(), 400, 0.8, 20), 200);
+}
+
+}  // namespace
+}  // namespace gnomon
