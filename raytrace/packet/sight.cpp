@@ -19,19 +19,25 @@ struct SightTiles {
   bool is_wanted(std::size_t i) const { return tiles[i].any && (wanted.empty() || wanted[i] != 0); }
 };
 
+/// A place's (u, v); false: it is not ahead.
+bool find_place(const Seen& seen, const Vec3& position, double& u, double& v) {
+  const Vec3 p = position - seen.origin;
+  u = glm::dot(p, seen.axes[0]), v = glm::dot(p, seen.axes[1]);
+  if (seen.directional) return true;
+  const double depth = glm::dot(p, seen.axes[2]);
+  u /= depth, v /= depth;
+  return depth > 0.0;
+}
+
 /// (u, v) of a box, by its corners; false: not all of it ahead.
 bool grow_by_box(const Seen& seen, const Aabb& box, Range& u, Range& v) {
   for (unsigned corner = 0; corner < 8; ++corner) {
     Vec3 p = box.min;
     for (int a = 0; a < 3; ++a)
       if ((corner >> a & 1) != 0) p[a] = box.max[a];
-    p -= seen.origin;
-    Vec3 q(glm::dot(p, seen.axes[0]), glm::dot(p, seen.axes[1]), glm::dot(p, seen.axes[2]));
-    if (!seen.directional) {
-      if (!(q.z > 0.0)) return false;
-      q /= q.z;
-    }
-    u.grow(q.x), v.grow(q.y);
+    double x = 0.0, y = 0.0;
+    if (!find_place(seen, p, x, y)) return false;
+    u.grow(x), v.grow(y);
   }
   return true;
 }
@@ -102,6 +108,32 @@ int cells_per_axis(const Structures& s) {
   return std::clamp(static_cast<int>(wanted), 64, 512);
 }
 
+/// The cell's list that a place reads; 0: it lies beyond the cells.
+std::size_t list_length(const Cells& cells, double u, double v) {
+  const auto cell = [](const CellAxis& axis, double value) {
+    return std::floor((value - axis.lo) / (axis.width * axis.per_cell));
+  };
+  const double x = cell(cells.u, u), y = cell(cells.v, v);
+  if (!(x >= 0.0 && y >= 0.0 && x < cells.columns() && y < cells.rows())) return 0;
+  const auto i =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.columns()) + static_cast<std::size_t>(x);
+  return cells.first[i + 1] - cells.first[i];
+}
+
+/// Cells of equal size are too coarse where all that is looked at is small and the world is large (a teapot
+/// in a stadium): the lists that the tiles' middles read are then longer than a walk down the tree is.
+bool lists_are_short(const Seen& seen, const Cells& cells, const SightTiles& all) {
+  constexpr double longest_mean = 1024.0;
+  constexpr std::size_t samples = 1024;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < all.tiles.size(); i += 1 + all.tiles.size() / samples) {
+    double u = 0.0, v = 0.0;
+    if (!all.is_wanted(i) || !find_place(seen, all.tiles[i].bounds.center(), u, v)) continue;
+    sum += static_cast<double>(list_length(cells, u, v)), count += 1.0;
+  }
+  return sum <= longest_mean * count;
+}
+
 Sight by_hierarchy(const Structures& s, const Light& light) {
   Sight sight;
   sight.seen = seen_from(s, light);
@@ -162,7 +194,7 @@ Sight sight_of_light(const Structures& s, const Light& light, std::span<const Co
   const int cells = cells_per_axis(s);
   sight.cells.u = axis_over(within(u, limits.u_min, limits.u_max), cells);
   sight.cells.v = axis_over(within(v, limits.v_min, limits.v_max), cells);
-  sight.by_cells = fill_cells(s, sight.seen, sight.cells);
+  sight.by_cells = fill_cells(s, sight.seen, sight.cells) && lists_are_short(sight.seen, sight.cells, tiles);
   return sight.by_cells ? std::move(sight) : by_hierarchy(s, light);
 }
 
