@@ -14,3 +14,8 @@ foreach(case ${hard_cases})
   add_test(NAME hard_case_${case} COMMAND hard_case_test ${case})
 endforeach()
 add_test(NAME hard_case_list COMMAND hard_case_test --complete ${hard_cases})
+
+# exact against rational numbers, triangle by triangle; by hand with 1e7: build/release/tests/exact_gmp_test 1e7
+add_executable(exact_gmp_test exact_gmp_test.cpp)
+target_link_libraries(exact_gmp_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt TBB::tbb)
+add_test(NAME exact_gmp_test COMMAND exact_gmp_test 2e5)

@@ -30,6 +30,15 @@ class Dyadic {
     return std::ldexp(mantissa, static_cast<int>(exponent + exponent_));
   }
 
+  /// a / b to a few roundings, also where neither is in the range of doubles; b is not zero.
+  friend double quotient(const Dyadic& a, const Dyadic& b) {
+    long a_exponent = 0, b_exponent = 0;
+    const double over = mpz_get_d_2exp(&a_exponent, a.mantissa_.get_mpz_t());
+    const double under = mpz_get_d_2exp(&b_exponent, b.mantissa_.get_mpz_t());
+    const long exponent = a_exponent + a.exponent_ - b_exponent - b.exponent_;
+    return std::ldexp(over / under, static_cast<int>(std::clamp(exponent, -4000L, 4000L)));
+  }
+
   friend Dyadic operator*(const Dyadic& a, const Dyadic& b) {
     Dyadic r;
     r.mantissa_ = a.mantissa_ * b.mantissa_;

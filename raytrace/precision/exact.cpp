@@ -59,24 +59,26 @@ int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 
 
 double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
   const PlaneMeeting m = meet(origin, direction, c);
-  return m.height.value() / m.slope.value();
+  return quotient(m.height, m.slope);
 }
 
 bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
   const std::uint32_t id = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
   hit.primitive = id;
-  return triangle(ray, s.bvh.primitives[index], hit);
+  LeafPrimitive room;
+  return triangle(ray, leaf_at(s, index, room), hit);
 }
 
 bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
   const ShearedTriangle s = shear(ray, triangle);
   double size = 0.0, reach = 0.0;
   for (std::size_t i = 0; i < 9; ++i) reach = std::max(reach, std::abs(triangle.v[i] - ray.origin[i % 3]));
-  // A sheared coordinate is the difference of two lengths within reach and has six roundings.
-  const double error = 2.0 * error_gamma(6) * reach;
+  // A sheared coordinate is the difference of two lengths within reach and has six roundings. DBL_MIN, here
+  // and in the bound, is far more than underflow takes away.
+  const double error = 2.0 * error_gamma(6) * reach + DBL_MIN;
   for (std::size_t i = 0; i < 3; ++i) size += std::abs(s.x[i]) + std::abs(s.y[i]);
-  const double bound = 2.0 * error * (size + error);
+  const double bound = 2.0 * error * (size + error) + DBL_MIN;
   const double low = std::min({s.u, s.v, s.w}), high = std::max({s.u, s.v, s.w});
   if (low < -bound && high > bound) return false;
   const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
