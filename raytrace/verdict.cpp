@@ -87,7 +87,9 @@ class Query {
   bool visit(std::uint32_t index) {
     const std::uint32_t id = s_.bvh.ids[index];
     if (s_.has_shapes && !s_.world->is_triangle(id)) return count<masks>(id, meet_shape(id), -1, false);
-    const ShearedTriangle t = shear(ray_, s_.bvh.primitives[index]);
+    LeafPrimitive room;
+    const LeafPrimitive& triangle = leaf_at(s_, index, room);
+    const ShearedTriangle t = shear(ray_, triangle);
     double size = 0.0;
     for (std::size_t i = 0; i < 3; ++i) size += std::abs(t.x[i]) + std::abs(t.y[i]);
     const double bound = 2.0 * coarse_error_ * (size + coarse_error_);
@@ -95,8 +97,9 @@ class Query {
     if (low < -bound && high > bound) return false;
     if (id == from_.primitive) return false;
     int edge = -1;
-    const Meets meets = meet_triangle(t, s_.bvh.primitives[index], edge);
-    return meets != Meets::no && count<masks>(id, meets, edge, t.u + t.v + t.w > 0.0);
+    const Meets meets = meet_triangle(t, triangle, edge);
+    if (meets == Meets::no || (meets == Meets::perhaps && !passes_box(triangle))) return false;
+    return count<masks>(id, meets, edge, t.u + t.v + t.w > 0.0);
   }
 
   // Records what was met; true for a sure hit.
@@ -227,6 +230,27 @@ class Query {
     if (above == 3 || below == 3) return range;
     if (range == Meets::surely && above + below == 2) edge = open;
     return Meets::perhaps;
+  }
+
+  // Whether the ray may come to the triangle's own box. Along the whole line of a triangle seen edge-on its
+  // edge functions are in doubt; every structure's boxes hold this one, so that what is in doubt does not
+  // depend on the structure.
+  bool passes_box(const LeafPrimitive& triangle) const {
+    double begin = ray_.t.min, end = surely_out_;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double p = triangle.v[a] - ray_.origin[a], q = triangle.v[3 + a] - ray_.origin[a],
+                   r = triangle.v[6 + a] - ray_.origin[a];
+      const double reach = std::max({std::abs(p), std::abs(q), std::abs(r)});
+      const double error = axis(error_, a) + 2.0 * error_gamma(coordinate_operations) * reach;
+      const double low = std::min({p, q, r}) - error, high = std::max({p, q, r}) + error;
+      const double d = ray_.direction[a];
+      if (d == 0.0) {
+        if (low > 0.0 || high < 0.0) return false;
+        continue;
+      }
+      begin = std::max(begin, (d < 0.0 ? high : low) / d), end = std::min(end, (d < 0.0 ? low : high) / d);
+    }
+    return begin <= end;
   }
 
   // Where along the ray the triangle may be met: a mean of the corners' depths with weights known within

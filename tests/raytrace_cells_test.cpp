@@ -1,0 +1,329 @@
+// A light's cells (raytrace/packet/cells.h) where their bound is tight: receivers exactly on the lines
+// between cells and on their crossings, triangles whose corners and edges lie there too, triangles that touch
+// a cell in one point, slivers, triangles that reach through the light's plane; lights near and far. Every
+// verdict is held against brute force in double, for every instruction set that this machine has.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "raytrace/packet/passes.h"
+#include "raytrace/packet/seen.h"
+#include "raytrace/ray_offset.h"
+#include "raytrace/tiles.h"
+#include "raytrace_support.h"
+#include "scene/light.h"
+
+namespace gnomon {
+namespace {
+
+using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::Random;
+using test::TestWorld;
+
+constexpr ImageSize size{96, 96};
+constexpr double half_patch = 1.0;  // receivers lie on the floor, at most so far from the middle
+constexpr double floor_reach = 64.0;
+
+struct Setting {
+  const char* name;
+  Light light;
+  double ceiling;  ///< triangles are below it
+};
+
+/// The floor is the first triangle.
+Mesh floor_mesh() {
+  Mesh mesh;
+  const double l = floor_reach;
+  mesh.positions = {{-l, 0, -l}, {-l, 0, 3 * l}, {3 * l, 0, -l}};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+/// Keeps the world's bounds the same whatever triangles are added.
+Mesh corner_posts(double ceiling) {
+  const double far = 3.0 * floor_reach, top = 2.0 * ceiling;
+  Mesh mesh;
+  mesh.positions = {{far, top, far},    {far - 1, top, far},   {far, top, far - 1},
+                    {-far, -top, -far}, {1 - far, -top, -far}, {-far, -top, 1 - far}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  return mesh;
+}
+
+SurfacePoint floor_point(double x, double z) {
+  const Mesh mesh = floor_mesh();
+  const std::array<Vec3, 3> corners{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
+  SurfacePoint point;
+  point.barycentric = Vec2(z + floor_reach, x + floor_reach) / (4.0 * floor_reach);
+  point.position = triangle_point(corners, point.barycentric, point.position_error);
+  point.normal = Vec3(0, 1, 0);
+  point.primitive = 0;
+  return point;
+}
+
+/// The plane of (u, v) and its lines between cells.
+class LightPlane {
+ public:
+  explicit LightPlane(const Sight& sight)
+      : origin_(sight.seen.origin),
+        directional_(sight.seen.directional),
+        u_(sight.cells.u),
+        v_(sight.cells.v) {
+    std::copy(std::begin(sight.seen.axes), std::end(sight.seen.axes), axes_.begin());
+  }
+  double u_line(int i) const { return line(u_, i); }
+  double v_line(int i) const { return line(v_, i); }
+  double u_width() const { return u_.width * u_.per_cell; }
+  double v_width() const { return v_.width * v_.per_cell; }
+  int columns() const { return u_.cells(); }
+  int rows() const { return v_.cells(); }
+
+  /// Where the ray of (u, v) has this height; a point's ray is followed backwards too.
+  Vec3 at_height(double u, double v, double height) const {
+    const Vec3 across = u * axes_[0] + v * axes_[1];
+    if (directional_) {
+      const Vec3 p = origin_ + across;
+      return p + (height - p.y) / axes_[2].y * axes_[2];
+    }
+    const Vec3 d = across + axes_[2];
+    return origin_ + (height - origin_.y) / d.y * d;
+  }
+
+ private:
+  static double line(const CellAxis& axis, int i) {
+    return static_cast<double>(axis.origin) + i * axis.width * axis.per_cell;
+  }
+  Vec3 origin_;
+  bool directional_;
+  std::array<Vec3, 3> axes_;
+  CellAxis u_, v_;
+};
+
+/// 0, or so little that floats just tell it, or do not.
+double whisker(Random& random, double width) {
+  constexpr std::array<double, 7> steps{0.0, 0.0, 0x1p-30, 0x1p-24, 0x1p-22, 0x1p-18, 0x1p-12};
+  const double step = steps[random.below(static_cast<std::uint32_t>(steps.size()))];
+  return (random.below(2) == 0 ? step : -step) * width;
+}
+
+struct Places {
+  double u, v;
+};
+
+/// A crossing of lines, a point of a line, or anywhere in a cell.
+Places place_in(const LightPlane& plane, int column, int row, Random& random) {
+  const auto kind = random.below(4);
+  double u = plane.u_line(column), v = plane.v_line(row);
+  if (kind == 1 || kind == 3) u += random.uniform(0.0, 1.0) * plane.u_width();
+  if (kind == 2 || kind == 3) v += random.uniform(0.0, 1.0) * plane.v_width();
+  return {u + whisker(random, plane.u_width()), v + whisker(random, plane.v_width())};
+}
+
+/// Tiles of receivers on the floor, each tile a square of it, its corners among them.
+struct Receivers {
+  Image<SurfacePoint> points{size, SurfacePoint{}};
+  HugeArray<CompactTile> tiles{TileGrid{size}.count()};
+
+  double edge(int pixel) const { return half_patch * (2.0 * pixel / size.width - 1.0); }
+
+  explicit Receivers(const LightPlane* plane, std::uint64_t seed) {
+    for_each_tile(TileGrid{size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      Random random(seed + i);
+      CompactDraft draft;
+      tiles[i].clear();
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) {
+          const bool corner = (x == x0 || x == x1 - 1) && (y == y0 || y == y1 - 1);
+          SurfacePoint& point = points.at(x, y);
+          if (corner)
+            point = floor_point(edge(x == x0 ? x0 : x1), edge(y == y0 ? y0 : y1));
+          else if (plane != nullptr)
+            point = receiver(*plane, {edge(x0), edge(y0)}, {edge(x1), edge(y1)}, random);
+          if (point.primitive != no_id) tiles[i].put(tile_lane(x - x0, y - y0), point, draft);
+        }
+      tiles[i].finish(draft, Vec3(0.0, 3.0, 0.0));
+    });
+  }
+
+ private:
+  /// Of a random cell's; the next try when it is not in the tile's square.
+  static SurfacePoint receiver(const LightPlane& plane, const Vec2& lo, const Vec2& hi, Random& random) {
+    for (int tries = 0; tries < 4000; ++tries) {
+      const Places p =
+          place_in(plane, static_cast<int>(random.below(static_cast<std::uint32_t>(plane.columns()))),
+                   static_cast<int>(random.below(static_cast<std::uint32_t>(plane.rows()))), random);
+      const Vec3 foot = plane.at_height(p.u, p.v, 0.0);
+      if (foot.x > lo.x && foot.x < hi.x && foot.z > lo.y && foot.z < hi.y)
+        return floor_point(foot.x, foot.z);
+    }
+    return floor_point(0.5 * (lo.x + hi.x), 0.5 * (lo.y + hi.y));
+  }
+};
+
+class Occluders {
+ public:
+  Occluders(const LightPlane& plane, const Setting& setting, std::uint64_t seed)
+      : plane_(plane), setting_(setting), random_(seed) {}
+
+  Mesh make(int count) {
+    for (int i = 0; i < count; ++i) add(i % 6, i < 18);
+    return std::move(mesh_);
+  }
+
+ private:
+  int column() { return static_cast<int>(random_.below(static_cast<std::uint32_t>(plane_.columns()))); }
+  int row() { return static_cast<int>(random_.below(static_cast<std::uint32_t>(plane_.rows()))); }
+  /// Below the ceiling, now and then very near to the floor, or beyond the light.
+  double height(bool through) {
+    if (through && random_.below(2) == 0) return setting_.ceiling * random_.uniform(1.0, 1.9);
+    return setting_.ceiling * (random_.below(8) == 0 ? 1e-3 : random_.uniform(0.02, 0.95));
+  }
+  Vec3 at(double u, double v, double h) const { return plane_.at_height(u, v, h); }
+  void put(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.insert(mesh_.positions.end(), {a, b, c});
+    mesh_.triangles.push_back({first, first + 1, first + 2});
+  }
+
+  void add(int kind, bool through) {
+    const int i = column(), j = row(), reach = 1 + static_cast<int>(random_.below(3));
+    const double u = plane_.u_line(i), v = plane_.v_line(j), du = plane_.u_width(), dv = plane_.v_width();
+    const auto near = [&](double value, double width) { return value + whisker(random_, width); };
+    const auto some = [&] { return static_cast<double>(random_.below(7)) - 3.0; };
+    switch (kind) {
+      case 0:  // corners on crossings
+        return put(at(near(u, du), near(v, dv), height(false)),
+                   at(near(u + some() * du, du), near(v + some() * dv, dv), height(false)),
+                   at(near(u + some() * du, du), near(v + some() * dv, dv), height(false)));
+      case 1: {  // touches a crossing with a corner, the rest in one quadrant
+        const double su = random_.below(2) == 0 ? -1.0 : 1.0, sv = random_.below(2) == 0 ? -1.0 : 1.0;
+        return put(at(near(u, du), near(v, dv), height(false)),
+                   at(u + su * du * random_.uniform(0.1, 2.0), v + sv * dv * random_.uniform(0.1, 2.0),
+                      height(false)),
+                   at(u + su * du * random_.uniform(0.1, 2.0), v + sv * dv * random_.uniform(0.1, 2.0),
+                      height(false)));
+      }
+      case 2: {  // an edge through a crossing, aslant, the rest on one side
+        const double a = random_.uniform(0.5, 2.5) * du, b = random_.uniform(0.5, 2.5) * dv;
+        const double h = height(false);
+        const double su = near(0.0, du), sv = near(0.0, dv);
+        return put(at(u + a + su, v - b + sv, h), at(u - a + su, v + b + sv, h),
+                   at(u + reach * a, v + reach * b, h));
+      }
+      case 3: {  // an edge along a line
+        const double h = height(false), uu = near(u, du);
+        return put(at(uu, v, h), at(uu, v + reach * dv, height(false)),
+                   at(u + random_.uniform(-2.0, 2.0) * du, v + random_.uniform(-1.0, 2.0) * dv, h));
+      }
+      case 4: {  // sliver
+        const double h = height(false), s = random_.uniform(0.0, 1.0), a = some() * du, b = some() * dv;
+        return put(at(near(u, du), near(v, dv), h), at(u + a, v + b, h),
+                   at(near(u + s * a, du), near(v + s * b, dv), h));
+      }
+      default:  // through the light's plane (only few: they hide much), or just large
+        return put(at(near(u, du), near(v, dv), height(through)),
+                   at(u + some() * du, v + 0.5 * some() * dv, height(through)),
+                   at(near(u + 0.5 * some() * du, du), near(v, dv), height(false)));
+    }
+  }
+
+  const LightPlane& plane_;
+  const Setting& setting_;
+  Random random_;
+  Mesh mesh_;
+};
+
+Scene scene_with(const Setting& setting, Mesh occluders) {
+  std::vector<Mesh> meshes{floor_mesh(), corner_posts(setting.ceiling)};
+  if (!occluders.triangles.empty()) meshes.push_back(std::move(occluders));
+  Scene scene = test::scene_of(std::move(meshes));
+  scene.lights = {setting.light};
+  return scene;
+}
+
+LightPlane plane_of(const Setting& setting) {
+  const TestWorld w(scene_with(setting, {}));
+  const Tracer tracer(w.world(), Accel::bvh);
+  const Receivers corners(nullptr, 0);
+  const Sight sight =
+      sight_of_light(tracer.structures(), setting.light, {corners.tiles.data(), corners.tiles.size()});
+  EXPECT_TRUE(sight.by_cells) << setting.name;
+  return LightPlane(sight);
+}
+
+Image<Verdict> by_brute_force(const World& world, const Light& light, const Receivers& receivers) {
+  const Tracer brute(world, Accel::brute);
+  Image<Verdict> out(size, Verdict::lit);
+  for_each_pixel(TileGrid{size}, [&](int x, int y, std::size_t) {
+    const SurfacePoint& p = receivers.points.at(x, y);
+    out.at(x, y) =
+        light_cannot_reach(light, p.position, p.normal) ? Verdict::shadowed : brute.light_verdict(p, light);
+  });
+  return out;
+}
+
+Image<Verdict> by_cells(const Tracer& tracer, const Sight& sight, const Light& light,
+                        const Receivers& receivers) {
+  Image<Verdict> out(size, Verdict::lit);
+  const ReceiverSource source{.tracer = tracer, .stored = &receivers.points};
+  for_each_tile(TileGrid{size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+    shadow_tile(source, light, sight, {x0, y0, x1, y1}, &receivers.tiles[i], out);
+  });
+  return out;
+}
+
+std::array<std::uint64_t, 3> counts_of(const Image<Verdict>& verdicts) {
+  std::array<std::uint64_t, 3> counts{};
+  for (const Verdict v : verdicts.data) ++counts[static_cast<std::size_t>(v)];
+  return counts;
+}
+
+void check(const Setting& setting, int triangles, std::uint64_t seed) {
+  SCOPED_TRACE(setting.name);
+  const LightPlane plane = plane_of(setting);
+  const TestWorld w(scene_with(setting, Occluders(plane, setting, seed).make(triangles)));
+  const Tracer tracer(w.world(), Accel::bvh);
+  const Receivers receivers(&plane, seed + 1000);
+  const Image<Verdict> truth = by_brute_force(w.world(), setting.light, receivers);
+  const auto counts = counts_of(truth);
+  const std::uint64_t all = truth.data.size();
+  EXPECT_GT(counts[0], all / 100);  // neither all dark
+  EXPECT_GT(counts[1], all / 100);  // nor all lit
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    const Sight sight =
+        sight_of_light(tracer.structures(), setting.light, {receivers.tiles.data(), receivers.tiles.size()});
+    ASSERT_TRUE(sight.by_cells);
+    // The lines that receivers and triangles were put on are this sight's.
+    ASSERT_EQ(LightPlane(sight).u_line(7), plane.u_line(7));
+    ASSERT_EQ(LightPlane(sight).v_line(5), plane.v_line(5));
+    const Image<Verdict> found = by_cells(tracer, sight, setting.light, receivers);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < found.data.size(); ++i) wrong += found.data[i] == truth.data[i] ? 0 : 1;
+    EXPECT_EQ(wrong, 0u) << packet_target();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+std::vector<Setting> settings() {
+  return {{"above", test::point_light({0.1, 2.5, -0.2}), 2.0},
+          {"near", test::point_light({0.0, 0.76, 0.0}), 0.7},
+          {"aslant", test::point_light({2.5, 2.2, 0.7}), 1.5},
+          {"far", test::point_light({300.0, 1000.0, -200.0}), 1.5},
+          {"very far", test::point_light({2e5, 1e6, 1e5}), 1.5},
+          {"straight down", test::sun({0, -1, 0}), 1.5},
+          {"sun aslant", test::sun({0.4, -1, -0.2}), 1.5},
+          {"low sun", test::sun({1, -0.05, 0.1}), 0.1}};
+}
+
+TEST(LightCells, VerdictsAtTheCellsBordersAreThoseOfBruteForce) {
+  std::uint64_t seed = 1;
+  for (const Setting& setting : settings())
+    for (const int triangles : {60, 500, 3000}) check(setting, triangles, ++seed);
+}
+
+}  // namespace
+}  // namespace gnomon
