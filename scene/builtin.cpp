@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 13> scenes{{
+constexpr std::array<BuiltinScene, 14> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
@@ -31,6 +31,7 @@ constexpr std::array<BuiltinScene, 13> scenes{{
      "A court with arcades, stairs, balustrades and a fountain: tens of thousands of triangles in the sun."},
     {"stadium", "A teapot in a stadium: where uniform grids lose."},
     {"field", "An even field of small things: where a uniform grid is at its best."},
+    {"orchard", "One tree planted over two hundred times: what a two-level structure saves."},
 }};
 
 }  // namespace

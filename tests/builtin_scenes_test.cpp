@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 13u);
+  ASSERT_EQ(scenes.size(), 14u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
@@ -23,8 +23,9 @@ TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
     // The list's description is the file's own.
     EXPECT_NE(file->text.find(s.description), std::string_view::npos) << s.name;
   }
-  for (const std::string_view name : {"acne-floor", "floating-box", "fence", "thin-wall", "whitted",
-                                      "courtyard", "teapot", "stadium", "field", "penumbra", "studio"}) {
+  for (const std::string_view name :
+       {"acne-floor", "floating-box", "fence", "thin-wall", "whitted", "courtyard", "teapot", "stadium",
+        "field", "penumbra", "studio", "orchard"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(find_builtin_scene("no-such-scene"));
@@ -75,6 +76,13 @@ TEST(BuiltinScenes, ThinWallIsWhatTheClosedFormNeeds) {
   EXPECT_DOUBLE_EQ(wall.min.x, -0.025);
   EXPECT_DOUBLE_EQ(wall.max.x, 0.025);
   EXPECT_EQ(wall.min.y, 0.0);
+}
+
+TEST(BuiltinScenes, TheOrchardIsOneTree) {
+  const Expected<Scene> scene = load_scene("orchard");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->meshes.size(), 3u);  // bark, leaves, meadow
+  EXPECT_EQ(scene->instances.size(), 2u * 225u + 1u);
 }
 
 }  // namespace

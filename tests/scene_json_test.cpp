@@ -119,6 +119,39 @@ TEST(JsonScene, Transforms) {
   EXPECT_EQ(make_world(s).triangle_count(), 6u);
 }
 
+TEST(JsonScene, RepeatedInstances) {
+  const auto repeated = [](const std::string& more) {
+    return load(R"({"schema": "gnomon/scene/1", "materials": [{"name": "m"}],
+      "meshes": [{"name": "t", "vertices": [[0,0,0], [1,0,0], [0,1,0]], "triangles": [[0,1,2]]}],
+      "instances": [{"mesh": "t", "material": "m", "translate": [0, 5, 0], "rotate": {"axis": [0, 1, 0], "degrees": 90},
+        "repeat": {"count": [3, 2], "spacing": [2, 4])" +
+                more + "}}]}");
+  };
+  const Scene plain = repeated("");
+  ASSERT_EQ(plain.instances.size(), 6u);
+  EXPECT_EQ(plain.instances[0].name, "t-1");
+  EXPECT_EQ(plain.instances[5].name, "t-6");
+  const auto place = [](const MeshInstance& i, const Vec3& p) {
+    return Vec3(i.world_from_object * Vec4(p, 1.0));
+  };
+  expect_near(place(plain.instances[0], Vec3(0.0)), {-2, 5, -2});
+  expect_near(place(plain.instances[5], Vec3(0.0)), {2, 5, 2});
+  expect_near(place(plain.instances[4], {1, 0, 0}), {0, 5, 1});  // turned by the instance, then moved
+  const Scene strewn = repeated(R"(, "jitter": 0.5, "turn": true, "scale": [2, 3], "seed": 5)");
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(strewn.instances[i].mesh, 0u);
+    const Vec3 middle = place(plain.instances[i], Vec3(0.0)), at = place(strewn.instances[i], Vec3(0.0));
+    EXPECT_LE(std::abs(at.x - middle.x), 0.5);
+    EXPECT_LE(std::abs(at.z - middle.z), 1.0);
+    EXPECT_NE(at.x, middle.x);
+    const double size = glm::length(place(strewn.instances[i], {1, 0, 0}) - at);
+    EXPECT_GE(size, 2.0);
+    EXPECT_LE(size, 3.0);
+  }
+  EXPECT_EQ(place(repeated(R"(, "jitter": 0.5, "seed": 5)").instances[3], Vec3(0.0)),
+            place(strewn.instances[3], Vec3(0.0)));  // the same seed, the same places
+}
+
 TEST(JsonScene, Shapes) {
   const Scene s = load(whole_scene);
   ASSERT_EQ(s.shapes.size(), 2u);

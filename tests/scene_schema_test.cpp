@@ -52,6 +52,10 @@ TEST(Schema, ListsTheLoadersKeys) {
             schema_keys(defs.at("texture")));
   EXPECT_EQ(loader_keys(scene_with(R"("meshes": [{"zzz": 1}])")), schema_keys(defs.at("mesh")));
   EXPECT_EQ(loader_keys(scene_with(R"("instances": [{"zzz": 1}])")), schema_keys(defs.at("instance")));
+  EXPECT_EQ(loader_keys(scene_with(R"("materials": [{"name": "m"}],
+    "meshes": [{"name": "t", "vertices": [[0,0,0], [1,0,0], [0,1,0]], "triangles": [[0,1,2]]}],
+    "instances": [{"mesh": "t", "material": "m", "repeat": {"zzz": 1}}])")),
+            schema_keys(defs.at("instance").at("properties").at("repeat")));
   EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"zzz": 1}])")), schema_keys(defs.at("shape")));
   const nlohmann::json& shapes = defs.at("shape").at("properties");
   EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"sphere": {"zzz": 1}}])")),

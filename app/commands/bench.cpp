@@ -161,7 +161,8 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "gnomon bench --techniques fence,teapot -o table.md   every shadow technique on the same pixels\n"
       "gnomon bench --tune fence,teapot       the tuner's answers against full grids\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
-      "gnomon bench field --accel bvh,grid    where it is at its best");
+      "gnomon bench field --accel bvh,grid    where it is at its best\n"
+      "gnomon bench orchard --accel bvh,two-level   what sharing one tree's structure saves");
   const auto command = std::make_shared<BenchCommand>();
   add_scene(*app, command->scene);
   app->get_option("SCENE")->required(false);

@@ -121,6 +121,9 @@ NamedMesh read_mesh(SceneReader& reader, const JsonObject& object, const std::st
 
 // ---- instances ----
 
+// A line of the file makes no more than the ray tracer's and the rasterizer's indices have room for.
+constexpr std::size_t max_repeated_triangles = std::size_t{1} << 26;
+
 Mat4 read_matrix(const JsonNode& node) {
   Mat4 matrix(1.0);
   const auto rows = node.as_array(4);
@@ -241,9 +244,28 @@ void place_part(SceneReader& reader, const JsonNode& node, const MeshPart& part,
   reader.scene.instances.push_back(std::move(instance));
 }
 
+void place_parts(SceneReader& reader, const JsonNode& node, const NamedMesh& mesh,
+                 const PartMaterials& materials, MeshInstance instance) {
+  const std::string name = instance.name;
+  for (const MeshPart& part : mesh.parts) {
+    if (reader.failed()) return;
+    if (mesh.parts.size() > 1) instance.name = fmt::format("{}/{}", name, part.name);
+    place_part(reader, node, part, materials, instance);
+  }
+}
+
+void check_triangles(const SceneReader& reader, const JsonNode& repeat, const NamedMesh& mesh,
+                     std::size_t copies) {
+  std::size_t triangles = 0;
+  for (const MeshPart& part : mesh.parts) triangles += reader.scene.meshes[part.mesh].triangles.size();
+  if (triangles * copies > max_repeated_triangles)
+    repeat.error(fmt::format("makes too many triangles (got {}, allowed up to {})", triangles * copies,
+                             max_repeated_triangles));
+}
+
 void read_instance(SceneReader& reader, const JsonNode& node) {
   const JsonObject object(
-      node, {"name", "mesh", "material", "materials", "translate", "rotate", "scale", "matrix"});
+      node, {"name", "mesh", "material", "materials", "translate", "rotate", "scale", "matrix", "repeat"});
   const auto mesh_name = object.require("mesh");
   if (reader.failed()) return;
   NamedMesh* mesh = find_mesh(reader, *mesh_name);
@@ -253,11 +275,16 @@ void read_instance(SceneReader& reader, const JsonNode& node) {
   instance.name = object.string("name", mesh_name->value().text);
   instance.world_from_object = read_transform(object);
   const PartMaterials materials = read_part_materials(reader, object, *mesh);
-  const std::string name = instance.name;
-  for (const MeshPart& part : mesh->parts) {
-    if (reader.failed()) return;
-    if (mesh->parts.size() > 1) instance.name = fmt::format("{}/{}", name, part.name);
-    place_part(reader, node, part, materials, instance);
+  const auto repeat = object.find("repeat");
+  if (!repeat) return place_parts(reader, node, *mesh, materials, instance);
+  const std::vector<RepeatedPlace> places = read_repeat(*repeat);
+  if (!reader.failed()) check_triangles(reader, *repeat, *mesh, places.size());
+  const MeshInstance model = instance;
+  for (std::size_t i = 0; i < places.size() && !reader.failed(); ++i) {
+    instance.name = fmt::format("{}-{}", model.name, i + 1);
+    instance.world_from_object =
+        glm::translate(Mat4(1.0), places[i].offset) * model.world_from_object * places[i].own;
+    place_parts(reader, node, *mesh, materials, instance);
   }
 }
 

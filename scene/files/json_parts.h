@@ -49,6 +49,14 @@ void read_instances(SceneReader& reader, const JsonNode& list);
 void read_shapes(SceneReader& reader, const JsonNode& list);
 /// Rotations of an instance or a shape: one, or several applied in order.
 Mat4 read_rotations(const JsonNode& node);
+/// One of an instance's copies: turned and scaled in the mesh's space by `own`, then placed as the instance
+/// says, then moved.
+struct RepeatedPlace {
+  Mat4 own{1.0};
+  Vec3 offset{0.0};
+};
+/// An instance's "repeat", row by row.
+std::vector<RepeatedPlace> read_repeat(const JsonNode& node);
 /// A quadric, torus or implicit surface; `kind` is its key in the shape.
 decltype(Shape::geometry) read_solid(std::string_view kind, const JsonNode& node);
 Camera read_camera(SceneReader& reader, const JsonNode& node);
