@@ -37,6 +37,7 @@ constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {
     {"grid", raytrace::Accel::grid},
     {"grid-textbook", raytrace::Accel::grid_textbook},
     {"bsp", raytrace::Accel::bsp},
+    {"two-level", raytrace::Accel::two_level},
     {"brute", raytrace::Accel::brute}};
 constexpr std::pair<std::string_view, raytrace::Precision> precisions[] = {
     {"fast", raytrace::Precision::fast},

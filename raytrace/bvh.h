@@ -1,8 +1,7 @@
-// Bounding-volume hierarchy over finite primitives: a binary tree by the surface-area heuristic (Wald 2007,
-// "On fast construction of SAH-based bounding volume hierarchies"), folded into nodes of four children (Wald
-// et al. 2008); its upper part splits runs of neighbours (raytrace/bvh_grid.h). Boxes are floats rounded
-// outwards, primitives stay in double. The tree is the same for any number of threads; only the numbers of
-// its nodes may differ.
+// Bounding-volume hierarchy over finite primitives: a binary tree by binned surface-area heuristic (Wald
+// 2007, "On fast construction of SAH-based bounding volume hierarchies"), folded into nodes of four children
+// (Wald et al. 2008). Boxes are floats rounded outwards, primitives stay in double. The tree is the same for
+// any number of threads.
 #pragma once
 
 #include <array>
@@ -46,7 +45,7 @@ struct LeafPrimitive {
 
 struct Bvh {
   HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: walk all primitives
-  HugeVector<LeafPrimitive> primitives;  ///< in leaf order
+  HugeVector<LeafPrimitive> primitives;  ///< in leaf order; none where they are read from the world
   HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order
   std::uint64_t dropped = 0;             ///< primitives left out: not finite, zero area or zero radius
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
@@ -76,6 +75,10 @@ struct FinitePrimitives {
 FinitePrimitives finite_primitives(const World& world);
 
 Bvh build_bvh(const World& world);
+/// Over boxes alone: no primitives, and for ids what the boxes have as theirs, in leaf order.
+Bvh build_bvh(std::span<const BoxRef> boxes);
+/// A primitive as leaves keep it.
+LeafPrimitive leaf_primitive(const World& world, std::uint32_t id);
 /// No tree: every primitive is tested, in ascending order of ids.
 Bvh build_flat(const World& world);
 

@@ -44,9 +44,17 @@ bool walk(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
   return walk(s.bvh, ray, stats, visit);
 }
 
+/// A leaf's primitive; `room` holds it where the structure keeps no copies.
+inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& room) {
+  if (!s.bvh.primitives.empty()) [[likely]]
+    return s.bvh.primitives[index];
+  return room = leaf_primitive(*s.world, s.bvh.ids[index]);
+}
+
 /// One candidate against the ray: fills `hit` (t in kernel units) if the ray meets it inside ray.t.
 inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
-  const LeafPrimitive& primitive = s.bvh.primitives[index];
+  LeafPrimitive room;
+  const LeafPrimitive& primitive = leaf_at(s, index, room);
   hit.primitive = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
     hit.barycentric = Vec2(0.0);

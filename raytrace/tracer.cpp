@@ -15,8 +15,11 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   Structures s;
   s.world = &world;
   s.precision = precision;
-  s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
   s.structure = build_structure(world, accel);
+  if (auto* two = std::get_if<TwoLevel>(&s.structure))
+    s.bvh = std::move(two->leaves);
+  else
+    s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
   if (accel == Accel::bvh && precision != Precision::fast) s.wide = std::make_unique<WideOnDemand>();
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
@@ -28,8 +31,10 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
       ++s.bvh.dropped;
   }
   if (precision == Precision::fast)
-    for (std::size_t i = 0; i < s.bvh.ids.size(); ++i)
-      s.fast.push_back(fast_primitive(s.bvh.primitives[i], world.is_triangle(s.bvh.ids[i])));
+    for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) {
+      LeafPrimitive room;
+      s.fast.push_back(fast_primitive(leaf_at(s, i, room), world.is_triangle(s.bvh.ids[i])));
+    }
   const auto& materials = world.scene->materials;
   for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
     s.has_masks = materials[world.material_of(id)].alpha_mode == AlphaMode::mask;

@@ -34,7 +34,8 @@ struct SurfacePoint {
 };
 
 /// Which structure finds the primitives; all give the same answers. bvh is the fastest on most scenes;
-/// bvh_median, kdtree_cyclic and grid_textbook are the textbooks' plain versions (raytrace/accel/).
+/// bvh_median, kdtree_cyclic and grid_textbook are the textbooks' plain versions (raytrace/accel/);
+/// two_level stores a mesh's tree once for all its instances.
 enum class Accel : std::uint8_t {
   bvh,
   bvh_median,
@@ -44,6 +45,7 @@ enum class Accel : std::uint8_t {
   grid,
   grid_textbook,
   bsp,
+  two_level,
   brute
 };
 

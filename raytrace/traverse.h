@@ -22,11 +22,13 @@ struct BoxRay {
   std::array<float, 3> near_origin, far_origin, inverse;
   std::array<std::size_t, 3> near_plane, far_plane;  ///< rows of BvhNode::bounds
   float t_min, t_max;
+  const RayFrame* frame;  ///< what it was made from, for structures that see the ray from elsewhere
+  Vec3 origin_error;
 
-  /// center: Bvh::center. origin_error: how far the true origin may lie from the frame's, per axis (0 for a
-  /// ray that is what it says).
-  BoxRay(const RayFrame& ray, const Vec3& center, const Vec3& origin_error = Vec3(0.0))
-      : t_min(float_below(ray.t.min)), t_max(float_above(ray.t.max)) {
+  /// `ray` must outlive it. center: Bvh::center. doubt: how far the true origin may lie from the frame's, per
+  /// axis (0 for a ray that is what it says).
+  BoxRay(const RayFrame& ray, const Vec3& center, const Vec3& doubt = Vec3(0.0))
+      : t_min(float_below(ray.t.min)), t_max(float_above(ray.t.max)), frame(&ray), origin_error(doubt) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double o = ray.origin[a] - center[static_cast<int>(a)], e = origin_error[static_cast<int>(a)];
       const float below = float_below(o - e), above = float_above(o + e);

@@ -20,14 +20,15 @@ using namespace raytrace;  // NOLINT(google-build-using-namespace): every second
 using test::Random;
 using test::TestWorld;
 
-constexpr std::array<std::pair<const char*, Accel>, 8> structures{{{"bvh", Accel::bvh},
+constexpr std::array<std::pair<const char*, Accel>, 9> structures{{{"bvh", Accel::bvh},
                                                                    {"bvh-median", Accel::bvh_median},
                                                                    {"kdtree", Accel::kdtree},
                                                                    {"kdtree-cyclic", Accel::kdtree_cyclic},
                                                                    {"octree", Accel::octree},
                                                                    {"grid", Accel::grid},
                                                                    {"grid-textbook", Accel::grid_textbook},
-                                                                   {"bsp", Accel::bsp}}};
+                                                                   {"bsp", Accel::bsp},
+                                                                   {"two-level", Accel::two_level}}};
 
 bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
@@ -344,6 +345,7 @@ TEST(Accel, SameForAnyNumberOfThreads) {
     return std::visit(
         [](const auto& v) -> std::vector<std::uint32_t> {
           if constexpr (requires { v.items; }) return v.items;
+          if constexpr (requires { v.leaves.ids; }) return {v.leaves.ids.begin(), v.leaves.ids.end()};
           return {};
         },
         s);

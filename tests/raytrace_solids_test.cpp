@@ -374,7 +374,7 @@ TEST(Solids, EveryStructureAgreesWithBruteForce) {
     rays.push_back({origin, random.in_box(3.0) - origin});
   }
   for (const Accel accel : {Accel::bvh, Accel::bvh_median, Accel::kdtree, Accel::kdtree_cyclic, Accel::octree,
-                            Accel::grid, Accel::grid_textbook, Accel::bsp}) {
+                            Accel::grid, Accel::grid_textbook, Accel::bsp, Accel::two_level}) {
     const Tracer tracer(w.world(), accel);
     int wrong = 0;
     for (const Ray& ray : rays) {

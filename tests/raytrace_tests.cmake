@@ -1,6 +1,6 @@
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_verdict_test.cpp raytrace_frame_test.cpp
-    raytrace_sheets_test.cpp raytrace_builder_test.cpp support/raytrace_support.cpp
+    raytrace_sheets_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb)
 target_include_directories(raytrace_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
@@ -19,10 +19,20 @@ gnomon_test(raytrace_wide_test
   LIBS gnomon::raytrace TBB::tbb hwy::hwy)
 target_include_directories(raytrace_wide_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
+gnomon_test(raytrace_cells_test
+  SOURCES raytrace_cells_test.cpp support/raytrace_support.cpp
+  LIBS gnomon::raytrace TBB::tbb hwy::hwy)
+target_include_directories(raytrace_cells_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
 gnomon_test(raytrace_accel_test
   SOURCES raytrace_accel_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb)
 target_include_directories(raytrace_accel_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
+gnomon_test(raytrace_two_level_test
+  SOURCES raytrace_two_level_test.cpp support/raytrace_support.cpp
+  LIBS gnomon::raytrace TBB::tbb)
+target_include_directories(raytrace_two_level_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 # Real models, against Embree: a comparator, never behind the user's own result.
 find_package(embree 3 REQUIRED)

@@ -8,6 +8,7 @@ bool has_structure(Accel accel) {
 
 Structure build_structure(const World& world, Accel accel) {
   if (!has_structure(accel)) return {};
+  if (accel == Accel::two_level) return build_two_level(world);
   const CellItems items(world);
   switch (accel) {
     case Accel::bvh_median:
@@ -25,6 +26,7 @@ Structure build_structure(const World& world, Accel accel) {
     case Accel::bsp:
       return build_bsp(items);
     case Accel::bvh:
+    case Accel::two_level:
     case Accel::brute:
       break;
   }
@@ -39,6 +41,8 @@ StructureSize size_of(const Structure& structure) {
   if (const auto* s = std::get_if<Grid>(&structure)) return {s->nodes(), s->items.size(), s->bytes()};
   if (const auto* s = std::get_if<BspTree>(&structure))
     return {s->nodes.size() + s->leaves.size(), s->items.size(), s->bytes()};
+  if (const auto* s = std::get_if<TwoLevel>(&structure))
+    return {s->nodes(), s->placements.size(), s->bytes()};
   return {};
 }
 

@@ -11,12 +11,13 @@
 #include "raytrace/accel/kdtree.h"
 #include "raytrace/accel/median_bvh.h"
 #include "raytrace/accel/octree.h"
+#include "raytrace/accel/two_level.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
 
 /// monostate: the default hierarchy or brute force, both in Structures::bvh.
-using Structure = std::variant<std::monostate, MedianBvh, KdTree, Octree, Grid, BspTree>;
+using Structure = std::variant<std::monostate, MedianBvh, KdTree, Octree, Grid, BspTree, TwoLevel>;
 
 /// Whether `accel` lives in a Structure.
 bool has_structure(Accel accel);
@@ -41,6 +42,8 @@ template <class Stats, class Visit>
       return walk(*std::get_if<Grid>(&structure), ray, stats, visit);
     case 5:
       return walk(*std::get_if<BspTree>(&structure), ray, stats, visit);
+    case 6:
+      return walk(*std::get_if<TwoLevel>(&structure), ray, stats, visit);
     default:
       return false;
   }

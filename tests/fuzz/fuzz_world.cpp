@@ -54,8 +54,9 @@ bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
   return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
 }
 
-constexpr std::array rivals{Accel::bvh,    Accel::bvh_median, Accel::kdtree,        Accel::kdtree_cyclic,
-                            Accel::octree, Accel::grid,       Accel::grid_textbook, Accel::bsp};
+constexpr std::array rivals{Accel::bvh,           Accel::bvh_median, Accel::kdtree,
+                            Accel::kdtree_cyclic, Accel::octree,     Accel::grid,
+                            Accel::grid_textbook, Accel::bsp,        Accel::two_level};
 
 }  // namespace
 
