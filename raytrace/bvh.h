@@ -1,7 +1,8 @@
-// Bounding-volume hierarchy over finite primitives: a binary tree by binned surface-area heuristic (Wald
-// 2007, "On fast construction of SAH-based bounding volume hierarchies"), folded into nodes of four children
-// (Wald et al. 2008). Boxes are floats rounded outwards, primitives stay in double. The tree is the same for
-// any number of threads.
+// Bounding-volume hierarchy over finite primitives: a binary tree by the surface-area heuristic (Wald 2007,
+// "On fast construction of SAH-based bounding volume hierarchies"), folded into nodes of four children (Wald
+// et al. 2008); its upper part splits runs of neighbours (raytrace/bvh_grid.h). Boxes are floats rounded
+// outwards, primitives stay in double. The tree is the same for any number of threads; only the numbers of
+// its nodes may differ.
 #pragma once
 
 #include <array>

@@ -3,8 +3,10 @@
 // hierarchies"). All three axes are binned in one pass.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <limits>
+#include <span>
 
 #include "raytrace/bvh.h"
 #include "raytrace/float4.h"
@@ -40,6 +42,10 @@ struct alignas(16) Box {
   }
 };
 
+inline float largest_extent(const Box& box) {
+  return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+}
+
 struct alignas(16) Ref {
   Box box;
   std::uint32_t id() const { return std::bit_cast<std::uint32_t>(box.min[3]); }
@@ -73,16 +79,19 @@ struct Split {
   float cost = std::numeric_limits<float>::infinity();
 };
 
-/// Which bin of each axis a primitive falls into. An axis without extent (or too wide for a float) cannot be
-/// binned: scale 0.
+/// Which bin of each axis a primitive falls into. An axis without extent, too wide for a float, or along
+/// which centroids spread less than `flat` times the most is not binned: scale 0.
 struct Binning {
   Row origin, scale;
-  std::size_t count;
-  Binning(const Box& centroids, std::size_t bins) : origin(centroids.min), scale{}, count(bins) {
+  std::size_t count, axes = 0;
+  std::array<std::uint8_t, 3> axis{};  ///< those that are binned
+  Binning(const Box& centroids, std::size_t bins, float flat) : origin(centroids.min), scale{}, count(bins) {
+    const float least = flat * largest_extent(centroids);
     for (std::size_t a = 0; a < 3; ++a) {
       const float extent = centroids.max[a] - centroids.min[a];
-      const float per = extent > 0.0f ? static_cast<float>(bins) / extent : 0.0f;
+      const float per = extent > 0.0f && extent >= least ? static_cast<float>(bins) / extent : 0.0f;
       scale[a] = std::isfinite(per) && std::isfinite(extent) ? per : 0.0f;
+      if (scale[a] > 0.0f) axis[axes++] = static_cast<std::uint8_t>(a);
     }
     origin[3] = 0.0f;
   }
@@ -103,22 +112,20 @@ struct Binning {
 struct Bins {
   std::array<std::array<Box, most_bins>, 3> box;
   std::array<std::array<std::uint32_t, most_bins>, 3> count;
-  explicit Bins(std::size_t used) {
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < used; ++b) box[a][b] = Box::empty(), count[a][b] = 0;
+  explicit Bins(const Binning& binning) {
+    for (std::size_t k = 0; k < binning.axes; ++k)
+      for (std::size_t a = binning.axis[k], b = 0; b < binning.count; ++b)
+        box[a][b] = Box::empty(), count[a][b] = 0;
   }
-  void put(const Ref& ref, const Binning& binning) {
+  /// `weight`: of how many primitives it is the box.
+  void put(const Ref& ref, const Binning& binning, std::uint32_t weight = 1) {
     alignas(16) std::int32_t bin[4];
     binning(ref, bin);
-    for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t k = 0; k < binning.axes; ++k) {
+      const std::size_t a = binning.axis[k];
       const auto b = static_cast<std::size_t>(bin[a]);
-      box[a][b].grow(ref.box), ++count[a][b];
+      box[a][b].grow(ref.box), count[a][b] += weight;
     }
-  }
-  void join(const Bins& other, std::size_t used) {
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < used; ++b)
-        box[a][b].grow(other.box[a][b]), count[a][b] += other.count[a][b];
   }
 };
 
@@ -128,6 +135,23 @@ inline std::array<Box, 2> boxes_of(const Bins& bins, std::size_t used, const Spl
   for (std::size_t b = 0; b < used; ++b)
     sides[static_cast<int>(b) <= split.bin ? 0 : 1].grow(bins.box[split.axis][b]);
   return sides;
+}
+
+/// Reorders by goes_left(ref), keeping the order on both sides, and finds the bounds of their centroids on
+/// the way. `scratch`: room for as many. Returns how many went left.
+template <class GoesLeft>
+std::uint32_t partition(std::span<Ref> refs, Ref* scratch, std::array<Bounds, 2>& bounds,
+                        const GoesLeft& goes_left) {
+  std::size_t left = 0, right = 0;
+  for (std::size_t i = 0; i < refs.size(); ++i) {
+    const Ref ref = refs[i];
+    const std::size_t is_left = goes_left(ref) ? 1 : 0;
+    bounds[1 - is_left].grow_centroids(ref);
+    refs[left] = ref, scratch[right] = ref;
+    left += is_left, right += 1 - is_left;
+  }
+  std::copy(scratch, scratch + right, refs.begin() + static_cast<std::ptrdiff_t>(left));
+  return static_cast<std::uint32_t>(left);
 }
 
 inline void best_on_axis(const Bins& bins, std::size_t used, std::size_t axis, Split& best) {

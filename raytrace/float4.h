@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -44,6 +45,10 @@ inline void store_truncated(Float4 a, std::int32_t* aligned) {
 inline int less_equal_mask(Float4 a, Float4 b) {
   return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v));
 }
+/// Rows to columns.
+inline void transpose(Float4 (&rows)[4]) {
+  _MM_TRANSPOSE4_PS(rows[0].v, rows[1].v, rows[2].v, rows[3].v);
+}
 #else
 struct Float4 {
   float v[4];
@@ -82,6 +87,10 @@ inline int less_equal_mask(Float4 a, Float4 b) {
   int mask = 0;
   for (int i = 0; i < 4; ++i) mask |= (a.v[i] <= b.v[i] ? 1 : 0) << i;
   return mask;
+}
+inline void transpose(Float4 (&rows)[4]) {
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < i; ++k) std::swap(rows[i].v[k], rows[k].v[i]);
 }
 #endif
 

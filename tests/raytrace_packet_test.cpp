@@ -206,6 +206,60 @@ TEST(Packets, SlimTrianglesAndGlancingLights) {
   check(scene, {96, 64});
 }
 
+// A small body on an infinite floor that fills the picture up to the horizon.
+Scene body_on_a_plain(double tilt) {
+  Scene scene = test::scene_of({test::uv_sphere({0, 1, 0}, 1.0, 24, 48, 0.05, 3)},
+                               {test::plane({0, -0.1, 0}, {0, 1, 0}), test::plane({0, 0, -900}, {0, 0, 1})});
+  look(scene, {3, 1.5, 6}, {0, 1, 0});
+  scene.lights = {test::sun({tilt, -1.0, 0.3 * tilt}), test::point_light({1.0, 9.0, -2.0})};
+  return scene;
+}
+
+TEST(Packets, ReceiversFarBeyondAllThatIsFinite) {
+  for (const double tilt : {0.0, 0.4, 4.0}) check(body_on_a_plain(tilt), {128, 72});
+}
+
+raytrace::HugeArray<raytrace::CompactTile> tiles_of(const Tracer& tracer, const Camera& camera,
+                                                    ImageSize size) {
+  const View view = make_view(camera, size);
+  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view);
+  const raytrace::TileGrid grid{size};
+  raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
+  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+    raytrace::TileHits hits;
+    primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits, nullptr, &tiles[i]);
+  });
+  return tiles;
+}
+
+// Else a few cells would hold all that there is, and every ray there would be tried against all of it.
+TEST(Packets, CellsDoNotStretchBeyondAllThatIsFinite) {
+  const TestWorld w(body_on_a_plain(0.4));
+  const Tracer tracer(w.world(), Accel::bvh);
+  const auto tiles = tiles_of(tracer, w.scene().camera, {128, 72});
+  const raytrace::Sight sight =
+      sight_of_light(tracer.structures(), w.scene().lights[0], {tiles.data(), tiles.size()});
+  ASSERT_TRUE(sight.by_cells);
+  const double size = w.world().finite_bounds.diagonal();
+  for (const raytrace::CellAxis& axis : {sight.cells.u, sight.cells.v})
+    EXPECT_LT(axis.count * axis.width, 1.01 * size);
+  EXPECT_TRUE(covers(sight, {tiles.data(), tiles.size()}, {}));
+}
+
+// All of the teapot's lies in a cell or two of the stadium's.
+TEST(Packets, SmallThingsInALargeWorldAreLeftToTheHierarchy) {
+  for (const bool large : {false, true}) {
+    const Expected<Scene> scene = load_scene(large ? "stadium" : "teapot");
+    ASSERT_TRUE(scene.has_value());
+    const TestWorld w(*scene);
+    const Tracer tracer(w.world(), Accel::bvh);
+    const auto tiles = tiles_of(tracer, w.scene().camera, {320, 180});
+    const raytrace::Sight sight =
+        sight_of_light(tracer.structures(), w.scene().lights[0], {tiles.data(), tiles.size()});
+    EXPECT_EQ(sight.by_cells, !large);
+  }
+}
+
 TEST(Packets, SheetsNearerThanFloatsCanTell) {
   // Every triangle twice, the copy's corners moved by less than a float's rounding: which one is in front,
   // and whether the one shadows the other, only double knows.

@@ -1,6 +1,6 @@
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_verdict_test.cpp raytrace_frame_test.cpp
-    raytrace_sheets_test.cpp support/raytrace_support.cpp
+    raytrace_sheets_test.cpp raytrace_builder_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb)
 target_include_directories(raytrace_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 

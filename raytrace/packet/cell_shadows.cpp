@@ -152,6 +152,7 @@ class CellTile {
       keep(some, at);
       left &= ~some.shadowed();
     }
+    left &= ~beyond_limits(at);
     const unsigned outside = find_cells(at, left);
     left &= ~outside;
     while (left != 0) {
@@ -169,6 +170,17 @@ class CellTile {
       }
     }
     return outside;
+  }
+
+  /// Bits of the rays that nothing finite can meet.
+  unsigned beyond_limits(std::size_t at) const {
+    const PlaneLimits& limits = cells_.limits;
+    const auto beyond = [at](const float* from, float min, float max) {
+      const V value = hn::Load(f, from + at);
+      return hn::Or(hn::Lt(value, all(min)), hn::Gt(value, all(max)));
+    };
+    return bits_of(
+        hn::Or(beyond(rays_.u, limits.u_min, limits.u_max), beyond(rays_.v, limits.v_min, limits.v_max)));
   }
 
   /// Stores the rays' cells, and where in them they lie; returns the bits of those outside.

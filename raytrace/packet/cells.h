@@ -4,6 +4,7 @@
 // Cells cost one look at every primitive; where rays are few, the hierarchy is cheaper (cells_pay).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "raytrace/packet/seen.h"
@@ -19,11 +20,18 @@ struct CellAxis {
   int cells() const { return (count + per_cell - 1) / per_cell; }
 };
 
+/// Beyond these values of u or v there is nothing finite: rays there meet planes alone.
+struct PlaneLimits {
+  float u_min = -std::numeric_limits<float>::infinity(), u_max = -u_min;
+  float v_min = u_min, v_max = u_max;
+};
+
 /// Where in its cell a primitive's bounds lie: u_min, u_max, v_min, v_max in 256ths, from the lowest byte on.
 using PlaceInCell = std::uint32_t;
 
 struct Cells {
   CellAxis u, v;
+  PlaneLimits limits;                ///< a light's; what the cells leave out may lie beyond
   std::vector<std::uint32_t> first;  ///< of each cell, row by row; and the end
   /// The lists, in the order of falling `nearest`: the primitive is surely behind rays in this cell whose far
   /// is above it. Padded by packet_rays.

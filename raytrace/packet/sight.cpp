@@ -19,26 +19,59 @@ struct SightTiles {
   bool is_wanted(std::size_t i) const { return tiles[i].any && (wanted.empty() || wanted[i] != 0); }
 };
 
-/// (u, v) of what the tiles hold, by the corners of their boxes; false: not all of it ahead and within reach.
-bool ranges_of(const Seen& seen, const SightTiles& all, Range& u, Range& v) {
-  for (std::size_t i = 0; i < all.tiles.size(); ++i) {
-    if (!all.is_wanted(i)) continue;
-    const CompactTile& tile = all.tiles[i];
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      Vec3 p = tile.bounds.min;
-      for (int a = 0; a < 3; ++a)
-        if ((corner >> a & 1) != 0) p[a] = tile.bounds.max[a];
-      p -= seen.origin;
-      Vec3 q(glm::dot(p, seen.axes[0]), glm::dot(p, seen.axes[1]), glm::dot(p, seen.axes[2]));
-      if (!seen.directional) {
-        if (!(q.z > 0.0)) return false;
-        q /= q.z;
-        if (!(std::abs(q.x) < widest_frame && std::abs(q.y) < widest_frame)) return false;
-      }
-      u.grow(q.x), v.grow(q.y);
-    }
+/// A place's (u, v); false: it is not ahead.
+bool find_place(const Seen& seen, const Vec3& position, double& u, double& v) {
+  const Vec3 p = position - seen.origin;
+  u = glm::dot(p, seen.axes[0]), v = glm::dot(p, seen.axes[1]);
+  if (seen.directional) return true;
+  const double depth = glm::dot(p, seen.axes[2]);
+  u /= depth, v /= depth;
+  return depth > 0.0;
+}
+
+/// (u, v) of a box, by its corners; false: not all of it ahead.
+bool grow_by_box(const Seen& seen, const Aabb& box, Range& u, Range& v) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 p = box.min;
+    for (int a = 0; a < 3; ++a)
+      if ((corner >> a & 1) != 0) p[a] = box.max[a];
+    double x = 0.0, y = 0.0;
+    if (!find_place(seen, p, x, y)) return false;
+    u.grow(x), v.grow(y);
   }
+  return true;
+}
+
+/// (u, v) of what the tiles hold; false: not all of it ahead and within reach.
+bool ranges_of(const Seen& seen, const SightTiles& all, Range& u, Range& v) {
+  for (std::size_t i = 0; i < all.tiles.size(); ++i)
+    if (all.is_wanted(i) && !grow_by_box(seen, all.tiles[i].bounds, u, v)) return false;
+  const auto in_frame = [](const Range& r) { return r.low > -widest_frame && r.high < widest_frame; };
+  if (!seen.directional && !(in_frame(u) && in_frame(v))) return false;
   return u.low <= u.high && v.low <= v.high;
+}
+
+/// A range with room for what rounding may have moved its ends.
+Range with_slack(const Range& range) {
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  const double slack = 0x1p-18 * largest + 0x1p-12 * (range.high - range.low);
+  return {range.low - slack, range.high + slack};
+}
+
+/// Infinite where the finite things are not all ahead.
+PlaneLimits limits_of(const Structures& s, const Seen& seen) {
+  Range u, v;
+  if (!grow_by_box(seen, s.world->finite_bounds, u, v)) return {};
+  const Range wide_u = with_slack(u), wide_v = with_slack(v);
+  return {static_cast<float>(wide_u.low), static_cast<float>(wide_u.high), static_cast<float>(wide_v.low),
+          static_cast<float>(wide_v.high)};
+}
+
+/// What of the range lies within the limits; a point of them where that is nothing.
+Range within(const Range& range, float low, float high) {
+  const Range common{std::max(range.low, static_cast<double>(low)),
+                     std::min(range.high, static_cast<double>(high))};
+  return common.low <= common.high ? common : Range{static_cast<double>(low), static_cast<double>(low)};
 }
 
 std::size_t receivers_in(const SightTiles& all, Aabb& bounds) {
@@ -53,11 +86,10 @@ std::size_t receivers_in(const SightTiles& all, Aabb& bounds) {
 }
 
 CellAxis axis_over(const Range& range, int cells) {
-  // Widened so that no ray in the range falls outside by rounding.
+  const Range wide = with_slack(range);
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
-  const double slack = 0x1p-18 * largest + 0x1p-12 * (range.high - range.low);
-  const double low = static_cast<double>(static_cast<float>(range.low - slack));
-  const double width = static_cast<double>(static_cast<float>((range.high + slack - low) / cells));
+  const double low = static_cast<double>(static_cast<float>(wide.low));
+  const double width = static_cast<double>(static_cast<float>((wide.high - low) / cells));
   // A ray's step is found in floats: (v - low) / width, right to 2^-22 of it.
   const double doubt = 0x1p-21 * cells * width + 0x1p-22 * largest;
   return {low - doubt,
@@ -74,6 +106,32 @@ CellAxis axis_over(const Range& range, int cells) {
 int cells_per_axis(const Structures& s) {
   const double wanted = 0.2 * std::sqrt(static_cast<double>(s.bvh.primitives.size()));
   return std::clamp(static_cast<int>(wanted), 64, 512);
+}
+
+/// The cell's list that a place reads; 0: it lies beyond the cells.
+std::size_t list_length(const Cells& cells, double u, double v) {
+  const auto cell = [](const CellAxis& axis, double value) {
+    return std::floor((value - axis.lo) / (axis.width * axis.per_cell));
+  };
+  const double x = cell(cells.u, u), y = cell(cells.v, v);
+  if (!(x >= 0.0 && y >= 0.0 && x < cells.columns() && y < cells.rows())) return 0;
+  const auto i =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.columns()) + static_cast<std::size_t>(x);
+  return cells.first[i + 1] - cells.first[i];
+}
+
+/// Cells of equal size are too coarse where all that is looked at is small and the world is large (a teapot
+/// in a stadium): the lists that the tiles' middles read are then longer than a walk down the tree is.
+bool lists_are_short(const Seen& seen, const Cells& cells, const SightTiles& all) {
+  constexpr double longest_mean = 1024.0;
+  constexpr std::size_t samples = 1024;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < all.tiles.size(); i += 1 + all.tiles.size() / samples) {
+    double u = 0.0, v = 0.0;
+    if (!all.is_wanted(i) || !find_place(seen, all.tiles[i].bounds.center(), u, v)) continue;
+    sum += static_cast<double>(list_length(cells, u, v)), count += 1.0;
+  }
+  return sum <= longest_mean * count;
 }
 
 Sight by_hierarchy(const Structures& s, const Light& light) {
@@ -132,9 +190,11 @@ Sight sight_of_light(const Structures& s, const Light& light, std::span<const Co
   }
   Range u, v;
   if (!ranges_of(sight.seen, tiles, u, v)) return by_hierarchy(s, light);
+  const PlaneLimits limits = sight.cells.limits = limits_of(s, sight.seen);
   const int cells = cells_per_axis(s);
-  sight.cells.u = axis_over(u, cells), sight.cells.v = axis_over(v, cells);
-  sight.by_cells = fill_cells(s, sight.seen, sight.cells);
+  sight.cells.u = axis_over(within(u, limits.u_min, limits.u_max), cells);
+  sight.cells.v = axis_over(within(v, limits.v_min, limits.v_max), cells);
+  sight.by_cells = fill_cells(s, sight.seen, sight.cells) && lists_are_short(sight.seen, sight.cells, tiles);
   return sight.by_cells ? std::move(sight) : by_hierarchy(s, light);
 }
 
@@ -145,7 +205,9 @@ bool covers(const Sight& sight, std::span<const CompactTile> tiles, std::span<co
   const auto holds = [](const CellAxis& axis, const Range& range) {
     return range.low >= axis.lo && range.high <= axis.lo + axis.count * axis.width;
   };
-  return holds(sight.cells.u, u) && holds(sight.cells.v, v);
+  const PlaneLimits& limits = sight.cells.limits;
+  return holds(sight.cells.u, within(u, limits.u_min, limits.u_max)) &&
+         holds(sight.cells.v, within(v, limits.v_min, limits.v_max));
 }
 
 }  // namespace gnomon::raytrace
