@@ -124,6 +124,9 @@ void fill(Grid& grid, const std::vector<std::vector<CellReference>>& blocks) {
     for (const CellReference& r : block) ++grid.offsets[r.cell + 1];
   for (std::size_t i = 0; i < cells; ++i) grid.offsets[i + 1] += grid.offsets[i];
   grid.items.resize(grid.offsets[cells]);
+  grid.occupied.assign((cells + 63) / 64, 0);
+  for (std::size_t i = 0; i < cells; ++i)
+    if (grid.offsets[i + 1] > grid.offsets[i]) grid.occupied[i / 64] |= std::uint64_t{1} << (i % 64);
   std::vector<std::uint32_t> next(grid.offsets.begin(), grid.offsets.end() - 1);
   for (const auto& block : blocks)
     for (const CellReference& r : block) grid.items[next[r.cell]++] = r.item;
