@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "tests/app_process.h"
+#include "tests/json_schema_check.h"
 
 namespace gnomon::app_test {
 namespace {
@@ -342,6 +343,8 @@ TEST(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
                                     {"compare", "acne-floor", "--json", folder.path()},
                                     {"raster", "acne-floor", "-o", "file/a.png"},
                                     {"raytrace", "acne-floor", "-o", "file/a.exr"},
+                                    {"raster", "acne-floor", "--json", "file/a.json"},
+                                    {"raytrace", "acne-floor", "--json", "file/a.json"},
                                     {"plan", "acne-floor", "--json", "file/a.json"},
                                     {"scenes", "--json", "file/a.json"}};
   for (const Words& words : wrong) {
@@ -349,6 +352,59 @@ TEST(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
     EXPECT_EQ(folder.entries(), Words{"file"}) << words.back();
   }
   EXPECT_EQ(run_gnomon({"scenes"}, {.out_path = "/dev/full"}).exit_code, 4);
+}
+
+void expect_valid(const std::string& text) {
+  SchemaCheck check(json::parse(std::ifstream(GNOMON_SOURCE_DIR "/app/render.schema.json")));
+  EXPECT_EQ(check.violations(json::parse(text)), std::vector<std::string>{}) << text;
+}
+
+TEST(Outputs, RasterAndRaytraceTellWhatTheyDid) {
+  const TemporaryFolder folder;
+  const Words raster{"raster", "fence",      "--size", "64x36",       "-o",
+                     "r.png",  "--map-size", "128",    "--technique", "pcf"};
+  const ProcessResult drawn = run_gnomon(raster + Words{"--json", "-"}, {.folder = folder.path()});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  expect_valid(drawn.out);
+  const json r = json::parse(drawn.out);
+  EXPECT_EQ(r.at("renderer"), "shadow mapping");
+  EXPECT_EQ(r.at("map").at("technique"), "pcf");
+  EXPECT_EQ(r.at("map").at("size"), 128);
+  EXPECT_GE(r.at("costs").at("map_texels"), 128 * 128);
+  EXPECT_EQ(r.at("lights").at(0).at("times_ms").at("shade_pass").at("runs").size(), 1u);
+
+  const Words raytrace{"raytrace", "orchard", "--size", "64x36", "-o", "t.exr", "--accel", "two-level"};
+  const ProcessResult traced = run_gnomon(raytrace + Words{"--json", "t.json"}, {.folder = folder.path()});
+  ASSERT_EQ(traced.exit_code, 0) << traced.err;
+  EXPECT_EQ(traced.out, "");
+  expect_valid(read_file(folder / "t.json"));
+  const json t = json::parse(read_file(folder / "t.json"));
+  EXPECT_EQ(t.at("renderer"), "ray tracing");
+  EXPECT_EQ(t.at("accel").at("name"), "two-level");
+  EXPECT_EQ(t.at("costs").at("primary_rays"), 64 * 36);
+  EXPECT_GT(t.at("lights").at(0).at("shadow_rays"), 0);
+  EXPECT_EQ(t.at("picture"), "t.exr");
+  EXPECT_EQ(folder.entries(), (Words{"r.png", "t.exr", "t.json"}));
+
+  const ProcessResult both =
+      run_gnomon(Words{"raytrace", "fence", "--heatmap", "nodes", "--json", "-"}, {.folder = folder.path()});
+  expect_one_line(both, 2, "--json: a heat map has none");
+}
+
+// A broken installation: the library that the module for image files needs is no library.
+TEST(Outputs, AnInternalErrorIsExitCode6) {
+  const TemporaryFolder folder;
+  const std::string module = read_file(GNOMON_IMAGE_MODULE);
+  const std::string prefix = "libOpenImageIO.so";
+  const std::size_t at = module.find(prefix);
+  ASSERT_NE(at, std::string::npos);
+  const std::string library = module.c_str() + at;  // ends with a zero byte in the module's table of strings
+  write_text(folder / library, "");
+  const ProcessResult result =
+      run_gnomon({"raytrace", "acne-floor", "--size", "64x36", "-o", "a.exr"},
+                 {.folder = folder.path(), .environment = {"LD_LIBRARY_PATH=" + folder.path()}});
+  expect_one_line(result, 6, "cannot load the module for image files: ");
+  EXPECT_EQ(folder.entries(), Words{library});
 }
 
 TEST(Outputs, BadInputLeavesNothing) {

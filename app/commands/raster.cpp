@@ -12,6 +12,7 @@
 #include "app/output_path.h"
 #include "app/picture_file.h"
 #include "app/pose_options.h"
+#include "app/render_json.h"
 #include "app/session.h"
 #include "app/technique_options.h"
 
@@ -20,7 +21,7 @@ namespace gnomon::app {
 namespace {
 
 struct RasterCommand {
-  std::string scene, image, light;
+  std::string scene, image, light, json, command_line;
   raster::RasterOptions options;
   raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;
@@ -37,12 +38,14 @@ constexpr double png_bytes_per_pixel = 42.0;
 constexpr double exr_bytes_per_pixel = 178.0;
 
 Expected<ExitCode> run_raster(RasterCommand& command) {
+  const Stopwatch watch;
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (command.image.empty()) command.image = default_output(command.scene) + "-raster.png";
   if (const auto known = check_extension("-o", command.image, ".png .exr"); !known)
     return fail(known.error());
   if (const auto writable = check_output_file(command.image); !writable) return fail(writable.error());
+  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
 
   const bool records = command.image.ends_with(".exr");
   const double bytes = records ? exr_bytes_per_pixel : png_bytes_per_pixel;
@@ -58,7 +61,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);
-  command.options.runs = 0;
+  command.options.runs = command.json.empty() ? 0 : 1;
   command.options.analysis = records;
   const auto frame = (*renderer)->render(command.options, *lights);
   if (!frame) return fail(frame.error());
@@ -70,6 +73,10 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
     return fail(written.error());
   }
   console.message(fmt::format("picture: {}", command.image));
+  const RenderRecord record{command.command_line, command.image, *loaded, exposure, watch.elapsed_ms()};
+  if (!command.json.empty())
+    if (const auto out = hand_out_json(command.json, render_json(record, *frame)); !out)
+      return fail(out.error());
   return ExitCode::done;
 }
 
@@ -96,8 +103,10 @@ void add_raster(CLI::App& program, Invocation& invocation) {
   add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of Mesa's software rasterizer");
   add_exposure(*app, command->exposure);
+  add_json(*app, command->json, "what was drawn, costs and times");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation, app] {
+    command->command_line = invocation.command_line;
     finish_map_options(*app, command->options.map);
     command->given = given_options(*app);
     invocation.action = [command] { return run_raster(*command); };

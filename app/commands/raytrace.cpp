@@ -14,6 +14,7 @@
 #include "app/picture_file.h"
 #include "app/picture_samples.h"
 #include "app/pose_options.h"
+#include "app/render_json.h"
 #include "app/session.h"
 
 namespace gnomon::app {
@@ -21,7 +22,7 @@ namespace gnomon::app {
 namespace {
 
 struct RaytraceCommand {
-  std::string scene, image, light;
+  std::string scene, image, light, json, command_line;
   raytrace::RaytraceOptions options;
   raytrace::Accel accel = raytrace::Accel::bvh;
   raytrace::Precision precision = raytrace::Precision::robust;
@@ -40,12 +41,16 @@ constexpr double png_bytes_per_pixel = 109.0;
 constexpr double exr_bytes_per_pixel = 216.0;
 
 Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
+  const Stopwatch watch;
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
   if (command.image.empty()) command.image = default_output(command.scene) + "-raytrace.png";
   if (const auto known = check_extension("-o", command.image, ".png .exr"); !known)
     return fail(known.error());
   if (const auto writable = check_output_file(command.image); !writable) return fail(writable.error());
+  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
+  if (command.heatmap && !command.json.empty())
+    return fail(ErrorKind::usage, "--json: a heat map has none (give one of --heatmap and --json)");
 
   const bool records = command.image.ends_with(".exr");
   const double bytes = records ? exr_bytes_per_pixel : png_bytes_per_pixel;
@@ -83,6 +88,10 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
     return fail(written.error());
   }
   console.message(fmt::format("picture: {}", command.image));
+  const RenderRecord record{command.command_line, command.image, *loaded, exposure, watch.elapsed_ms()};
+  if (command.json.empty()) return ExitCode::done;
+  const std::string json = render_json(record, tracer, accel_name(command.accel), command.options, frame);
+  if (const auto out = hand_out_json(command.json, json); !out) return fail(out.error());
   return ExitCode::done;
 }
 
@@ -114,8 +123,10 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_seed(*app, command->options.seed, "of every sample");
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_exposure(*app, command->exposure);
+  add_json(*app, command->json, "what was traced, costs and times");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation, app] {
+    command->command_line = invocation.command_line;
     command->given = given_options(*app);
     invocation.action = [command] { return run_raytrace(*command); };
   });

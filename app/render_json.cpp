@@ -1,0 +1,135 @@
+#include "app/render_json.h"
+
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/machine.h"
+#include "app/output_path.h"
+#include "compare/option_names.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json times(const Times& t) {
+  Json runs = Json::array();
+  for (const double run : t.runs) runs.push_back(number(run));
+  return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
+}
+
+Json one_time(double ms) {
+  return times(Times{{ms}});
+}
+
+Json scene_json(const LoadedScene& loaded) {
+  const Scene& scene = *loaded.scene;
+  return {{"path", scene.path},
+          {"sha256", scene.sha256},
+          {"triangles", loaded.world->triangle_count()},
+          {"shapes", loaded.world->shapes.size()},
+          {"name", scene.name},
+          {"notes", scene.notes}};
+}
+
+/// As result.json counts them.
+int threads_in_use() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+Json common(const RenderRecord& record, const char* renderer, const ImageSize& size) {
+  const compare::MachineInfo machine = machine_info();
+  return {{"schema", "gnomon/render/1"},
+          {"command", record.command_line},
+          {"version", compare::program_version()},
+          {"renderer", renderer},
+          {"picture", record.picture},
+          {"threads", threads_in_use()},
+          {"size", {{"width", size.width}, {"height", size.height}}},
+          {"exposure", number(record.exposure)},
+          {"scene", scene_json(record.loaded)},
+          {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}}};
+}
+
+Json light_json(const Scene& scene, std::uint32_t index) {
+  const Light& light = scene.lights[index];
+  return {{"name", light.name}, {"type", compare::light_type_name(light.type)}};
+}
+
+// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string render_json(const RenderRecord& record, const raster::RasterFrame& frame) {
+  Json json = common(record, "shadow mapping", frame.options.size);
+  const raster::MapOptions& map = frame.options.map;
+  json["gl"] = {{"backend", frame.context.backend},
+                {"version", frame.context.version},
+                {"renderer", frame.context.renderer}};
+  json["map"] = {{"technique", compare::technique_name(map.technique)},
+                 {"size", map.size},
+                 {"depth_format", compare::depth_format_name(map.depth_format)},
+                 {"cull", compare::cull_name(map.cull)}};
+  json["costs"] = {{"map_texels", frame.map_texels}, {"map_bytes", frame.map_bytes}};
+  json["times_ms"] = {{"load", one_time(record.loaded.load_ms)}, {"total", one_time(record.total_ms)}};
+  json["lights"] = Json::array();
+  for (const raster::LightRecord& light : frame.lights) {
+    Json entry = light_json(*record.loaded.scene, light.light);
+    entry["times_ms"] = {{"map_pass", times(light.map_pass)}, {"shade_pass", times(light.shade_pass)}};
+    json["lights"].push_back(std::move(entry));
+  }
+  return dumped(json);
+}
+
+std::string render_json(const RenderRecord& record, const raytrace::Tracer& tracer, std::string_view accel,
+                        const raytrace::RaytraceOptions& options, const raytrace::RayTracedFrame& frame) {
+  Json json = common(record, "ray tracing", options.size);
+  json["seed"] = options.seed;
+  json["precision"] = raytrace::precision_name(tracer.precision());
+  const raytrace::AccelStats& stats = tracer.stats();
+  json["accel"] = {
+      {"name", accel}, {"bytes", stats.bytes}, {"nodes", stats.nodes}, {"dropped", stats.dropped}};
+  const raytrace::RayCounts& rays = frame.rays;
+  json["costs"] = {{"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
+                   {"soft_shadow_rays", rays.soft_shadow}, {"reflection_rays", rays.reflection},
+                   {"refraction_rays", rays.refraction},   {"glossy_rays", rays.glossy},
+                   {"indirect_rays", rays.indirect},       {"antialiasing_rays", rays.antialiasing}};
+  json["times_ms"] = {{"load", one_time(record.loaded.load_ms)},
+                      {"accel_build", one_time(stats.build_ms)},
+                      {"primary_rays", times(frame.primary_rays)},
+                      {"picture", one_time(frame.picture_ms)},
+                      {"total", one_time(record.total_ms)}};
+  json["lights"] = Json::array();
+  for (const raytrace::LightTruth& light : frame.lights) {
+    Json entry = light_json(*record.loaded.scene, light.light);
+    entry["shadow_rays"] = light.rays;
+    entry["soft_shadow_rays"] = light.soft_rays;
+    entry["times_ms"] = {{"shadow_rays", times(light.shadow_rays)},
+                         {"soft_shadow_rays", times(light.soft_shadow_rays)}};
+    json["lights"].push_back(std::move(entry));
+  }
+  return dumped(json);
+}
+
+Expected<void> hand_out_json(const std::string& path, const std::string& json) {
+  if (path.empty()) return {};
+  if (path == "-") {
+    print_data(json);
+    return {};
+  }
+  if (const auto made = make_folder_for(path); !made) return made;
+  return write_file(path, json);
+}
+
+}  // namespace gnomon::app
