@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "raytrace/packet/cell_cover.h"
@@ -34,50 +35,82 @@ CellLines lines_of(const CellAxis& axis) {
   return lines;
 }
 
-/// The first and the last cell whose rays may lie between two values; first > last: none.
-class CellRange {
+/// A share of the leaves: what it covers, and how much in every cell.
+struct Share {
+  HugeVector<CoveredCell> covered;
+  std::size_t used = 0;  // of `covered`
+  std::vector<std::uint32_t> counts;
+  std::size_t tries = 0;
+
+  /// Room for `more` at the end.
+  CoveredCell* room(std::size_t more) {
+    if (used + more > covered.size())
+      covered.resize(std::max(used + more, covered.size() + covered.size() / 2));
+    return covered.data() + used;
+  }
+};
+
+/// Nearest first; the leaf decides between equals, so that any number of shares gives the same lists.
+class ListSorter {
  public:
-  explicit CellRange(const CellAxis& axis)
-      : axis_(axis), slack_(slack_of(axis)), per_width_(1.0 / axis.width) {}
-  void operator()(float low, float high, int& first, int& last) const {
-    const double a = (static_cast<double>(low) - axis_.hi - slack_) * per_width_;
-    const double b = (static_cast<double>(high) - axis_.lo + slack_) * per_width_;
-    const int begin = a <= 0.0 ? 0 : a >= axis_.count ? axis_.count : static_cast<int>(std::ceil(a));
-    const int end = b < 0.0 ? -1 : b >= axis_.count ? axis_.count - 1 : static_cast<int>(b);
-    first = begin <= end ? begin / axis_.per_cell : 1, last = begin <= end ? end / axis_.per_cell : 0;
+  explicit ListSorter(Cells& cells) : cells_(cells) {}
+
+  void sort(std::size_t begin, std::size_t end) {
+    if (end - begin <= few) return insert(begin, end);
+    const std::size_t count = end - begin;
+    if (nearest_.size() < count + packet_rays)
+      nearest_.resize(count + packet_rays), others_.resize(count), rank_.resize(count + packet_rays);
+    for (std::size_t i = 0; i < count; ++i)
+      nearest_[i] = cells_.nearest[begin + i], others_[i] = {cells_.leaf[begin + i], cells_.box[begin + i]};
+    if (count <= many)
+      rank_falling(nearest_.data(), count, rank_.data());
+    else
+      rank_many(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = begin + rank_[i];
+      cells_.nearest[at] = nearest_[i], cells_.leaf[at] = others_[i].leaf, cells_.box[at] = others_[i].box;
+    }
   }
 
  private:
-  const CellAxis& axis_;
-  double slack_, per_width_;
-};
+  struct Others {
+    std::uint32_t leaf;
+    PlaceInCell box;
+  };
 
-/// A primitive's bounds along an axis in 256ths of a cell, one of them added on either side for rounding.
-struct Fine {
-  std::int64_t low, high;
-  Fine(const CellAxis& axis, float min, float max) {
-    const double per = 256.0 / (axis.width * axis.per_cell), far = 256.0 * (axis.cells() + 1);
-    const double start = 0.5 * (axis.lo + axis.hi - axis.width * (axis.per_cell == 1 ? 1.0 : 0.0));
-    low = static_cast<std::int64_t>(
-              std::floor(std::clamp((static_cast<double>(min) - start) * per, -far, far))) -
-          1;
-    high = static_cast<std::int64_t>(
-               std::ceil(std::clamp((static_cast<double>(max) - start) * per, -far, far))) +
-           1;
+  void insert(std::size_t begin, std::size_t end) {
+    float* nearest = cells_.nearest.data();
+    std::uint32_t* leaf = cells_.leaf.data();
+    PlaceInCell* box = cells_.box.data();
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const float key = nearest[i];
+      const Others others{leaf[i], box[i]};
+      std::size_t at = i;
+      for (; at > begin && nearest[at - 1] < key; --at)
+        nearest[at] = nearest[at - 1], leaf[at] = leaf[at - 1], box[at] = box[at - 1];
+      nearest[at] = key, leaf[at] = others.leaf, box[at] = others.box;
+    }
   }
-  std::uint32_t in(int cell) const {
-    const std::int64_t from = 256 * static_cast<std::int64_t>(cell);
-    const auto a = static_cast<std::uint32_t>(std::clamp<std::int64_t>(low - from, 0, 255));
-    const auto b = static_cast<std::uint32_t>(std::clamp<std::int64_t>(high - from, 0, 255));
-    return a | b << 8;
-  }
-};
 
-/// A share of the leaves: what it covers, and how much in every cell.
-struct Share {
-  std::vector<CoveredCell> covered;
-  std::vector<std::uint32_t> counts;
-  std::size_t tries = 0;
+  void rank_many(std::size_t count) {
+    order_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) order_[i] = std::uint64_t{falling(nearest_[i])} << 32 | i;
+    std::sort(order_.begin(), order_.end());
+    for (std::uint32_t i = 0; i < count; ++i) rank_[static_cast<std::uint32_t>(order_[i])] = i;
+  }
+  /// In the order of falling numbers.
+  static std::uint32_t falling(float number) {
+    const auto bits = std::bit_cast<std::uint32_t>(number);
+    return (bits & 0x80000000u) != 0 ? bits : ~bits & 0x7fffffffu;
+  }
+
+  // Up to `few` vectors do not pay; above `many` comparing each with each does not.
+  static constexpr std::size_t few = 10, many = 384;
+  Cells& cells_;
+  std::vector<float> nearest_;
+  std::vector<Others> others_;
+  std::vector<std::uint32_t> rank_;
+  std::vector<std::uint64_t> order_;
 };
 
 class Filler {
@@ -115,51 +148,49 @@ class Filler {
  private:
   void cover(std::size_t begin, std::size_t end, Share& share) {
     share.counts.assign(cell_count(), 0);
-    share.covered.reserve(12 * (end - begin) + 1024);
-    const CellRange in_u(cells_.u), in_v(cells_.v);
+    share.covered.resize(14 * (end - begin) + 1024);
+    const double u_slack = slack_of(cells_.u), v_slack = slack_of(cells_.v);
     SeenBlock block;
+    CellPlaces u, v;
     for (std::size_t b = begin; b < end && share.tries <= most_tries / shares_.size(); ++b) {
       see_block(s_, pass_, 8 * b, block);
-      const std::size_t count = std::min<std::size_t>(8, s_.bvh.primitives.size() - 8 * b);
-      for (std::size_t i = 0; i < count; ++i) {
-        const SeenBounds& bounds = block.bounds[i];
-        CellRect rect;
-        in_u(bounds.u_min, bounds.u_max, rect.x0, rect.x1);
-        in_v(bounds.v_min, bounds.v_max, rect.y0, rect.y1);
+      place_eight(cells_.u, u_slack, block.u_min, block.u_max, u);
+      place_eight(cells_.v, v_slack, block.v_min, block.v_max, v);
+      for (std::size_t i = 0; i < 8; ++i) {
+        const CellRect rect{u.first[i], v.first[i], u.last[i], v.last[i]};
         if (rect.x0 > rect.x1 || rect.y0 > rect.y1) continue;
         const auto leaf = static_cast<std::uint32_t>(8 * b + i);
         cells_.primitives[leaf] = block.primitive[i];
-        add(block.primitive[i], leaf, bounds, rect, share);
+        const std::size_t old = share.used;
+        put_cells(block, i, leaf, rect, share);
+        for (std::size_t k = old; k < share.used; ++k) {
+          CoveredCell& c = share.covered[k];
+          ++share.counts[c.cell];
+          const auto y = static_cast<int>(c.cell / columns()), x = static_cast<int>(c.cell % columns());
+          c.box = u.in(i, x) | v.in(i, y) << 16;
+        }
       }
     }
   }
 
-  void add(const SeenPrimitive& primitive, std::uint32_t leaf, const SeenBounds& bounds, const CellRect& rect,
-           Share& share) {
-    const auto area =
-        static_cast<std::size_t>(rect.x1 - rect.x0 + 1) * static_cast<std::size_t>(rect.y1 - rect.y0 + 1);
-    const Fine u(cells_.u, bounds.u_min, bounds.u_max), v(cells_.v, bounds.v_min, bounds.v_max);
-    const auto columns = static_cast<std::uint32_t>(cells_.columns());
-    if (area == 1) {
-      const auto cell = static_cast<std::uint32_t>(rect.y0) * columns + static_cast<std::uint32_t>(rect.x0);
-      share.covered.push_back({cell, leaf, bounds.nearest, u.in(rect.x0) | v.in(rect.y0) << 16});
-      ++share.counts[cell];
+  void put_cells(const SeenBlock& block, std::size_t i, std::uint32_t leaf, const CellRect& rect,
+                 Share& share) {
+    const auto width = static_cast<std::size_t>(rect.x1 - rect.x0 + 1);
+    const std::size_t area = width * static_cast<std::size_t>(rect.y1 - rect.y0 + 1);
+    CoveredCell* to = share.room(area + packet_rays);
+    if (area <= 2) {  // what reaches into both of two cells is met in both
+      const auto cell = static_cast<std::uint32_t>(rect.y0) * columns() + static_cast<std::uint32_t>(rect.x0);
+      to[0] = {cell, leaf, block.nearest[i], 0};
+      to[1] = {cell + (width == 2 ? 1 : columns()), leaf, block.nearest[i], 0};
+      share.used += area;
       return;
     }
-    if (bounds.u_min < -max_float) share.tries += area;
-    const std::size_t old = share.covered.size();
-    share.covered.resize(old + area + packet_rays);
-    const std::size_t count =
-        cover_cells(primitive, leaf, bounds.nearest, columns_, rows_, rect, share.covered.data() + old);
-    share.covered.resize(old + count);
-    for (std::size_t i = old; i < old + count; ++i) {
-      CoveredCell& c = share.covered[i];
-      ++share.counts[c.cell];
-      c.box = u.in(static_cast<int>(c.cell % columns)) | v.in(static_cast<int>(c.cell / columns)) << 16;
-    }
+    if (block.u_min[i] < -max_float) share.tries += area;
+    share.used += cover_cells(block.primitive[i], leaf, block.nearest[i], columns_, rows_, rect, to);
   }
 
-  // Lists in the order of cells; in each the shares in turn. Afterwards a share's counts are its places.
+  // Lists in the order of cells; in each the shares in turn, and so the leaves ascend. Afterwards a share's
+  // counts are its places.
   void make_room() {
     cells_.first.resize(cell_count() + 1);
     std::uint32_t sum = 0;
@@ -168,36 +199,30 @@ class Filler {
       for (Share& share : shares_) sum += std::exchange(share.counts[cell], sum);
     }
     cells_.first.back() = sum;
-    refs_ = HugeArray<CoveredCell>(sum);
+    const std::size_t padded = sum + packet_rays;
+    cells_.nearest = HugeArray<float>(padded), cells_.leaf = HugeArray<std::uint32_t>(padded);
+    cells_.box = HugeArray<PlaceInCell>(padded);
+    for (std::size_t i = sum; i < padded; ++i)
+      cells_.nearest[i] = 0.0f, cells_.leaf[i] = 0, cells_.box[i] = 0;
   }
 
   void scatter(Share& share) {
-    for (const CoveredCell& c : share.covered) refs_[share.counts[c.cell]++] = c;
+    for (std::size_t i = 0; i < share.used; ++i) {
+      const CoveredCell& c = share.covered[i];
+      const std::uint32_t at = share.counts[c.cell]++;
+      cells_.nearest[at] = c.nearest, cells_.leaf[at] = c.leaf, cells_.box[at] = c.box;
+    }
     share.covered = {};
   }
 
-  // Nearest first; the leaf decides between equals, so that any number of shares gives the same lists.
   void sort_lists() {
-    const std::size_t padded = refs_.size() + packet_rays;
-    cells_.nearest = HugeArray<float>(padded), cells_.leaf = HugeArray<std::uint32_t>(padded);
-    cells_.box = HugeArray<PlaceInCell>(padded);
-    for (std::size_t i = refs_.size(); i < padded; ++i)
-      cells_.nearest[i] = 0.0f, cells_.leaf[i] = 0, cells_.box[i] = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cell_count(), 1024), [&](const auto& r) {
-      for (std::size_t i = r.begin(); i < r.end(); ++i) sort_list(cells_.first[i], cells_.first[i + 1]);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cell_count(), 512), [&](const auto& r) {
+      ListSorter sorter(cells_);
+      for (std::size_t i = r.begin(); i < r.end(); ++i) sorter.sort(cells_.first[i], cells_.first[i + 1]);
     });
   }
 
-  void sort_list(std::size_t begin, std::size_t end) {
-    std::sort(refs_.data() + begin, refs_.data() + end, [](const CoveredCell& a, const CoveredCell& b) {
-      return a.nearest != b.nearest ? a.nearest > b.nearest : a.leaf < b.leaf;
-    });
-    for (std::size_t i = begin; i < end; ++i) {
-      const CoveredCell& ref = refs_[i];
-      cells_.nearest[i] = ref.nearest, cells_.leaf[i] = ref.leaf, cells_.box[i] = ref.box;
-    }
-  }
-
+  std::uint32_t columns() const { return static_cast<std::uint32_t>(cells_.columns()); }
   std::size_t cell_count() const {
     return static_cast<std::size_t>(cells_.columns()) * static_cast<std::size_t>(cells_.rows());
   }
@@ -208,7 +233,6 @@ class Filler {
   Cells& cells_;
   CellLines columns_, rows_;
   std::vector<Share> shares_;
-  HugeArray<CoveredCell> refs_;
 };
 
 }  // namespace

@@ -4,30 +4,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
 #include <vector>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace gnomon::raytrace {
 
-/// Memory for `bytes`, aligned to cache lines, in large pages when there are many. Given back by std::free.
-inline void* allocate_huge(std::size_t bytes) {
-  constexpr std::size_t page = std::size_t{1} << 21;
-  const std::size_t align = bytes < 2 * page ? std::size_t{64} : page;
-  const std::size_t whole = (bytes + align - 1) / align * align;
-  void* data = std::aligned_alloc(align, whole);
-  if (data == nullptr) throw std::bad_alloc();
-#if defined(__linux__)
-  if (align == page) madvise(data, whole, MADV_HUGEPAGE);  // advice: nothing is lost without
-#endif
-  return data;
-}
+/// Memory for `bytes`, aligned to cache lines, in large pages when there are many. What has been given back
+/// is used again first, up to most_kept_bytes in all: its pages need not be cleared anew.
+void* allocate_huge(std::size_t bytes);
+void free_huge(void* data);
+inline constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 
 template <class T>
 class HugeArray {
@@ -47,7 +35,7 @@ class HugeArray {
 
  private:
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    void operator()(T* p) const { free_huge(p); }
   };
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0;
@@ -61,7 +49,7 @@ struct HugeAllocator {
   template <class U>
   explicit HugeAllocator(const HugeAllocator<U>&) {}
   T* allocate(std::size_t count) { return static_cast<T*>(allocate_huge(count * sizeof(T))); }
-  void deallocate(T* p, std::size_t) { std::free(p); }
+  void deallocate(T* p, std::size_t) { free_huge(p); }
   template <class U>
   void construct(U* p) {
     ::new (static_cast<void*>(p)) U;

@@ -174,13 +174,18 @@ void see_block(const Structures& s, const SeenPass& pass, std::size_t first, See
   constexpr float inf = std::numeric_limits<float>::infinity();
   SeenRows rows;
   see_rows(s, pass, first, rows);
+  float* const to[SeenRows::bounds] = {block.u_min, block.u_max, block.v_min, block.v_max, block.nearest};
+  for (std::size_t k = 0; k < SeenRows::bounds; ++k) std::copy_n(rows.seen[SeenRows::numbers + k], 8, to[k]);
+  const auto set = [&](std::size_t i, float sign) {
+    block.u_min[i] = block.v_min[i] = -sign * inf, block.u_max[i] = block.v_max[i] = sign * inf;
+    block.nearest[i] = inf;
+  };
   const std::size_t count = std::min<std::size_t>(8, s.bvh.primitives.size() - first);
   for (std::size_t i = 0; i < count; ++i) {
     block.primitive[i] = seen_leaf(s, rows, i, first + i);
-    const auto bound = [&](std::size_t k) { return rows.seen[SeenRows::numbers + k][i]; };
-    block.bounds[i] = {bound(0), bound(1), bound(2), bound(3), bound(4)};
-    if (!s.world->is_triangle(s.bvh.ids[first + i])) block.bounds[i] = {-inf, inf, -inf, inf, inf};
+    if (!s.world->is_triangle(s.bvh.ids[first + i])) set(i, 1.0f);
   }
+  for (std::size_t i = count; i < 8; ++i) set(i, -1.0f);
 }
 
 }  // namespace gnomon::raytrace

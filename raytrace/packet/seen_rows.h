@@ -26,10 +26,10 @@ struct SeenPass {
 
 SeenPass seen_pass(const Structures& structures, const Seen& seen);
 
-/// Eight leaves from `first` on, or as many as there are. pass.bounds must be set.
-struct SeenBlock {
+/// Eight leaves from `first` on, or as many as there are (those beyond: no ray). pass.bounds must be set.
+struct alignas(32) SeenBlock {
   SeenPrimitive primitive[8];
-  SeenBounds bounds[8];
+  float u_min[8], u_max[8], v_min[8], v_max[8], nearest[8];  ///< SeenBounds
 };
 void see_block(const Structures& structures, const SeenPass& pass, std::size_t first, SeenBlock& block);
 
