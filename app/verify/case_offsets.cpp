@@ -49,6 +49,37 @@ void self_hits(Run& run) {
   }
 }
 
+namespace {
+
+/// Three instances of one mesh, `way` apart, whose hierarchy is in the mesh's own space and shared: what is
+/// hit, and that nothing meets itself, as brute force in the world has it.
+void shared_tree(Run& run, const std::string& name, Scene scene, const Vec3& way) {
+  const double radius = 0.5 * glm::length(way);
+  for (int i = 1; i <= 2; ++i) {
+    MeshInstance next = scene.instances[0];
+    next.world_from_object[3] += Vec4(static_cast<double>(i) * way, 0.0);
+    scene.instances.push_back(next);
+  }
+  const SmallWorld w(std::move(scene));
+  const raytrace::Tracer tracer = run.tracer(w.world(), raytrace::Accel::two_level);
+  const raytrace::Tracer brute = run.tracer(w.world(), raytrace::Accel::brute);
+  run.sample(name, run.rays(0.1), [&](Random& r, Tally& tally) {
+    const Vec3 corner = w.world().positions[r.below(static_cast<std::uint32_t>(w.world().positions.size()))];
+    const Vec3 from = corner + r.power_of_ten(-2.0, 3.0) * radius * r.direction();
+    const Ray ray{from, r.nudged(corner, 2) - from};
+    const auto hit = brute.closest_hit(ray);
+    bool right = same(tracer.closest_hit(ray), hit) && tracer.occluded(ray) == hit.has_value();
+    if (right && hit) {
+      const raytrace::SurfacePoint point = brute.surface_point(ray, *hit);
+      const Ray leaving = brute.spawn_ray(point, r.direction());
+      right = same(tracer.closest_hit(leaving), brute.closest_hit(leaving));
+    }
+    tally.check(right);
+  });
+}
+
+}  // namespace
+
 void instances(Run& run) {
   for (const double scale : {1e-4, 1.0, 1e4}) {
     Scene scene = scene_of({box(Vec3(-1.0), Vec3(1.0))});
@@ -60,7 +91,7 @@ void instances(Run& run) {
     for (int a = 0; a < 3; ++a) stretch[a][a] = a == 1 ? 0.01 * scale : scale;
     move[3] = Vec4(3.0, -5.0, 11.0, 1.0);
     scene.instances[0].world_from_object = move * turn * shear * stretch;
-    const SmallWorld w(std::move(scene));
+    const SmallWorld w(scene);
     const raytrace::Tracer tracer = run.tracer(w.world());
     const Vec3 center(3.0, -5.0, 11.0);
     const double radius = 0.5 * w.world().finite_bounds.diagonal();
@@ -68,6 +99,13 @@ void instances(Run& run) {
         fmt::format("scale {:g}", scale), run.rays(0.1),
         [&](Random& r, Tally& tally) { leave(tracer, center, radius, r, tally); }, "roundings of the place",
         gap_bound);
+    // Also where the world's corners are so coarse that they show: a millionth of the mesh.
+    for (const double place : {0.0, 1e10}) {
+      Scene moved = scene;
+      moved.instances[0].world_from_object[3] += Vec4(place * radius * Vec3(0.6, -0.64, 0.48), 0.0);
+      shared_tree(run, fmt::format("one tree for three of {:g}{}", scale, place > 0.0 ? ", far away" : ""),
+                  std::move(moved), 2.0 * radius * Vec3(1, 0, 0));
+    }
   }
 }
 
