@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the lessons' pictures (docs/images/lesson-*.png) with the program itself: docs/make_images.sh PROGRAM
+# Makes the pictures of docs/ (docs/images/) with the program itself: docs/make_images.sh PROGRAM
 # PROGRAM: the gnomon to run [default build/release/app/gnomon]. Needs oiiotool to put pictures side by side.
 set -eu
 program=${1:-build/release/app/gnomon}
@@ -44,3 +44,14 @@ for bias in 0.25texel 4texel; do
   "$program" compare courtyard --bias $bias --size 320x180 --runs 1 --quiet -o "$work/bias-$bias"
 done
 oiiotool "$work/bias-0.25texel/difference.png" "$work/bias-4texel/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-bias.png"
+
+# What two structures test for each pixel, in a scene that each of them suits.
+heat() {
+  "$program" raytrace "$1" --accel "$2" --heatmap "$3" --size 480x270 --quiet -o "$work/$1-$2.png"
+}
+for structure in grid kdtree; do
+  heat stadium $structure triangles
+  heat field $structure nodes
+done
+oiiotool "$work/stadium-grid.png" "$work/stadium-kdtree.png" "$work/field-grid.png" "$work/field-kdtree.png" \
+  --mosaic:pad=8 2x2 -o "$images/structures.png"
