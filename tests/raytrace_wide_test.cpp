@@ -145,6 +145,13 @@ TEST(Wide, SoupOfAllSizes) {
   expect_same(w.world(), hard_rays(w.world(), 20000, 3.0, 2), 9000);
 }
 
+TEST(Wide, FewTriangles) {
+  for (const int count : {1, 2, 5, 15, 16, 17, 33}) {
+    const TestWorld w(test::scene_of({test::triangle_soup(count, 1.0, 1.0, 23)}));
+    expect_same(w.world(), hard_rays(w.world(), 2000, 2.0, 24), 500);
+  }
+}
+
 TEST(Wide, ClosedMeshesFarFromTheOriginAndSeenFromFar) {
   for (const Vec3& offset : {Vec3(0.0), Vec3(1e6, -1e6, 1e6), Vec3(148376.0, 1234.0, -223423.0)})
     for (const double reach : {2.0, 60.0, 1e5}) {

@@ -6,11 +6,12 @@
 // the plain way.
 //
 // Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, -o / d made of it to 4 e, and b / d - o / d by
-// one step, fused or not, to 4 e |t| + 7 e |o / d|. The second term and more, 8 e (|o| + r 2^-10) / d, is in
-// the constants `near` and `far`, the first in the `widening` of the far end. What the doubles themselves are
-// off by, 2^-50 of r + q, is well within r 2^-31. A direction's |d_a| < 2^-60 is taken for +-2^-60: on its
-// way to a hit no ray moves by more than 2^-60 T along such an axis, T = 4 (r + q) < 2^9 r, and the
-// constants, which give way by 2^29 r, hold all of [0, T] in the slab if the origin is within it but for that
+// one step, fused or not, to 4 e |t| + 7 e |o / d|; widened by 2^-20, as the far ends are, to 5 e |t| + 9 e
+// |o / d|. The second term and more, 16 e (|o| + r 2^-10) / d, is in the constants `near` and `far`; the
+// first, for near and far ends together, is less than the 16 e of the widening. What the doubles themselves
+// are off by, 2^-50 of r + q, is well within r 2^-30. A direction's |d_a| < 2^-60 is taken for +-2^-60: on
+// its way to a hit no ray moves by more than 2^-60 T along such an axis, T = 4 (r + q) < 2^9 r, and the
+// constants, which give way by 2^30 r, hold all of [0, T] in the slab if the origin is within it but for that
 // much.
 //
 // Triangles. With s = o - v0, L = `size` of the leaf (no component of an edge is above it), |s| the sum of
@@ -41,8 +42,8 @@ struct WideRay {
   static constexpr float least_direction = 0x1p-60f;  ///< smaller ones are taken for this
   // By axis; the fourth means nothing.
   alignas(16) float origin[4], direction[4];
-  // t of a plane at x along an axis: x inverse + near (or far).
-  alignas(16) float inverse[4], near[4], far[4];
+  // t of a plane at x along an axis: x inverse + near, and, widened, x far_inverse + far.
+  alignas(16) float inverse[4], near[4], far_inverse[4], far[4];
   float t_min, t_max;                 ///< t_max: widened
   float surely_after, surely_before;  ///< t between these is in range
   float distance_error;               ///< 2^-20 (r + q)

@@ -20,11 +20,21 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
   if (!masks && skip == no_id && s.planes.empty()) {
     LeafCandidates found;
     if (closest_candidates(tree, ray, found) != WideWalk::refused) {
-      if (found.count == 0) return true;
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < found.count; ++i)
+        if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
+      if (left == 0) return true;
       scale_ray(ray, frame), shear_ray(frame);
+      if (left == 1) {
+        Hit& hit = best.emplace();
+        if (Arithmetic(s, frame).leaf(s, frame, found.leaf[0], hit))
+          hit.t /= frame.kernel_t_from_t;
+        else
+          best.reset();
+        return true;
+      }
       best = closest_offered<masks, Arithmetic>(s, frame, skip, [&](const RayFrame&, const auto& visit) {
-        for (std::size_t i = 0; i < found.count; ++i)
-          if (found.t[i] <= found.t_max) visit(found.leaf[i]);
+        for (std::size_t i = 0; i < left; ++i) visit(found.leaf[i]);
       });
       return true;
     }

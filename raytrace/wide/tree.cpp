@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <span>
 
@@ -10,45 +11,66 @@ namespace gnomon::raytrace {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr int parallel_depth = 4;  // nodes below it are folded by one thread
+constexpr int parallel_depth = 4;                    // below it one thread does all
+constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
 
-/// A child to be: a leaf, or an inner node that may yet be opened.
-struct Piece {
-  std::array<float, 6> box;  // as a column of BvhNode::bounds
-  std::uint32_t node = 0;
-  std::uint32_t first = 0, count = 0;  // of a leaf
-
-  bool is_leaf() const { return count > 0; }
+struct Box {
+  std::array<float, 6> at{inf, inf, inf, -inf, -inf, -inf};  // as a column of BvhNode::bounds
+  void grow(const Box& b) {
+    for (std::size_t a = 0; a < 3; ++a)
+      at[a] = std::min(at[a], b.at[a]), at[3 + a] = std::max(at[3 + a], b.at[3 + a]);
+  }
   float half_area() const {
-    const float x = box[3] - box[0], y = box[4] - box[1], z = box[5] - box[2];
+    const float x = at[3] - at[0], y = at[4] - at[1], z = at[5] - at[2];
     return x * y + y * z + z * x;
   }
 };
 
-struct Pieces {
-  std::array<Piece, wide_lanes> at;
-  std::size_t count = 0;
-  std::span<const Piece> all() const { return {at.data(), count}; }
+/// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
+struct Part {
+  Box box;
+  std::uint32_t pair = 0;              // its index, if it is one
+  std::uint32_t first = 0, count = 0;  // count 0: a pair
+  bool is_leaf() const { return count > 0; }
 };
 
+/// Two parts, and what they cost at least when they become so many children of a wide node: [i - 1] for i.
+struct Pair {
+  std::array<Part, 2> parts;
+  std::array<float, node_lanes> cost;
+  std::array<std::uint8_t, node_lanes> left;  // how many of them the first part makes; 0: as with one fewer
+};
+
+Box box_of(const BvhNode& node, std::size_t child) {
+  Box box;
+  for (std::size_t row = 0; row < 6; ++row) box.at[row] = node.bounds[row][child];
+  return box;
+}
 bool is_empty(const BvhChild& child) {
   return child.is_leaf() && child.count() == 0;
 }
-std::size_t child_count(const BvhNode& node) {
-  return static_cast<std::size_t>(4 - std::count_if(std::begin(node.child), std::end(node.child), is_empty));
-}
 
-// Top down; a thread takes the places of a node's children when it begins them.
+// First the pairs, bottom up, with the least cost of each as one to eight children (Ylitalo et al. 2017,
+// "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1); then the nodes,
+// top down. A thread takes the places of what it makes when it begins it.
 class Folding {
  public:
   Folding(const Bvh& bvh, const World& world, WideTree& tree) : bvh_(bvh), world_(world), tree_(tree) {
-    tree.nodes.resize(bvh.nodes.size());  // without values: pages that are not reached cost nothing
-    tree.leaves.resize(bvh.primitives.size());
-    fold(0, nodes_++, 0);
+    pairs_.resize(bvh.primitives.size());  // without values: pages that are not reached cost nothing
+    tree.nodes.resize(bvh.primitives.size()), tree.leaves.resize(bvh.primitives.size());
+    Box all;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_empty(bvh.nodes[0].child[i])) all.grow(box_of(bvh.nodes[0], i));
+    fold(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
     tree.nodes.resize(nodes_), tree.leaves.resize(leaves_);
   }
 
  private:
+  struct Pieces {
+    std::array<Part, node_lanes> at;
+    std::size_t count = 0;
+  };
+
   /// Whether all below a child is few enough for a leaf; then the range of leaf order that it is.
   bool is_short(const BvhChild& child, std::uint32_t& first, std::uint32_t& end) const {
     if (is_empty(child)) return true;
@@ -59,59 +81,105 @@ class Folding {
     }
     first = std::min(first, child.first());
     end = std::max(end, child.first() + child.count());
-    return end - first <= wide_lanes;
+    return end - first <= leaf_lanes;
   }
 
-  void append(const BvhNode& node, Pieces& pieces) const {
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (is_empty(node.child[i])) continue;
-      Piece& piece = pieces.at[pieces.count++];
-      for (std::size_t row = 0; row < 6; ++row) piece.box[row] = node.bounds[row][i];
-      std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
-      const bool leaf = is_short(node.child[i], first, end);
-      piece.node = node.child[i].index();
-      piece.first = first, piece.count = leaf ? end - first : 0;
-    }
-  }
-
-  /// The largest is opened as long as its children find room.
-  Pieces pieces_of(std::uint32_t index) const {
-    Pieces pieces;
-    append(bvh_.nodes[index], pieces);
-    const auto fits = [&](const Piece& piece) {
-      return !piece.is_leaf() && pieces.count - 1 + child_count(bvh_.nodes[piece.node]) <= wide_lanes;
+  Part part_of(const BvhChild& child, const Box& box, int depth) {
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
+    if (is_short(child, first, end)) return {box, 0, first, end - first};
+    const BvhNode& node = bvh_.nodes[child.index()];
+    std::array<Part, 4> parts;
+    std::array<std::size_t, 4> used{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_empty(node.child[i])) used[count++] = i;
+    const auto make = [&](std::size_t k) {
+      parts[k] = part_of(node.child[used[k]], box_of(node, used[k]), depth + 1);
     };
-    for (;;) {
-      std::size_t best = pieces.count;
-      for (std::size_t i = 0; i < pieces.count; ++i)
-        if (fits(pieces.at[i]) &&
-            (best == pieces.count || pieces.at[i].half_area() > pieces.at[best].half_area()))
-          best = i;
-      if (best == pieces.count) return pieces;
-      const std::uint32_t opened = pieces.at[best].node;
-      pieces.at[best] = pieces.at[--pieces.count];
-      append(bvh_.nodes[opened], pieces);
-    }
+    if (depth < 2 * parallel_depth)
+      tbb::parallel_for(std::size_t{0}, count, make);
+    else
+      for (std::size_t k = 0; k < count; ++k) make(k);
+    return joined(parts, (1u << count) - 1);
   }
 
-  void fold(std::uint32_t from, std::uint32_t to, int depth) {
-    const Pieces pieces = pieces_of(from);
+  /// The parts of a set as one: in two halves with the least area.
+  Part joined(const std::array<Part, 4>& parts, unsigned set) {
+    if (std::has_single_bit(set)) return parts[static_cast<std::size_t>(std::countr_zero(set))];
+    const auto around = [&](unsigned some) {
+      Box box;
+      for (; some != 0; some &= some - 1)
+        box.grow(parts[static_cast<std::size_t>(std::countr_zero(some))].box);
+      return box;
+    };
+    unsigned best = 0;
+    float least = inf;
+    for (unsigned half = (set - 1) & set; half > set / 2; half = (half - 1) & set) {
+      const float area = around(half).half_area() + around(set & ~half).half_area();
+      if (best == 0 || area < least) best = half, least = area;
+    }
+    return pair_of(joined(parts, best), joined(parts, set & ~best), around(set));
+  }
+
+  float cost_of(const Part& part, std::size_t children) const {
+    return part.is_leaf() ? leaf_cost * part.box.half_area() : pairs_[part.pair].cost[children - 1];
+  }
+
+  Part pair_of(const Part& one, const Part& other, const Box& box) {
+    const std::uint32_t first = std::min(one.first, other.first);
+    const std::uint32_t end = std::max(one.first + one.count, other.first + other.count);
+    const bool whole = one.is_leaf() && other.is_leaf() && end - first == one.count + other.count;
+    if (whole && end - first <= leaf_lanes) return {box, 0, first, end - first};
+    const std::uint32_t index = used_pairs_++;
+    Pair& pair = pairs_[index];
+    pair.parts = {one, other};
+    for (std::size_t children = 2; children <= node_lanes; ++children) {
+      float least = children > 2 ? pair.cost[children - 2] : inf;
+      std::size_t left = 0;
+      for (std::size_t k = 1; k < children; ++k) {
+        const float cost = cost_of(one, k) + cost_of(other, children - k);
+        if (cost < least || (left == 0 && children == 2)) least = cost, left = k;
+      }
+      pair.cost[children - 1] = least, pair.left[children - 1] = static_cast<std::uint8_t>(left);
+    }
+    pair.cost[0] = node_cost * box.half_area() + pair.cost[node_lanes - 1];
+    for (std::size_t i = 1; i < node_lanes; ++i)
+      if (pair.cost[i] > pair.cost[0]) pair.cost[i] = pair.cost[0], pair.left[i] = 0;
+    return {box, index, 0, 0};
+  }
+
+  /// Appends what the part becomes as so many children.
+  void split(const Part& part, std::size_t children, Pieces& pieces) const {
+    if (!part.is_leaf()) {
+      const Pair& pair = pairs_[part.pair];
+      while (children > 1 && pair.left[children - 1] == 0) --children;
+      if (children > 1) {
+        const std::size_t left = pair.left[children - 1];
+        split(pair.parts[0], left, pieces), split(pair.parts[1], children - left, pieces);
+        return;
+      }
+    }
+    pieces.at[pieces.count++] = part;
+  }
+
+  void fold(const Part& from, std::uint32_t to, int depth) {
+    Pieces pieces;
+    split(from, node_lanes, pieces);
     WideNode& node = tree_.nodes[to];
-    for (std::size_t i = 0; i < wide_lanes; ++i) {
-      const bool used = i < pieces.count;
-      for (std::size_t row = 0; row < 6; ++row)
-        node.bounds[row][i] = used ? pieces.at[i].box[row] : row < 3 ? inf : -inf;
+    for (std::size_t i = 0; i < node_lanes; ++i) {
+      const Box box = i < pieces.count ? pieces.at[i].box : Box{};
+      for (std::size_t row = 0; row < 6; ++row) node.bounds[row][i] = box.at[row];
       node.child[i] = WideChild::leaf_flag;
     }
-    put_order(pieces.all(), node);
+    put_order({pieces.at.data(), pieces.count}, node);
     const auto put_child = [&](std::size_t i) {
-      const Piece& piece = pieces.at[i];
+      const Part& piece = pieces.at[i];
       const std::uint32_t place = piece.is_leaf() ? leaves_++ : nodes_++;
       node.child[i] = piece.is_leaf() ? WideChild::leaf_flag | place : place;
       if (piece.is_leaf())
         put_leaf(piece, tree_.leaves[place]);
       else
-        fold(piece.node, place, depth + 1);
+        fold(piece, place, depth + 1);
     };
     if (depth < parallel_depth)
       tbb::parallel_for(std::size_t{0}, pieces.count, put_child);
@@ -120,14 +188,14 @@ class Folding {
   }
 
   /// Nearest first by the boxes' middles along the octant's diagonal; the opposite octant's is the reverse.
-  static void put_order(std::span<const Piece> pieces, WideNode& node) {
+  static void put_order(std::span<const Part> pieces, WideNode& node) {
     std::fill(std::begin(node.order), std::end(node.order), 0u);
     for (unsigned octant = 0; octant < 4; ++octant) {
-      std::array<std::pair<float, std::uint32_t>, wide_lanes> far;
-      for (std::uint32_t i = 0; i < wide_lanes; ++i) {
+      std::array<std::pair<float, std::uint32_t>, node_lanes> far;
+      for (std::uint32_t i = 0; i < node_lanes; ++i) {
         far[i] = {inf, i};
         if (i >= pieces.size()) continue;
-        const auto& box = pieces[i].box;
+        const auto& box = pieces[i].box.at;
         float sum = 0.0f;
         for (std::size_t a = 0; a < 3; ++a) {
           const float middle = box[a] + box[3 + a];
@@ -136,18 +204,18 @@ class Folding {
         far[i].first = sum;
       }
       std::sort(far.begin(), far.end());
-      for (std::size_t i = 0; i < wide_lanes; ++i) {
-        node.order[wide_lanes - 1 - i] |= far[i].second << (3 * octant);
-        node.order[i] |= far[i].second << (3 * (7 - octant));
+      for (std::size_t i = 0; i < node_lanes; ++i) {
+        node.order[node_lanes - 1 - i] |= far[i].second << (4 * octant);
+        node.order[i] |= far[i].second << (4 * (7 - octant));
       }
     }
   }
 
-  void put_leaf(const Piece& piece, WideLeaf& leaf) const {
+  void put_leaf(const Part& piece, WideLeaf& leaf) const {
     leaf.first = piece.first;
     leaf.lanes = (1u << piece.count) - 1;
     double size = 0x1p-16 * static_cast<double>(tree_.reach);
-    for (std::uint32_t i = 0; i < wide_lanes; ++i) {
+    for (std::uint32_t i = 0; i < leaf_lanes; ++i) {
       std::array<double, 9> numbers;
       numbers.fill(std::numeric_limits<double>::quiet_NaN());
       if (i < piece.count && world_.is_triangle(bvh_.ids[piece.first + i])) {
@@ -166,7 +234,8 @@ class Folding {
   const Bvh& bvh_;
   const World& world_;
   WideTree& tree_;
-  std::atomic<std::uint32_t> nodes_{0}, leaves_{0};
+  HugeVector<Pair> pairs_;
+  std::atomic<std::uint32_t> used_pairs_{0}, nodes_{0}, leaves_{0};
 };
 
 /// The largest coordinate of the boxes at the root.
@@ -183,6 +252,7 @@ float reach_of(const BvhNode& root) {
 std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world) {
   if (bvh.nodes.empty()) return nullptr;
   auto tree = std::make_unique<WideTree>();
+  tree->origin = &bvh;
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
   tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-30f && tree->reach <= 0x1p30f)) return nullptr;

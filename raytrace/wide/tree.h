@@ -1,6 +1,7 @@
-// The hierarchy as single rays walk it: nodes of eight children and leaves of up to eight triangles in float,
-// folded from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough single rays have
-// come to pay for it. The floats only say which triangles a ray surely misses; the doubles decide.
+// The hierarchy as single rays walk it: nodes of sixteen children and leaves of up to sixteen triangles in
+// float, folded from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough single
+// rays have come to pay for it. The floats only say which triangles a ray surely misses; the doubles decide.
+// Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow ones.
 #pragma once
 
 #include <atomic>
@@ -10,7 +11,7 @@
 
 namespace gnomon::raytrace {
 
-inline constexpr std::size_t wide_lanes = 8;
+inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16;
 
 /// A node's index, or a leaf's with the top bit set.
 struct WideChild {
@@ -20,18 +21,18 @@ struct WideChild {
   std::uint32_t index() const { return bits & ~leaf_flag; }
 };
 
-/// bounds as in BvhNode. order: lane i has in bits 3k..3k+2 the child that rays of octant k (bit a: backwards
+/// bounds as in BvhNode. order: lane i has in bits 4k..4k+3 the child that rays of octant k (bit a: backwards
 /// along axis a) visit as the i-th from the end.
 struct alignas(64) WideNode {
-  float bounds[6][wide_lanes];
-  std::uint32_t child[wide_lanes];
-  std::uint32_t order[wide_lanes];
+  float bounds[6][node_lanes];
+  std::uint32_t child[node_lanes];
+  std::uint32_t order[node_lanes];
 };
 
 /// Triangles by rows: the first corner relative to the centre, then the two edges that leave it. Shapes are
 /// NaN, which no test of floats rejects.
 struct alignas(64) WideLeaf {
-  float rows[9][wide_lanes];
+  float rows[9][leaf_lanes];
   float size;           ///< no component of an edge is above this, and it is not below 2^-16 of `reach`
   std::uint32_t first;  ///< position in leaf order of the first
   std::uint32_t lanes;  ///< bit i: there is a primitive
@@ -40,6 +41,7 @@ struct alignas(64) WideLeaf {
 struct WideTree {
   HugeVector<WideNode> nodes;  ///< node 0 is the root
   HugeVector<WideLeaf> leaves;
+  const Bvh* origin = nullptr;                 ///< what was folded; it must outlive the tree
   alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
   float reach = 0.0;                           ///< no coordinate of a box is above this
   std::uint64_t bytes() const { return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf); }

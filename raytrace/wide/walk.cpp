@@ -3,27 +3,32 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "raytrace/wide/walk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using F = hn::CappedTag<float, wide_lanes>;
+using F = hn::CappedTag<float, node_lanes>;
 using U = hn::RebindToUnsigned<F>;
 using V = hn::Vec<F>;
 using M = hn::Mask<F>;
 constexpr F f;
 [[maybe_unused]] constexpr U ids;
 constexpr std::size_t lanes = hn::MaxLanes(f);
-static_assert(wide_lanes % lanes == 0 && !HWY_HAVE_SCALABLE);
+static_assert(node_lanes % lanes == 0 && node_lanes == 16 && !HWY_HAVE_SCALABLE);
 
 inline V all(float v) {
   return hn::Set(f, v);
 }
-inline unsigned bits_of(M mask) {
+template <class Tag, class Mask>
+HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
   std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(f, mask, bytes);
-  return bytes[0];
+  hn::StoreMaskBits(tag, mask, bytes);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
 }
 
 /// Fills the ray; false: refused. The order of operations is that of raytrace/wide/ray.h.
@@ -49,17 +54,15 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
     const auto inverse = hn::Div(
         hn::Set(half, 1.0f), hn::IfThenElse(hn::Lt(hn::Abs(v), narrowest), hn::CopySign(narrowest, v), v));
     const auto middle = hn::Mul(hn::Neg(o), inverse);
-    const auto slack = hn::Mul(hn::Mul(hn::Set(half, 0x1p-21f), hn::Abs(inverse)),
+    const auto slack = hn::Mul(hn::Mul(hn::Set(half, 0x1p-20f), hn::Abs(inverse)),
                                hn::Add(hn::Set(half, 0x1p-10f * r), hn::Abs(o)));
     hn::Store(o, half, ray.origin + i), hn::Store(v, half, ray.direction + i);
     hn::Store(inverse, half, ray.inverse + i);
     hn::Store(hn::Sub(middle, slack), half, ray.near + i);
-    hn::Store(hn::Add(middle, slack), half, ray.far + i);
-    const auto bits = [&](auto mask) {
-      std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(half, mask, bytes);
-      return static_cast<unsigned>(bytes[0]) << i;
-    };
+    const auto widening = hn::Set(half, WideRay::widening);
+    hn::Store(hn::Mul(inverse, widening), half, ray.far_inverse + i);
+    hn::Store(hn::Mul(hn::Add(middle, slack), widening), half, ray.far + i);
+    const auto bits = [&](auto mask) { return bits_of(half, mask) << i; };
     good |=
         bits(hn::And(hn::Le(hn::Abs(o), hn::Set(half, 64.0f * r)), hn::Le(hn::Abs(v), hn::Set(half, 1.0f))));
     backwards |= bits(hn::Lt(inverse, hn::Zero(half)));
@@ -84,22 +87,23 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
 
 /// Children that the ray may yet meet, the next one last.
 struct Stack {
-  // A level leaves at most seven behind; the last store may write eight.
-  static constexpr std::size_t most = 7 * Bvh::max_depth + 2 * wide_lanes;
+  // A level leaves at most fifteen behind; the last store may write sixteen.
+  static constexpr std::size_t most = 15 * Bvh::max_depth + 2 * node_lanes;
   std::uint32_t child[most];
   float near[most];
 };
 
 /// The ray in every lane, and where in a node the near and the far planes are.
 struct SpreadRay {
-  V inverse[3], near[3], far[3], t_min;
+  V inverse[3], near[3], far_inverse[3], far[3], t_min;
   std::size_t near_row[3], far_row[3];  // bytes
   int octant_shift;
   explicit SpreadRay(const WideRay& ray)
-      : t_min(all(ray.t_min)), octant_shift(static_cast<int>(3 * ray.octant)) {
+      : t_min(all(ray.t_min)), octant_shift(static_cast<int>(4 * ray.octant)) {
     constexpr std::size_t row = sizeof(WideNode::bounds[0]);
     for (std::size_t a = 0; a < 3; ++a) {
-      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]), far[a] = all(ray.far[a]);
+      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
+      far_inverse[a] = all(ray.far_inverse[a]), far[a] = all(ray.far[a]);
       near_row[a] = row * ((ray.octant >> a & 1u) != 0 ? 3 + a : a);
       far_row[a] = row * (2 * a + 3) - near_row[a];
     }
@@ -116,10 +120,9 @@ HWY_INLINE void meet_children(const WideNode& node, const SpreadRay& ray, std::s
   near = hn::Max(hn::Max(at(ray.near_row[0], ray.inverse[0], ray.near[0]),
                          at(ray.near_row[1], ray.inverse[1], ray.near[1])),
                  hn::Max(at(ray.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
-  far = hn::Min(
-      hn::Min(at(ray.far_row[0], ray.inverse[0], ray.far[0]), at(ray.far_row[1], ray.inverse[1], ray.far[1])),
-      at(ray.far_row[2], ray.inverse[2], ray.far[2]));
-  far = hn::Min(hn::Mul(far, all(WideRay::widening)), t_max);
+  far = hn::Min(hn::Min(at(ray.far_row[0], ray.far_inverse[0], ray.far[0]),
+                        at(ray.far_row[1], ray.far_inverse[1], ray.far[1])),
+                hn::Min(at(ray.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
 }
 
 /// Takes the children whose boxes the ray may meet: the next one into `next`, the others onto the stack.
@@ -127,11 +130,11 @@ HWY_INLINE void meet_children(const WideNode& node, const SpreadRay& ray, std::s
 template <std::size_t width = lanes>
 HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float t_max, Stack& stack,
                               std::size_t& size, std::uint32_t& next) {
-  if constexpr (width == wide_lanes) {
+  if constexpr (width == node_lanes) {
     V near, far;
     meet_children(node, ray, 0, all(t_max), near, far);
     const M met = hn::Le(near, far);
-    const unsigned bits = bits_of(met);
+    const unsigned bits = bits_of(f, met);
     if (bits == 0) return false;
     if ((bits & (bits - 1)) == 0) {
       next = node.child[std::countr_zero(bits)];
@@ -139,8 +142,8 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
     }
     const V none = all(std::numeric_limits<float>::infinity());
     near = hn::IfThenElse(met, near, none);
-    const auto order =
-        hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift), hn::Set(ids, 7));
+    const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
+                               hn::Set(ids, node_lanes - 1));
     near = hn::TableLookupLanes(near, hn::IndicesFromVec(f, order));
     const auto child = hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order));
     const M ordered = hn::Lt(near, none);
@@ -148,60 +151,74 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
     hn::StoreU(hn::Compress(near, ordered), f, stack.near + size);
     size += static_cast<std::size_t>(std::popcount(bits));
   } else {
-    alignas(32) float nears[wide_lanes];
+    alignas(64) float nears[node_lanes];
     unsigned met = 0;
-    for (std::size_t i = 0; i < wide_lanes; i += width) {
+    for (std::size_t i = 0; i < node_lanes; i += width) {
       V near, far;
       meet_children(node, ray, i, all(t_max), near, far);
       hn::Store(near, f, nears + i);
-      met |= bits_of(hn::Le(near, far)) << i;
+      met |= bits_of(f, hn::Le(near, far)) << i;
     }
     if (met == 0) return false;
-    for (const std::uint32_t places : node.order) {
-      const std::uint32_t lane = places >> ray.octant_shift & 7u;
-      if ((met >> lane & 1u) == 0) continue;
-      stack.child[size] = node.child[lane], stack.near[size++] = nears[lane];
+    const std::size_t base = size;
+    for (; met != 0; met &= met - 1) {  // the farthest at the bottom
+      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+      std::size_t at = size++;
+      for (; at > base && stack.near[at - 1] < nears[lane]; --at)
+        stack.child[at] = stack.child[at - 1], stack.near[at] = stack.near[at - 1];
+      stack.child[at] = node.child[lane], stack.near[at] = nears[lane];
     }
   }
   next = stack.child[--size];
   return true;
 }
+inline void prefetch_child(const WideNode* nodes, const WideLeaf* leaves, WideChild c) {
+  const char* p = c.is_leaf() ? reinterpret_cast<const char*>(leaves + c.index())
+                              : reinterpret_cast<const char*>(nodes + c.index());
+  for (int i = 0; i < 4; ++i) __builtin_prefetch(p + 64 * i);
+}
 
 /// What the floats say of a leaf's triangles.
 struct LeafTest {
   unsigned candidates = 0, sure = 0;
-  alignas(32) float numerator[wide_lanes], determinant[wide_lanes], error[wide_lanes];
+  alignas(32) float numerator[leaf_lanes], determinant[leaf_lanes], error[leaf_lanes];
 
   LeafTest(const WideLeaf& leaf, const WideRay& ray) {
+    using L = hn::CappedTag<float, leaf_lanes>;
+    constexpr L l;
+    constexpr std::size_t step = hn::MaxLanes(l);
+    const auto every = [](float v) { return hn::Set(L(), v); };
+    using W = hn::Vec<L>;
     struct V3 {
-      V x, y, z;
+      W x, y, z;
     };
     const auto cross = [](const V3& a, const V3& b) {
-      const auto part = [](V p, V q, V r, V s) { return hn::NegMulAdd(r, s, hn::Mul(p, q)); };
+      const auto part = [](W p, W q, W r, W s) { return hn::NegMulAdd(r, s, hn::Mul(p, q)); };
       return V3{part(a.y, b.z, a.z, b.y), part(a.z, b.x, a.x, b.z), part(a.x, b.y, a.y, b.x)};
     };
     const auto dot = [](const V3& a, const V3& b) {
       return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
     };
-    const V size = all(leaf.size);
-    const V3 d{all(ray.direction[0]), all(ray.direction[1]), all(ray.direction[2])};
-    for (std::size_t i = 0; i < wide_lanes; i += lanes) {
-      const auto row = [&](std::size_t k) { return hn::Load(f, leaf.rows[k] + i); };
-      const auto from = [&](std::size_t a) { return hn::Sub(all(ray.origin[a]), row(a)); };
+    const W size = every(leaf.size);
+    const V3 d{every(ray.direction[0]), every(ray.direction[1]), every(ray.direction[2])};
+    for (std::size_t i = 0; i < leaf_lanes; i += step) {
+      const auto row = [&](std::size_t k) { return hn::Load(l, leaf.rows[k] + i); };
+      const auto from = [&](std::size_t a) { return hn::Sub(every(ray.origin[a]), row(a)); };
       const V3 s{from(0), from(1), from(2)}, e1{row(3), row(4), row(5)}, e2{row(6), row(7), row(8)};
       const V3 p = cross(d, e2), q = cross(s, e1);
-      const V det = dot(e1, p), u = dot(s, p), v = dot(d, q), w = hn::Sub(hn::Sub(det, u), v);
-      const V distance = hn::Add(hn::Add(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
-      const V e = hn::Mul(size, hn::MulAdd(all(0x1p-18f), hn::Add(size, distance), all(ray.distance_error)));
-      const V least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
-      const M missed = hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e));
-      const unsigned left = (leaf.lanes >> i) & ~bits_of(missed);
-      if ((left & ((1u << lanes) - 1)) == 0) continue;
-      candidates |= (left & ((1u << lanes) - 1)) << i;
-      sure |= bits_of(hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)))) << i;
-      hn::Store(hn::CopySign(det, all(1.0f)), f, determinant + i);
-      hn::Store(hn::Xor(dot(e2, q), hn::And(det, all(-0.0f))), f, numerator + i);
-      hn::Store(e, f, error + i);
+      const W det = dot(e1, p), u = dot(s, p), v = dot(d, q), w = hn::Sub(hn::Sub(det, u), v);
+      const W distance = hn::Add(hn::Add(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
+      const W e =
+          hn::Mul(size, hn::MulAdd(every(0x1p-18f), hn::Add(size, distance), every(ray.distance_error)));
+      const W least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+      const auto missed = hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e));
+      const unsigned left = (leaf.lanes >> i) & ~bits_of(l, missed);
+      if ((left & ((1u << step) - 1)) == 0) continue;
+      candidates |= (left & ((1u << step) - 1)) << i;
+      sure |= bits_of(l, hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)))) << i;
+      hn::Store(hn::CopySign(det, every(1.0f)), l, determinant + i);
+      hn::Store(hn::Xor(dot(e2, q), hn::And(det, every(-0.0f))), l, numerator + i);
+      hn::Store(e, l, error + i);
     }
   }
   bool is_sure(unsigned i) const { return (sure >> i & 1u) != 0; }
@@ -215,6 +232,15 @@ struct LeafTest {
     return t + std::abs(t) * 0x1p-20f;
   }
 };
+
+/// Asks memory ahead of need for a child that comes after the next one.
+HWY_INLINE void prefetch(const WideNode* nodes, const WideLeaf* leaves, WideChild child) {
+  const char* bytes = child.is_leaf() ? reinterpret_cast<const char*>(leaves + child.index())
+                                      : reinterpret_cast<const char*>(nodes + child.index());
+  constexpr std::size_t line = 64;
+  static_assert(sizeof(WideNode) == 8 * line && sizeof(WideLeaf) == 10 * line);
+  for (std::size_t i = 0; i < 8; ++i) __builtin_prefetch(bytes + i * line);
+}
 
 /// leaf(WideLeaf) returns true to end the walk.
 template <class Leaf>
@@ -231,6 +257,7 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Leaf& leaf) {
       if (leaf(leaves[child.index()])) return WideWalk::ended;
       t_max = ray.t_max;
     } else if (take_children(nodes[child.index()], spread, t_max, stack, size, child.bits)) {
+      if (size > 0) prefetch_child(nodes, leaves, WideChild{stack.child[size - 1]});
       continue;
     }
     do {
@@ -274,6 +301,7 @@ WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& 
         if (t > ray.t_max || above < ray.t_min) return false;
         if (t > ray.surely_after) ray.limit(above);
       }
+      tree.origin->prefetch(leaf.first + i);
       return !keep(found, leaf.first + i, t, ray);
     });
   });
