@@ -32,15 +32,22 @@ Scene decode(Reader& in) {
   Scene scene;
   scene.materials.emplace_back();
   Mesh mesh;
-  const unsigned triangles = in.byte() % 32u, spheres = in.byte() % 4u;
+  const unsigned first = in.byte(), triangles = first % 32u, copies = first / 32u % 4u,
+                 spheres = in.byte() % 4u;
   for (unsigned i = 0; i < triangles; ++i) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto corner = static_cast<std::uint32_t>(mesh.positions.size());
     for (int k = 0; k < 3; ++k) mesh.positions.push_back(in.point());
-    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({corner, corner + 1, corner + 2});
   }
   if (triangles > 0) {
     scene.meshes.push_back(std::move(mesh));
     scene.instances.emplace_back();
+    for (unsigned i = 0; i < copies; ++i) {  // by any affine map, also such as cannot be inverted
+      MeshInstance copy;
+      for (int column = 0; column < 4; ++column)
+        copy.world_from_object[column] = Vec4(in.point(), column == 3 ? 1.0 : 0.0);
+      scene.instances.push_back(copy);
+    }
   }
   for (unsigned i = 0; i < spheres; ++i) {
     const Vec3 center = in.point();
@@ -84,7 +91,7 @@ std::vector<std::string> gnomon::fuzz::seeds() {
   std::vector<std::string> all;
   std::uint32_t state = 1;
   for (int i = 0; i < 8; ++i) {
-    std::string bytes{static_cast<char>(4 * i + 3), static_cast<char>(i)};
+    std::string bytes{static_cast<char>(4 * i + 3 + 32 * (i % 4)), static_cast<char>(i)};
     for (int k = 0; k < 600; ++k) {
       state = state * 1664525u + 1013904223u;
       bytes += static_cast<char>((state >> 24) & 0x3f);
