@@ -54,11 +54,19 @@ struct ClusterRange {
   bool is_whole = false;
 };
 
+/// Nodes of fewer than four children have more than leaf_size primitives and leaves alone: those of treelets
+/// are fewer than 7/15 of the primitives. The ranges of one depth above are apart, each of more than
+/// treelet_size.
+std::size_t most_nodes(std::size_t primitives) {
+  static_assert(sah_depth * 5 <= treelet_size);
+  return 7 * primitives / 15 + primitives / 5 + 2;
+}
+
 class Builder {
  public:
   /// world: where leaves' primitives are; none: they get ids alone.
   Builder(const World* world, Bvh& bvh, std::size_t count)
-      : world_(world), bvh_(bvh), nodes_(bvh.nodes, count) {
+      : world_(world), bvh_(bvh), nodes_(bvh.nodes, most_nodes(count)) {
     bvh.ids.resize(count);
     if (world != nullptr) bvh.primitives.resize(count);
   }

@@ -15,7 +15,7 @@ namespace gnomon::raytrace {
 /// is used again first, up to most_kept_bytes in all: its pages need not be cleared anew.
 void* allocate_huge(std::size_t bytes);
 void free_huge(void* data);
-inline constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
+inline constexpr std::size_t most_kept_bytes = std::size_t{384} << 20;
 
 template <class T>
 class HugeArray {
