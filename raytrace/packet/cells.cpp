@@ -121,6 +121,7 @@ class Filler {
         cells_(cells),
         columns_(lines_of(cells.u)),
         rows_(lines_of(cells.v)),
+        width_(static_cast<std::uint32_t>(cells.columns())),
         shares_(std::clamp<std::size_t>(2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
                                         1, 16)) {
     pass_.bounds = true;
@@ -154,20 +155,20 @@ class Filler {
     CellPlaces u, v;
     for (std::size_t b = begin; b < end && share.tries <= most_tries / shares_.size(); ++b) {
       see_block(s_, pass_, 8 * b, block);
-      place_eight(cells_.u, u_slack, block.u_min, block.u_max, u);
-      place_eight(cells_.v, v_slack, block.v_min, block.v_max, v);
+      place_eight(cells_.u, u_slack, block.u_min(), block.u_max(), u);
+      place_eight(cells_.v, v_slack, block.v_min(), block.v_max(), v);
       for (std::size_t i = 0; i < 8; ++i) {
         const CellRect rect{u.first[i], v.first[i], u.last[i], v.last[i]};
         if (rect.x0 > rect.x1 || rect.y0 > rect.y1) continue;
         const auto leaf = static_cast<std::uint32_t>(8 * b + i);
-        cells_.primitives[leaf] = block.primitive[i];
+        cells_.primitives[leaf] = primitive_in(s_, block, i, leaf);
         const std::size_t old = share.used;
         put_cells(block, i, leaf, rect, share);
         for (std::size_t k = old; k < share.used; ++k) {
           CoveredCell& c = share.covered[k];
           ++share.counts[c.cell];
-          const auto y = static_cast<int>(c.cell / columns()), x = static_cast<int>(c.cell % columns());
-          c.box = u.in(i, x) | v.in(i, y) << 16;
+          const std::uint32_t y = c.cell / width_;
+          c.box = u.in(i, static_cast<int>(c.cell - y * width_)) | v.in(i, static_cast<int>(y)) << 16;
         }
       }
     }
@@ -178,15 +179,17 @@ class Filler {
     const auto width = static_cast<std::size_t>(rect.x1 - rect.x0 + 1);
     const std::size_t area = width * static_cast<std::size_t>(rect.y1 - rect.y0 + 1);
     CoveredCell* to = share.room(area + packet_rays);
+    const float nearest = block.nearest()[i];
     if (area <= 2) {  // what reaches into both of two cells is met in both
-      const auto cell = static_cast<std::uint32_t>(rect.y0) * columns() + static_cast<std::uint32_t>(rect.x0);
-      to[0] = {cell, leaf, block.nearest[i], 0};
-      to[1] = {cell + (width == 2 ? 1 : columns()), leaf, block.nearest[i], 0};
+      const std::uint32_t cell =
+          static_cast<std::uint32_t>(rect.y0) * width_ + static_cast<std::uint32_t>(rect.x0);
+      to[0] = {cell, leaf, nearest, 0};
+      to[1] = {cell + (width == 2 ? 1 : width_), leaf, nearest, 0};
       share.used += area;
       return;
     }
-    if (block.u_min[i] < -max_float) share.tries += area;
-    share.used += cover_cells(block.primitive[i], leaf, block.nearest[i], columns_, rows_, rect, to);
+    if (block.u_min()[i] < -max_float) share.tries += area;
+    share.used += cover_cells(cells_.primitives[leaf], leaf, nearest, columns_, rows_, rect, to);
   }
 
   // Lists in the order of cells; in each the shares in turn, and so the leaves ascend. Afterwards a share's
@@ -222,7 +225,6 @@ class Filler {
     });
   }
 
-  std::uint32_t columns() const { return static_cast<std::uint32_t>(cells_.columns()); }
   std::size_t cell_count() const {
     return static_cast<std::size_t>(cells_.columns()) * static_cast<std::size_t>(cells_.rows());
   }
@@ -232,6 +234,7 @@ class Filler {
   SeenPass pass_;
   Cells& cells_;
   CellLines columns_, rows_;
+  std::uint32_t width_;  // cells in a row
   std::vector<Share> shares_;
 };
 

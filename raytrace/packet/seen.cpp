@@ -172,20 +172,19 @@ Seen seen_along(const Structures& s, const Vec3& to_light) {
 
 void see_block(const Structures& s, const SeenPass& pass, std::size_t first, SeenBlock& block) {
   constexpr float inf = std::numeric_limits<float>::infinity();
-  SeenRows rows;
-  see_rows(s, pass, first, rows);
-  float* const to[SeenRows::bounds] = {block.u_min, block.u_max, block.v_min, block.v_max, block.nearest};
-  for (std::size_t k = 0; k < SeenRows::bounds; ++k) std::copy_n(rows.seen[SeenRows::numbers + k], 8, to[k]);
+  see_rows(s, pass, first, block.rows);
   const auto set = [&](std::size_t i, float sign) {
-    block.u_min[i] = block.v_min[i] = -sign * inf, block.u_max[i] = block.v_max[i] = sign * inf;
-    block.nearest[i] = inf;
+    const float bounds[SeenRows::bounds] = {-sign * inf, sign * inf, -sign * inf, sign * inf, inf};
+    for (std::size_t k = 0; k < SeenRows::bounds; ++k) block.rows.seen[SeenRows::numbers + k][i] = bounds[k];
   };
   const std::size_t count = std::min<std::size_t>(8, s.bvh.primitives.size() - first);
-  for (std::size_t i = 0; i < count; ++i) {
-    block.primitive[i] = seen_leaf(s, rows, i, first + i);
+  for (std::size_t i = 0; i < count; ++i)
     if (!s.world->is_triangle(s.bvh.ids[first + i])) set(i, 1.0f);
-  }
   for (std::size_t i = count; i < 8; ++i) set(i, -1.0f);
+}
+
+SeenPrimitive primitive_in(const Structures& s, const SeenBlock& block, std::size_t i, std::size_t leaf) {
+  return seen_leaf(s, block.rows, i, leaf);
 }
 
 }  // namespace gnomon::raytrace

@@ -27,11 +27,18 @@ struct SeenPass {
 SeenPass seen_pass(const Structures& structures, const Seen& seen);
 
 /// Eight leaves from `first` on, or as many as there are (those beyond: no ray). pass.bounds must be set.
-struct alignas(32) SeenBlock {
-  SeenPrimitive primitive[8];
-  float u_min[8], u_max[8], v_min[8], v_max[8], nearest[8];  ///< SeenBounds
+struct SeenBlock {
+  SeenRows rows;
+  const float* u_min() const { return rows.seen[SeenRows::numbers]; }
+  const float* u_max() const { return rows.seen[SeenRows::numbers + 1]; }
+  const float* v_min() const { return rows.seen[SeenRows::numbers + 2]; }
+  const float* v_max() const { return rows.seen[SeenRows::numbers + 3]; }
+  const float* nearest() const { return rows.seen[SeenRows::numbers + 4]; }
 };
 void see_block(const Structures& structures, const SeenPass& pass, std::size_t first, SeenBlock& block);
+/// The block's i-th, which is this leaf.
+SeenPrimitive primitive_in(const Structures& structures, const SeenBlock& block, std::size_t i,
+                           std::size_t leaf);
 
 /// Corners in, numbers out.
 void see_eight_triangles(SeenRows& rows, const SeenPass& pass);
