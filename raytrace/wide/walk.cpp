@@ -172,11 +172,6 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
   next = stack.child[--size];
   return true;
 }
-inline void prefetch_child(const WideNode* nodes, const WideLeaf* leaves, WideChild c) {
-  const char* p = c.is_leaf() ? reinterpret_cast<const char*>(leaves + c.index())
-                              : reinterpret_cast<const char*>(nodes + c.index());
-  for (int i = 0; i < 4; ++i) __builtin_prefetch(p + 64 * i);
-}
 
 /// What the floats say of a leaf's triangles.
 struct LeafTest {
@@ -239,7 +234,7 @@ HWY_INLINE void prefetch(const WideNode* nodes, const WideLeaf* leaves, WideChil
                                       : reinterpret_cast<const char*>(nodes + child.index());
   constexpr std::size_t line = 64;
   static_assert(sizeof(WideNode) == 8 * line && sizeof(WideLeaf) == 10 * line);
-  for (std::size_t i = 0; i < 8; ++i) __builtin_prefetch(bytes + i * line);
+  for (std::size_t i = 0; i < 4; ++i) __builtin_prefetch(bytes + i * line);
 }
 
 /// leaf(WideLeaf) returns true to end the walk.
@@ -251,19 +246,23 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Leaf& leaf) {
   float t_max = ray.t_max;
   Stack stack;
   std::size_t size = 0;
+  std::size_t known = 0;  // on the stack, asked for already
   WideChild child{0};
   for (;;) {
     if (child.is_leaf()) {
       if (leaf(leaves[child.index()])) return WideWalk::ended;
       t_max = ray.t_max;
     } else if (take_children(nodes[child.index()], spread, t_max, stack, size, child.bits)) {
-      if (size > 0) prefetch_child(nodes, leaves, WideChild{stack.child[size - 1]});
+      if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
+      known = size;
       continue;
     }
     do {
       if (size == 0) return WideWalk::done;
       child.bits = stack.child[--size];
     } while (stack.near[size] > t_max);
+    if (size > 0) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
+    known = size;
   }
 }
 
