@@ -7,9 +7,8 @@ namespace {
 
 // So many are a leaf without asking what a split would gain: half the nodes, and rays are no slower for it.
 constexpr std::uint32_t leaf_size = 4;
-constexpr std::uint32_t few = 16;   // sorted instead of binned
-constexpr float flat = 0.5f;        // an axis as flat as this is hardly ever the best for a treelet
-constexpr std::uint32_t many = 64;  // worth the most bins
+constexpr std::uint32_t few = 16;  // sorted instead of binned
+constexpr float flat = 0.5f;       // an axis as flat as this is hardly ever the best for a treelet
 
 /// A range of primitives, to be split further or not.
 struct Range {
@@ -163,7 +162,7 @@ class Treelet {
   }
 
   std::uint32_t bin(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
-    const std::size_t used = refs.size() < many ? few_bins : most_bins;
+    constexpr std::size_t used = few_bins;
     const Binning binning(range.bounds.centroids, used, flat);
     Bins bins(binning);
     for (const Ref& ref : refs) bins.put(ref, binning);
