@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::hybrid::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::CappedTag<float, raytrace::packet_rays>;
 using I = hn::RebindToSigned<F>;
@@ -325,6 +326,7 @@ void classify_kernel(const LightSheets& sheets, const Light& light, const Compac
   Classifier(sheets, light, tile).run(out);
 }
 
+}  // namespace
 }  // namespace gnomon::hybrid::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -8,6 +8,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 
 /// A vector of rays against primitives, nearest first. Of each ray the best sure hit's nearness is known to
 /// lie in [low, high], and no other hit is nearer than `doubt`.
@@ -96,6 +97,7 @@ void closest_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, 
   }
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

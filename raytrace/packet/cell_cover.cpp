@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 
 /// The most of a linear function over a row of cells: its part in v is the same for all.
 struct RowFunction {
@@ -109,6 +110,7 @@ void rank_kernel(const float* numbers, std::size_t count, std::uint32_t* rank) {
   }
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

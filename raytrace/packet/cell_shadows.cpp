@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 
 using Place = hn::RebindToSigned<F>;
 using Places = hn::Vec<Place>;
@@ -284,6 +285,7 @@ void shadows_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, 
   CellTile(cells, seen, rays, out).run(outside);
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -7,6 +7,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using Half = hn::Rebind<float, D>;
@@ -201,6 +202,7 @@ void settle_kernel(const CompactDraft& draft, CompactTile& tile) {
   }
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

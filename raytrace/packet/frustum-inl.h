@@ -126,8 +126,8 @@ class Frustum {
     return sum;
   }
 
-  float n_[6][3], c_[6];
-  std::size_t row_[6][3];
+  float n_[6][3] = {}, c_[6] = {};
+  std::size_t row_[6][3] = {};
   std::size_t planes_ = 5;
 };
 

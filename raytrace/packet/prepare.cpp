@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using Half = hn::Rebind<float, D>;
@@ -253,6 +254,7 @@ void compact_kernel(const Light& light, const Seen& seen, const CompactTile& til
   }
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

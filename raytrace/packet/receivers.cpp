@@ -9,6 +9,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using Index = hn::RebindToSigned<D>;
@@ -212,6 +213,7 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
   return left;
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -9,6 +9,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 /// The closest hits of a tile. Of each ray the best sure hit's nearness is known to lie in [low, high], and
 /// no other hit is nearer than `doubt`.
 class Closest {
@@ -132,6 +133,7 @@ void closest_kernel(const Bvh& bvh, const Seen& seen, const TileRays& rays, Tile
   Closest(bvh, seen, rays).run(hits);
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

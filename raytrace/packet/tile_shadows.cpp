@@ -9,6 +9,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 /// The slopes of the plane through three rays' receivers; none when they are too much in a line.
 inline Floor slopes_through(const TileRays& r, std::size_t a, std::size_t b, std::size_t c) {
   const float du1 = r.u[b] - r.u[a], dv1 = r.v[b] - r.v[a], df1 = r.far[b] - r.far[a];
@@ -169,6 +170,7 @@ void shadows_kernel(const Bvh& bvh, const Seen& seen, const TileRays& rays, Tile
   Shadows(bvh, seen, rays).run(shadows);
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -9,6 +9,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::CappedTag<float, node_lanes>;
 using U = hn::RebindToUnsigned<F>;
@@ -334,6 +335,7 @@ WideWalk doubtful_kernel(const WideTree& tree, const Ray& given, CandidateVisito
   });
 }
 
+}  // namespace
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
