@@ -181,6 +181,27 @@ Files project_files() {
   return files;
 }
 
+/// Files whose kernels for one instruction set are not in a namespace of their own: the linker would be free
+/// to take one file's inline function for another's of the same name.
+std::vector<std::string> shared_kernel_names(const Files& files) {
+  std::vector<std::string> found;
+  for (const auto& [file, text] : files) {
+    constexpr std::string_view marker = "::HWY_NAMESPACE {\n";
+    if (!file.ends_with(".cpp") || file.starts_with("tests/")) continue;
+    const std::size_t at = text.find(marker);
+    if (at != std::string::npos && text.compare(at + marker.size(), 11, "namespace {") != 0)
+      found.push_back(file);
+  }
+  return found;
+}
+
+TEST(Kernels, HaveTheirNamesToThemselves) {
+  for (const std::string& file : shared_kernel_names(project_files())) ADD_FAILURE() << file;
+  EXPECT_EQ(
+      shared_kernel_names({{"raytrace/a.cpp", "namespace gnomon::HWY_NAMESPACE {\nint all();\n"}}).size(),
+      1u);
+}
+
 TEST(Arrows, HoldInTheWholeProject) {
   const Files files = project_files();
   EXPECT_GE(files.size(), 40u) << "the sources were not found";
