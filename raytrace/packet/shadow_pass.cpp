@@ -198,6 +198,7 @@ class ShadowTile {
   }
 
   Verdict full_verdict(const SurfacePoint& point) const {
+    if (is_beyond_all(receivers_.tracer.structures(), sight_, point)) return Verdict::lit;
     return receivers_.tracer.light_verdict(point, light_);
   }
 

@@ -198,6 +198,15 @@ Sight sight_of_light(const Structures& s, const Light& light, std::span<const Co
   return sight.by_cells ? std::move(sight) : by_hierarchy(s, light);
 }
 
+bool is_beyond_all(const Structures& s, const Sight& sight, const SurfacePoint& receiver) {
+  if (!sight.by_cells || s.planes.size() != 1 || receiver.primitive != s.planes.front()) return false;
+  double u = 0.0, v = 0.0;
+  if (!find_place(sight.seen, receiver.position, u, v)) return false;
+  const PlaneLimits& limits = sight.cells.limits;
+  return u < static_cast<double>(limits.u_min) || u > static_cast<double>(limits.u_max) ||
+         v < static_cast<double>(limits.v_min) || v > static_cast<double>(limits.v_max);
+}
+
 bool covers(const Sight& sight, std::span<const CompactTile> tiles, std::span<const std::uint8_t> wanted) {
   if (!sight.by_cells) return true;
   Range u, v;

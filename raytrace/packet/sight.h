@@ -33,6 +33,9 @@ Sight sight_of_eye(const Structures& structures, const View& view);
 Sight sight_of_light(const Structures& structures, const Light& light, std::span<const CompactTile> tiles,
                      std::span<const std::uint8_t> wanted = {});
 
+/// The receiver lies on the only plane there is, and its ray beyond all that is finite: nothing shadows it.
+bool is_beyond_all(const Structures& structures, const Sight& sight, const SurfacePoint& receiver);
+
 /// Whether a light's sight that was made for other tiles serves these as well: cells cover them too.
 bool covers(const Sight& sight, std::span<const CompactTile> tiles, std::span<const std::uint8_t> wanted);
 
