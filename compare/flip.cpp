@@ -5,10 +5,13 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <vector>
+
+#include "compare/weighted_rows.h"
 
 namespace gnomon::compare {
 namespace {
@@ -22,39 +25,34 @@ int radius_of(const Kernel& kernel) {
   return static_cast<int>(kernel.size() / 2);
 }
 
-void filter_row(const float* source, float* target, int width, const Kernel& kernel,
-                std::vector<float>& padded) {
-  const int r = radius_of(kernel);
-  padded.resize(static_cast<std::size_t>(width + 2 * r));
-  for (int x = 0; x < width + 2 * r; ++x)
-    padded[static_cast<std::size_t>(x)] = source[std::clamp(x - r, 0, width - 1)];
-  std::fill(target, target + width, 0.0f);
-  for (std::size_t k = 0; k < kernel.size(); ++k) {
-    const float weight = kernel[k];
-    const float* shifted = padded.data() + k;
-    for (int x = 0; x < width; ++x) target[x] += weight * shifted[x];
-  }
-}
-
 Plane filter_rows(const Plane& source, const Kernel& kernel) {
   Plane target(source.size);
+  const int width = source.size.width, r = radius_of(kernel);
   tbb::parallel_for(0, source.size.height, [&](int y) {
     thread_local std::vector<float> padded;
-    filter_row(&source.at(0, y), &target.at(0, y), source.size.width, kernel, padded);
+    thread_local std::vector<const float*> shifted;
+    padded.resize(static_cast<std::size_t>(width + 2 * r));
+    const float* row = &source.at(0, y);
+    std::fill_n(padded.begin(), r, row[0]);
+    std::copy_n(row, width, padded.begin() + r);
+    std::fill_n(padded.begin() + r + width, r, row[width - 1]);
+    shifted.clear();
+    for (std::size_t k = 0; k < kernel.size(); ++k) shifted.push_back(padded.data() + k);
+    add_weighted_rows(shifted, kernel, &target.at(0, y), width);
   });
   return target;
 }
 
 // target += scale * (source filtered along columns).
 void add_filtered_columns(Plane& target, const Plane& source, const Kernel& kernel, float scale) {
-  const int width = source.size.width, height = source.size.height, r = radius_of(kernel);
+  const int height = source.size.height, r = radius_of(kernel);
+  Kernel scaled = kernel;
+  for (float& weight : scaled) weight *= scale;
   tbb::parallel_for(0, height, [&](int y) {
-    float* out = &target.at(0, y);
-    for (int k = -r; k <= r; ++k) {
-      const float weight = scale * kernel[static_cast<std::size_t>(k + r)];
-      const float* in = &source.at(0, std::clamp(y + k, 0, height - 1));
-      for (int x = 0; x < width; ++x) out[x] += weight * in[x];
-    }
+    thread_local std::vector<const float*> rows;
+    rows.clear();
+    for (int k = -r; k <= r; ++k) rows.push_back(&source.at(0, std::clamp(y + k, 0, height - 1)));
+    add_weighted_rows(rows, scaled, &target.at(0, y), source.size.width);
   });
 }
 

@@ -1,5 +1,5 @@
-// The window separates, so each of the five local means is taken along rows and then along columns; rows run
-// in parallel and are added up in order, so that the result does not depend on the number of threads.
+// The window separates, so each of the five local means is taken along columns and then along rows; rows run
+// in parallel, so that the result does not depend on the number of threads.
 #include "compare/ssim.h"
 
 #include <tbb/parallel_for.h>
@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "compare/ssim_rows.h"
 
 namespace gnomon::compare {
 namespace {
@@ -30,10 +32,6 @@ std::array<double, window> gaussian() {
 // Weighted means over a window: of x, y, x^2, y^2 and xy.
 using Moments = std::array<double, 5>;
 
-void add(Moments& sum, double weight, const Moments& value) {
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * value[k];
-}
-
 // Equation 13 of the paper.
 double similarity(const Moments& m) {
   const double mean_product = m[0] * m[1], squares = m[0] * m[0] + m[1] * m[1];
@@ -48,20 +46,17 @@ Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
   if (size.width < ssim_window || size.height < ssim_window) return {};
   const auto weights = gaussian();
   const ImageSize out_size{size.width - ssim_window + 1, size.height - ssim_window + 1};
-  Image<Moments> rows({out_size.width, size.height});
-  tbb::parallel_for(0, size.height, [&](int y) {
-    for (int x = 0; x < out_size.width; ++x)
-      for (std::size_t k = 0; k < window; ++k) {
-        const double a = reference.at(x + static_cast<int>(k), y), b = test.at(x + static_cast<int>(k), y);
-        add(rows.at(x, y), weights[k], {a, b, a * a, b * b, a * b});
-      }
-  });
   Image<float> map(out_size);
   tbb::parallel_for(0, out_size.height, [&](int y) {
+    thread_local MomentRows sums;
+    std::array<const float*, window> first{}, second{};
+    for (std::size_t k = 0; k < window; ++k)
+      first[k] = &reference.at(0, y + static_cast<int>(k)), second[k] = &test.at(0, y + static_cast<int>(k));
+    window_moments(first, second, weights, size.width, sums);
     for (int x = 0; x < out_size.width; ++x) {
-      Moments sum{};
-      for (std::size_t k = 0; k < window; ++k) add(sum, weights[k], rows.at(x, y + static_cast<int>(k)));
-      map.at(x, y) = static_cast<float>(similarity(sum));
+      const auto i = static_cast<std::size_t>(x);
+      map.at(x, y) =
+          static_cast<float>(similarity({sums[0][i], sums[1][i], sums[2][i], sums[3][i], sums[4][i]}));
     }
   });
   return map;

@@ -1,6 +1,7 @@
 #include "compare/theory.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 
@@ -18,27 +19,24 @@ Distribution distribution(std::vector<double>& values) {
   Distribution out;
   out.count = values.size();
   if (values.empty()) return out;
-  const auto at = [&values](double share) {
-    const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + index, values.end());
-    return values[static_cast<std::size_t>(index)];
+  auto above = values.begin();  // from here on are the values that are not below the last share's
+  const auto at = [&values, &above](double share) {
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(above, place, values.end());
+    above = place;
+    return *place;
   };
   out.median = at(0.5);
   out.p90 = at(0.9);
   out.p99 = at(0.99);
-  out.max = *std::max_element(values.begin(), values.end());
+  out.max = *std::max_element(above, values.end());
   return out;
 }
 
 struct PixelTheory {
   double acne_free_bias = infinity, perspective = infinity, projection = infinity, measured = infinity;
 };
-
-// Area of a pixel, square to its ray, at a distance along it, over the squared distance.
-double pixel_solid_angle(const Camera& camera, ImageSize size, double cos_axis) {
-  const double side = 2.0 * std::tan(0.5 * camera.vertical_fov) / size.height;
-  return side * side * cos_axis * cos_axis * cos_axis;
-}
 
 // Area of a texel square to the light ray at the receiver.
 double texel_area(const LightView& view, const TexelCoordinate& at) {
@@ -59,6 +57,7 @@ class Predictor {
       : in_(in),
         labels_(labels),
         camera_(in.world.scene->camera),
+        pixel_side_(2.0 * std::tan(0.5 * camera_.vertical_fov) / labels.size.height),
         forward_(glm::normalize(camera_.target - camera_.eye)) {}
 
   PixelTheory at(int x, int y) const {
@@ -70,7 +69,7 @@ class Predictor {
     out.acne_free_bias = texel_depth_slope(view, texel, receiver.position, receiver.normal);
     const Vec3 from_eye = receiver.position - camera_.eye;
     const double distance = glm::length(from_eye), cos_axis = glm::dot(from_eye, forward_) / distance;
-    const double pixel_area = distance * distance * pixel_solid_angle(camera_, labels_.size, cos_axis);
+    const double pixel_area = distance * distance * pixel_solid_angle(cos_axis);
     const double cos_eye = -glm::dot(from_eye, receiver.normal) / distance;
     const double cos_light = glm::dot(light_at(in_.light, receiver.position).to_light, receiver.normal);
     out.perspective = std::sqrt(texel_area(view, texel) / pixel_area);
@@ -80,6 +79,10 @@ class Predictor {
   }
 
  private:
+  // Area of a pixel, square to its ray, at a distance along it, over the squared distance.
+  double pixel_solid_angle(double cos_axis) const {
+    return pixel_side_ * pixel_side_ * cos_axis * cos_axis * cos_axis;
+  }
   // From the neighbours to the right and below, where they show the same primitive on the same face.
   double measured(int x, int y) const {
     if (x + 1 >= labels_.size.width || y + 1 >= labels_.size.height) return infinity;
@@ -97,6 +100,7 @@ class Predictor {
   const LadderInput& in_;
   const Image<Label>& labels_;
   const Camera& camera_;
+  double pixel_side_;  ///< on the plane at distance 1
   Vec3 forward_;
 };
 
@@ -109,18 +113,20 @@ TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
     for (int x = 0; x < labels.size.width; ++x)
       if (is_compared(labels.at(x, y))) pixels[labels.index(x, y)] = predictor.at(x, y);
   });
-  std::vector<double> values(pixels.size());
-  const auto collect = [&](const auto& value) {
-    values.resize(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = value(pixels[i]);
-    return distribution(values);
+  const auto collect = [&pixels](Distribution& out, const auto& value) {
+    return [&pixels, &out, value] {
+      std::vector<double> values(pixels.size());
+      for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = value(pixels[i]);
+      out = distribution(values);
+    };
   };
   TheoryStats stats;
-  stats.acne_free_bias = collect([](const PixelTheory& p) { return p.acne_free_bias; });
-  stats.perspective = collect([](const PixelTheory& p) { return p.perspective; });
-  stats.projection = collect([](const PixelTheory& p) { return p.projection; });
-  stats.aliasing = collect([](const PixelTheory& p) { return p.perspective * p.projection; });
-  stats.measured_aliasing = collect([](const PixelTheory& p) { return p.measured; });
+  tbb::parallel_invoke(
+      collect(stats.acne_free_bias, [](const PixelTheory& p) { return p.acne_free_bias; }),
+      collect(stats.perspective, [](const PixelTheory& p) { return p.perspective; }),
+      collect(stats.projection, [](const PixelTheory& p) { return p.projection; }),
+      collect(stats.aliasing, [](const PixelTheory& p) { return p.perspective * p.projection; }),
+      collect(stats.measured_aliasing, [](const PixelTheory& p) { return p.measured; }));
   return stats;
 }
 
