@@ -156,6 +156,17 @@ std::vector<std::uint64_t> parts_in_doubt(const LightSheets& sheets, const Image
   return all;
 }
 
+/// Fowler, Noll and Vo's, by words.
+std::uint64_t hash_of(const std::vector<LaneBits>& tiles) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const LaneBits& tile : tiles) {
+    std::array<std::uint64_t, sizeof(LaneBits) / sizeof(std::uint64_t)> words;
+    std::memcpy(words.data(), tile.data(), sizeof tile);
+    for (const std::uint64_t word : words) hash = (hash ^ word) * 0x100000001b3u;
+  }
+  return hash;
+}
+
 double share_of_rays(const ShadowCounts& counts) {
   return static_cast<double>(counts.rays) / static_cast<double>(std::max<std::uint64_t>(counts.asked, 1));
 }
@@ -193,17 +204,22 @@ class Pass {
         packets_apply(tracer_.structures()))
       return trace_all();
     ShadowCounts counts = classify();
-    if (cache_.sheets.is_built() &&
-        share_of_rays(counts) > std::max(refine_above, 1.25 * cache_.share_left)) {
-      if (cache_.sheets.refine(parts_in_doubt(cache_.sheets, receivers_.points, unsure_)) > 0)
-        counts = classify();
-      cache_.share_left = share_of_rays(counts);
-    }
+    if (cache_.sheets.is_built()) refine(counts);
     if (counts.rays > 0) trace();
     return counts;
   }
 
  private:
+  void refine(ShadowCounts& counts) {
+    const std::uint64_t pattern = hash_of(unsure_);
+    const bool pays = !cache_.pattern || *cache_.pattern == pattern;
+    cache_.pattern = pattern;
+    if (!pays || !(share_of_rays(counts) > std::max(refine_above, 1.25 * cache_.share_left))) return;
+    if (cache_.sheets.refine(parts_in_doubt(cache_.sheets, receivers_.points, unsure_)) > 0)
+      counts = classify();
+    cache_.share_left = share_of_rays(counts);
+    cache_.pattern = hash_of(unsure_);
+  }
   ShadowCounts classify() {
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       Tile tile(cache_, receivers_, i, {x0, y0, x1, y1});

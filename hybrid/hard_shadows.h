@@ -18,7 +18,8 @@
 namespace gnomon::hybrid {
 
 /// When more than this share of the receivers is unsure, their texels are looked at more closely, once. Rays
-/// are cheap: to refine a texel costs as much as tens of them, and pays when the light stands still.
+/// are cheap: to refine a texel costs as much as tens of them, and pays when light and camera stand still. So
+/// it is done for the first receivers that ask, and afterwards for receivers that ask for the second time.
 inline constexpr double refine_above = 0.03;
 
 enum class Sheets : std::uint8_t { at_once, when_they_pay };
@@ -39,6 +40,8 @@ class LightCache {
   std::optional<raytrace::Sight> sight;  ///< for packets of rays, as the pure tracer makes it for each frame
   double share_left = 0.0;               ///< of the receivers, unsure after the sheets were last refined
   std::uint64_t frames = 0;              ///< that the light has been looked at
+  std::optional<std::uint64_t>
+      pattern;  ///< a hash of which receivers the sheets left unsure, in the last frame
 
  private:
   std::uint64_t triangles_;

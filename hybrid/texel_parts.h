@@ -10,8 +10,9 @@
 
 namespace gnomon::hybrid {
 
-/// A texel that stays in doubt is looked at in parts_per_side^2 columns.
-inline constexpr int parts_per_side = 8;
+/// A texel that stays in doubt is looked at in parts_per_side^2 columns: of those, the few that receivers ask
+/// for. The smaller they are, the fewer receivers stay in doubt; but another camera asks for others.
+inline constexpr int parts_per_side = 64;
 inline constexpr std::uint32_t parts_per_texel = parts_per_side * parts_per_side;
 
 class TexelParts {

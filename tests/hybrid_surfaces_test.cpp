@@ -90,6 +90,32 @@ TEST(HybridCosts, ANewLightIsTracedUntilItsSheetsPay) {
   }
 }
 
+// Looking closely costs more than the rays that it saves once: a camera on the move would pay it every frame.
+TEST(HybridCosts, SheetsAreLookedAtCloselyForReceiversThatAskAgain) {
+  auto scene = load_scene("courtyard");
+  ASSERT_TRUE(scene);
+  const Stage stage(std::move(*scene), {320, 180});
+  LightCache cache(stage.tracer, stage.topology, stage.scene.lights[0], stage.map(0, 128));
+  const auto look = [&](const Camera& camera) {
+    raytrace::RaytraceOptions options;
+    options.size = stage.size, options.picture = false;
+    const auto frame = trace_frame(stage.tracer, plan_effects(stage.scene), camera, {}, options);
+    Image<raytrace::Verdict> verdicts;
+    return trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(frame.receiver), verdicts, nullptr);
+  };
+  const auto first = look(stage.scene.camera);
+  const double refined = cache.sheets.stats().refine_ms;
+  EXPECT_GT(refined, 0.0);
+  Camera moved = stage.scene.camera;
+  moved.eye += Vec3(0.05, 0.0, 0.03);
+  const auto passing = look(moved);
+  EXPECT_EQ(cache.sheets.stats().refine_ms, refined);
+  EXPECT_GT(passing.rays, 2 * first.rays);
+  const auto staying = look(moved);
+  EXPECT_GT(cache.sheets.stats().refine_ms, refined);
+  EXPECT_LT(2 * staying.rays, passing.rays);
+}
+
 // Beside an orthographic map of everything finite there is the plane alone.
 TEST(HybridCosts, ANewLightTracesNothingBesideItsMap) {
   Scene scene = test::scene_of({test::box(Vec3(-0.3), Vec3(0.3))}, {test::plane({0, -0.5, 0}, {0, 1, 0})});
