@@ -116,8 +116,7 @@ bool SoftLight::in_penumbra(const SurfacePoint& point, std::span<const std::uint
 class SoftLight::Block {
  public:
   Block(const SoftLight& soft, const Image<SurfacePoint>& receivers, const Image<Decision>& decisions, int x0,
-        int y0, int x1, int y1)
-      : soft_(soft) {
+        int y0, int x1, int y1) {
     Aabb box;
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x)
@@ -129,7 +128,6 @@ class SoftLight::Block {
   std::span<const std::uint32_t> edges() const { return edges_; }
 
  private:
-  const SoftLight& soft_;
   std::vector<std::uint32_t> edges_;
 };
 
