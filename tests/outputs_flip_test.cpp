@@ -7,6 +7,7 @@
 #include <random>
 
 #include "compare/flip.h"
+#include "compare/weighted_rows.h"
 
 namespace gnomon::compare {
 namespace {
@@ -180,6 +181,26 @@ TEST(Flip, HandlesImagesSmallerThanItsFilters) {
   const double one = mean_flip(flat(Vec3f(0.0f), {1, 1}), flat(Vec3f(1.0f), {1, 1}));
   EXPECT_NEAR(one, mean_flip(flat(Vec3f(0.0f)), flat(Vec3f(1.0f))), 1e-5);
   EXPECT_EQ(mean_flip(flat(Vec3f(0.0f), {0, 0}), flat(Vec3f(1.0f), {0, 0})), 0.0);
+}
+
+// The filters' inner loop against the plain one, to the last bit, for widths that fill vectors and do not.
+TEST(WeightedRows, AreThePlainSum) {
+  const std::vector<float> weights{0.011f, 0.3f, -0.7f, 0.25f, 1e-3f};
+  for (const int width : {1, 7, 16, 64, 65, 131}) {
+    std::vector<std::vector<float>> rows;
+    std::vector<const float*> starts;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      auto& row = rows.emplace_back();
+      for (int x = 0; x < width; ++x)
+        row.push_back(std::sin(static_cast<float>(x) + 3.7f * static_cast<float>(k)));
+    }
+    for (const auto& row : rows) starts.push_back(row.data());
+    std::vector<float> sums(static_cast<std::size_t>(width), 0.5f), plain = sums;
+    compare::add_weighted_rows(starts, weights, sums.data(), width);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      for (std::size_t x = 0; x < plain.size(); ++x) plain[x] += weights[k] * rows[k][x];
+    EXPECT_EQ(sums, plain) << width;
+  }
 }
 
 }  // namespace
