@@ -1,7 +1,7 @@
 #include "raytrace/frame.h"
 
 #include "raytrace/light_samples.h"
-#include "raytrace/packet/passes.h"
+#include "raytrace/packet/unstored.h"
 #include "raytrace/picture.h"
 #include "raytrace/tiles.h"
 
@@ -19,6 +19,35 @@ Times time_pass(int runs, const Pass& pass) {
 
 /// Tiles for the lights' passes; none where they are not asked for.
 using CompactTiles = HugeArray<CompactTile>;
+
+/// Whether a frame's receivers need not be stored: nobody reads them but passes that find them again quickly,
+/// which spot lights' do not, and only triangles and planes are surely seen by floats.
+bool receivers_unstored(const Tracer& tracer, std::span<const std::uint32_t> lights,
+                        const RaytraceOptions& options) {
+  const Structures& s = tracer.structures();
+  if (options.records || !options.picture || !packets_apply(s) || s.has_masks || s.has_shapes) return false;
+  return std::none_of(lights.begin(), lights.end(), [&](std::uint32_t i) {
+    const Light& light = s.world->scene->lights[i];
+    return has_size(light) || light.type == LightType::spot;
+  });
+}
+
+/// As trace_primary, keeping only what is seen.
+void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
+                  RayTracedFrame& frame, UnstoredReceivers& unstored, CompactTiles& tiles) {
+  unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
+  frame.primary_rays = time_pass(options.runs, [&] {
+    unstored.eye = sight_of_eye(tracer.structures(), view);
+    for_each_tile({options.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      TileHits& hits = unstored.hits[i];
+      if (tiles.size() > 0)
+        primary_tile(tracer, view, unstored.eye, {x0, y0, x1, y1}, hits, nullptr, &tiles[i]);
+      else
+        find_hits(tracer, view, unstored.eye, {x0, y0, x1, y1}, hits);
+    });
+  });
+  frame.rays.primary = options.size.pixels();
+}
 
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                    RayTracedFrame& frame, CompactTiles& tiles) {
@@ -47,7 +76,8 @@ bool reaches(const Light& light, const SurfacePoint& point) {
 }
 
 LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const RaytraceOptions& options,
-                         const Image<SurfacePoint>& receivers, const CompactTiles& tiles) {
+                         const Image<SurfacePoint>& receivers, const View& view,
+                         const UnstoredReceivers& unstored, const CompactTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{
       .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
@@ -58,7 +88,9 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
     if (packets_apply(tracer.structures())) {
       const Sight sight = sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
       for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
-        const ReceiverSource source{.tracer = tracer, .stored = &receivers};
+        const ReceiverSource source = unstored.apply()
+                                          ? unstored.source(tracer, view, tile)
+                                          : ReceiverSource{.tracer = tracer, .stored = &receivers};
         rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, &tiles[tile], truth.verdict);
       });
       return;
@@ -116,12 +148,16 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   CompactTiles tiles;
   if (at_centres && !lights.empty() && packets_apply(tracer.structures()))
     tiles = CompactTiles(TileGrid{options.size}.count());
-  if (at_centres) trace_primary(tracer, view, options, frame, tiles);
+  UnstoredReceivers unstored;
+  if (at_centres && receivers_unstored(tracer, lights, options))
+    find_primary(tracer, view, options, frame, unstored, tiles);
+  else if (at_centres)
+    trace_primary(tracer, view, options, frame, tiles);
   for (const std::uint32_t light : lights) {
     if (!at_centres) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
-      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver, tiles));
+      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver, view, unstored, tiles));
     } else {
       frame.lights.emplace_back().light = light;
     }
@@ -135,7 +171,7 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   if (options.picture) {
     frame.color = ColorImage(options.size);
     const Stopwatch watch;
-    shade_picture(tracer, plan, view, options, frame);
+    shade_picture(tracer, plan, view, options, unstored.apply() ? &unstored : nullptr, frame);
     frame.picture_ms = watch.elapsed_ms();
   }
   return frame;

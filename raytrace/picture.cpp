@@ -89,8 +89,8 @@ Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& ray
 }
 
 void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
-                   const RaytraceOptions& options, RayTracedFrame& frame) {
-  PictureInput input{tracer, view, options};
+                   const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame) {
+  PictureInput input{.tracer = tracer, .view = view, .options = options, .unstored = unstored};
   if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
   kernel_for(plan, options)(input, frame);
 }

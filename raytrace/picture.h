@@ -8,6 +8,8 @@
 
 namespace gnomon::raytrace {
 
+struct UnstoredReceivers;
+
 /// The key of one pixel's samples of one light.
 constexpr std::uint64_t pixel_key(std::uint64_t seed, std::size_t pixel, std::uint32_t light) {
   return sample_key(sample_key(seed, pixel), light);
@@ -16,8 +18,8 @@ constexpr std::uint64_t pixel_key(std::uint64_t seed, std::size_t pixel, std::ui
 /// The closed bodies of glass that hold a place. rays: adds those that it took to find them.
 Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& rays);
 
-/// Fills frame.color and adds the rays that it casts.
+/// Fills frame.color and adds the rays that it casts. `unstored`: the receivers, where the frame has none.
 void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
-                   const RaytraceOptions& options, RayTracedFrame& frame);
+                   const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame);
 
 }  // namespace gnomon::raytrace

@@ -56,12 +56,15 @@ struct PathOf {
   [[no_unique_address]] Inside inside{};  ///< the glass that the ray runs in
 };
 
+struct UnstoredReceivers;
+
 /// What all pixels of a picture have in common.
 struct PictureInput {
   const Tracer& tracer;
   const View& view;
   const RaytraceOptions& options;
-  Interior eye{};  ///< the glass that the camera is in
+  Interior eye{};                               ///< the glass that the camera is in
+  const UnstoredReceivers* unstored = nullptr;  ///< where the frame stores no receivers of pixel centres
 };
 
 template <class Policy>

@@ -5,6 +5,7 @@
 #include "raytrace/packet/passes.h"
 #include "raytrace/packet/places.h"
 #include "raytrace/packet/prepare.h"
+#include "raytrace/packet/unstored.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
@@ -52,12 +53,6 @@ constexpr auto four_verdicts = [] {
     for (std::size_t i = 0; i < 4; ++i)
       table[dark][i] = (dark >> i & 1) != 0 ? Verdict::shadowed : Verdict::lit;
   return table;
-}();
-
-constexpr LaneMask every_lane = [] {
-  LaneMask all{};
-  for (std::uint16_t& bits : all) bits = 0xffff;
-  return all;
 }();
 
 /// Below this many rays a tile's walk through the hierarchy costs more than single rays.

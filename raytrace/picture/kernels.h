@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "raytrace/packet/unstored.h"
 #include "raytrace/shade.h"
 #include "raytrace/tiles.h"
 
@@ -46,6 +47,23 @@ Vec3f seen(Shader<Policy>& shader, const PictureInput& input, const SurfacePoint
   return shader.leaving(point, path, shadow);
 }
 
+/// receiver(x, y, tile index, point) for every pixel's centre.
+template <class Receiver>
+void for_each_receiver(const PictureInput& input, const RayTracedFrame& frame, const TileGrid& grid,
+                       const Receiver& receiver) {
+  for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
+    std::array<SurfacePoint, tile_rays> found;
+    const SurfacePoint* points = found.data();
+    std::size_t stride = tile_pixels;
+    if (input.unstored != nullptr)
+      input.unstored->source(input.tracer, input.view, tile).fill({x0, y0, x1, y1}, every_lane, found.data());
+    else
+      points = &frame.receiver.at(x0, y0), stride = static_cast<std::size_t>(grid.size.width);
+    for (int y = y0; y < y1; ++y, points += stride)
+      for (int x = x0; x < x1; ++x) receiver(x, y, tile, points[x - x0]);
+  });
+}
+
 /// One sample, at the pixel's centre, where receivers and verdicts are known.
 template <class Policy>
 void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
@@ -53,14 +71,13 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
   const std::vector<std::size_t> truth = truth_of_light(scene, frame);
   const TileGrid grid{input.options.size};
   std::vector<TileCounts> counts(grid.count());
-  for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
-    const SurfacePoint& point = frame.receiver.at(x, y);
+  for_each_receiver(input, frame, grid, [&](int x, int y, std::size_t tile, const SurfacePoint& point) {
     if (point.primitive == no_id) {
       frame.color.at(x, y) = scene.background;
       return;
     }
     RayCounts& rays = counts[tile].rays;
-    Shader<Policy> shader(input, frame.receiver.index(x, y), rays);
+    Shader<Policy> shader(input, frame.color.index(x, y), rays);
     const PathOf<Policy> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
     // A verdict already known saves the ray, but for light that glass may let through and for doubtful
     // pixels.
