@@ -47,6 +47,7 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
     });
   });
   frame.rays.primary = options.size.pixels();
+  unstored.eye = {};  // the lights' passes use its memory again; what they ask anew goes to the hierarchy
 }
 
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,

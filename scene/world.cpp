@@ -1,5 +1,9 @@
 #include "scene/world.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -8,28 +12,70 @@ namespace {
 // Normals transform by the inverse transpose; a mirrored instance keeps its authored winding, so the normal
 // that the right-hand rule gives may point inwards. Everything here is two-sided, so only consistency
 // matters.
-void append_instance(World& world, const Mesh& mesh, const MeshInstance& instance, std::uint32_t object) {
-  const auto base = static_cast<std::uint32_t>(world.positions.size());
-  const Mat3 normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Vec3 p = Vec3(instance.world_from_object * Vec4(mesh.positions[i], 1.0));
-    world.positions.push_back(p);
-    Vec3f normal(0.0f);
-    if (!mesh.normals.empty()) {
-      const Vec3 n = normal_from_object * Vec3(mesh.normals[i]);
-      const double length = glm::length(n);
-      if (length > 0.0) normal = Vec3f(n / length);
-    }
-    world.normals.push_back(normal);
-    world.uvs.push_back(mesh.uvs.empty() ? Vec2f(0.0f) : mesh.uvs[i]);
+void put_vertex(World& world, const Mesh& mesh, const Mat4& world_from_object, const Mat3& normal_from_object,
+                std::size_t base, std::size_t i) {
+  world.positions[base + i] = Vec3(world_from_object * Vec4(mesh.positions[i], 1.0));
+  Vec3f normal(0.0f);
+  if (!mesh.normals.empty()) {
+    const Vec3 n = normal_from_object * Vec3(mesh.normals[i]);
+    const double length = glm::length(n);
+    if (length > 0.0) normal = Vec3f(n / length);
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    world.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    world.triangle_material.push_back(mesh.triangle_materials.empty() ? instance.material
-                                                                      : mesh.triangle_materials[i]);
-    world.triangle_object.push_back(object);
-    for (const std::uint32_t corner : t) world.finite_bounds.grow(world.positions[base + corner]);
+  world.normals[base + i] = normal;
+  world.uvs[base + i] = mesh.uvs.empty() ? Vec2f(0.0f) : mesh.uvs[i];
+}
+
+struct Place {
+  std::size_t vertex = 0, triangle = 0;
+};
+
+constexpr std::size_t at_a_time = 8192;
+
+void put_instance(World& world, const Mesh& mesh, const MeshInstance& instance, std::uint32_t object,
+                  const Place& base) {
+  using Range = tbb::blocked_range<std::size_t>;
+  const Mat3 normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));
+  tbb::parallel_for(Range(0, mesh.positions.size(), at_a_time), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      put_vertex(world, mesh, instance.world_from_object, normal_from_object, base.vertex, i);
+  });
+  const auto first = static_cast<std::uint32_t>(base.vertex);
+  // The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
+  world.finite_bounds.grow(tbb::parallel_reduce(
+      Range(0, mesh.triangles.size(), at_a_time), Aabb{},
+      [&](const Range& range, Aabb bounds) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const auto& t = mesh.triangles[i];
+          const std::size_t at = base.triangle + i;
+          world.triangles[at] = {first + t[0], first + t[1], first + t[2]};
+          world.triangle_material[at] =
+              mesh.triangle_materials.empty() ? instance.material : mesh.triangle_materials[i];
+          world.triangle_object[at] = object;
+          for (const std::uint32_t corner : t) bounds.grow(world.positions[first + corner]);
+        }
+        return bounds;
+      },
+      [](Aabb left, const Aabb& right) {
+        left.grow(right);
+        return left;
+      }));
+}
+
+void put_instances(World& world, const Scene& scene) {
+  Place end;
+  for (const MeshInstance& instance : scene.instances) {
+    end.vertex += scene.meshes[instance.mesh].positions.size();
+    end.triangle += scene.meshes[instance.mesh].triangles.size();
+  }
+  world.positions.resize(end.vertex), world.normals.resize(end.vertex), world.uvs.resize(end.vertex);
+  world.triangles.resize(end.triangle), world.triangle_material.resize(end.triangle);
+  world.triangle_object.resize(end.triangle);
+  Place base;
+  std::uint32_t object = 0;
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    put_instance(world, mesh, instance, object++, base);
+    base.vertex += mesh.positions.size(), base.triangle += mesh.triangles.size();
   }
 }
 
@@ -38,9 +84,7 @@ void append_instance(World& world, const Mesh& mesh, const MeshInstance& instanc
 World make_world(const Scene& scene) {
   World world;
   world.scene = &scene;
-  std::uint32_t object = 0;
-  for (const MeshInstance& instance : scene.instances)
-    append_instance(world, scene.meshes[instance.mesh], instance, object++);
+  put_instances(world, scene);
   world.shapes = scene.shapes;
   for (const Shape& shape : scene.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {

@@ -204,6 +204,21 @@ TEST(Image, DisplayRoundsToTheNearestCode) {
   }
 }
 
+// A code begins where its decoding lies half a code below it: there, and one float before it.
+TEST(Image, DisplayChangesWhereEachCodeBegins) {
+  ColorImage image({255, 1});
+  for (int code = 1; code <= 255; ++code) {
+    const double encoded = (code - 0.5) / 255.0;
+    const double begin = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    const auto near = static_cast<float>(begin);
+    const float above = static_cast<double>(near) >= begin ? near : std::nextafter(near, 2.0f);
+    image.at(code - 1, 0) = {std::nextafter(above, 0.0f), above, std::nextafter(above, 2.0f)};
+  }
+  const Rgb8Image shown = display_image(image, 1.0);
+  for (int code = 1; code <= 255; ++code)
+    EXPECT_EQ(shown.at(code - 1, 0), glm::u8vec3(code - 1, code, code)) << code;
+}
+
 TEST(Image, DisplayClipsAndFlagsNan) {
   ColorImage image({3, 1});
   image.at(0, 0) = {-1.0f, 0.5f, 1e30f};

@@ -1,4 +1,6 @@
 // PLY: the three encodings give the same mesh, and hostile headers and data give one line.
+#include <fmt/format.h>
+
 #include <bit>
 #include <cstring>
 
@@ -128,6 +130,84 @@ TEST(Ply, MistakesHaveTheirPlace) {
     EXPECT_EQ(scene.error().message().substr(0, expected.size()), expected);
     EXPECT_EQ(scene.error().message().find('\n'), std::string::npos);
   }
+}
+
+std::string triangles_header(const std::string& format, std::size_t vertices, std::size_t faces,
+                             const std::string& index = "int") {
+  return fmt::format(
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty "
+      "float z\nelement face {}\nproperty list uchar {} vertex_indices\nend_header\n",
+      format, vertices, faces, index);
+}
+
+/// A fan around the first of many vertices.
+std::string fan(bool binary, std::size_t triangles, const std::string& index = "int") {
+  std::string out =
+      triangles_header(binary ? "binary_little_endian" : "ascii", triangles + 2, triangles, index);
+  for (std::size_t i = 0; i < triangles + 2; ++i) {
+    const auto x = static_cast<float>(i) * 0.1f, y = x * x;
+    if (binary)
+      for (const float v : {x, y, 0.5f}) put_binary(out, v, false);
+    else
+      out += fmt::format("{} {} 0.5\n", static_cast<double>(x), static_cast<double>(y));
+  }
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    if (!binary) {
+      out += fmt::format("3 0 {} {}\n", i + 1, i + 2);
+      continue;
+    }
+    out += '\3';
+    for (const std::uint32_t corner : {0u, i + 1, i + 2}) put_binary(out, corner, false);
+  }
+  return out;
+}
+
+// Binary rows that are all alike are read many at a time.
+TEST(Ply, RegularBinaryDataIsReadAsTextIs) {
+  const TemporaryFolder folder;
+  constexpr std::size_t triangles = 20000;
+  const auto text = load_scene(folder.put("t.ply", fan(false, triangles)));
+  ASSERT_TRUE(text) << text.error().message();
+  ASSERT_EQ(text->meshes[0].triangles.size(), triangles);
+  for (const std::string index : {"int", "uint"}) {
+    const auto binary = load_scene(folder.put("b.ply", fan(true, triangles, index)));
+    ASSERT_TRUE(binary) << binary.error().message();
+    EXPECT_EQ(binary->meshes[0].positions, text->meshes[0].positions);
+    EXPECT_EQ(binary->meshes[0].triangles, text->meshes[0].triangles);
+    EXPECT_EQ(binary->notes, text->notes);
+  }
+}
+
+TEST(Ply, RegularBinaryDataWithAFaultIsToldAsAnyOther) {
+  const TemporaryFolder folder;
+  const std::string good = fan(true, 3);
+  const std::size_t vertices = good.find("end_header\n") + 11, faces = vertices + 5 * 12;
+  const auto with = [&](std::size_t at, std::string_view bytes) {
+    return std::string(good).replace(at, bytes.size(), bytes);
+  };
+  using namespace std::string_view_literals;
+  const PlyMistake mistakes[] = {
+      {with(faces + 13 + 1, "\5\0\0\0"sv), ": face[1]: vertex index out of range (got 5, allowed 0 to 4)"},
+      {with(faces + 13 + 1, "\xff\xff\xff\xff"sv), ": face[1].vertex_indices: vertex index (got -1, allowed"},
+      {with(vertices + 12, "\0\0\xc0\x7f"sv), ": vertex[1].x: coordinate (got nan"},
+      {with(vertices + 16, "\xff\xff\x7f\x7f"sv), ": vertex[1].y: coordinate (got 3.40282e+38"},
+      {good.substr(0, good.size() - 1), ": face[2].vertex_indices: the data ends in the middle"},
+  };
+  for (const PlyMistake& m : mistakes) {
+    const std::string path = folder.put("m.ply", m.bytes);
+    const auto scene = load_scene(path);
+    ASSERT_FALSE(scene) << m.message;
+    const std::string expected = path + std::string(m.message);
+    EXPECT_EQ(scene.error().message().substr(0, expected.size()), expected);
+  }
+  const auto longer = load_scene(folder.put("l.ply", good + "xy"));
+  ASSERT_TRUE(longer);
+  EXPECT_EQ(longer->notes[0], "2 byte(s) after the last element were not read.");
+  // The second face takes the third's first bytes for its fourth corner; the third has no corners.
+  const auto quad = load_scene(folder.put("q.ply", with(faces + 13, "\4"sv)));
+  ASSERT_TRUE(quad) << quad.error().message();
+  EXPECT_EQ(quad->meshes[0].triangles.size(), 3u);
+  EXPECT_EQ(quad->notes[1], "1 face(s) with fewer than three corners were skipped.");
 }
 
 // Read with the wrong byte order, the list lengths or the coordinates cannot make sense.

@@ -182,22 +182,31 @@ void note_open_glass(Scene& scene) {
           fmt::format("The glass shape '{}' is open: it has no inside to refract in.", shape.name));
 }
 
+namespace {
+
+/// The scene's bounds; of planes alone something like a room at the first one.
+Aabb bounds_to_frame(const Scene& scene) {
+  Aabb bounds = scene_bounds(scene);
+  if (!bounds.empty()) return bounds;
+  const Vec3 point = scene.shapes.empty() ? Vec3(0.0) : std::get<Plane>(scene.shapes.front().geometry).point;
+  bounds.grow(point - Vec3(2.0));
+  bounds.grow(point + Vec3(2.0));
+  return bounds;
+}
+
+}  // namespace
+
 Scene add_defaults(LoadedFile loaded) {
   Scene& scene = loaded.scene;
-  Aabb bounds = scene_bounds(scene);
-  if (bounds.empty()) {  // planes alone: something like a room at the first one
-    const Vec3 point =
-        scene.shapes.empty() ? Vec3(0.0) : std::get<Plane>(scene.shapes.front().geometry).point;
-    bounds.grow(point - Vec3(2.0));
-    bounds.grow(point + Vec3(2.0));
-  }
+  const bool needs_ground = loaded.is_model && scene.lights.empty();
+  const Aabb bounds = !loaded.has_camera || needs_ground ? bounds_to_frame(scene) : Aabb{};
   if (!loaded.has_camera) {
     scene.camera = default_camera(scene, bounds);
     scene.notes.push_back(
         fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] that frames the scene: the file has none.",
                     scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z));
   }
-  if (loaded.is_model && scene.lights.empty()) add_ground(scene, bounds);
+  if (needs_ground) add_ground(scene, bounds);
   if (scene.lights.empty()) add_sun(scene, loaded.is_model);
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);

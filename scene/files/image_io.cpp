@@ -1,6 +1,8 @@
 #include "scene/files/image_io.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -98,19 +100,35 @@ Expected<void> check_size(ImageSize size) {
               fmt::format("cannot encode an image of {} x {} pixels", size.width, size.height));
 }
 
-// Encoding by search: code k begins where the decoding of (k - 1/2) / 255 lies.
-std::uint8_t encode_srgb8(double linear) {
-  static const std::array<double, 255> first_of_code = [] {
-    std::array<double, 255> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
+// Encoding by search: code k begins where the decoding of (k - 1/2) / 255 lies. Steps of `linear` are so
+// narrow that no two codes begin in one: a value's code is that of its step's lower end, or the next.
+class SrgbCodes {
+ public:
+  SrgbCodes() {
+    for (std::size_t i = 0; i < 255; ++i) {
       const double encoded = (static_cast<double>(i) + 0.5) / 255.0;
-      values[i] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+      begin_[i + 1] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
     }
-    return values;
-  }();
-  const auto above = std::upper_bound(first_of_code.begin(), first_of_code.end(), linear);
-  return static_cast<std::uint8_t>(above - first_of_code.begin());
-}
+    begin_[0] = 0.0, begin_[256] = infinity;
+    for (std::size_t i = 0, code = 0; i < steps; ++i) {
+      while (begin_[code + 1] <= static_cast<double>(i) / steps) ++code;
+      code_at_[i] = static_cast<std::uint8_t>(code);
+    }
+  }
+
+  /// Of any number; what is no number is 0.
+  std::uint8_t of(double linear) const {
+    if (!(linear > 0.0)) return 0;
+    if (linear >= 1.0) return 255;
+    const std::uint8_t low = code_at_[static_cast<std::size_t>(linear * steps)];
+    return static_cast<std::uint8_t>(low + (linear >= begin_[low + std::size_t{1}] ? 1 : 0));
+  }
+
+ private:
+  static constexpr std::size_t steps = 4096;  // the darkest codes are 1 / (255 * 12.92) wide
+  std::array<double, 257> begin_{};
+  std::array<std::uint8_t, steps> code_at_{};
+};
 
 }  // namespace
 
@@ -123,13 +141,18 @@ float linear_from_srgb(float srgb) {
 }
 
 Rgb8Image display_image(const ColorImage& linear, double exposure) {
+  static const SrgbCodes codes;
+  constexpr std::size_t at_a_time = 16384;
   Rgb8Image out(linear.size);
-  for (std::size_t i = 0; i < linear.data.size(); ++i) {
-    const Vec3 color = exposure * Vec3(linear.data[i]);
-    const bool has_nan = std::isnan(color.x) || std::isnan(color.y) || std::isnan(color.z);
-    out.data[i] = has_nan ? glm::u8vec3(255, 0, 255)
-                          : glm::u8vec3(encode_srgb8(color.x), encode_srgb8(color.y), encode_srgb8(color.z));
-  }
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, linear.data.size(), at_a_time), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const Vec3 color = exposure * Vec3(linear.data[i]);
+          const bool has_nan = std::isnan(color.x) || std::isnan(color.y) || std::isnan(color.z);
+          out.data[i] = has_nan ? glm::u8vec3(255, 0, 255)
+                                : glm::u8vec3(codes.of(color.x), codes.of(color.y), codes.of(color.z));
+        }
+      });
   return out;
 }
 

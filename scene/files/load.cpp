@@ -23,7 +23,7 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path, s
     if (error.file.empty()) error.file = path;
     return fail(std::move(error));
   }
-  // Indices and coordinates are checked before anything follows them; defaults cannot add a defect.
+  // Indices and coordinates are checked before anything follows them; defaults leave meshes as they are.
   if (auto defect = find_geometry_defect(loaded->scene)) {
     defect->file = path;
     return fail(std::move(*defect));
@@ -32,7 +32,7 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path, s
   scene.path = path;
   scene.sha256 = sha256_hex(bytes);
   if (scene.name.empty()) scene.name = std::filesystem::path(path).stem().string();
-  if (auto defect = find_defect(scene)) {
+  if (auto defect = find_setting_defect(scene)) {
     defect->file = path;
     return fail(std::move(*defect));
   }

@@ -2,12 +2,11 @@
 // coordinates where they have them (v is turned over), and faces of any number of corners.
 #include <fmt/format.h>
 
-#include <bit>
-#include <cstring>
 #include <filesystem>
 
 #include "scene/files/formats.h"
 #include "scene/files/ply_header.h"
+#include "scene/files/ply_regular.h"
 #include "scene/files/polygon.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
@@ -16,36 +15,6 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint64_t max_corners = 4096;
-
-template <class Value>
-double as_number(const char* bytes, bool reversed) {
-  std::array<char, sizeof(Value)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(Value));
-  if (reversed) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<Value>(raw));
-}
-
-double decode(PlyType type, const char* bytes, bool reversed) {
-  switch (type) {
-    case PlyType::int8:
-      return as_number<std::int8_t>(bytes, reversed);
-    case PlyType::uint8:
-      return as_number<std::uint8_t>(bytes, reversed);
-    case PlyType::int16:
-      return as_number<std::int16_t>(bytes, reversed);
-    case PlyType::uint16:
-      return as_number<std::uint16_t>(bytes, reversed);
-    case PlyType::int32:
-      return as_number<std::int32_t>(bytes, reversed);
-    case PlyType::uint32:
-      return as_number<std::uint32_t>(bytes, reversed);
-    case PlyType::float32:
-      return static_cast<double>(as_number<float>(bytes, reversed));
-    case PlyType::float64:
-      return as_number<double>(bytes, reversed);
-  }
-  return 0.0;
-}
 
 // Reads one number after the other. What goes wrong is kept, with the place of the last number.
 class NumberStream {
@@ -59,6 +28,8 @@ class NumberStream {
   }
   const std::string& problem() const { return problem_; }
   std::size_t remaining() const { return bytes_.size() - at_; }
+  std::string_view rest() const { return bytes_.substr(at_); }
+  void skip(std::size_t bytes) { at_ += bytes; }
 
   /// Line and column of the last number; no line in binary data.
   LineColumn place() const {
@@ -81,9 +52,7 @@ class NumberStream {
   std::optional<double> next_binary(PlyType type) {
     const std::size_t size = byte_size(type);
     if (remaining() < size) return missing();
-    const bool file_is_big = encoding_ == PlyEncoding::big_endian;
-    const double value =
-        decode(type, bytes_.data() + at_, file_is_big != (std::endian::native == std::endian::big));
+    const double value = ply_number(type, bytes_.data() + at_, bytes_reversed(encoding_));
     at_ += size;
     return value;
   }
@@ -98,9 +67,6 @@ class NumberStream {
   PlyEncoding encoding_;
   std::string problem_;
 };
-
-// Which number of a vertex goes where.
-enum class VertexSlot : std::uint8_t { x, y, z, nx, ny, nz, u, v, color, other };
 
 VertexSlot slot_of(std::string_view name) {
   if (name == "x") return VertexSlot::x;
@@ -132,7 +98,8 @@ class PlyReader {
       if (!done) return fail(done.error());
     }
     if (const auto checked = check_indices(); !checked) return fail(checked.error());
-    if (faces_.empty()) return fail(Error{ErrorKind::bad_input, "the file has no triangles", file_});
+    if (faces_.empty() && mesh_.triangles.empty())
+      return fail(Error{ErrorKind::bad_input, "the file has no triangles", file_});
     triangulate();
     if (numbers_.remaining() > 0 && header_.encoding != PlyEncoding::ascii)
       loaded_.scene.notes.push_back(
@@ -155,31 +122,35 @@ class PlyReader {
 
   Expected<void> read_vertices(const PlyElement& element) {
     if (!mesh_.positions.empty()) return error("a second vertex element", "vertex");
-    std::vector<VertexSlot> slots;
+    VertexLayout layout;
     for (const PlyProperty& p : element.properties)
-      slots.push_back(p.is_list ? VertexSlot::other : slot_of(p.name));
+      layout.slots.push_back(p.is_list ? VertexSlot::other : slot_of(p.name));
     const auto has = [&](VertexSlot slot) {
-      return std::find(slots.begin(), slots.end(), slot) != slots.end();
+      return std::find(layout.slots.begin(), layout.slots.end(), slot) != layout.slots.end();
     };
     if (!has(VertexSlot::x) || !has(VertexSlot::y) || !has(VertexSlot::z))
       return fail(Error{ErrorKind::bad_input, "vertices need the properties x, y and z", file_, element.line,
                         1, "vertex"});
-    const bool has_normals = has(VertexSlot::nx) && has(VertexSlot::ny) && has(VertexSlot::nz);
-    const bool has_uvs = has(VertexSlot::u) && has(VertexSlot::v);
+    layout.has_normals = has(VertexSlot::nx) && has(VertexSlot::ny) && has(VertexSlot::nz);
+    layout.has_uvs = has(VertexSlot::u) && has(VertexSlot::v);
     if (has(VertexSlot::color)) loaded_.scene.notes.push_back("Vertex colours are not used.");
-    mesh_.positions.reserve(element.count);
+    if (const std::size_t read =
+            read_regular_vertices(numbers_.rest(), element, header_.encoding, layout, mesh_);
+        read > 0) {
+      numbers_.skip(read);
+      return {};
+    }
+    size_vertices(mesh_, layout, element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<double, 10> values{};
-      if (auto read = read_vertex(element, i, slots, values); !read) return read;
-      mesh_.positions.emplace_back(values[0], values[1], values[2]);
-      if (has_normals) mesh_.normals.emplace_back(Vec3(values[3], values[4], values[5]));
-      if (has_uvs) mesh_.uvs.emplace_back(Vec2(values[6], 1.0 - values[7]));
+      VertexNumbers numbers{};
+      if (auto read = read_vertex(element, i, layout.slots, numbers); !read) return read;
+      put_vertex(mesh_, layout, i, numbers);
     }
     return {};
   }
 
   Expected<void> read_vertex(const PlyElement& element, std::uint64_t index,
-                             const std::vector<VertexSlot>& slots, std::array<double, 10>& values) {
+                             const std::vector<VertexSlot>& slots, VertexNumbers& values) {
     for (std::size_t p = 0; p < slots.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (property.is_list) {
@@ -188,8 +159,7 @@ class PlyReader {
       }
       const auto value = number(property.type, element, index, property);
       if (!value) return fail(value.error());
-      const bool is_position = slots[p] <= VertexSlot::z;
-      if (!std::isfinite(*value) || (is_position && std::abs(*value) > max_coordinate))
+      if (!is_vertex_number(slots[p], *value))
         return error(
             fmt::format("coordinate (got {:g}, allowed up to {:g} in magnitude)", *value, max_coordinate),
             fmt::format("{}[{}].{}", element.name, index, property.name));
@@ -244,6 +214,12 @@ class PlyReader {
     if (std::none_of(element.properties.begin(), element.properties.end(), is_corner_list))
       return fail(
           Error{ErrorKind::bad_input, "faces need the list vertex_indices", file_, element.line, 1, "face"});
+    if (faces_.empty() && small_faces_ == 0 && mesh_.triangles.empty())
+      if (const std::size_t read = read_regular_faces(numbers_.rest(), element, header_.encoding, mesh_);
+          read > 0) {
+        numbers_.skip(read);
+        return {};
+      }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
         auto read = is_corner_list(property) ? read_corners(element, i, property)
@@ -257,15 +233,15 @@ class PlyReader {
   Expected<void> read_corners(const PlyElement& element, std::uint64_t index, const PlyProperty& property) {
     const auto length = list_length(element, index, property);
     if (!length) return fail(length.error());
-    const std::string field = fmt::format("{}[{}].{}", element.name, index, property.name);
+    const auto field = [&] { return fmt::format("{}[{}].{}", element.name, index, property.name); };
     if (*length > max_corners)
-      return error(fmt::format("too many corners (got {}, allowed 3 to {})", *length, max_corners), field);
+      return error(fmt::format("too many corners (got {}, allowed 3 to {})", *length, max_corners), field());
     Face face{corners_.size(), *length, index};
     for (std::uint64_t i = 0; i < *length; ++i) {
       const auto value = number(property.type, element, index, property);
       if (!value) return fail(value.error());
       if (!(*value >= 0.0) || *value > 4294967295.0 || std::trunc(*value) != *value)
-        return error(fmt::format("vertex index (got {:g}, allowed a whole number from 0)", *value), field);
+        return error(fmt::format("vertex index (got {:g}, allowed a whole number from 0)", *value), field());
       corners_.push_back(static_cast<std::uint32_t>(*value));
     }
     if (*length < 3)

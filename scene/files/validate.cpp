@@ -229,8 +229,14 @@ std::optional<Error> find_geometry_defect(const Scene& scene) {
   return std::nullopt;
 }
 
-std::optional<Error> find_defect(const Scene& scene) {
-  if (auto found = find_geometry_defect(scene)) return found;
+std::optional<Error> find_setting_defect(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (auto found =
+            material_defect(scene.materials[i], fmt::format("materials[{}]", i), scene.textures.size()))
+      return found;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    if (auto found = shape_defect(scene.shapes[i], fmt::format("shapes[{}]", i), scene.materials.size()))
+      return found;
   if (auto found = find_camera_defect(scene.camera)) return found;
   if (scene.lights.empty()) return defect("lights", "there is none (allowed: at least one)");
   if (scene.materials.empty()) return defect("materials", "there is none (allowed: at least one)");
@@ -239,6 +245,11 @@ std::optional<Error> find_defect(const Scene& scene) {
   if (!radiance(scene.ambient)) return defect("ambient", "out of range (allowed finite, >= 0)");
   if (!radiance(scene.background)) return defect("background", "out of range (allowed finite, >= 0)");
   return std::nullopt;
+}
+
+std::optional<Error> find_defect(const Scene& scene) {
+  if (auto found = find_geometry_defect(scene)) return found;
+  return find_setting_defect(scene);
 }
 
 }  // namespace gnomon
