@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/setting.h"
 #include "app/values.h"
+#include "compare/option_names.h"
 
 namespace gnomon::app {
 
@@ -24,7 +25,7 @@ std::vector<Values> default_kinds() {
       {}, {{"slope-bias", "1"}}, {{"normal-offset", "1"}}, {{"receiver-plane", "on"}}, {{"cull", "front"}}};
 }
 
-std::string family_name(const Values& values) {
+std::string family_name(const Values& values, raster::Technique technique) {
   std::string name;
   bool kind = false;
   for (const auto& [option, value] : values) {
@@ -32,6 +33,7 @@ std::string family_name(const Values& values) {
     name +=
         (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
   }
+  if (compare::is_exact(technique) && !kind) return std::string(compare::technique_name(technique));
   if (kind) return name;
   return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
@@ -44,7 +46,8 @@ Expected<OptionFamily> make_family(Values values, const Values& fixed) {
   std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
   const auto parsed = parse_setting(read);
   if (!parsed) return fail(parsed.error());
-  return OptionFamily{{family_name(values), parsed->options.raster.map}, std::move(values)};
+  return OptionFamily{{family_name(values, parsed->options.raster.map.technique), parsed->options.raster.map},
+                      std::move(values)};
 }
 
 bool has_family(const std::vector<OptionFamily>& families, const OptionFamily& family) {

@@ -39,6 +39,17 @@ double cost(const Setting& setting, const Probe& probe) {
   return static_cast<double>(probe.map_texels) + pixels * lookups(map.technique);
 }
 
+Setting small_setting(const OneWorld& world) {
+  Setting base;
+  base.raster.size = base.raytrace.size = {128, 72};
+  base.raster.runs = 0;
+  base.raytrace.picture = false;
+  base.camera = world.scene.camera;
+  base.lights = world.scene.lights;
+  for (std::uint32_t i = 0; i < base.lights.size(); ++i) base.compared.push_back(i);
+  return base;
+}
+
 GridCheck check(const std::string& scene_name, double max_error) {
   auto scene = load_scene(scene_name);
   if (!scene) {
@@ -47,13 +58,7 @@ GridCheck check(const std::string& scene_name, double max_error) {
   }
   OneWorld world(*scene);
   compare::Engine engine(world.scene, world.world, *world.renderer, false);
-  Setting base;
-  base.raster.size = base.raytrace.size = {128, 72};
-  base.raster.runs = 0;
-  base.raytrace.picture = false;
-  base.camera = world.scene.camera;
-  base.lights = world.scene.lights;
-  for (std::uint32_t i = 0; i < base.lights.size(); ++i) base.compared.push_back(i);
+  const Setting base = small_setting(world);
   TuneOptions options;
   options.goal.max_error = max_error;
   options.sizes = {32, 64, 128, 256, 512};
@@ -100,6 +105,40 @@ TEST(TuneAgainstGrid, ExactTechniqueIsTakenAtItsCheapestSize) {
   EXPECT_EQ(winner.family.name, "izb");
   EXPECT_EQ(winner.answer->size, 64);
   EXPECT_EQ(checked.ratio(), 1.0);
+}
+
+// A family that is left because its error levels off is not good enough at the largest size either.
+TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
+  auto scene = load_scene("fence");
+  ASSERT_TRUE(scene);
+  OneWorld world(*scene);
+  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  const Setting base = small_setting(world);
+  TuneOptions options;
+  options.goal.max_error = 0.01;
+  options.sizes = {64, 128, 256, 512, 1024, 2048, 4096};
+  options.families = {family("hard", Technique::hard), family("hard, front faces", Technique::hard),
+                      family("vsm", Technique::vsm)};
+  options.families[1].map.cull = raster::Cull::front;
+  options.cost = cost;
+  const auto tuned = compare::tune(engine, base, options);
+  ASSERT_TRUE(tuned) << tuned.error().message();
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < options.families.size(); ++i) {
+    const compare::FamilyResult& result = tuned->families[i];
+    if (result.stop != compare::TuneStop::levels_off) continue;
+    ++left;
+    EXPECT_LT(result.tried.back().size, options.sizes.back());
+    TuneOptions largest = options;
+    largest.families = {options.families[i]};
+    largest.sizes = {options.sizes.back()};
+    const auto alone = compare::tune(engine, base, largest);
+    ASSERT_TRUE(alone) << alone.error().message();
+    std::printf("%-18s levels off near %.4f, at the largest size %.4f\n", result.family.name.c_str(),
+                result.floor, alone->families[0].closest.error);
+    EXPECT_FALSE(alone->feasible) << result.family.name;
+  }
+  EXPECT_GE(left, 1u);
 }
 
 }  // namespace

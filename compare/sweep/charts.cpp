@@ -9,74 +9,10 @@
 
 #include "compare/number_text.h"
 #include "compare/report/html.h"
+#include "compare/report/log_chart.h"
 
 namespace gnomon::compare {
 namespace {
-
-constexpr double width = 760.0, height = 380.0;  // SVG units
-constexpr double left = 84.0, right = 24.0, top = 24.0, bottom = 52.0;
-
-// A logarithmic plot.
-struct Plot {
-  double min_x, max_x, min_y, max_y;
-
-  double x(double v) const {
-    return left + std::log(v / min_x) / std::log(max_x / min_x) * (width - left - right);
-  }
-  double y(double v) const {
-    const double inside = std::max(v, min_y);
-    return height - bottom - std::log(inside / min_y) / std::log(max_y / min_y) * (height - top - bottom);
-  }
-};
-
-// 1, 2 and 5 times the powers of ten inside; powers alone when the range is long.
-std::vector<double> log_ticks(double min, double max) {
-  const bool powers_only = max / min > 300.0;
-  std::vector<double> ticks;
-  for (double power = std::pow(10.0, std::floor(std::log10(min))); power <= max; power *= 10.0)
-    for (const double digit : {1.0, 2.0, 5.0})
-      if ((digit == 1.0 || !powers_only) && power * digit >= min && power * digit <= max)
-        ticks.push_back(power * digit);
-  return ticks;
-}
-
-std::string text(double x, double y, std::string_view kind, std::string_view content) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", kind, x, y, escaped(content));
-}
-
-std::string frame(const Plot& plot, const std::vector<double>& ticks_x, std::string_view unit_x) {
-  std::string out;
-  for (const double v : log_ticks(plot.min_y * 1.6, plot.max_y)) {  // above the word at the bottom
-    out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
-                       width - right, plot.y(v), plot.y(v));
-    out += text(left - 8, plot.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
-  }
-  out += text(left - 8, plot.y(plot.min_y) + 4, "tick end", "none");
-  for (const double v : ticks_x) {
-    out += fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>",
-                       plot.x(v), height - bottom + 4, height - bottom + 9);
-    out += text(plot.x(v), height - bottom + 24, "tick middle", fmt::format("{:.4g}", v));
-  }
-  return out + text(width - right, height - 8, "tick end", unit_x);
-}
-
-std::string svg(std::string_view title, const std::string& content) {
-  return fmt::format(
-      "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"group\" aria-label=\"{}\">{}</svg>\n", width,
-      height, escaped(title), content);
-}
-
-// What a logarithmic scale takes for none: well below the least error that there is.
-double least_error(const std::vector<double>& shares) {
-  double least = 1.0;
-  for (const double share : shares)
-    if (share > 0.0) least = std::min(least, share / 4.0);
-  return least < 1.0 ? least : 0.001;
-}
-
-double largest_error(const std::vector<double>& shares) {
-  return *std::max_element(shares.begin(), shares.end());
-}
 
 std::vector<double> wrong_shares(const std::vector<CellSummary>& cells) {
   std::vector<double> shares;
@@ -101,18 +37,22 @@ std::string point(const CellSummary& cell, std::string_view kind, double x, doub
       cell.cell, kind, x, y, radius, escaped(title));
 }
 
+double largest_error(const std::vector<double>& shares) {
+  return *std::max_element(shares.begin(), shares.end());
+}
+
 double wrong_share(const RayPoint& tracer) {
   return double(tracer.wrong) / double(std::max<std::uint64_t>(tracer.compared, 1));
 }
 
-// A point of the ray tracer; `below`: its name stands under it, so that neighbours' names keep apart.
-std::string diamond(const Plot& plot, const RayPoint& tracer, bool below) {
+std::string diamond(const LogPlot& plot, const RayPoint& tracer, ChartLabels& labels) {
   const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
-  const std::string mark = fmt::format(
-      "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} wrong, {4}</title></path>",
-      x, y - 7, escaped(tracer.name), tracer.wrong == 0 ? "none" : percent(wrong_share(tracer)),
-      milliseconds(tracer.times.median()));
-  return mark + text(std::min(x, width - right - 30), below ? y + 22 : y - 12, "note middle", tracer.name);
+  return fmt::format(
+             "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} wrong, "
+             "{4}</title></path>",
+             x, y - 7, escaped(tracer.name), tracer.wrong == 0 ? "none" : percent(wrong_share(tracer)),
+             milliseconds(tracer.times.median())) +
+         labels.place(x, y, tracer.name);
 }
 
 }  // namespace
@@ -134,8 +74,8 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
   std::vector<double> shares = wrong_shares(cells);
   for (const RayPoint& tracer : tracers) shares.push_back(wrong_share(tracer));
   const double least = least_error(shares);
-  const Plot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(shares))};
-  std::string out = frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
+  const LogPlot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(shares))};
+  std::string out = chart_frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
   std::string line;
   for (const std::size_t i : front)
     fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(cells[i].raster_ms),
@@ -150,8 +90,13 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
                  fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
                              milliseconds(cell.raster_ms)));
   }
-  for (std::size_t i = 0; i < tracers.size(); ++i) out += diamond(plot, tracers[i], i % 2 == 1);
-  return svg("Wrong pixels against time, each cell a point, the best of them joined", out);
+  ChartLabels labels;
+  for (const RayPoint& tracer : tracers) {
+    const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
+    labels.keep_free(x - 7, y - 7, x + 7, y + 7);
+  }
+  for (const RayPoint& tracer : tracers) out += diamond(plot, tracer, labels);
+  return chart_svg("Wrong pixels against time, each cell a point, the best of them joined", out);
 }
 
 std::string size_chart(const std::vector<CellSummary>& cells) {
@@ -163,8 +108,8 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   if (best.size() < 3) return {};
   const std::vector<double> shares = wrong_shares(cells);
   const double least = least_error(shares);
-  const Plot plot{best.begin()->first / 1.1, best.rbegin()->first * 1.1, least,
-                  std::max(4.0 * least, 1.5 * largest_error(shares))};
+  const LogPlot plot{best.begin()->first / 1.1, best.rbegin()->first * 1.1, least,
+                     std::max(4.0 * least, 1.5 * largest_error(shares))};
   std::vector<double> sizes;
   std::string line, dots;
   for (const auto& [size, cell] : best) {
@@ -173,14 +118,14 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
     dots += point(*cell, "dot best-dot", plot.x(size), plot.y(cell->wrong_fraction), 4.0,
                   fmt::format("{:g} texels: {} wrong", size, percent(cell->wrong_fraction)));
   }
-  std::string out = frame(plot, sizes, "texels on a side");
+  std::string out = chart_frame(plot, sizes, "texels on a side");
   const double start = std::max(best.begin()->second->wrong_fraction, least), last = best.rbegin()->first;
   const double end = start * best.begin()->first / last;
   out += fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
                      plot.x(best.begin()->first), plot.y(start), plot.x(last), plot.y(std::max(end, least)));
-  out += text(plot.x(last) - 6, plot.y(std::max(end, least)) + 18, "note end", "slope \u22121");
+  out += chart_text(plot.x(last) - 6, plot.y(std::max(end, least)) + 18, "note end", "slope \u22121");
   out += fmt::format("<polyline class=\"curve front\" points=\"{}\"/>", line) + dots;
-  return svg("Least share of wrong pixels against map size", out);
+  return chart_svg("Least share of wrong pixels against map size", out);
 }
 
 }  // namespace gnomon::compare

@@ -26,7 +26,14 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
   const bool by_error = options_.goal.max_error.has_value();
   if (!loser.answer) {
     const std::string nearest = setting_text(loser.closest);
-    if (loser.left) return "slower before it is good enough: " + nearest + proof(loser.closest.best);
+    if (loser.stop == TuneStop::too_dear)
+      return "slower before it is good enough: " + nearest + proof(loser.closest.best);
+    if (loser.stop == TuneStop::levels_off)
+      return fmt::format("levels off near {} wrong: {}{}", percent(loser.floor), nearest,
+                         proof(loser.closest.best));
+    if (loser.stop == TuneStop::no_smaller)
+      return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
+                         proof(loser.closest.best));
     return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
            proof(loser.closest.best);
   }

@@ -23,9 +23,10 @@ std::string goal_text(const TuneGoal& goal) {
 std::string verdict(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = attempt_of(winner);
-  const std::string answer =
-      fmt::format("{}, {} \u00d7 {} texels, bias {}. It leaves {} wrong and takes {}.", winner.family.name,
-                  a.size, a.size, plain_number(a.bias_world), percent(a.error), milliseconds(a.time_ms));
+  const std::string answer = fmt::format(
+      "{}, {} \u00d7 {} texels{}. It leaves {} wrong and takes {}.", winner.family.name, a.size, a.size,
+      is_exact(winner.family.map.technique) ? std::string() : ", bias " + plain_number(a.bias_world),
+      percent(a.error), milliseconds(a.time_ms));
   const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
   if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
   return wanted + (in.goal.max_error ? "The cheapest map that gives it: " : "The best map within it: ") +
@@ -56,7 +57,8 @@ class="n">{}</td><td class="n">{}</td><td class="run"><code>{}</code></td></tr>
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
-      a.size, plain_number(a.bias_world), percent(a.error), milliseconds(a.time_ms), escaped(in.commands[i]));
+      a.size, is_exact(family.family.map.technique) ? "\u2013" : plain_number(a.bias_world), percent(a.error),
+      milliseconds(a.time_ms), escaped(in.commands[i]));
 }
 
 std::string family_table(const TunePageInput& in) {
@@ -82,6 +84,11 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
 )",
                          escaped(in.scene), flowing(verdict(in)), escaped(in.commands[in.result.winner]));
   out.html += proof(in);
+  if (const std::string chart = tune_cost_chart(in.goal, in.result); !chart.empty())
+    out.html +=
+        "<h2>What accuracy costs</h2>\n<figure>" + scroll_region("Wrong pixels against time", chart) +
+        "<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins "
+        "those that no other beats in both, the large point is the answer.</figcaption></figure>\n";
   out.html += fmt::format(R"(<h2>What was tried</h2>
 <p>{} drawings: each kind of bias was searched over map sizes, and one drawing tells the error of every
 constant bias. The star is the answer; beside each of the others stands why it is not.</p>

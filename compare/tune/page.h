@@ -1,6 +1,6 @@
-// The page of the tuner: the answer and what it was measured to give, the runners-up with the reasons, how
-// the error of each kind of bias hangs on the bias; then the comparison at the answer, with everything that
-// the page of a comparison has.
+// The page of the tuner: the answer and what it was measured to give, what accuracy costs, the runners-up
+// with the reasons, how the error of each kind of bias hangs on the bias; then the comparison at the answer,
+// with everything that the page of a comparison has.
 #pragma once
 
 #include <string>
@@ -20,6 +20,10 @@ struct TunePageInput {
 };
 
 PageIntroduction tune_introduction(const TunePageInput& input);
+
+/// Wrong pixels against milliseconds, both on logarithmic scales: every map tried, and the goal. Empty where
+/// nothing was timed.
+std::string tune_cost_chart(const TuneGoal& goal, const TuneResult& result);
 
 /// Wrong pixels against the constant bias, in texels, of every family whose gaps tell it.
 std::string tune_chart(const TuneResult& result);

@@ -1,6 +1,7 @@
 #include "compare/tune/tune.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "compare/tune/tuner.h"
 
@@ -10,6 +11,11 @@ namespace {
 // How much dearer than the best answer a drawing may be before larger maps are given up: more than single
 // times are off.
 constexpr double hope = 1.5;
+// How far above the goal an estimate must lie to be believed.
+constexpr double clearly = 2.0;
+// Of two estimates the later may be less by this factor: texels wider than what casts the shadows do not yet
+// halve their errors.
+constexpr double agreed = 0.8;
 constexpr int curve_points = 129;
 
 }  // namespace
@@ -17,6 +23,22 @@ constexpr int curve_points = 129;
 bool is_exact(raster::Technique technique) {
   return technique == raster::Technique::izb || technique == raster::Technique::hybrid;
 }
+
+namespace {
+
+// Whether the two draw the same passes: all but the bias, and which sides of surfaces the map holds.
+bool cost_the_same(raster::MapOptions a, raster::MapOptions b) {
+  a.bias = b.bias = {};
+  a.cull = b.cull = raster::Cull::none;
+  return a == b;
+}
+
+// An error of a + b / size, told by two sizes: a.
+double error_left(const Attempt& small, const Attempt& large) {
+  return (large.error * large.size - small.error * small.size) / (large.size - small.size);
+}
+
+}  // namespace
 
 bool Tuner::hopeless(const Attempt& a) const {
   return options_.goal.max_error.has_value() && a.cost > hope * least_cost_;
@@ -31,9 +53,11 @@ Setting Tuner::setting_of(const TuneFamily& family, int size, const raster::Bias
   return setting;
 }
 
-Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps) {
+Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps,
+                              bool timed) {
   if (progress_) progress_(family, size, renders_);
-  const Setting setting = setting_of(family, size, bias);
+  Setting setting = setting_of(family, size, bias);
+  if (!timed) setting.raster.runs = 0;
   ++renders_;
   auto probe = engine_.probe(setting);
   if (!probe) return fail(probe.error());
@@ -67,8 +91,8 @@ Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
 }
 
 // The closed form (one texel of slope, the default), a part of it, and what hard shadows need at this size,
-// once and twice. A bias changes nothing of the cost: the first that is good enough will do.
-Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
+// once and twice.
+std::vector<raster::Bias> Tuner::biases_to_try(const TuneFamily& family, int size) const {
   std::vector<raster::Bias> biases;
   for (const double factor : tried_closed_forms) {
     biases.push_back(family.map.bias);
@@ -80,12 +104,27 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
       biases.back().constant = factor * known->second;
       biases.back().unit = raster::BiasUnit::world;
     }
+  return biases;
+}
+
+// What was best at the last size comes first. A bias changes nothing of the cost: one drawing is timed, and
+// the first bias that is good enough will do; where that one is far from it, the others are as well.
+Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
+  const std::vector<raster::Bias> biases = biases_to_try(family, size);
+  std::vector<std::size_t> order(biases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const bool known = tried_before_ && best_trial_ < biases.size();
+  if (known) std::rotate(order.begin(), order.begin() + std::ptrdiff_t(best_trial_), order.end());
   std::optional<Attempt> best;
-  for (const raster::Bias& bias : biases) {
-    auto attempt = draw(family, size, bias, nullptr);
+  for (const std::size_t i : order) {
+    auto attempt = draw(family, size, biases[i], nullptr, !best);
     if (!attempt) return attempt;
-    if (!best || attempt->error < best->error) best = std::move(*attempt);
-    if (options_.goal.max_error && (good(*best) || hopeless(*best))) break;
+    if (best && !options_.cost) attempt->cost = best->cost;
+    if (best) attempt->time_ms = best->time_ms;
+    if (!best || attempt->error < best->error) best = std::move(*attempt), best_trial_ = i;
+    tried_before_ = true;
+    if (!options_.goal.max_error) continue;
+    if (good(*best) || hopeless(*best) || (known && best->error > clearly * *options_.goal.max_error)) break;
   }
   return *best;
 }
@@ -97,8 +136,34 @@ Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
 }
 
 void Tuner::take(FamilyResult& result, const Attempt& attempt) const {
+  result.tried.push_back(attempt);
+  result.tried.back().curve.clear();
   if (result.closest.size == 0 || shortfall(attempt) < shortfall(result.closest)) result.closest = attempt;
   if (good(attempt) && (!result.answer || price(attempt) < price(*result.answer))) result.answer = attempt;
+}
+
+std::size_t Tuner::sizes_for(const TuneFamily& family, FamilyResult& result) const {
+  std::size_t count = options_.sizes.size();
+  if (!options_.goal.max_error) return count;
+  for (const FamilyResult* other : answered_) {
+    if (!cost_the_same(other->family.map, family.map)) continue;
+    const auto at = std::find(options_.sizes.begin(), options_.sizes.end(), other->answer->size);
+    const auto below = std::max<std::size_t>(1, static_cast<std::size_t>(at - options_.sizes.begin()));
+    if (below < count) count = below, result.stop = TuneStop::no_smaller, result.like = other->family.name;
+  }
+  return count;
+}
+
+// After a size that is not good enough.
+void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
+  if (hopeless(attempt)) result.stop = TuneStop::too_dear;
+  const std::size_t n = result.tried.size();
+  if (n < 3) return;
+  const Attempt &first = result.tried[n - 3], &second = result.tried[n - 2];
+  if (!(first.size < second.size && second.size < attempt.size)) return;
+  const double left = error_left(second, attempt), before = error_left(first, second);
+  if (left > clearly * *options_.goal.max_error && left > agreed * before)
+    result.stop = TuneStop::levels_off, result.floor = left;
 }
 
 // The least size that is good enough, or the largest that is cheap enough: both goals change once along the
@@ -108,7 +173,7 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
   FamilyResult result;
   result.family = family;
   const bool want_least = options_.goal.max_error.has_value();
-  std::size_t low = 0, high = options_.sizes.size();  // the change lies in [low, high]
+  std::size_t low = 0, high = sizes_for(family, result);  // the change lies in [low, high]
   while (low < high) {
     const bool upwards = want_least && low > 0;
     const std::size_t middle = upwards ? low : low + (high - low) / 2;
@@ -121,10 +186,10 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
       continue;
     }
     low = middle + 1;
-    if (want_least && hopeless(*attempt)) {
-      result.left = low < high;
-      break;
-    }
+    if (!want_least || low >= high || result.answer) continue;
+    const TuneStop before = result.stop;
+    stop_early(*attempt, result);
+    if (result.stop != before) break;
   }
   return result;
 }
@@ -158,6 +223,7 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
 }
 
 Expected<FamilyResult> Tuner::search(const TuneFamily& family) {
+  tried_before_ = false;
   auto found = is_exact(family.map.technique) ? walk_down(family) : bisect(family);
   if (found && found->answer) least_cost_ = std::min(least_cost_, found->answer->cost);
   return found;
@@ -172,6 +238,7 @@ Expected<void> Tuner::search_all(TuneResult& result) {
       auto found = search(options_.families[i]);
       if (!found) return fail(found.error());
       result.families[i] = std::move(*found);
+      if (result.families[i].answer) answered_.push_back(&result.families[i]);
     }
   return {};
 }

@@ -6,9 +6,12 @@
 // each size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one;
 // where a technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need
 // there are tried. A family is left as soon as it costs clearly more than the best so far without being good
-// enough. Exact techniques (izb, hybrid) are right at any size, and their cost has a least size of its own:
-// it is walked down to. The families that come close to the best are then drawn at their own biases, in turn
-// and several times over, and the least times decide: what is printed was measured side by side.
+// enough, where its error levels off above the goal (a sampling error halves with every doubling of the map,
+// so that two sizes tell what is left without it; three have to agree), and at the size where a family like
+// it is good enough: biases change no cost. Exact techniques (izb, hybrid) are right at any size, and their
+// cost has a least size of its own: it is walked down to. The families that come close to the best are then
+// drawn at their own biases, in turn and several times over, and the least times decide: what is printed was
+// measured side by side.
 #pragma once
 
 #include <array>
@@ -57,12 +60,23 @@ struct Attempt {
   double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
 };
 
+/// Why larger maps were not tried.
+enum class TuneStop : std::uint8_t {
+  none,        ///< they were, or need not be
+  too_dear,    ///< this one costs too much already
+  levels_off,  ///< the error that larger maps lessen is not what is too much
+  no_smaller   ///< a family that differs in its bias alone is good enough there, for the same cost
+};
+
 struct FamilyResult {
   TuneFamily family;
   std::optional<Attempt> answer;  ///< the cheapest (or best) that meets the goal
   Attempt closest;                ///< otherwise the one that comes nearest to it
-  bool left = false;              ///< larger maps were not tried: this one costs too much already
-  std::string why;                ///< why it lost, or won
+  TuneStop stop = TuneStop::none;
+  double floor = 0.0;  ///< levels_off: the share of wrong pixels that no map size lessens, as estimated
+  std::string like;    ///< no_smaller: that family's name
+  std::vector<Attempt> tried;  ///< each size drawn, at its best bias, without curves
+  std::string why;             ///< why it lost, or won
 };
 
 struct TuneResult {

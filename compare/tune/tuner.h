@@ -26,13 +26,18 @@ class Tuner {
   double shortfall(const Attempt& a) const { return options_.goal.max_error ? a.error : a.cost; }
   /// Costs so much more than the best answer that no larger map can win.
   bool hopeless(const Attempt& a) const;
+  /// Sizes worth looking at: those below the answer of a family that costs the same, at least one.
+  std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
+  void stop_early(const Attempt& attempt, FamilyResult& result) const;
 
   Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
-  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps);
+  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps,
+                         bool timed = true);
   Expected<Attempt> attempt(const TuneFamily& family, int size);
   Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
   Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
-  void take(FamilyResult& result, const Attempt& attempt) const;
+  std::vector<raster::Bias> biases_to_try(const TuneFamily& family, int size) const;
+  void take(FamilyResult& result, const Attempt& attempt) const;  ///< of the next size tried
   Expected<FamilyResult> search(const TuneFamily& family);
   Expected<FamilyResult> bisect(const TuneFamily& family);
   Expected<FamilyResult> walk_down(const TuneFamily& family);
@@ -53,6 +58,9 @@ class Tuner {
   const TuneOptions& options_;
   const TuneProgress& progress_;
   std::uint64_t renders_ = 0;
+  std::vector<const FamilyResult*> answered_;  ///< those that are good enough, as far as they are searched
+  std::size_t best_trial_ = 0;       ///< which of the biases tried was best at the family's last size
+  bool tried_before_ = false;        ///< whether that is known
   std::map<int, double> hard_bias_;  ///< by size, of the first family whose gaps told it
   double least_cost_ = std::numeric_limits<double>::infinity();  ///< of the answers so far
 };
