@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 #include "compare/number_text.h"
 #include "compare/report/html.h"
@@ -14,10 +13,26 @@
 namespace gnomon::compare {
 namespace {
 
-std::vector<double> wrong_shares(const std::vector<CellSummary>& cells) {
-  std::vector<double> shares;
-  for (const CellSummary& cell : cells) shares.push_back(cell.wrong_fraction);
-  return shares;
+/// What tells a cell of the front from the others: its technique and map size, where the cells differ in
+/// them.
+std::string short_name(const CellSummary& cell, bool techniques, bool sizes) {
+  const std::string size = fmt::format("{:g}", cell.map_size);
+  if (!techniques) return sizes ? size : std::string();
+  return sizes ? cell.technique + " " + size : cell.technique;
+}
+
+std::string front_names(const LogPlot& plot, const std::vector<CellSummary>& cells,
+                        const std::vector<std::size_t>& front, ChartLabels& labels) {
+  const auto differ = [&](auto member) {
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const CellSummary& c) { return c.*member != cells.front().*member; });
+  };
+  const bool techniques = differ(&CellSummary::technique), sizes = differ(&CellSummary::map_size);
+  std::string out;
+  for (const std::size_t i : front)
+    if (const std::string name = short_name(cells[i], techniques, sizes); !name.empty())
+      out += labels.place(plot.x(cells[i].raster_ms), plot.y(cells[i].wrong_fraction), name);
+  return out;
 }
 
 std::string axes_text(const CellSummary& cell) {
@@ -25,20 +40,6 @@ std::string axes_text(const CellSummary& cell) {
   for (const auto& [name, value] : cell.axes)
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
   return out.empty() ? "the only cell" : out;
-}
-
-// A cell as a point that leads to it.
-std::string point(const CellSummary& cell, std::string_view kind, double x, double y, double radius,
-                  const std::string& title) {
-  return fmt::format(
-      "<a href=\"#cell-{0}\" aria-label=\"Cell {0}, {5}\"><circle class=\"{1}\" cx=\"{2:.1f}\" "
-      "cy=\"{3:.1f}\" "
-      "r=\"{4}\"><title>{5}</title></circle></a>",
-      cell.cell, kind, x, y, radius, escaped(title));
-}
-
-double largest_error(const std::vector<double>& shares) {
-  return *std::max_element(shares.begin(), shares.end());
 }
 
 double wrong_share(const RayPoint& tracer) {
@@ -57,6 +58,15 @@ std::string diamond(const LogPlot& plot, const RayPoint& tracer, ChartLabels& la
 
 }  // namespace
 
+std::string cell_point(const CellSummary& cell, std::string_view kind, double x, double y, double radius,
+                       const std::string& title) {
+  return fmt::format(
+      "<a href=\"#cell-{0}\" aria-label=\"Cell {0}, {5}\"><circle class=\"{1}\" cx=\"{2:.1f}\" "
+      "cy=\"{3:.1f}\" "
+      "r=\"{4}\"><title>{5}</title></circle></a>",
+      cell.cell, kind, x, y, radius, escaped(title));
+}
+
 std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
                          const std::vector<RayPoint>& measured) {
   if (front.empty()) return {};
@@ -71,10 +81,12 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
   for (const CellSummary& cell : cells)
     if (std::isfinite(cell.raster_ms))
       low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
-  std::vector<double> shares = wrong_shares(cells);
+  std::vector<double> shares;
+  for (const CellSummary& cell : cells) shares.push_back(cell.wrong_fraction);
   for (const RayPoint& tracer : tracers) shares.push_back(wrong_share(tracer));
   const double least = least_error(shares);
-  const LogPlot plot{low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * largest_error(shares))};
+  const LogPlot plot{low / 1.15, high * 1.15, least,
+                     std::max(4.0 * least, 1.3 * *std::max_element(shares.begin(), shares.end()))};
   std::string out = chart_frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
   std::string line;
   for (const std::size_t i : front)
@@ -85,47 +97,23 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
     const CellSummary& cell = cells[i];
     if (!std::isfinite(cell.raster_ms)) continue;
     const bool best = std::find(front.begin(), front.end(), i) != front.end();
-    out += point(cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.wrong_fraction),
-                 best ? 5.0 : 3.5,
-                 fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
-                             milliseconds(cell.raster_ms)));
+    out += cell_point(cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms),
+                      plot.y(cell.wrong_fraction), best ? 5.0 : 3.5,
+                      fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
+                                  milliseconds(cell.raster_ms)));
   }
   ChartLabels labels;
   for (const RayPoint& tracer : tracers) {
     const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
     labels.keep_free(x - 7, y - 7, x + 7, y + 7);
   }
+  for (const std::size_t i : front) {
+    const double x = plot.x(cells[i].raster_ms), y = plot.y(cells[i].wrong_fraction);
+    labels.keep_free(x - 6, y - 6, x + 6, y + 6);
+  }
   for (const RayPoint& tracer : tracers) out += diamond(plot, tracer, labels);
+  out += front_names(plot, cells, front, labels);
   return chart_svg("Wrong pixels against time, each cell a point, the best of them joined", out);
-}
-
-std::string size_chart(const std::vector<CellSummary>& cells) {
-  std::map<double, const CellSummary*> best;  // size -> cell with the least wrong fraction
-  for (const CellSummary& cell : cells) {
-    const auto [entry, first] = best.emplace(cell.map_size, &cell);
-    if (!first && cell.wrong_fraction < entry->second->wrong_fraction) entry->second = &cell;
-  }
-  if (best.size() < 3) return {};
-  const std::vector<double> shares = wrong_shares(cells);
-  const double least = least_error(shares);
-  const LogPlot plot{best.begin()->first / 1.1, best.rbegin()->first * 1.1, least,
-                     std::max(4.0 * least, 1.5 * largest_error(shares))};
-  std::vector<double> sizes;
-  std::string line, dots;
-  for (const auto& [size, cell] : best) {
-    sizes.push_back(size);
-    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(size), plot.y(cell->wrong_fraction));
-    dots += point(*cell, "dot best-dot", plot.x(size), plot.y(cell->wrong_fraction), 4.0,
-                  fmt::format("{:g} texels: {} wrong", size, percent(cell->wrong_fraction)));
-  }
-  std::string out = chart_frame(plot, sizes, "texels on a side");
-  const double start = std::max(best.begin()->second->wrong_fraction, least), last = best.rbegin()->first;
-  const double end = start * best.begin()->first / last;
-  out += fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
-                     plot.x(best.begin()->first), plot.y(start), plot.x(last), plot.y(std::max(end, least)));
-  out += chart_text(plot.x(last) - 6, plot.y(std::max(end, least)) + 18, "note end", "slope \u22121");
-  out += fmt::format("<polyline class=\"curve front\" points=\"{}\"/>", line) + dots;
-  return chart_svg("Least share of wrong pixels against map size", out);
 }
 
 }  // namespace gnomon::compare

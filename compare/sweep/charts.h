@@ -17,8 +17,12 @@ namespace gnomon::compare {
 std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
                          const std::vector<RayPoint>& rays = {});
 
-/// Wrong pixels against map size, log-log, the best cell of each size, beside the slope -1 of a pure sampling
-/// error. Empty with fewer than three sizes.
+/// Wrong pixels against map size, log-log, a line for each technique with its best cell of each size, beside
+/// the slope -1 of a pure sampling error. Empty with fewer than three sizes.
 std::string size_chart(const std::vector<CellSummary>& cells);
+
+/// A cell as a point that leads to it.
+std::string cell_point(const CellSummary& cell, std::string_view kind, double x, double y, double radius,
+                       const std::string& title);
 
 }  // namespace gnomon::compare

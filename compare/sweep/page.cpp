@@ -84,7 +84,8 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
   if (const std::string chart = size_chart(cells); !chart.empty())
     out += "<h3>Wrong pixels against map size</h3>\n<figure>" +
            scroll_region("Wrong pixels against map size", chart) +
-           "<figcaption>The best cell of each size. An error that is all sampling falls along the dotted "
+           "<figcaption>The best cell of each technique and size. An error that is all sampling falls along "
+           "the dotted "
            "line.</figcaption></figure>\n";
   return out + ray_table(rays) + "</section>\n";
 }
