@@ -4,28 +4,19 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <deque>
 #include <filesystem>
-#include <future>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/machine.h"
-#include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
-#include "app/shell.h"
-#include "app/sweep/axes.h"
-#include "app/sweep/cell_pictures.h"
-#include "app/sweep/plan.h"
+#include "app/sweep/command.h"
+#include "app/sweep/make_cells.h"
 #include "app/sweep/slurm.h"
 #include "app/values.h"
-#include "compare/output_parts.h"
-#include "compare/sweep/cell_files.h"
-#include "compare/sweep/journal.h"
 #include "compare/sweep/merge.h"
 #include "compare/sweep/page.h"
 #include "compare/sweep/ray_points.h"
@@ -36,168 +27,10 @@ namespace gnomon::app {
 
 namespace {
 
-struct SweepCommand {
-  std::string scene, folder;
-  SweepOptions options;
-  raster::Backend backend = raster::Backend::automatic;
-  std::optional<int> runs;
-  std::optional<std::optional<double>> exposure;
-  std::uint64_t seed = 0;
-  int threads = 0;
-  compare::Shard shard;
-  std::optional<int> slurm_tasks;
-  double report_max_mb = compare::default_report_max_mb;
-  bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
-};
-
 Expected<Plan> plan_of(const SweepCommand& command) {
   auto grid = command.options.grid(command.zip);
   if (!grid) return fail(grid.error());
   return make_plan(std::move(*grid), command.shard);
-}
-
-/// Everything that the lines hang on.
-std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene) {
-  using Json = nlohmann::ordered_json;
-  Json axes = Json::array(), fixed = Json::object();
-  for (const compare::Axis& axis : plan.grid.axes())
-    axes.push_back({{"name", axis.name}, {"values", axis.values}});
-  for (const auto& [name, value] : command.options.fixed()) fixed[name] = value;
-  Json exposure = nullptr;
-  if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
-  return Json{{"version", GNOMON_VERSION},
-              {"scene", {{"path", command.scene}, {"name", scene.name}, {"sha256", scene.sha256}}},
-              {"axes", axes},
-              {"zip", command.zip},
-              {"options", fixed},
-              {"exposure", exposure},
-              {"perceptual", command.perceptual},
-              {"runs", command.runs.value_or(1)},
-              {"seed", command.seed}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string exposure_argument(const SweepCommand& command) {
-  if (!command.exposure) return {};
-  return *command.exposure ? fmt::format(" --exposure {}", **command.exposure) : " --exposure auto";
-}
-
-std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
-  std::string text =
-      "gnomon compare " + shell_quoted(command.scene) + command.options.cell_arguments(plan.grid, cell);
-  text += exposure_argument(command);
-  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
-  return text;
-}
-
-std::string time_left(double ms, std::size_t done, std::size_t left) {
-  if (done == 0) return "";
-  const double seconds = ms / 1000.0 / double(done) * double(left);
-  if (seconds < 90.0) return fmt::format(", {:.0f} s left", seconds);
-  return seconds < 5400.0 ? fmt::format(", {:.0f} min left", seconds / 60.0)
-                          : fmt::format(", {:.1f} h left", seconds / 3600.0);
-}
-
-/// What stays the same for all cells.
-struct Workshop {
-  const SweepCommand& command;
-  const Plan& plan;
-  const LoadedScene& loaded;
-  Scene given;  ///< camera and lights as loaded
-  compare::MachineInfo machine;
-  compare::Engine& engine;
-  CellPictureWriter pictures;
-  Console& console;
-};
-
-/// A cell that is made but for its pictures, which another thread encodes and writes. Its line goes into the
-/// journal once they are there.
-struct MadeCell {
-  std::string line, times;
-  CellPictureWriter::Job pictures;
-  std::future<Expected<void>> written;
-};
-
-Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
-  const Stopwatch watch;
-  const std::size_t cell = shop.plan.cells[index];
-  auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
-  if (!options) return fail(options.error());
-  options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
-  options->options.raytrace.seed = shop.command.seed;
-  auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
-  if (!setting) return fail(setting.error());
-  const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);
-  if (!compared) return fail(compared.error());
-  compare::Comparison& comparison = **compared;
-  comparison.command = compare_command(shop.command, shop.plan, cell);
-  comparison.seed = shop.command.seed;
-  comparison.machine = shop.machine;
-  MadeCell made;
-  const auto idle = json_names(shop.command.options.idle_axes(shop.plan.grid, cell));
-  made.line = compare::result_line(comparison, axis_values(shop.plan.grid, cell), idle);
-  made.times = compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
-  if (compare::has_thumbnail(cell, shop.plan.grid.cells()))
-    made.pictures = shop.pictures.pictures(cell, comparison);
-  return made;
-}
-
-/// Cells on their way into the journal, in order: while some cells' pictures are written the next are made.
-class CellQueue {
- public:
-  explicit CellQueue(compare::Journal& journal) : journal_(journal) {}
-
-  Expected<void> push(MadeCell cell) {
-    if (cell.pictures) {
-      cell.written = std::async(std::launch::async, std::move(cell.pictures));
-      ++writing_;
-    }
-    cells_.push_back(std::move(cell));
-    return finish(most_writing);
-  }
-
-  /// Until at most so many cells' pictures are still being written, and the first of the queue's are.
-  Expected<void> finish(std::size_t writing) {
-    while (!cells_.empty() && (writing_ > writing || !cells_.front().written.valid()))
-      if (auto finished = finish_first(); !finished) return finished;
-    return {};
-  }
-
- private:
-  static constexpr std::size_t most_writing = 4;  // small pictures and codes of one light: some MB each
-
-  Expected<void> finish_first() {
-    MadeCell cell = std::move(cells_.front());
-    cells_.pop_front();
-    if (cell.written.valid()) {
-      --writing_;
-      if (auto written = cell.written.get(); !written) return written;
-    }
-    const OutputGuard whole_lines;
-    return journal_.append(cell.line, cell.times);
-  }
-
-  compare::Journal& journal_;
-  std::deque<MadeCell> cells_;
-  std::size_t writing_ = 0;
-};
-
-Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
-  const Stopwatch watch;
-  const std::size_t all = shop.plan.cells.size(), before = journal.lines().size();
-  CellQueue queue(journal);
-  for (std::size_t i = before; i < all; ++i) {
-    shop.console.progress(
-        fmt::format("cell {} of {}{}", i + 1, all, time_left(watch.elapsed_ms(), i - before, all - i)),
-        double(i) / double(all));
-    auto made = make_cell(shop, i);
-    if (!made) {
-      if (auto finished = queue.finish(0); !finished) return finished;
-      return fail(made.error());
-    }
-    if (auto pushed = queue.push(std::move(*made)); !pushed) return pushed;
-  }
-  return queue.finish(0);
 }
 
 Expected<void> discard(const std::string& folder) {
@@ -263,24 +96,6 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   console.message(fmt::format("{} drawn, {} more from their gaps, {} traced, {} climbed", work.renders,
                               work.derived, work.truths, work.lower_climbs));
   return {};
-}
-
-/// The same sweep for a task of the array, without its folder and shard.
-std::string task_arguments(const SweepCommand& command) {
-  namespace fs = std::filesystem;
-  const bool is_file = fs::path(command.scene).has_extension();
-  std::string text = " " + shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene);
-  text += command.options.arguments() + exposure_argument(command);
-  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
-  if (command.runs) text += fmt::format(" --runs {}", *command.runs);
-  if (command.threads != 0) text += fmt::format(" --threads {}", command.threads);
-  if (command.backend != raster::Backend::automatic)
-    text += command.backend == raster::Backend::egl ? " --backend egl" : " --backend osmesa";
-  for (const auto& [given, name] :
-       {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
-        std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart")})
-    if (given) text += name;
-  return text;
 }
 
 Expected<ExitCode> run_on_slurm(const SweepCommand& command) {

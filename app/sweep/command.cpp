@@ -1,0 +1,67 @@
+#include "app/sweep/command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/shell.h"
+
+namespace gnomon::app {
+namespace {
+
+std::string exposure_argument(const SweepCommand& command) {
+  if (!command.exposure) return {};
+  return *command.exposure ? fmt::format(" --exposure {}", **command.exposure) : " --exposure auto";
+}
+
+}  // namespace
+
+std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene) {
+  using Json = nlohmann::ordered_json;
+  Json axes = Json::array(), fixed = Json::object();
+  for (const compare::Axis& axis : plan.grid.axes())
+    axes.push_back({{"name", axis.name}, {"values", axis.values}});
+  for (const auto& [name, value] : command.options.fixed()) fixed[name] = value;
+  Json exposure = nullptr;
+  if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
+  return Json{{"version", GNOMON_VERSION},
+              {"scene", {{"path", command.scene}, {"name", scene.name}, {"sha256", scene.sha256}}},
+              {"axes", axes},
+              {"zip", command.zip},
+              {"options", fixed},
+              {"exposure", exposure},
+              {"perceptual", command.perceptual},
+              {"runs", command.runs.value_or(1)},
+              {"seed", command.seed}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
+  std::string text =
+      "gnomon compare " + shell_quoted(command.scene) + command.options.cell_arguments(plan.grid, cell);
+  text += exposure_argument(command);
+  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
+  return text;
+}
+
+std::string task_arguments(const SweepCommand& command) {
+  namespace fs = std::filesystem;
+  const bool is_file = fs::path(command.scene).has_extension();
+  std::string text =
+      fmt::format(" {}", shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene));
+  text += command.options.arguments() + exposure_argument(command);
+  if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
+  if (command.runs) text += fmt::format(" --runs {}", *command.runs);
+  if (command.threads != 0) text += fmt::format(" --threads {}", command.threads);
+  if (command.backend != raster::Backend::automatic)
+    text += command.backend == raster::Backend::egl ? " --backend egl" : " --backend osmesa";
+  for (const auto& [given, name] :
+       {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
+        std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart")})
+    if (given) text += name;
+  return text;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,39 @@
+// What gnomon sweep was asked for, and how it is said again: to the journal, to compare, to a job array.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "app/sweep/axes.h"
+#include "app/sweep/plan.h"
+#include "compare/outputs.h"
+#include "compare/sweep/journal.h"
+
+namespace gnomon::app {
+
+struct SweepCommand {
+  std::string scene, folder;
+  SweepOptions options;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<int> runs;
+  std::optional<std::optional<double>> exposure;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  compare::Shard shard;
+  std::optional<int> slurm_tasks;
+  double report_max_mb = compare::default_report_max_mb;
+  bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
+};
+
+/// Everything that the journal's lines hang on, as JSON.
+std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene);
+
+/// A cell alone.
+std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell);
+
+/// The same sweep for a task of a job array, without its folder and shard.
+std::string task_arguments(const SweepCommand& command);
+
+}  // namespace gnomon::app
