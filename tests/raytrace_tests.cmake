@@ -5,7 +5,7 @@ gnomon_test(raytrace_test
 target_include_directories(raytrace_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 gnomon_test(raytrace_solids_test
-  SOURCES raytrace_solids_test.cpp support/raytrace_support.cpp
+  SOURCES raytrace_solids_test.cpp raytrace_solid_sheets_test.cpp support/raytrace_support.cpp
   LIBS gnomon::raytrace TBB::tbb)
 target_include_directories(raytrace_solids_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 

@@ -1,0 +1,157 @@
+// Quadrics, tori and implicit surfaces as sheets of columns of light, and as bodies: the test by odd
+// crossings.
+#include <gtest/gtest.h>
+
+#include "raytrace/along_ray.h"
+#include "raytrace/inside.h"
+#include "raytrace/shape_sheets.h"
+#include "raytrace/sheets.h"
+#include "raytrace/solid.h"
+#include "raytrace_support.h"
+#include "solid_samples.h"
+
+namespace gnomon {
+namespace {
+
+using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::Random;
+using test::TestWorld;
+
+RayFrame frame_of_ray(const Ray& ray) {
+  return *make_ray_frame(ray);
+}
+
+LightView view_of(const World& world, const Light& light, int size) {
+  Camera camera;
+  camera.eye = Vec3(1.0, 2.0, 6.0);
+  camera.target = Vec3(0.0);
+  const auto view = fit_light_view(world, light, camera, 1.0, size);
+  EXPECT_TRUE(view);
+  return *view;
+}
+
+// Whatever a sheet says of its column holds for rays drawn from it: hits lie between the bounds, and a sheet
+// without boundary is met by every ray.
+TEST(SolidSheets, HoldForEveryRayOfTheColumn) {
+  Random random(82);
+  for (const Shape& shape : test::solid_samples()) {
+    const TestWorld w(test::scene_of({}, {shape}));
+    const Tracer tracer(w.world(), Accel::bvh);
+    const Topology topology(w.world());
+    int wrong = 0, covered = 0, checked = 0;
+    for (const Light& light : {test::sun({-0.3, -1.0, 0.4}), test::point_light({0.5, 2.5, 1.0})}) {
+      const LightView view = view_of(w.world(), light, 24);
+      std::vector<TexelKey> keys;
+      for (int face = 0; face < view.face_count; ++face)
+        for (int row = 0; row < 24; ++row)
+          for (int column = 0; column < 24; ++column) keys.push_back(TexelKey::pack(face, column, row));
+      const TexelLists lists = build_texel_lists(tracer, view, keys);
+      for (std::size_t i = 0; i < lists.keys.size(); ++i) {
+        const TexelKey key = lists.keys[i];
+        const auto sheets = find_sheets(w.world(), topology, view, key, lists[i]);
+        for (int k = 0; k < 6; ++k) {
+          const double u = key.column() + random.uniform(0.0, 1.0), v = key.row() + random.uniform(0.0, 1.0);
+          const Ray ray = texel_ray(view, key.face(), u, v);
+          std::vector<double> hits;
+          for (const double t : solid_crossings(frame_of_ray(ray), shape.geometry))
+            if (t > ray.t.min) hits.push_back(t / frame_of_ray(ray).kernel_t_from_t);
+          ++checked;
+          if (sheets.empty()) {
+            wrong += hits.empty() ? 0 : 1;
+            continue;
+          }
+          const Sheet &front = sheets[0], &back = sheets[1];
+          covered += front.has_boundary ? 0 : 1;
+          if (!front.has_boundary) {
+            wrong += hits.size() == 2 ? 0 : 1;
+            if (hits.size() != 2) continue;
+            wrong += hits[0] >= front.nearest && hits[0] <= front.farthest ? 0 : 1;
+            wrong += hits[1] >= back.nearest && hits[1] <= back.farthest ? 0 : 1;
+          }
+          for (const double t : hits) wrong += t >= front.nearest && t <= back.farthest ? 0 : 1;
+        }
+      }
+    }
+    EXPECT_EQ(wrong, 0) << shape.name << " of " << checked;
+    if (is_convex(shape.geometry)) {
+      EXPECT_GT(covered, checked / 50) << shape.name;
+    }
+  }
+}
+
+TEST(SolidSheets, PiecesOfATorusAreToldApart) {
+  const Shape torus = test::solid("torus", Torus{ShapeFrame{}, 0.7, 0.25});
+  const Vec3 along(1.0, 0.0, 0.0);
+  const auto crossings = [&](double y, double z) {
+    return solid_crossings(frame_of_ray({{-4.0, y, z}, along}), torus.geometry);
+  };
+  Random random(83);
+  int apart = 0, joined = 0, pairs = 0;
+  for (int i = 0; i < 500; ++i) {
+    const double y = random.uniform(-0.3, 0.3), z = random.uniform(-0.15, 0.15);
+    const double y2 = y + random.uniform(-0.02, 0.02), z2 = z + random.uniform(-0.02, 0.02);
+    const auto a = crossings(y, z), b = crossings(y2, z2);
+    if (a.size() != 4 || b.size() != 4) continue;
+    ++pairs;
+    const auto point = [&](double t, double py, double pz) { return Vec3(-4.0 + 0.5 * t, py, pz); };
+    joined += hang_together(torus.geometry, point(a[0], y, z), point(b[0], y2, z2), along, along) ? 1 : 0;
+    for (std::size_t k = 1; k < 4; ++k)
+      apart += hang_together(torus.geometry, point(a[0], y, z), point(b[k], y2, z2), along, along) ? 0 : 1;
+  }
+  EXPECT_GT(pairs, 300);
+  EXPECT_EQ(apart, 3 * pairs);
+  EXPECT_GE(joined, pairs * 95 / 100);
+}
+
+TEST(Inside, OddCrossingsAgreeWithTheBodies) {
+  Random random(80);
+  for (const Shape& shape : test::solid_samples()) {
+    const TestWorld w(test::scene_of({}, {shape}));
+    const InsideTest inside(w.world());
+    ASSERT_EQ(inside.is_closed(0), is_closed(shape.geometry)) << shape.name;
+    if (!inside.is_closed(0)) {
+      EXPECT_TRUE(inside.objects_around(Vec3(0.0)).empty());
+      continue;
+    }
+    int wrong = 0, within = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p = random.in_box(1.0);
+      const RayFrame ray = frame_of_ray({p, random.direction()});
+      std::size_t ahead = 0;
+      for (const double t : solid_crossings(ray, shape.geometry)) ahead += t > 0.0 ? 1 : 0;
+      within += inside.contains(0, p) ? 1 : 0;
+      wrong += (ahead % 2 == 1) != inside.contains(0, p) ? 1 : 0;
+    }
+    EXPECT_EQ(wrong, 0) << shape.name;
+    EXPECT_GT(within, 20) << shape.name;
+  }
+}
+
+TEST(Inside, MeshesByOddCrossings) {
+  const TestWorld w(
+      test::scene_of({test::box({-1, -1, -1}, {1, 1, 1}), test::uv_sphere({0.5, 0, 0}, 1.0, 16, 16, 0.0, 3),
+                      test::quad({-5, -2, -5}, {10, 0, 0}, {0, 0, 10})},
+                     {test::sphere({0, 0, 0}, 0.5), test::plane({0, -3, 0}, {0, 1, 0})}));
+  const InsideTest inside(w.world());
+  ASSERT_EQ(inside.object_count(), 5u);
+  const bool closed[] = {true, true, false, true, false};
+  for (std::uint32_t object = 0; object < 5; ++object) EXPECT_EQ(inside.is_closed(object), closed[object]);
+  Random random(81);
+  int wrong = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Half of them on a grid, where rays along the axes would run through edges and corners.
+    Vec3 p = random.in_box(2.0);
+    if (i % 2 == 0) p = glm::round(4.0 * p) * 0.25 + Vec3(1e-9);
+    const double far = glm::length(p - Vec3(0.5, 0, 0));
+    if (std::abs(far - 1.0) < 0.03) continue;  // between the mesh and the sphere that it stands for
+    const double most = max_component(glm::abs(p));
+    wrong += inside.contains(0, p) != (most < 1.0) ? 1 : 0;
+    wrong += inside.contains(1, p) != (far < 1.0) ? 1 : 0;
+    wrong += inside.contains(2, p) ? 1 : 0;
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(inside.objects_around({0.4, 0.1, 0.1}), (std::vector<std::uint32_t>{0, 1, 3}));
+}
+
+}  // namespace
+}  // namespace gnomon
