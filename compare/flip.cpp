@@ -1,6 +1,7 @@
 // Every filter of FLIP is a Gaussian, a derivative of one, or a sum of two, and so separates into rows and
-// columns; planes of float, rows in parallel. Image borders are extended by their edge pixels, as in the
-// paper's own code.
+// columns. Pictures are worked on in patches with a margin as wide as the filters reach, which stay in the
+// cache, over all threads; image borders are extended by their edge pixels, as in the paper's own code. Where
+// both pictures of a patch are equal nothing is to be computed: the error is 0.
 #include "compare/flip.h"
 
 #include <tbb/parallel_for.h>
@@ -16,8 +17,6 @@
 namespace gnomon::compare {
 namespace {
 
-using Plane = Image<float>;
-
 // Kernels hold 2 radius + 1 weights.
 using Kernel = std::vector<float>;
 
@@ -25,41 +24,39 @@ int radius_of(const Kernel& kernel) {
   return static_cast<int>(kernel.size() / 2);
 }
 
-Plane filter_rows(const Plane& source, const Kernel& kernel) {
-  Plane target(source.size);
-  const int width = source.size.width, r = radius_of(kernel);
-  tbb::parallel_for(0, source.size.height, [&](int y) {
-    thread_local std::vector<float> padded;
-    thread_local std::vector<const float*> shifted;
-    padded.resize(static_cast<std::size_t>(width + 2 * r));
-    const float* row = &source.at(0, y);
-    std::fill_n(padded.begin(), r, row[0]);
-    std::copy_n(row, width, padded.begin() + r);
-    std::fill_n(padded.begin() + r + width, r, row[width - 1]);
+/// A patch's numbers, row by row.
+struct Plane {
+  int width = 0, height = 0;
+  std::vector<float> data;
+  void reset(int w, int h) {
+    width = w, height = h;
+    data.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0.0f);
+  }
+  float* row(int y) { return data.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
+  const float* row(int y) const { return const_cast<Plane*>(this)->row(y); }
+};
+
+/// The source filtered along rows, without its margin to the left and right.
+void filter_rows(const Plane& source, int margin, const Kernel& kernel, Plane& target) {
+  thread_local std::vector<const float*> shifted;
+  target.reset(source.width - 2 * margin, source.height);
+  for (int y = 0; y < source.height; ++y) {
     shifted.clear();
-    for (std::size_t k = 0; k < kernel.size(); ++k) shifted.push_back(padded.data() + k);
-    add_weighted_rows(shifted, kernel, &target.at(0, y), width);
-  });
-  return target;
+    const float* first = source.row(y) + margin - radius_of(kernel);
+    for (std::size_t k = 0; k < kernel.size(); ++k) shifted.push_back(first + k);
+    add_weighted_rows(shifted, kernel, target.row(y), target.width);
+  }
 }
 
-// target += scale * (source filtered along columns).
-void add_filtered_columns(Plane& target, const Plane& source, const Kernel& kernel, float scale) {
-  const int height = source.size.height, r = radius_of(kernel);
-  Kernel scaled = kernel;
-  for (float& weight : scaled) weight *= scale;
-  tbb::parallel_for(0, height, [&](int y) {
-    thread_local std::vector<const float*> rows;
+/// target += the source filtered along columns, without its margin above and below.
+void add_filtered_columns(const Plane& source, int margin, const Kernel& kernel, Plane& target) {
+  thread_local std::vector<const float*> rows;
+  for (int y = 0; y < target.height; ++y) {
     rows.clear();
-    for (int k = -r; k <= r; ++k) rows.push_back(&source.at(0, std::clamp(y + k, 0, height - 1)));
-    add_weighted_rows(rows, scaled, &target.at(0, y), source.size.width);
-  });
-}
-
-Plane filter_columns(const Plane& source, const Kernel& kernel) {
-  Plane target(source.size);
-  add_filtered_columns(target, source, kernel, 1.0f);
-  return target;
+    const int first = y + margin - radius_of(kernel);
+    for (int k = 0; k < static_cast<int>(kernel.size()); ++k) rows.push_back(source.row(first + k));
+    add_weighted_rows(rows, kernel, target.row(y), target.width);
+  }
 }
 
 // --- colour spaces (section 4.1; the matrix is the reference code's rational form of sRGB's primaries and
@@ -132,7 +129,12 @@ Kernel gaussian(int radius, double scale, double& sum) {
   return kernel;
 }
 
-Plane sensitivity_filtered(const Plane& plane, const Sensitivity& s, double ppd) {
+/// One Gaussian of a sensitivity; the columns' weights hold its share.
+struct Blur {
+  Kernel rows, columns;
+};
+
+std::vector<Blur> blurs_of(const Sensitivity& s, double ppd) {
   const int radius = sensitivity_radius(ppd);
   const std::array<double, 2> a{s.a1, s.a2}, b{s.b1, s.b2};
   std::array<Kernel, 2> kernels;
@@ -142,12 +144,15 @@ Plane sensitivity_filtered(const Plane& plane, const Sensitivity& s, double ppd)
     kernels[i] = gaussian(radius, pi * pi / (b[i] * ppd * ppd), sum);
     share[i] = a[i] * std::sqrt(pi / b[i]) * sum * sum;
   }
-  Plane out(plane.size);
-  for (std::size_t i = 0; i < 2; ++i)
-    if (share[i] > 0.0)
-      add_filtered_columns(out, filter_rows(plane, kernels[i]), kernels[i],
-                           static_cast<float>(share[i] / (share[0] + share[1])));
-  return out;
+  std::vector<Blur> blurs;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!(share[i] > 0.0)) continue;
+    const auto scale = static_cast<float>(share[i] / (share[0] + share[1]));
+    Kernel columns = kernels[i];
+    for (float& weight : columns) weight *= scale;
+    blurs.push_back({std::move(kernels[i]), std::move(columns)});
+  }
+  return blurs;
 }
 
 // First and second derivative of a Gaussian whose width is that of the eye's feature detectors, w = 0.082
@@ -182,70 +187,102 @@ FeatureKernels feature_kernels(double ppd) {
   return kernels;
 }
 
-Plane length_of(Plane x, const Plane& y) {
-  tbb::parallel_for(0, x.size.height, [&](int row) {
-    for (int column = 0; column < x.size.width; ++column) {
-      float& v = x.at(column, row);
-      v = std::sqrt(v * v + y.at(column, row) * y.at(column, row));
-    }
-  });
-  return x;
-}
+/// All filters for one viewing distance.
+struct Filters {
+  explicit Filters(double ppd)
+      : y(blurs_of(achromatic, ppd)),
+        cx(blurs_of(red_green, ppd)),
+        cz(blurs_of(blue_yellow, ppd)),
+        features(feature_kernels(ppd)),
+        margin(std::max(sensitivity_radius(ppd), radius_of(features.smooth))) {}
 
-// --- one image ---
+  std::vector<Blur> y, cx, cz;
+  FeatureKernels features;
+  int margin;
+};
 
+// --- one patch of one image ---
+
+struct Patch {
+  int x0, y0, width, height;  // without the margin
+};
+
+/// What is made of a patch; kept from patch to patch for its memory.
 struct Perceived {
-  Image<Vec3f> colour;  // Hunt-adjusted CIELAB after the eye's blur
-  Plane edges, points;  // strength of features in luminance
+  Plane opponent_y, opponent_cx, opponent_cz, luminance;              // with the margin
+  Plane y, cx, cz, edges_x, edges_y, points_x, points_y, along_rows;  // without
+  std::vector<Vec3f> colour;         // Hunt-adjusted CIELAB after the eye's blur
+  std::vector<float> edges, points;  // strength of features in luminance
 };
 
-struct Opponent {
-  Plane y, cx, cz, luminance;
-};
-
-Opponent opponent_planes(const ColorImage& linear) {
-  Opponent planes{Plane(linear.size), Plane(linear.size), Plane(linear.size), Plane(linear.size)};
-  const glm::mat3 xyz = relative_xyz_from_rgb();
-  tbb::parallel_for(0, linear.size.height, [&](int row) {
-    for (int column = 0; column < linear.size.width; ++column) {
-      const std::size_t i = linear.index(column, row);
-      const Vec3f v = xyz * glm::clamp(linear.data[i], 0.0f, 1.0f), c = ycxcz_from_xyz(v);
-      planes.y.data[i] = c.x;
-      planes.cx.data[i] = c.y;
-      planes.cz.data[i] = c.z;
-      planes.luminance.data[i] = v.y;
-    }
-  });
-  return planes;
+/// pixel(index, place) for a patch with its margin: of each place the index of the image's nearest pixel.
+template <class Pixel>
+void for_each_pixel(const ImageSize& size, const Patch& patch, int margin, const Pixel& pixel) {
+  std::size_t place = 0;
+  for (int y = patch.y0 - margin; y < patch.y0 + patch.height + margin; ++y) {
+    const std::size_t row =
+        static_cast<std::size_t>(std::clamp(y, 0, size.height - 1)) * static_cast<std::size_t>(size.width);
+    for (int x = patch.x0 - margin; x < patch.x0 + patch.width + margin; ++x)
+      pixel(row + static_cast<std::size_t>(std::clamp(x, 0, size.width - 1)), place++);
+  }
 }
 
-Image<Vec3f> perceived_colour(const Opponent& planes, double ppd) {
-  const Plane y = sensitivity_filtered(planes.y, achromatic, ppd);
-  const Plane cx = sensitivity_filtered(planes.cx, red_green, ppd);
-  const Plane cz = sensitivity_filtered(planes.cz, blue_yellow, ppd);
-  const glm::mat3 xyz = relative_xyz_from_rgb(), rgb = glm::mat3(glm::inverse(Mat3(xyz)));
-  Image<Vec3f> colour(y.size);
-  tbb::parallel_for(0, y.size.height, [&](int row) {
-    for (int column = 0; column < y.size.width; ++column) {
-      const std::size_t i = y.index(column, row);
-      const Vec3f shown = glm::clamp(rgb * xyz_from_ycxcz({y.data[i], cx.data[i], cz.data[i]}), 0.0f, 1.0f);
-      colour.data[i] = hunt_lab_from_xyz(xyz * shown);
-    }
+/// linear(index): the pixel's linear RGB.
+template <class Linear>
+void opponent_planes(const ImageSize& size, const Patch& patch, int margin, const Linear& linear,
+                     Perceived& p) {
+  for (Plane* plane : {&p.opponent_y, &p.opponent_cx, &p.opponent_cz, &p.luminance})
+    plane->reset(patch.width + 2 * margin, patch.height + 2 * margin);
+  static const glm::mat3 xyz = relative_xyz_from_rgb();
+  for_each_pixel(size, patch, margin, [&](std::size_t i, std::size_t place) {
+    const Vec3f v = xyz * glm::clamp(linear(i), 0.0f, 1.0f), c = ycxcz_from_xyz(v);
+    p.opponent_y.data[place] = c.x;
+    p.opponent_cx.data[place] = c.y;
+    p.opponent_cz.data[place] = c.z;
+    p.luminance.data[place] = v.y;
   });
-  return colour;
 }
 
-Perceived perceive(const ColorImage& linear, double ppd) {
-  const Opponent planes = opponent_planes(linear);
-  const FeatureKernels kernels = feature_kernels(ppd);
-  const Plane smooth = filter_rows(planes.luminance, kernels.smooth);
-  Perceived p;
-  p.edges = length_of(filter_columns(filter_rows(planes.luminance, kernels.edge), kernels.smooth),
-                      filter_columns(smooth, kernels.edge));
-  p.points = length_of(filter_columns(filter_rows(planes.luminance, kernels.point), kernels.smooth),
-                       filter_columns(smooth, kernels.point));
-  p.colour = perceived_colour(planes, ppd);
-  return p;
+void blur(const Plane& source, int margin, const std::vector<Blur>& blurs, Plane& along_rows, Plane& target) {
+  target.reset(source.width - 2 * margin, source.height - 2 * margin);
+  for (const Blur& b : blurs) {
+    filter_rows(source, margin, b.rows, along_rows);
+    add_filtered_columns(along_rows, margin, b.columns, target);
+  }
+}
+
+void perceive_colour(const Filters& filters, Perceived& p) {
+  blur(p.opponent_y, filters.margin, filters.y, p.along_rows, p.y);
+  blur(p.opponent_cx, filters.margin, filters.cx, p.along_rows, p.cx);
+  blur(p.opponent_cz, filters.margin, filters.cz, p.along_rows, p.cz);
+  static const glm::mat3 xyz = relative_xyz_from_rgb(), rgb = glm::mat3(glm::inverse(Mat3(xyz)));
+  p.colour.resize(p.y.data.size());
+  for (std::size_t i = 0; i < p.colour.size(); ++i) {
+    const Vec3f shown =
+        glm::clamp(rgb * xyz_from_ycxcz({p.y.data[i], p.cx.data[i], p.cz.data[i]}), 0.0f, 1.0f);
+    p.colour[i] = hunt_lab_from_xyz(xyz * shown);
+  }
+}
+
+void lengths(const Plane& x, const Plane& y, std::vector<float>& out) {
+  out.resize(x.data.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::sqrt(x.data[i] * x.data[i] + y.data[i] * y.data[i]);
+}
+
+void perceive_features(const Filters& filters, Perceived& p) {
+  const FeatureKernels& k = filters.features;
+  const auto columns = [&](const Kernel& kernel, Plane& target) {
+    target.reset(p.y.width, p.y.height);
+    add_filtered_columns(p.along_rows, filters.margin, kernel, target);
+  };
+  filter_rows(p.luminance, filters.margin, k.edge, p.along_rows);
+  columns(k.smooth, p.edges_x);
+  filter_rows(p.luminance, filters.margin, k.point, p.along_rows);
+  columns(k.smooth, p.points_x);
+  filter_rows(p.luminance, filters.margin, k.smooth, p.along_rows);
+  columns(k.edge, p.edges_y), columns(k.point, p.points_y);
+  lengths(p.edges_x, p.edges_y, p.edges), lengths(p.points_x, p.points_y, p.points);
 }
 
 // --- the difference ---
@@ -271,24 +308,68 @@ float feature_difference(float edges_a, float edges_b, float points_a, float poi
   return std::min(std::pow(largest * (std::numbers::sqrt2_v<float> / 2.0f), feature_exponent), 1.0f);
 }
 
+/// Linear RGB of a pixel.
+struct Colours {
+  const Vec3f* data;
+  Vec3f operator()(std::size_t pixel) const { return data[pixel]; }
+};
+struct Greys {
+  const float* data;
+  Vec3f operator()(std::size_t pixel) const { return Vec3f(data[pixel]); }
+};
+
+constexpr int patch_width = 256, patch_height = 64;
+
+template <class Linear>
+void flip_patch(const Filters& filters, const Patch& patch, const Linear& reference, const Linear& test,
+                Image<float>& error) {
+  bool equal = true;
+  for_each_pixel(error.size, patch, filters.margin,
+                 [&](std::size_t i, std::size_t) { equal &= reference(i) == test(i); });
+  if (equal) return;
+  thread_local Perceived a, b;
+  for (Perceived* p : {&a, &b}) {
+    opponent_planes(error.size, patch, filters.margin, p == &a ? reference : test, *p);
+    perceive_colour(filters, *p);
+    perceive_features(filters, *p);
+  }
+  for_each_pixel(error.size, patch, 0, [&](std::size_t i, std::size_t place) {
+    const float colour = colour_difference(a.colour[place], b.colour[place]);
+    const float feature =
+        feature_difference(a.edges[place], b.edges[place], a.points[place], b.points[place]);
+    error.data[i] = std::pow(colour, 1.0f - feature);  // section 4.3
+  });
+}
+
+template <class Linear>
+Image<float> flip_of(const ImageSize& size, const Linear& reference, const Linear& test, double ppd) {
+  const Filters filters(ppd);
+  Image<float> error(size);
+  const int columns = (size.width + patch_width - 1) / patch_width;
+  const int rows = (size.height + patch_height - 1) / patch_height;
+  tbb::parallel_for(0, columns * rows, [&](int i) {
+    const int x0 = i % columns * patch_width, y0 = i / columns * patch_height;
+    const Patch patch{x0, y0, std::min(patch_width, size.width - x0),
+                      std::min(patch_height, size.height - y0)};
+    flip_patch(filters, patch, reference, test, error);
+  });
+  return error;
+}
+
 }  // namespace
 
 Image<float> flip_error(const ColorImage& reference_linear, const ColorImage& test_linear,
                         double pixels_per_degree) {
   assert(reference_linear.size == test_linear.size);
-  const Perceived a = perceive(reference_linear, pixels_per_degree),
-                  b = perceive(test_linear, pixels_per_degree);
-  Image<float> error(reference_linear.size);
-  tbb::parallel_for(0, error.size.height, [&](int y) {
-    for (int x = 0; x < error.size.width; ++x) {
-      const std::size_t i = error.index(x, y);
-      const float colour = colour_difference(a.colour.data[i], b.colour.data[i]);
-      const float feature =
-          feature_difference(a.edges.data[i], b.edges.data[i], a.points.data[i], b.points.data[i]);
-      error.data[i] = std::pow(colour, 1.0f - feature);  // section 4.3
-    }
-  });
-  return error;
+  return flip_of(reference_linear.size, Colours{reference_linear.data.data()},
+                 Colours{test_linear.data.data()}, pixels_per_degree);
+}
+
+Image<float> flip_error(const Image<float>& reference_grey, const Image<float>& test_grey,
+                        double pixels_per_degree) {
+  assert(reference_grey.size == test_grey.size);
+  return flip_of(reference_grey.size, Greys{reference_grey.data.data()}, Greys{test_grey.data.data()},
+                 pixels_per_degree);
 }
 
 double mean_flip(const ColorImage& reference_linear, const ColorImage& test_linear,

@@ -16,6 +16,10 @@ inline constexpr double flip_pixels_per_degree = 67.0206;
 Image<float> flip_error(const ColorImage& reference_linear, const ColorImage& test_linear,
                         double pixels_per_degree = flip_pixels_per_degree);
 
+/// The same of grey images.
+Image<float> flip_error(const Image<float>& reference_grey, const Image<float>& test_grey,
+                        double pixels_per_degree = flip_pixels_per_degree);
+
 /// The mean of errors; 0 of none.
 double mean_flip(const Image<float>& error);
 /// The mean of flip_error; 0 for empty images.

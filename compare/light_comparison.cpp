@@ -20,12 +20,6 @@ Image<float> visibility_picture(const Image<float>& visibility, const Image<Labe
   return picture;
 }
 
-ColorImage grey(const Image<float>& picture) {
-  ColorImage out(picture.size);
-  for (std::size_t i = 0; i < picture.data.size(); ++i) out.data[i] = Vec3f(picture.data[i]);
-  return out;
-}
-
 bool has_one_texel_size(const LightView& view) {
   return view.projection == LightProjection::orthographic && view.face_count == 1 && view.face(0).warp == 0.0;
 }
@@ -59,7 +53,7 @@ void measure_pixels(LightComparison& light) {
 void measure_perceptual(LightComparison& light) {
   const Image<float> truth = visibility_picture(light.rungs[0], light.labels);
   const Image<float> drawn = visibility_picture(light.rungs[6], light.labels);
-  light.flip_map = flip_error(grey(truth), grey(drawn));
+  light.flip_map = flip_error(truth, drawn);
   light.error.flip = mean_flip(light.flip_map);
   const Image<float> windows = ssim_map(truth, drawn);
   light.error.ssim = mean_ssim(windows);

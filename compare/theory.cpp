@@ -1,9 +1,11 @@
 #include "compare/theory.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
+#include <span>
 
 #include "compare/biased_test.h"
 #include "scene/camera.h"
@@ -13,24 +15,28 @@ namespace {
 
 using raytrace::SurfacePoint;
 
-// The median, the 90th and 99th percentile and the largest of the finite values.
-Distribution distribution(std::vector<double>& values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+/// Written by the threads that fill them, and so paged in by them.
+using Values = std::unique_ptr<double[]>;
+
+// The median, the 90th and 99th percentile and the largest of the finite values, which this puts into another
+// order.
+Distribution distribution(std::span<double> values) {
+  const auto end = std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
   Distribution out;
-  out.count = values.size();
-  if (values.empty()) return out;
+  out.count = static_cast<std::size_t>(end - values.begin());
+  if (out.count == 0) return out;
   auto above = values.begin();  // from here on are the values that are not below the last share's
-  const auto at = [&values, &above](double share) {
+  const auto at = [&](double share) {
     const auto place =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(above, place, values.end());
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(out.count - 1));
+    std::nth_element(above, place, end);
     above = place;
     return *place;
   };
   out.median = at(0.5);
   out.p90 = at(0.9);
   out.p99 = at(0.99);
-  out.max = *std::max_element(above, values.end());
+  out.max = *std::max_element(above, end);
   return out;
 }
 
@@ -106,27 +112,42 @@ class Predictor {
 
 }  // namespace
 
-TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
-  std::vector<PixelTheory> pixels(labels.data.size());
-  const Predictor predictor(in, labels);
+namespace {
+
+/// Where each row's compared pixels begin among all of them; at last their number.
+std::vector<std::size_t> compared_before(const Image<Label>& labels) {
+  std::vector<std::size_t> before(static_cast<std::size_t>(labels.size.height) + 1, 0);
   tbb::parallel_for(0, labels.size.height, [&](int y) {
     for (int x = 0; x < labels.size.width; ++x)
-      if (is_compared(labels.at(x, y))) pixels[labels.index(x, y)] = predictor.at(x, y);
+      before[static_cast<std::size_t>(y) + 1] += is_compared(labels.at(x, y)) ? 1 : 0;
   });
-  const auto collect = [&pixels](Distribution& out, const auto& value) {
-    return [&pixels, &out, value] {
-      std::vector<double> values(pixels.size());
-      for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = value(pixels[i]);
-      out = distribution(values);
-    };
-  };
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  return before;
+}
+
+}  // namespace
+
+TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
+  const std::vector<std::size_t> before = compared_before(labels);
+  std::array<Values, 5> values;
+  for (Values& v : values) v = std::make_unique_for_overwrite<double[]>(before.back());
+  const Predictor predictor(in, labels);
+  tbb::parallel_for(0, labels.size.height, [&](int y) {
+    std::size_t i = before[static_cast<std::size_t>(y)];
+    for (int x = 0; x < labels.size.width; ++x) {
+      if (!is_compared(labels.at(x, y))) continue;
+      const PixelTheory p = predictor.at(x, y);
+      values[0][i] = p.acne_free_bias, values[1][i] = p.perspective, values[2][i] = p.projection;
+      values[3][i] = p.perspective * p.projection, values[4][i] = p.measured;
+      ++i;
+    }
+  });
   TheoryStats stats;
-  tbb::parallel_invoke(
-      collect(stats.acne_free_bias, [](const PixelTheory& p) { return p.acne_free_bias; }),
-      collect(stats.perspective, [](const PixelTheory& p) { return p.perspective; }),
-      collect(stats.projection, [](const PixelTheory& p) { return p.projection; }),
-      collect(stats.aliasing, [](const PixelTheory& p) { return p.perspective * p.projection; }),
-      collect(stats.measured_aliasing, [](const PixelTheory& p) { return p.measured; }));
+  const std::array<Distribution*, 5> out{&stats.acne_free_bias, &stats.perspective, &stats.projection,
+                                         &stats.aliasing, &stats.measured_aliasing};
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t k) {
+    *out[k] = distribution({values[k].get(), before.back()});
+  });
   return stats;
 }
 

@@ -147,6 +147,42 @@ TEST(Flip, EqualsTheDirectImplementationOnShadowEdges) {
   expect_same_as_direct(a, b, flip_pixels_per_degree);
 }
 
+// The error hangs on nothing beyond the filters' reach, whichever way a picture is cut into patches: a part
+// of it, with a margin, has the same bits. Both pictures are equal up to a little beyond the first patch.
+TEST(Flip, APartHasTheErrorsOfTheWhole) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> value(0.0f, 1.0f);
+  Image<float> a(ImageSize{611, 157}), b(a.size);
+  for (int y = 0; y < a.size.height; ++y)
+    for (int x = 0; x < a.size.width; ++x)
+      a.at(x, y) = value(random), b.at(x, y) = x < 257 ? a.at(x, y) : value(random);
+  const int left = 151, top = 37, margin = 11;
+  Image<float> part_a(ImageSize{313, 101}), part_b(part_a.size);
+  for (int y = 0; y < part_a.size.height; ++y)
+    for (int x = 0; x < part_a.size.width; ++x)
+      part_a.at(x, y) = a.at(left + x, top + y), part_b.at(x, y) = b.at(left + x, top + y);
+  const Image<float> whole = flip_error(a, b), part = flip_error(part_a, part_b);
+  int above_zero = 0;
+  for (int y = margin; y < part.size.height - margin; ++y)
+    for (int x = margin; x < part.size.width - margin; ++x) {
+      EXPECT_EQ(part.at(x, y), whole.at(left + x, top + y)) << x << " " << y;
+      above_zero += part.at(x, y) > 0.0f ? 1 : 0;
+    }
+  EXPECT_GT(above_zero, 1000);
+}
+
+TEST(Flip, GreyIsAColour) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<float> value(0.0f, 1.0f);
+  Image<float> a(ImageSize{70, 66}), b(a.size);
+  ColorImage colour_a(a.size), colour_b(a.size);
+  for (std::size_t i = 0; i < a.data.size(); ++i) {
+    a.data[i] = value(random), b.data[i] = value(random);
+    colour_a.data[i] = Vec3f(a.data[i]), colour_b.data[i] = Vec3f(b.data[i]);
+  }
+  EXPECT_EQ(flip_error(a, b).data, flip_error(colour_a, colour_b).data);
+}
+
 TEST(Flip, IsZeroForEqualImages) {
   EXPECT_EQ(mean_flip(flat({0.3f, 0.5f, 0.1f}), flat({0.3f, 0.5f, 0.1f})), 0.0);
 }

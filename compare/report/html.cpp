@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -49,17 +50,20 @@ std::string flowing(std::string_view text) {
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byte = [&bytes](std::size_t i) {
-    return i < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i])} : 0u;
-  };
+  const auto byte = [&bytes](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])}; };
   std::string out((bytes.size() + 2) / 3 * 4, '=');
-  for (std::size_t i = 0, o = 0; i < bytes.size(); i += 3, o += 4) {
-    const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+  const auto put = [&](std::size_t o, std::uint32_t group) {
     out[o] = digits[group >> 18];
     out[o + 1] = digits[group >> 12 & 63u];
-    if (i + 1 < bytes.size()) out[o + 2] = digits[group >> 6 & 63u];
-    if (i + 2 < bytes.size()) out[o + 3] = digits[group & 63u];
-  }
+    out[o + 2] = digits[group >> 6 & 63u];
+    out[o + 3] = digits[group & 63u];
+  };
+  std::size_t i = 0, o = 0;
+  for (; i + 3 <= bytes.size(); i += 3, o += 4) put(o, byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2));
+  const std::size_t rest = bytes.size() - i;
+  if (rest == 0) return out;
+  put(o, byte(i) << 16 | (rest == 2 ? byte(i + 1) << 8 : 0u));
+  std::fill(out.end() - static_cast<std::ptrdiff_t>(3 - rest), out.end(), '=');
   return out;
 }
 
@@ -70,8 +74,12 @@ std::string data_uri(std::string_view mime, std::string_view bytes) {
 std::string script_safe(std::string_view json) {
   std::string out;
   out.reserve(json.size());
-  for (const char c : json) c == '<' ? out += "\\u003c" : out += c;
-  return out;
+  std::size_t copied = 0;
+  for (std::size_t at = json.find('<'); at != std::string_view::npos; at = json.find('<', copied)) {
+    out.append(json.substr(copied, at - copied)).append("\\u003c");
+    copied = at + 1;
+  }
+  return out += json.substr(copied);
 }
 
 std::string keyed(std::string_view key, double value, std::string_view text) {

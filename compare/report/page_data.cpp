@@ -5,7 +5,9 @@
 #include "compare/report/page_data.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <bit>
 #include <cmath>
@@ -36,6 +38,13 @@ std::uint32_t integer(double value) {
   return std::isnan(value)
              ? 0u
              : static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(value, -limit, limit)));
+}
+
+/// integer(std::round(value)): what is added is the largest number below one half, so that nothing else is
+/// rounded up with the halves. std::round is a call for each of some forty million numbers.
+std::uint32_t rounded(double value) {
+  constexpr double almost_half = 0.49999999999999994;
+  return integer(value + std::copysign(almost_half, value));
 }
 
 Json vector3(const Vec3& v) {
@@ -73,36 +82,70 @@ Json rungs_json() {
 
 // --- one light's numbers ---
 
-// The arrays of a light, packed side by side on all cores.
-class Channels {
+// All arrays of a page, packed side by side on all cores. Until then their text is empty in the JSON, where
+// nothing else is called "data".
+class Packer {
  public:
-  template <class Value>
-  void add(std::string name, std::size_t count, PackOptions options, const Value& value) {
-    jobs_.push_back({std::move(name), options, [count, value] {
-                       std::vector<std::uint32_t> numbers(count);
-                       for (std::size_t i = 0; i < count; ++i) numbers[i] = value(i);
-                       return numbers;
-                     }});
+  using Numbers = std::function<std::vector<std::uint32_t>()>;
+
+  /// What is said of an array beside its text. `numbers`, and what it refers to, must last until run().
+  Json add(PackOptions options, Numbers numbers) {
+    jobs_.push_back({options, std::move(numbers), {}});
+    return {{"bytes", options.bytes}, {"difference", options.difference}, {"data", ""}};
   }
-  Json json() const {
-    std::vector<std::string> texts(jobs_.size());
-    tbb::parallel_for(std::size_t{0}, jobs_.size(),
-                      [&](std::size_t i) { texts[i] = packed(jobs_[i].numbers(), jobs_[i].options); });
-    Json out = Json::object();
-    for (std::size_t i = 0; i < jobs_.size(); ++i)
-      out[jobs_[i].name] = {{"bytes", jobs_[i].options.bytes},
-                            {"difference", jobs_[i].options.difference},
-                            {"data", std::move(texts[i])}};
-    return out;
+  std::size_t count() const { return jobs_.size(); }
+
+  void run() {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, jobs_.size(), 1),
+        [&](const auto& range) {
+          for (std::size_t i = range.begin(); i != range.end(); ++i)
+            jobs_[i].text = packed(jobs_[i].numbers(), jobs_[i].options);
+        },
+        tbb::simple_partitioner());
+  }
+
+  /// The JSON with the texts of its arrays, the first of them that of job `first`.
+  std::string filled(const Json& json, std::size_t first) const {
+    constexpr std::string_view empty = "\"data\":\"\"";
+    const std::string bare = json.dump();
+    std::string text;
+    std::size_t copied = 0;
+    for (std::size_t at = bare.find(empty); at != std::string::npos; at = bare.find(empty, copied)) {
+      const std::size_t place = at + empty.size() - 1;
+      text.append(bare, copied, place - copied).append(jobs_[first++].text);
+      copied = place;
+    }
+    return text.append(bare, copied);
   }
 
  private:
   struct Job {
-    std::string name;
     PackOptions options;
-    std::function<std::vector<std::uint32_t>()> numbers;
+    Numbers numbers;
+    std::string text;
   };
   std::vector<Job> jobs_;
+};
+
+// Some of them, by name.
+class Channels {
+ public:
+  explicit Channels(Packer& packer) : packer_(packer) {}
+
+  template <class Value>
+  void add(const std::string& name, std::size_t count, PackOptions options, const Value& value) {
+    json_[name] = packer_.add(options, [count, value] {
+      std::vector<std::uint32_t> numbers(count);
+      for (std::size_t i = 0; i < count; ++i) numbers[i] = value(i);
+      return numbers;
+    });
+  }
+  const Json& json() const { return json_; }
+
+ private:
+  Packer& packer_;
+  Json json_ = Json::object();
 };
 
 double depth_step(const LightView& view) {
@@ -116,7 +159,7 @@ void add_ladder(Channels& channels, const LightComparison& light) {
                [&light](std::size_t i) { return static_cast<std::uint32_t>(light.labels.data[i]); });
   for (std::size_t k = 0; k < rung_count; ++k)
     channels.add(fmt::format("V{}", k), n, {2, false}, [&light, k](std::size_t i) {
-      return integer(std::round(visibility_steps * double{light.rungs[k].data[i]}));
+      return rounded(visibility_steps * double{light.rungs[k].data[i]});
     });
 }
 
@@ -132,9 +175,8 @@ void add_lookup(Channels& channels, const Comparison& c, const LightComparison& 
   });
   channels.add("face", n, {1, false},
                [&record](std::size_t i) { return std::uint32_t{record.face.data[i]}; });
-  channels.add("distance", n, {4, true}, [&record, step](std::size_t i) {
-    return integer(std::round(double{record.distance.data[i]} / step));
-  });
+  channels.add("distance", n, {4, true},
+               [&record, step](std::size_t i) { return rounded(double{record.distance.data[i]} / step); });
   channels.add("gap", n, {4, false},
                [&record](std::size_t i) { return std::bit_cast<std::uint32_t>(record.gap.data[i]); });
 }
@@ -150,12 +192,11 @@ void add_picture(Channels& channels, const ColorImage& image, std::string_view p
 void add_metrics(Channels& channels, const LightComparison& light) {
   const std::size_t n = light.flip_map.data.size();
   if (n == 0) return;
-  channels.add("flip", n, {1, false}, [&light](std::size_t i) {
-    return integer(std::round(255.0 * double{light.flip_map.data[i]}));
-  });
+  channels.add("flip", n, {1, false},
+               [&light](std::size_t i) { return rounded(255.0 * double{light.flip_map.data[i]}); });
   channels.add("ssim", n, {1, false}, [&light](std::size_t i) {
     const double value = light.ssim_map.data[i];
-    return std::isnan(value) ? integer(-128.0) : integer(std::round(127.0 * value));
+    return std::isnan(value) ? integer(-128.0) : rounded(127.0 * value);
   });
 }
 
@@ -172,7 +213,7 @@ void add_receiver(Channels& channels, const Comparison& c) {
                [&points](std::size_t i) { return points[i].primitive; });
   for (int k = 0; k < 3; ++k)
     channels.add(fmt::format("n{}", "xyz"[k]), points.size(), {2, true}, [&points, k](std::size_t i) {
-      return points[i].primitive == no_id ? 0u : integer(std::round(normal_steps * points[i].normal[k]));
+      return points[i].primitive == no_id ? 0u : rounded(normal_steps * points[i].normal[k]);
     });
 }
 
@@ -198,37 +239,40 @@ Json view_json(const LightView& view) {
 
 // Depths in world units, in steps; -1 where nothing is stored. A reduced map keeps the nearest depth of each
 // block.
-Json map_json(const raster::ShadowMap& map) {
+Json map_json(const raster::ShadowMap& map, Packer& packer) {
   int step = 1;
   const auto texels = [&map](int s) {
     const auto side = static_cast<std::size_t>((map.view.size + s - 1) / s);
     return static_cast<std::size_t>(map.view.face_count) * side * side;
   };
   while (texels(step) > most_map_texels) ++step;
-  const raster::ShadowMap small = step == 1 ? raster::ShadowMap{} : reduced_map(map, step);
-  const std::vector<float>& depth = step == 1 ? map.depth : small.depth;
-  const LightView& view = step == 1 ? map.view : small.view;
-  const double unit = depth_step(view), near_depth = view.depth_range().min;
-  const auto side = static_cast<std::size_t>(view.size);
-  std::vector<std::uint32_t> numbers(depth.size());
-  tbb::parallel_for(std::size_t{0}, depth.size(), [&](std::size_t i) {
-    const double stored = depth[i];
-    const auto face = static_cast<int>(i / (side * side));
-    const double v = static_cast<double>(i / side % side) + 0.5;
-    numbers[i] = holds_caster(view, stored)
-                     ? integer(std::round((depth_from_stored(view, face, v, stored) - near_depth) / unit))
-                     : 0xffffffffu;
-  });
-  return {
-      {"step", step}, {"bytes", 4}, {"difference", true}, {"data", packed(std::move(numbers), {4, true})}};
+  Json json{{"step", step}};
+  json.update(packer.add({4, true}, [&map, step] {
+    const raster::ShadowMap small = step == 1 ? raster::ShadowMap{} : reduced_map(map, step);
+    const std::vector<float>& depth = step == 1 ? map.depth : small.depth;
+    const LightView& view = step == 1 ? map.view : small.view;
+    const double unit = depth_step(view), near_depth = view.depth_range().min;
+    const auto side = static_cast<std::size_t>(view.size);
+    std::vector<std::uint32_t> numbers(depth.size());
+    tbb::parallel_for(std::size_t{0}, depth.size(), [&](std::size_t i) {
+      const double stored = depth[i];
+      const auto face = static_cast<int>(i / (side * side));
+      const double v = static_cast<double>(i / side % side) + 0.5;
+      numbers[i] = holds_caster(view, stored)
+                       ? rounded((depth_from_stored(view, face, v, stored) - near_depth) / unit)
+                       : 0xffffffffu;
+    });
+    return numbers;
+  }));
+  return json;
 }
 
-Json light_data(const PageInput& in, std::size_t index) {
+Json light_data(const PageInput& in, std::size_t index, Packer& packer) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[index];
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::Bias& bias = c.raster.options.map.bias;
-  Channels channels;
+  Channels channels(packer);
   add_ladder(channels, light);
   add_lookup(channels, c, light);
   add_metrics(channels, light);
@@ -247,12 +291,12 @@ Json light_data(const PageInput& in, std::size_t index) {
           {"texel_world", light.texel_world[1]},
           {"depth_step", depth_step(record.map.view)},
           {"channels", channels.json()},
-          {"map", map_json(record.map)}};
+          {"map", map_json(record.map, packer)}};
 }
 
 // What all lights share: what is seen at each pixel, and both pictures.
-Json pixels_json(const Comparison& c) {
-  Channels channels;
+Json pixels_json(const Comparison& c, Packer& packer) {
+  Channels channels(packer);
   add_receiver(channels, c);
   add_picture(channels, c.raster.color, "raster");
   add_picture(channels, c.raytraced.color, "raytraced");
@@ -261,22 +305,21 @@ Json pixels_json(const Comparison& c) {
 
 // --- geometry ---
 
-Json triangles_json(const SectionMesh& mesh, const Aabb& bounds) {
+Json triangles_json(const SectionMesh& mesh, const Aabb& bounds, Packer& packer) {
   const Vec3 low = bounds.min, extent = bounds.max - low;
   const double step =
       std::exp2(std::ceil(std::log2(std::max({extent.x, extent.y, extent.z, 1e-300}))) - 24.0);
-  Channels channels;
+  Channels channels(packer);
   for (int k = 0; k < 3; ++k)
-    channels.add(fmt::format("{}", "xyz"[k]), mesh.positions.size(), {4, true},
-                 [&mesh, low, step, k](std::size_t i) {
-                   return integer(std::round((mesh.positions[i][k] - low[k]) / step));
-                 });
+    channels.add(
+        fmt::format("{}", "xyz"[k]), mesh.positions.size(), {4, true},
+        [&mesh, low, step, k](std::size_t i) { return rounded((mesh.positions[i][k] - low[k]) / step); });
   channels.add("corner", 3 * mesh.triangles.size(), {4, true},
                [&mesh](std::size_t i) { return mesh.triangles[i / 3][i % 3]; });
   return {{"low", vector3(low)}, {"step", step}, {"channels", channels.json()}};
 }
 
-Json geometry_json(const World& world) {
+Json geometry_json(const World& world, const SectionMesh& mesh, Packer& packer) {
   Json shapes = Json::array();
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
@@ -286,10 +329,9 @@ Json geometry_json(const World& world) {
       shapes.push_back(
           {{"name", shape.name}, {"point", vector3(plane->point)}, {"normal", vector3(plane->normal)}});
   }
-  const SectionMesh mesh = section_mesh(world);
   Json json{
       {"shapes", std::move(shapes)}, {"solid_sectors", mesh.solid_sectors}, {"complete", mesh.complete}};
-  if (!mesh.triangles.empty()) json["triangles"] = triangles_json(mesh, world.finite_bounds);
+  if (!mesh.triangles.empty()) json["triangles"] = triangles_json(mesh, world.finite_bounds, packer);
   return json;
 }
 
@@ -313,10 +355,24 @@ PageData page_data(const PageInput& in) {
             {"lights", c.lights.size()}};
   out.head = head.dump();
   if (c.lights.empty()) return out;
-  out.parts.push_back({"pixels", pixels_json(c).dump()});
-  out.parts.push_back({"geometry", geometry_json(*c.world).dump()});
+  struct Part {
+    std::string name;
+    Json json;
+    std::size_t first;  // job of its arrays
+  };
+  Packer packer;
+  std::vector<Part> parts;
+  const auto add = [&](std::string name, const auto& make) {
+    const std::size_t first = packer.count();
+    parts.push_back({std::move(name), make(), first});
+  };
+  const SectionMesh mesh = section_mesh(*c.world);
+  add("pixels", [&] { return pixels_json(c, packer); });
+  add("geometry", [&] { return geometry_json(*c.world, mesh, packer); });
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    out.parts.push_back({fmt::format("light-{}", i), light_data(in, i).dump()});
+    add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer); });
+  packer.run();
+  for (const Part& part : parts) out.parts.push_back({part.name, packer.filled(part.json, part.first)});
   return out;
 }
 
