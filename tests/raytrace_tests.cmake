@@ -44,7 +44,7 @@ target_include_directories(raytrace_models_test PRIVATE ${CMAKE_CURRENT_SOURCE_D
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/embree_peer.cpp support/raytrace_support.cpp
   ${PROJECT_SOURCE_DIR}/app/machine.cpp)
-target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raytrace embree TBB::tbb CLI11::CLI11
+target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raytrace embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
 target_include_directories(gnomon_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_compile_definitions(gnomon_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")

@@ -117,9 +117,9 @@ PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, do
   return rays;
 }
 
-Embree::Embree(const World& world, bool low_quality)
+Embree::Embree(const World& world, const std::string& settings)
     : bytes_(std::make_unique<std::atomic<ssize_t>>(0)),
-      device_(rtcNewDevice(nullptr)),
+      device_(rtcNewDevice(settings.c_str())),
       scene_(rtcNewScene(device_)) {
   rtcSetDeviceMemoryMonitorFunction(
       device_,
@@ -128,7 +128,7 @@ Embree::Embree(const World& world, bool low_quality)
         return true;
       },
       bytes_.get());
-  rtcSetSceneBuildQuality(scene_, low_quality ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.positions.size()));

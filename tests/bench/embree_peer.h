@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "raytrace/frame.h"
@@ -37,7 +38,8 @@ struct PeerHits {
 
 class Embree {
  public:
-  Embree(const World& world, bool low_quality = false);
+  /// `settings` as rtcNewDevice takes them: "isa=avx2"; empty: the best that the machine has.
+  Embree(const World& world, const std::string& settings);
   ~Embree();
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <hwy/targets.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/machine.h"
@@ -41,7 +43,32 @@ struct Settings {
   int runs = 5;
   std::string json;
   std::vector<std::string> scenes;
+  std::string target;  ///< of instruction_sets(); empty: the best that the machine has
 };
+
+struct InstructionSet {
+  const char* embree;
+  std::int64_t highway;
+};
+
+/// What other machines have, tried on this one: both are held to the same.
+const std::map<std::string, InstructionSet>& instruction_sets() {
+  static const std::map<std::string, InstructionSet> sets{{"avx2", {"isa=avx2", HWY_AVX2}},
+                                                          {"sse4", {"isa=sse4.2", HWY_SSE4}}};
+  return sets;
+}
+
+std::string embree_settings(const Settings& settings) {
+  return settings.target.empty() ? std::string() : instruction_sets().at(settings.target).embree;
+}
+
+bool hold_to(const std::string& target) {
+  const std::int64_t wanted = instruction_sets().at(target).highway;
+  if ((hwy::SupportedTargets() & wanted) == 0) return false;
+  hwy::SetSupportedTargetsForTest(wanted);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return true;
+}
 
 /// Milliseconds of the process's own CPU time: for one thread the wall clock's, but for other programs'
 /// share.
@@ -75,7 +102,7 @@ class Bench {
         settings_(settings),
         world_(make_world(scene.scene)),
         tracer_(world_, Accel::bvh),
-        embree_(world_),
+        embree_(world_, embree_settings(settings)),
         view_(make_view(scene.scene.camera, settings.size)),
         primary_(primary_rays(view_)),
         grid_{settings.size},
@@ -259,7 +286,7 @@ class Bench {
         },
         [&] {
           const Stopwatch watch;
-          const Embree embree(world_);
+          const Embree embree(world_, embree_settings(settings_));
           peer_build = watch.elapsed_ms();
           embree.closest_packets(primary_, peer_), embree.occluded_packets(shadow_[0], occluded_);
         });
@@ -393,11 +420,18 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000));
   app.add_option("--width", settings.size.width, "pixels (default 1920)")->check(CLI::Range(16, 16384));
   app.add_option("--height", settings.size.height, "pixels (default 1080)")->check(CLI::Range(16, 16384));
+  app.add_option("--target", settings.target,
+                 "hold both to an older instruction set: avx2, sse4 (default: the best that the machine has)")
+      ->check(CLI::IsMember({"avx2", "sse4"}));
   app.add_option("--json", settings.json, "also write the rows to this file");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (!settings.target.empty() && !gnomon::bench::hold_to(settings.target)) {
+    fmt::print(stderr, "--target {}: this machine does not have it\n", settings.target);
+    return 2;
   }
   return gnomon::bench::run(settings);
 }
