@@ -177,6 +177,36 @@ TEST(Wide, NeedlesAndATriangleAsLargeAsTheRest) {
   expect_same(w.world(), hard_rays(w.world(), 20000, 3.0, 9), 8000);
 }
 
+/// A hierarchy of one leaf that has more corners than a leaf of the wide tree has room for.
+TEST(Wide, LeafOfTooManyCornersIsHalved) {
+  const TestWorld w(test::scene_of({test::triangle_soup(15, 1.0, 1.0, 25)}));
+  Bvh bvh = build_flat(w.world());
+  bvh.primitives.clear();
+  for (const std::uint32_t id : bvh.ids) bvh.primitives.push_back(leaf_primitive(w.world(), id));
+  BvhNode root{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    root.child[i] = i == 0 ? BvhChild::leaf(0, 15) : BvhChild::empty();
+    for (std::size_t row = 0; row < 6; ++row) root.bounds[row][i] = (row < 3) == (i == 0) ? -3.0f : 3.0f;
+  }
+  bvh.nodes.push_back(root);
+  const auto tree = fold_wide(bvh, w.world());
+  ASSERT_NE(tree, nullptr);
+  EXPECT_EQ(tree->leaves.size(), 4u);
+  const Tracer brute(w.world(), Accel::brute);
+  std::size_t hits = 0, missing = 0;
+  for (const Ray& ray : hard_rays(w.world(), 5000, 2.0, 26)) {
+    LeafCandidates found;
+    const auto hit = brute.closest_hit(ray);
+    if (!hit || closest_candidates(*tree, ray, found) == WideWalk::refused) continue;
+    const auto end = found.leaf.begin() + static_cast<std::ptrdiff_t>(found.count);
+    const auto at = std::find_if(found.leaf.begin(), end,
+                                 [&](std::uint32_t leaf) { return bvh.ids[leaf] == hit->primitive; });
+    ++hits, missing += at == end ? 1 : 0;
+  }
+  EXPECT_GT(hits, 1000u);
+  EXPECT_EQ(missing, 0u);
+}
+
 TEST(Wide, LatticeOfBoxesWhosePlanesCoincide) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < 216; ++i) {

@@ -2,7 +2,7 @@
 //
 // Notation: e = 2^-24, u = 2^-53; d the ray's direction scaled so that its largest component is in [1/2, 1),
 // o its origin from the centre, r = `reach`, q >= |o|, all in the maximum norm. No float here overflows, and
-// none that underflows is missed, because 2^-30 <= r <= 2^30 and q <= 64 r; other rays are refused, and walk
+// none that underflows is missed, because 2^-26 <= r <= 2^30 and q <= 64 r; other rays are refused, and walk
 // the plain way.
 //
 // Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, -o / d made of it to 4 e, and b / d - o / d by
@@ -14,21 +14,28 @@
 // constants, which give way by 2^30 r, hold all of [0, T] in the slab if the origin is within it but for that
 // much.
 //
-// Triangles. With s = o - v0, L = `size` of the leaf (no component of an edge is above it), |s| the sum of
-// s's components, D = 2^-24 (r + q) what s may be off by but for its own rounding e |s|, and d, v0, edges
-// right to e: p = d x e2 is right to 8 e L, U = s.p to L (16 e |s| + 6 D), V = d.(s x e1) to the same, det =
-// e1.p to 48 e L L, W = det - U - V to
-//   E' = L (60 e (L + |s|) + 12 D),
-// with fused steps or without. U, V, W are the edge functions of the test in double (raytrace/intersect.h)
-// times d_kz, |d_kz| <= 1, which that test has right to 48 u m m, m <= L + |s| + D the farthest corner's
-// distance, m <= 65 r; a verdict's doubts (raytrace/verdict.cpp) come on top, 16 f m + 216 u m m for points
-// in doubt by f <= 2^-44 r. Together they are below 2^-38 r m. So
-//   E = L (64 e (L + |s|) + 16 D), L >= 2^-16 r,
-// which leaves E' that much and more, covers every difference between these floats and the doubles: if one of
-// U, V, W is above E and another below -E, the doubles see edge functions of both signs: a miss. If all three
-// are above E, or below -E, the doubles see one sign: a hit, unless t is out of range. t = N / det with
-// N = e2.(s x e1) right to L E'; the doubles' mean of depths moves by 2 L times its weights' error. So t lies
-// between (N - L E) / (det + E) and (N + L E) / (det - E), but for 2^-20 of itself.
+// Triangles. The test in double (raytrace/intersect.h) moves corners to the ray's origin and shears them so
+// that the ray is the z axis; so do these floats, z being the direction's largest component, and with the
+// depth in units of t: t = s_z / d_z, x = s_x - d_x t, y likewise, s = v - o'. A leaf's corners v count from
+// its anchor, |v| <= X = `extent`; o' is the origin from there, S = |o'| + X. v is right to e X, o' to e (q +
+// |o'|), s to e (q + 2 S); d_x t is d_x / d_z times s_z, the factor, of at most 1, right to 5 e; so x, with
+// fused steps or without, is right to 2 e (q + 2 S) + 8 e S,
+//   f = 12 e S + `coordinate_error`, the latter 2.75 e q + 2^-34 r,
+// whose last term holds what the doubles' own coordinates are off by, and the doubts of a verdict
+// (raytrace/verdict.cpp) in a point's place, all below 2^-41 r.
+// Let no component of an edge be above L >= 2^-16 r. Where the doubles see edge functions of one sign, or a
+// verdict doubts their signs and the triangle's box is passed, the axis passes within the corners' x and y,
+// so none of these is above 2 L but for f. The edge functions U, V, W = x_i y_j - x_j y_i are then right to 8
+// L f + 2 f f and, by rounding, 16 e (L + f)^2, together less than 12 L f + 4 f f (an edge that is not that
+// small has L <= 2 X <= 2 S). Let C = 13 L + 16 f and E = C f, which is more: if one of the three is above E
+// and another below -E, it is a miss. The doubles' t is a mean of the corners' t_i with weights that, with
+// det = U + V + W, are right to 4.1 E / |det| each, and d_z t_i is right to f. So |U t_0 + V t_1 + W t_2 -
+// det t| is at most (7.6 (L + 2 f) E + 5 f E + 1.25 f |det|) / |d_z|, also where all weights are in doubt:
+// none of U, V, W is above E then, and t is between the corners'. As |det| <= 8 (L + f)^2, that is less than
+// C E / |d_z|, and a hit's t within C E / |d_z det| of the floats' own. If all three are above 3 E, or below
+// -3 E, and no x or y is above 3.25 L, they are right to 13 L f + 4 f f + 43 e L L < 3 E: the doubles see one
+// sign, a hit, unless t is out of range. Without the second condition a needle seen from far might pass, by
+// rounding alone.
 #pragma once
 
 #include <algorithm>
@@ -44,10 +51,13 @@ struct WideRay {
   alignas(16) float origin[4], direction[4];
   // t of a plane at x along an axis: x inverse + near, and, widened, x far_inverse + far.
   alignas(16) float inverse[4], near[4], far_inverse[4], far[4];
-  float t_min, t_max;                 ///< t_max: widened
+  float t_min, t_max;                 ///< t_max: widened, and finite
   float surely_after, surely_before;  ///< t between these is in range
-  float distance_error;               ///< 2^-20 (r + q)
-  std::uint32_t octant;               ///< bit a: backwards along axis a
+  float inverse_z, t_per_z;           ///< 1 / d_z and its size
+  float direction_x, direction_y;
+  float coordinate_error;  ///< 2.75 e q + 2^-34 r
+  std::uint32_t axis[3];   ///< which are x, y and z: z the direction's largest component
+  std::uint32_t octant;    ///< bit a: backwards along axis a
 
   /// t in the units of RayFrame.
   void limit(float t_above) { t_max = std::min(t_max, t_above * widening); }

@@ -51,6 +51,39 @@ bool is_empty(const BvhChild& child) {
   return child.is_leaf() && child.count() == 0;
 }
 
+/// A leaf's corners, each once.
+struct Corners {
+  std::array<const double*, leaf_corners> at;
+  std::array<std::uint32_t, leaf_corners> hash{};
+  std::array<std::uint16_t, leaf_lanes> index{};  // as in WideLeaf
+  std::uint32_t count = 0;
+
+  /// The k-th corner of the leaf's i-th triangle; false: no room.
+  bool put(const double* corner, std::size_t i, std::size_t k) {
+    std::uint64_t mixed = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      mixed = (mixed + std::bit_cast<std::uint64_t>(corner[a])) * 0x9e3779b97f4a7c15u;
+    const auto h = static_cast<std::uint32_t>(mixed >> 32);
+    std::uint32_t equal = 0;  // bit j: to the j-th; without branches
+    for (std::uint32_t j = 0; j < leaf_corners; ++j) equal |= hash[j] == h ? 1u << j : 0u;
+    for (equal &= (1u << count) - 1; equal != 0; equal &= equal - 1)
+      if (std::equal(corner, corner + 3, at[static_cast<std::size_t>(std::countr_zero(equal))])) break;
+    const std::uint32_t found = equal != 0 ? static_cast<std::uint32_t>(std::countr_zero(equal)) : count;
+    if (found == leaf_corners) return false;
+    if (found == count) at[count] = corner, hash[count++] = h;
+    index[i] = static_cast<std::uint16_t>(index[i] | found << (4 * k));
+    return true;
+  }
+};
+
+/// The largest component of a triangle's edges.
+double longest_edge(const LeafPrimitive& triangle) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 9; ++i)
+    longest = std::max(longest, std::abs(triangle.v[(i + 3) % 9] - triangle.v[i]));
+  return longest;
+}
+
 // First the pairs, bottom up, with the least cost of each as one to eight children (Ylitalo et al. 2017,
 // "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1); then the nodes,
 // top down. A thread takes the places of what it makes when it begins it.
@@ -85,9 +118,26 @@ class Folding {
     return end - first <= leaf_lanes;
   }
 
+  bool is_triangle(std::uint32_t leaf) const { return world_.is_triangle(bvh_.ids[leaf]); }
+
+  /// False: more than a leaf has room for.
+  bool corners_of(std::uint32_t first, std::uint32_t count, Corners& corners) const {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double* v = bvh_.primitives[first + i].v.data();
+      for (std::size_t k = 0; k < 3 && is_triangle(first + i); ++k)
+        if (!corners.put(v + 3 * k, i, k)) return false;
+    }
+    return true;
+  }
+  bool fits(std::uint32_t first, std::uint32_t count) const {
+    Corners corners;
+    return count <= leaf_corners / 3 || (count <= leaf_lanes && corners_of(first, count, corners));
+  }
+
   Part part_of(const BvhChild& child, const Box& box, int depth) {
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
-    if (is_short(child, first, end)) return {box, 0, first, end - first};
+    if (is_short(child, first, end) && fits(first, end - first)) return {box, 0, first, end - first};
+    if (child.is_leaf()) return halved(child.first(), child.count(), box);
     const BvhNode& node = bvh_.nodes[child.index()];
     std::array<Part, 4> parts;
     std::array<std::size_t, 4> used{};
@@ -102,6 +152,13 @@ class Folding {
     else
       for (std::size_t k = 0; k < count; ++k) make(k);
     return joined(parts, (1u << count) - 1);
+  }
+
+  /// Of a leaf that has too many corners: parts of it, all with its box.
+  Part halved(std::uint32_t first, std::uint32_t count, const Box& box) {
+    if (fits(first, count)) return {box, 0, first, count};
+    const std::uint32_t half = count / 2;
+    return pair_of(halved(first, half, box), halved(first + half, count - half, box), box);
   }
 
   /// The parts of a set as one: in two halves with the least area.
@@ -130,7 +187,7 @@ class Folding {
     const std::uint32_t first = std::min(one.first, other.first);
     const std::uint32_t end = std::max(one.first + one.count, other.first + other.count);
     const bool whole = one.is_leaf() && other.is_leaf() && end - first == one.count + other.count;
-    if (whole && end - first <= leaf_lanes) return {box, 0, first, end - first};
+    if (whole && fits(first, end - first)) return {box, 0, first, end - first};
     const std::uint32_t index = used_pairs_++;
     Pair& pair = pairs_[index];
     pair.parts = {one, other};
@@ -213,23 +270,28 @@ class Folding {
   }
 
   void put_leaf(const Part& piece, WideLeaf& leaf) const {
-    leaf.first = piece.first;
-    leaf.lanes = (1u << piece.count) - 1;
-    double size = 0x1p-16 * static_cast<double>(tree_.reach);
-    for (std::uint32_t i = 0; i < leaf_lanes; ++i) {
-      std::array<double, 9> numbers;
-      numbers.fill(std::numeric_limits<double>::quiet_NaN());
-      if (i < piece.count && world_.is_triangle(bvh_.ids[piece.first + i])) {
-        const auto& v = bvh_.primitives[piece.first + i].v;
-        for (std::size_t k = 0; k < 9; ++k) {
-          const std::size_t a = k % 3;
-          numbers[k] = k < 3 ? v[k] - tree_.center[a] : v[k] - v[a];
-          if (k >= 3) size = std::max(size, std::abs(numbers[k]));
-        }
+    Corners corners;
+    corners_of(piece.first, piece.count, corners);
+    leaf.first = piece.first, leaf.lanes = leaf.shapes = 0, leaf.extent = 0.0f;
+    std::copy(corners.index.begin(), corners.index.end(), leaf.index);
+    for (std::size_t a = 0; a < 3; ++a) {
+      leaf.anchor[a] = 0.5f * piece.box.at[a] + 0.5f * piece.box.at[3 + a];
+      for (std::size_t i = 0; i < leaf_corners; ++i) {
+        const double x = i < corners.count
+                             ? corners.at[i][a] - tree_.center[a] - static_cast<double>(leaf.anchor[a])
+                             : 0.0;
+        leaf.corner[a][i] = static_cast<float>(x);
+        leaf.extent = std::max(leaf.extent, std::abs(leaf.corner[a][i]));
       }
-      for (std::size_t k = 0; k < 9; ++k) leaf.rows[k][i] = static_cast<float>(numbers[k]);
     }
-    leaf.size = float_above(size);
+    double size = 0x1p-16 * static_cast<double>(tree_.reach);
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+      const bool triangle = is_triangle(piece.first + i);
+      std::uint16_t& bits = triangle ? leaf.lanes : leaf.shapes;
+      bits = static_cast<std::uint16_t>(bits | 1u << i);
+      if (triangle) size = std::max(size, longest_edge(bvh_.primitives[piece.first + i]));
+    }
+    leaf.size_13 = 13.0f * float_above(size);
   }
 
   const Bvh& bvh_;
@@ -256,7 +318,7 @@ std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world) {
   tree->origin = &bvh;
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
   tree->reach = reach_of(bvh.nodes[0]);
-  if (!(tree->reach >= 0x1p-30f && tree->reach <= 0x1p30f)) return nullptr;
+  if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
   const Folding fold(bvh, world, *tree);
   return tree;
 }
@@ -273,7 +335,7 @@ std::uint64_t WideOnDemand::bytes() const {
   return tree != nullptr ? tree->bytes() : 0;
 }
 
-// Each thread counts by itself and tells now and then. Folding costs for a primitive what a third of a ray
+// Each thread counts by itself and tells now and then. Folding costs for a primitive about what a ray
 // saves; who casts a sixteenth as many rays as there are primitives will cast more.
 const WideTree* WideOnDemand::count_ray(const Bvh& bvh, const World& world) {
   constexpr unsigned told_at_once = 256, least = 4096;

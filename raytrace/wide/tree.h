@@ -11,7 +11,7 @@
 
 namespace gnomon::raytrace {
 
-inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16;
+inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16, leaf_corners = 16;
 
 /// A node's index, or a leaf's with the top bit set.
 struct WideChild {
@@ -29,13 +29,17 @@ struct alignas(64) WideNode {
   std::uint32_t order[node_lanes];
 };
 
-/// Triangles by rows: the first corner relative to the centre, then the two edges that leave it. Shapes are
-/// NaN, which no test of floats rejects.
+/// Triangles that share their corners: these by axis, counted from `anchor`, and of each triangle four bits
+/// for each of its three. Four lines of memory, so that what a ray reads here and there stays in the caches.
 struct alignas(64) WideLeaf {
-  float rows[9][leaf_lanes];
-  float size;           ///< no component of an edge is above this, and it is not below 2^-16 of `reach`
-  std::uint32_t first;  ///< position in leaf order of the first
-  std::uint32_t lanes;  ///< bit i: there is a primitive
+  float corner[3][leaf_corners];
+  std::uint16_t index[leaf_lanes];
+  float anchor[3];       ///< from the tree's centre
+  float extent;          ///< no corner's coordinate is above this
+  float size_13;         ///< 13 L: no component of an edge is above L, and L is not below 2^-16 of `reach`
+  std::uint32_t first;   ///< position in leaf order of the first
+  std::uint16_t lanes;   ///< bit i: a triangle
+  std::uint16_t shapes;  ///< bit i: a shape, of which these floats say nothing
 };
 
 struct WideTree {
@@ -47,7 +51,8 @@ struct WideTree {
   std::uint64_t bytes() const { return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf); }
 };
 
-/// Nothing where the floats' bounds would not hold: no tree, or a scene larger or smaller than 2^30.
+/// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than
+/// 2^-26.
 std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world);
 
 /// Folds the tree when so many rays have asked for it that it pays. Any number of threads may ask.

@@ -20,6 +20,7 @@ constexpr F f;
 constexpr std::size_t lanes = hn::MaxLanes(f);
 static_assert(node_lanes % lanes == 0 && node_lanes == 16 && !HWY_HAVE_SCALABLE);
 
+constexpr float inf = std::numeric_limits<float>::infinity();
 inline V all(float v) {
   return hn::Set(f, v);
 }
@@ -79,10 +80,16 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
   const auto doubt = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
   const auto least = static_cast<float>(t_min), most = static_cast<float>(t_max);
   ray.t_min = std::max(0.0f, least - doubt(least)), ray.surely_after = least + doubt(least);
-  ray.t_max = (most + doubt(most)) * WideRay::widening;
+  ray.t_max = std::min((most + doubt(most)) * WideRay::widening, FLT_MAX);
   ray.surely_before = most <= FLT_MAX ? most - doubt(most) : FLT_MAX;
   ray.limit(limits.t_above);
-  ray.distance_error = 0x1.001p-20f * (r + q);
+  ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
+  const auto size = [&](std::size_t a) { return std::abs(numbers[3 + a]); };
+  const std::uint32_t z = size(2) > std::max(size(0), size(1)) ? 2 : size(0) >= size(1) ? 0 : 1;
+  const std::uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+  ray.axis[0] = x, ray.axis[1] = y, ray.axis[2] = z;
+  ray.inverse_z = ray.inverse[z], ray.t_per_z = std::abs(ray.inverse_z);
+  ray.direction_x = ray.direction[x], ray.direction_y = ray.direction[y];
   return true;
 }
 
@@ -100,7 +107,8 @@ struct SpreadRay {
   std::size_t near_row[3], far_row[3];  // bytes
   int octant_shift;
   explicit SpreadRay(const WideRay& ray)
-      : t_min(all(ray.t_min)), octant_shift(static_cast<int>(4 * ray.octant)) {
+      : t_min(all(ray.t_min)),
+        octant_shift(static_cast<int>(4 * (lanes == node_lanes ? 7 - ray.octant : ray.octant))) {
     constexpr std::size_t row = sizeof(WideNode::bounds[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
@@ -141,16 +149,23 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
       next = node.child[std::countr_zero(bits)];
       return true;
     }
-    const V none = all(std::numeric_limits<float>::infinity());
+    const V none = all(inf);
     near = hn::IfThenElse(met, near, none);
     const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
                                hn::Set(ids, node_lanes - 1));
     near = hn::TableLookupLanes(near, hn::IndicesFromVec(f, order));
     const auto child = hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order));
     const M ordered = hn::Lt(near, none);
-    hn::StoreU(hn::Compress(child, hn::RebindMask(ids, ordered)), ids, stack.child + size);
-    hn::StoreU(hn::Compress(near, ordered), f, stack.near + size);
-    size += static_cast<std::size_t>(std::popcount(bits));
+    const auto nearest_first = hn::Compress(child, hn::RebindMask(ids, ordered));
+    next = hn::GetLane(nearest_first);
+    const auto count = static_cast<std::uint32_t>(std::popcount(bits));
+    const auto back =
+        hn::And(hn::Sub(hn::Set(ids, count - 1), hn::Iota(ids, 0)), hn::Set(ids, node_lanes - 1));
+    hn::StoreU(hn::TableLookupLanes(nearest_first, hn::IndicesFromVec(ids, back)), ids, stack.child + size);
+    hn::StoreU(hn::TableLookupLanes(hn::Compress(near, ordered), hn::IndicesFromVec(f, back)), f,
+               stack.near + size);
+    size += count - 1;
+    return true;
   } else {
     alignas(64) float nears[node_lanes];
     unsigned met = 0;
@@ -174,59 +189,90 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
   return true;
 }
 
-/// What the floats say of a leaf's triangles.
-struct LeafTest {
-  unsigned candidates = 0, sure = 0;
-  alignas(32) float numerator[leaf_lanes], determinant[leaf_lanes], error[leaf_lanes];
+static_assert(leaf_lanes == node_lanes && leaf_corners == leaf_lanes);
+constexpr std::size_t leaf_steps = leaf_lanes / lanes;
 
-  LeafTest(const WideLeaf& leaf, const WideRay& ray) {
-    using L = hn::CappedTag<float, leaf_lanes>;
-    constexpr L l;
-    constexpr std::size_t step = hn::MaxLanes(l);
-    const auto every = [](float v) { return hn::Set(L(), v); };
-    using W = hn::Vec<L>;
-    struct V3 {
-      W x, y, z;
-    };
-    const auto cross = [](const V3& a, const V3& b) {
-      const auto part = [](W p, W q, W r, W s) { return hn::NegMulAdd(r, s, hn::Mul(p, q)); };
-      return V3{part(a.y, b.z, a.z, b.y), part(a.z, b.x, a.x, b.z), part(a.x, b.y, a.y, b.x)};
-    };
-    const auto dot = [](const V3& a, const V3& b) {
-      return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-    };
-    const W size = every(leaf.size);
-    const V3 d{every(ray.direction[0]), every(ray.direction[1]), every(ray.direction[2])};
-    for (std::size_t i = 0; i < leaf_lanes; i += step) {
-      const auto row = [&](std::size_t k) { return hn::Load(l, leaf.rows[k] + i); };
-      const auto from = [&](std::size_t a) { return hn::Sub(every(ray.origin[a]), row(a)); };
-      const V3 s{from(0), from(1), from(2)}, e1{row(3), row(4), row(5)}, e2{row(6), row(7), row(8)};
-      const V3 p = cross(d, e2), q = cross(s, e1);
-      const W det = dot(e1, p), u = dot(s, p), v = dot(d, q), w = hn::Sub(hn::Sub(det, u), v);
-      const W distance = hn::Add(hn::Add(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
-      const W e =
-          hn::Mul(size, hn::MulAdd(every(0x1p-18f), hn::Add(size, distance), every(ray.distance_error)));
-      const W least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
-      const auto missed = hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e));
-      const unsigned left = (leaf.lanes >> i) & ~bits_of(l, missed);
-      if ((left & ((1u << step) - 1)) == 0) continue;
-      candidates |= (left & ((1u << step) - 1)) << i;
-      sure |= bits_of(l, hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)))) << i;
-      hn::Store(hn::CopySign(det, every(1.0f)), l, determinant + i);
-      hn::Store(hn::Xor(dot(e2, q), hn::And(det, every(-0.0f))), l, numerator + i);
-      hn::Store(e, l, error + i);
+/// A coordinate of a leaf's corners, to be looked up by the triangles.
+struct Corners {
+  V part[leaf_steps];
+  template <class Index>
+  HWY_INLINE V at(Index index) const {
+    if constexpr (leaf_steps == 1) {
+      return hn::TableLookupLanes(part[0], hn::IndicesFromVec(f, index));
+    } else if constexpr (leaf_steps == 2) {
+      const auto low = hn::IndicesFromVec(f, hn::And(index, hn::Set(ids, lanes - 1)));
+      const auto is_low = hn::RebindMask(f, hn::Lt(index, hn::Set(ids, lanes)));
+      return hn::IfThenElse(is_low, hn::TableLookupLanes(part[0], low), hn::TableLookupLanes(part[1], low));
+    } else {
+      alignas(64) float table[leaf_corners];
+      for (std::size_t i = 0; i < leaf_steps; ++i) hn::Store(part[i], f, table + i * lanes);
+      return hn::GatherIndex(f, table, hn::BitCast(hn::RebindToSigned<F>(), index));
     }
   }
+};
+
+/// What the floats say of a leaf's triangles (raytrace/wide/ray.h).
+struct LeafTest {
+  unsigned candidates = 0, sure = 0;
+  alignas(64) float t_below[leaf_lanes], t_above[leaf_lanes];  ///< of candidates: none is met elsewhere
+
+  HWY_INLINE LeafTest(const WideLeaf& leaf, const WideRay& ray) {
+    const auto from = [&](std::size_t k) {
+      const std::size_t a = ray.axis[k];
+      return hn::Sub(all(ray.origin[a]), all(leaf.anchor[a]));
+    };
+    const V o[3] = {from(0), from(1), from(2)};
+    const V reach = hn::Add(hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2])), all(leaf.extent));
+    const V off = hn::MulAdd(all(12.0f * 0x1p-24f), reach, all(ray.coordinate_error));
+    const V wide = hn::MulAdd(all(16.0f), off, all(leaf.size_13));
+    const V error = hn::Mul(off, wide), depth_error = hn::Mul(hn::Mul(error, wide), all(ray.t_per_z));
+    Corners x, y, t;
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const auto corner = [&](std::size_t k) {
+        return hn::Sub(hn::Load(f, leaf.corner[ray.axis[k]] + i * lanes), o[k]);
+      };
+      t.part[i] = hn::Mul(corner(2), all(ray.inverse_z));
+      x.part[i] = hn::NegMulAdd(all(ray.direction_x), t.part[i], corner(0));
+      y.part[i] = hn::NegMulAdd(all(ray.direction_y), t.part[i], corner(1));
+    }
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const auto nibble = hn::Set(ids, leaf_corners - 1);
+      const auto packed =
+          hn::PromoteTo(ids, hn::Load(hn::Rebind<std::uint16_t, F>(), leaf.index + i * lanes));
+      const auto a = hn::And(packed, nibble), b = hn::And(hn::ShiftRight<4>(packed), nibble),
+                 c = hn::ShiftRight<8>(packed);
+      const V x0 = x.at(a), x1 = x.at(b), x2 = x.at(c), y0 = y.at(a), y1 = y.at(b), y2 = y.at(c);
+      const V u = hn::NegMulAdd(y2, x1, hn::Mul(x2, y1)), v = hn::NegMulAdd(y0, x2, hn::Mul(x0, y2)),
+              w = hn::NegMulAdd(y1, x0, hn::Mul(x1, y0));
+      const V least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+      const V det = hn::Add(hn::Add(u, v), w), size_of_det = hn::Abs(det);
+      const V sum = hn::MulAdd(u, t.at(a), hn::MulAdd(v, t.at(b), hn::Mul(w, t.at(c))));
+      const V depth = hn::Xor(sum, hn::And(det, all(-0.0f)));
+      const auto met = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
+      const auto in_range = hn::And(hn::Ge(depth, hn::MulSub(all(ray.t_min), size_of_det, depth_error)),
+                                    hn::Le(depth, hn::MulAdd(all(ray.t_max), size_of_det, depth_error)));
+      const unsigned left =
+          (leaf.lanes >> i * lanes) & bits_of(f, hn::And(met, in_range)) & ((1u << lanes) - 1);
+      if (left == 0) continue;
+      candidates |= left << i * lanes;
+      const V surely = hn::Mul(all(3.0f), error);
+      const auto far_of = [](V p, V q, V r) { return hn::Max(hn::Max(hn::Abs(p), hn::Abs(q)), hn::Abs(r)); };
+      const auto is_sure =
+          hn::And(hn::Or(hn::Gt(least, surely), hn::Lt(most, hn::Neg(surely))),
+                  hn::Le(hn::Max(far_of(x0, x1, x2), far_of(y0, y1, y2)), all(0.25f * leaf.size_13)));
+      sure |= (left & bits_of(f, is_sure)) << i * lanes;
+      const V per_det = hn::Div(all(1.0f), size_of_det), middle = hn::Mul(depth, per_det);
+      const V wider = hn::MulAdd(hn::Abs(middle), all(0x1p-20f), hn::Mul(depth_error, per_det));
+      hn::Store(hn::IfThenElse(is_sure, hn::Sub(middle, wider), all(-inf)), f, t_below + i * lanes);
+      hn::Store(hn::Add(middle, wider), f, t_above + i * lanes);
+    }
+    for (unsigned shapes = leaf.shapes; shapes != 0; shapes &= shapes - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(shapes));
+      t_below[i] = -inf;
+    }
+    candidates |= leaf.shapes;
+  }
   bool is_sure(unsigned i) const { return (sure >> i & 1u) != 0; }
-  /// Between which t a sure one is met.
-  float t_below(unsigned i, float size) const {
-    const float t = (numerator[i] - size * error[i]) / (determinant[i] + error[i]);
-    return t - std::abs(t) * 0x1p-20f;
-  }
-  float t_above(unsigned i, float size) const {
-    const float t = (numerator[i] + size * error[i]) / (determinant[i] - error[i]);
-    return t + std::abs(t) * 0x1p-20f;
-  }
 };
 
 /// Asks memory ahead of need for a child that comes after the next one.
@@ -234,7 +280,7 @@ HWY_INLINE void prefetch(const WideNode* nodes, const WideLeaf* leaves, WideChil
   const char* bytes = child.is_leaf() ? reinterpret_cast<const char*>(leaves + child.index())
                                       : reinterpret_cast<const char*>(nodes + child.index());
   constexpr std::size_t line = 64;
-  static_assert(sizeof(WideNode) == 8 * line && sizeof(WideLeaf) == 10 * line);
+  static_assert(sizeof(WideNode) == 8 * line && sizeof(WideLeaf) == 4 * line);
   for (std::size_t i = 0; i < 4; ++i) __builtin_prefetch(bytes + i * line);
 }
 
@@ -294,13 +340,9 @@ WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& 
   if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
   const auto walked = walk(tree, ray, [&](const WideLeaf& leaf) {
     return each_candidate(leaf, ray, [&](unsigned i, const LeafTest& test) {
-      float t = -std::numeric_limits<float>::infinity();
-      if (test.is_sure(i)) {
-        t = test.t_below(i, leaf.size);
-        const float above = test.t_above(i, leaf.size);
-        if (t > ray.t_max || above < ray.t_min) return false;
-        if (t > ray.surely_after) ray.limit(above);
-      }
+      const float t = test.t_below[i];
+      if (t > ray.t_max) return false;
+      if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above[i]);
       tree.origin->prefetch(leaf.first + i);
       return !keep(found, leaf.first + i, t, ray);
     });
@@ -325,11 +367,8 @@ WideWalk doubtful_kernel(const WideTree& tree, const Ray& given, CandidateVisito
   if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
   return walk(tree, ray, [&](const WideLeaf& leaf) {
     return each_candidate(leaf, ray, [&](unsigned i, const LeafTest& test) {
-      if (test.is_sure(i)) {
-        const float below = test.t_below(i, leaf.size), above = test.t_above(i, leaf.size);
-        if (below > ray.surely_after && above < ray.surely_before) return true;
-        if (above < ray.t_min || below > ray.t_max) return false;
-      }
+      if (test.is_sure(i) && test.t_below[i] > ray.surely_after && test.t_above[i] < ray.surely_before)
+        return true;
       return visitor.visit(visitor.self, leaf.first + i, ray);
     });
   });
