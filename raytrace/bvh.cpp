@@ -66,7 +66,7 @@ class Builder {
  public:
   /// world: where leaves' primitives are; none: they get ids alone.
   Builder(const World* world, Bvh& bvh, std::size_t count)
-      : world_(world), bvh_(bvh), nodes_(bvh.nodes, most_nodes(count)) {
+      : world_(world), bvh_(bvh), nodes_(bvh, most_nodes(count)) {
     bvh.ids.resize(count);
     if (world != nullptr) bvh.primitives.resize(count);
   }
@@ -74,7 +74,9 @@ class Builder {
   void run(std::span<const BoxRef> boxes) {
     const BvhChild root = build(boxes, centroid_bounds(boxes), 0, 0);
     if (root.is_leaf()) {
-      BvhNode& node = nodes_[nodes_.take(1)];
+      const std::uint32_t index = nodes_.take(1);
+      BvhNode& node = nodes_[index];
+      nodes_.below(index) = {root.first(), root.count()};
       Box box = Box::empty();
       for (const BoxRef& b : boxes) box.grow(ref_of(b).box);
       set_child(node, 0, box, root);
@@ -148,6 +150,7 @@ class Top {
       return left.clusters >= least && split(left, right);
     });
     const std::uint32_t index = builder_.nodes_.take(1);
+    builder_.nodes_.below(index) = {range.first, range.count};
     const auto put_child = [&](std::size_t i) {
       BvhNode& node = builder_.nodes_[index];
       if (i < count)

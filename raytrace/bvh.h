@@ -44,8 +44,14 @@ struct LeafPrimitive {
   std::array<double, 9> v;
 };
 
+/// Leaf primitives one after another.
+struct LeafRange {
+  std::uint32_t first, count;
+};
+
 struct Bvh {
   HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: walk all primitives
+  HugeVector<LeafRange> below;           ///< of each node: what all its leaves hold
   HugeVector<LeafPrimitive> primitives;  ///< in leaf order; none where they are read from the world
   HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order
   std::uint64_t dropped = 0;             ///< primitives left out: not finite, zero area or zero radius
@@ -74,6 +80,8 @@ struct FinitePrimitives {
   std::uint64_t dropped = 0;
 };
 FinitePrimitives finite_primitives(const World& world);
+/// A sphere's or solid's box as it is there.
+BoxRef shape_box(const World& world, std::uint32_t id, const Vec3& center);
 
 Bvh build_bvh(const World& world);
 /// Over boxes alone: no primitives, and for ids what the boxes have as theirs, in leaf order.

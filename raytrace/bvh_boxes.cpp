@@ -64,6 +64,12 @@ void append_triangles(const World& world, FinitePrimitives& out) {
 
 }  // namespace
 
+BoxRef shape_box(const World& world, std::uint32_t id, const Vec3& center) {
+  const ShapeGeometry& geometry = world.shape(id).geometry;
+  if (is_solid(geometry)) return solid_box(geometry, id, center);
+  return sphere_box(std::get<Sphere>(geometry), id, center);
+}
+
 FinitePrimitives finite_primitives(const World& world) {
   FinitePrimitives out;
   const Vec3 middle = world.finite_bounds.center();

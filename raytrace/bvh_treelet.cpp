@@ -118,7 +118,7 @@ class Treelet {
         four_of(children, [&](Range& left, Range& right) { return split(left, right); });
     if (count == 1) return leaf(range);
     const auto index = static_cast<std::uint32_t>(room_.nodes.size());
-    room_.nodes.emplace_back();
+    room_.nodes.emplace_back(), room_.below.push_back({first_ + range.first, range.count});
     for (std::size_t i = 0; i < 4; ++i) {
       const Box box = i < count ? children[i].bounds.box : Box::empty();
       const BvhChild child = i >= count             ? BvhChild::empty()
@@ -201,7 +201,7 @@ class Treelet {
 
 BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeStore& store) {
   room.scratch.resize(std::max(room.scratch.size(), room.refs.size()));
-  room.nodes.clear();
+  room.nodes.clear(), room.below.clear();
   const BvhChild root = Treelet(room, first).run(depth);
   if (root.is_leaf()) return root;
   const std::uint32_t base = store.take(static_cast<std::uint32_t>(room.nodes.size()));
@@ -209,7 +209,7 @@ BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeSt
     BvhNode node = room.nodes[i];
     for (BvhChild& child : node.child)
       if (!child.is_leaf()) child = BvhChild::node(base + child.index());
-    store[base + i] = node;
+    store[base + i] = node, store.below(base + i) = room.below[i];
   }
   return BvhChild::node(base);
 }

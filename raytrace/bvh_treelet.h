@@ -15,13 +15,14 @@ inline constexpr int sah_depth =
 class NodeStore {
  public:
   /// Room for `most` nodes: pages that are not reached cost nothing.
-  NodeStore(HugeVector<BvhNode>& nodes, std::size_t most) : nodes_(nodes) { nodes_.resize(most); }
+  NodeStore(Bvh& bvh, std::size_t most) : bvh_(bvh) { bvh.nodes.resize(most), bvh.below.resize(most); }
   std::uint32_t take(std::uint32_t count) { return used_.fetch_add(count, std::memory_order_relaxed); }
-  BvhNode& operator[](std::uint32_t index) { return nodes_[index]; }
-  void finish() { nodes_.resize(used_); }
+  BvhNode& operator[](std::uint32_t index) { return bvh_.nodes[index]; }
+  LeafRange& below(std::uint32_t index) { return bvh_.below[index]; }
+  void finish() { bvh_.nodes.resize(used_), bvh_.below.resize(used_); }
 
  private:
-  HugeVector<BvhNode>& nodes_;
+  Bvh& bvh_;
   std::atomic<std::uint32_t> used_{0};
 };
 
@@ -54,6 +55,7 @@ std::size_t four_of(std::array<R, 4>& children, const Split& split) {
 struct TreeletRoom {
   std::vector<Ref> refs, scratch;
   std::vector<BvhNode> nodes;
+  std::vector<LeafRange> below;  ///< of the nodes
 };
 
 /// Builds over room.refs and brings them into the order of the leaves; the first one is the tree's primitive

@@ -56,11 +56,8 @@ void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions
   frame.primary_rays = time_pass(options.runs, [&] {
     if (packets_apply(tracer.structures())) {
       const Sight eye = sight_of_eye(tracer.structures(), view);
-      for_each_tile({options.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-        TileHits hits;
-        CompactTile* tile = tiles.size() > 0 ? &tiles[i] : nullptr;
-        primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits, &frame.receiver, tile);
-      });
+      primary_pass(tracer, view, eye,
+                   {.hits = {}, .receivers = &frame.receiver, .compact = {tiles.data(), tiles.size()}});
       return;
     }
     for_each_pixel({options.size}, [&](int x, int y, std::size_t) {

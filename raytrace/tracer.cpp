@@ -121,7 +121,7 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const Bvh& bvh = impl_->structures.bvh;
   const StructureSize size = size_of(impl_->structures.structure);
   impl_->stats = {.build_ms = watch.elapsed_ms(),
-                  .bytes = bvh.nodes.size() * sizeof(BvhNode) +
+                  .bytes = bvh.nodes.size() * sizeof(BvhNode) + bvh.below.size() * sizeof(LeafRange) +
                            bvh.primitives.size() * sizeof(LeafPrimitive) +
                            bvh.ids.size() * sizeof(std::uint32_t) + size.bytes,
                   .nodes = bvh.nodes.size() + size.nodes,

@@ -84,18 +84,24 @@ void expect_same(const Scene& scene, const Tracer& tracer, const Reference& refe
   }
 }
 
-/// The same verdicts where a tile's receivers are kept as floats alone.
+/// The same verdicts where a tile's receivers are kept as floats alone, and the same receivers in double,
+/// seen through an eye that is kept and through one that is not.
 void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
-                           ImageSize size) {
+                           ImageSize size, raytrace::EyeUse use) {
   if (!packets_apply(tracer.structures())) return;
   const View view = make_view(scene.camera, size);
-  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view);
+  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view, use);
   const raytrace::TileGrid grid{size};
   std::vector<raytrace::TileHits> hits(grid.count());
   raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
-  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits[i], nullptr, &tiles[i]);
-  });
+  Image<SurfacePoint> receivers(size);
+  primary_pass(tracer, view, eye, {.hits = hits, .receivers = &receivers, .compact = {}});
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < receivers.data.size(); ++i)
+    points += same_point(receivers.data[i], reference.receivers[i]) ? 0 : 1;
+  EXPECT_EQ(points, 0U) << "receivers differ, " << raytrace::packet_target();
+  primary_pass(tracer, view, eye,
+               {.hits = hits, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     const raytrace::Sight sight =
         sight_of_light(tracer.structures(), scene.lights[l], {tiles.data(), tiles.size()});
@@ -130,7 +136,8 @@ void check(const Scene& scene, ImageSize size) {
   const Reference reference = reference_of(tracer, w.scene(), size);
   on_all_targets([&] {
     expect_same(w.scene(), tracer, reference, size);
-    expect_same_by_floats(w.scene(), tracer, reference, size);
+    for (const raytrace::EyeUse use : {raytrace::EyeUse::once, raytrace::EyeUse::kept})
+      expect_same_by_floats(w.scene(), tracer, reference, size, use);
   });
 }
 
@@ -358,7 +365,7 @@ TEST(Cells, ListsAreInOrderOnAnyNumberOfThreads) {
   const View view = make_view(scene.camera, {160, 120});
   const auto cells_on = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return sight_of_eye(tracer.structures(), view); });
+    return arena.execute([&] { return sight_of_eye(tracer.structures(), view, raytrace::EyeUse::kept); });
   };
   const raytrace::Sight one = cells_on(1), three = cells_on(3);
   ASSERT_TRUE(one.by_cells && three.by_cells);

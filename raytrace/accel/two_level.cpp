@@ -177,7 +177,7 @@ class Builder {
       for (std::size_t i = 0; i < boxes.size(); ++i)
         out_.leaves.ids[part.first + i] = part.boxes[tree.ids[i]].id;
     }
-    tree.ids = {};
+    tree.ids = {}, tree.below = {};
     tree.nodes.shrink_to_fit();
     out_.trees[j] = std::move(tree);
   }
@@ -190,7 +190,7 @@ class Builder {
     std::vector<TwoLevel::Entry> in_order;
     for (const std::uint32_t i : out_.upper.ids) in_order.push_back(out_.entries[i]);
     out_.entries = std::move(in_order);
-    out_.upper.ids = {};
+    out_.upper.ids = {}, out_.upper.below = {};
     out_.upper.nodes.shrink_to_fit();
   }
 

@@ -132,9 +132,10 @@ class Frustum {
 };
 
 /// Visits the leaves that the tile may meet, highest priority first: leaf(first, count) returns false to end
-/// the walk; limit() is the least priority still of interest.
-template <class Leaf, class Limit>
-void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf) {
+/// the walk; limit() is the least priority still of interest; ahead(child) is told what will come.
+template <class Leaf, class Limit, class Ahead>
+void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf,
+               const Ahead& ahead) {
   struct Entry {
     BvhChild child;
     float priority;
@@ -157,8 +158,14 @@ void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const
       std::size_t at = size++;
       for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
       stack[at] = {node.child[i], priority[i]};
+      ahead(node.child[i]);
     }
   }
+}
+
+template <class Leaf, class Limit>
+void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf) {
+  walk_tile(bvh, frustum, limit, leaf, [](BvhChild) {});
 }
 
 /// Bit p: packet p may meet the primitive in front of what it knows already.

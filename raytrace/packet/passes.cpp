@@ -4,6 +4,7 @@
 #include "raytrace/packet/places.h"
 #include "raytrace/packet/prepare.h"
 #include "raytrace/packet/receivers.h"
+#include "raytrace/packet/view_block.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
@@ -31,25 +32,41 @@ std::optional<Hit> hit_at(const Structures& s, const Ray& ray, std::uint32_t lea
   return hit;
 }
 
-/// In double; of a pixel's cell only what is in its list.
-std::optional<Hit> closest_of_pixel(const Tracer& tracer, const Sight& eye, int x, int y, const Ray& ray) {
+/// Leaves among which a pixel's nearest hit is; `known`: else it may be any.
+struct Candidates {
+  std::span<const std::uint32_t> leaves;
+  bool known = false;
+};
+
+/// Of a pixel's cell all that is in its list.
+Candidates candidates_in_cell(const Sight& eye, int x, int y) {
   constexpr std::size_t most = 256;  // in longer lists the hierarchy is quicker
-  if (!eye.by_cells) return tracer.closest_hit(ray);
+  if (!eye.by_cells) return {};
   const Cells& cells = eye.cells;
   const auto cell = static_cast<std::size_t>(y / 4 * cells.columns() + x / 4);
   const std::size_t begin = cells.first[cell], count = cells.first[cell + 1] - begin;
-  if (count > most) return tracer.closest_hit(ray);
-  return tracer.closest_hit_among(ray, {cells.leaf.data() + begin, count});
+  if (count > most) return {};
+  return {{cells.leaf.data() + begin, count}, true};
 }
 
-/// Where in the tree a triangle of the pixel's list lies; unsure_hit where that is not known.
-std::uint32_t leaf_in_list(const Tracer& tracer, const Sight& eye, int x, int y, std::uint32_t triangle) {
-  if (!eye.by_cells || triangle == no_id || !tracer.world().is_triangle(triangle)) return unsure_hit;
-  const Cells& cells = eye.cells;
-  const auto cell = static_cast<std::size_t>(y / 4 * cells.columns() + x / 4);
-  for (std::size_t i = cells.first[cell]; i < cells.first[cell + 1]; ++i)
-    if (tracer.structures().bvh.ids[cells.leaf[i]] == triangle) return cells.leaf[i];
+/// Where in the tree the triangle lies; unsure_hit where that is not known.
+std::uint32_t leaf_of(const Tracer& tracer, const Candidates& candidates, std::uint32_t triangle) {
+  if (triangle == no_id || !tracer.world().is_triangle(triangle)) return unsure_hit;
+  for (const std::uint32_t leaf : candidates.leaves)
+    if (tracer.structures().bvh.ids[leaf] == triangle) return leaf;
   return unsure_hit;
+}
+
+/// The receiver of a pixel for which find_hits() gave this leaf.
+SurfacePoint receiver_among(const Tracer& tracer, const View& view, int x, int y, std::uint32_t leaf,
+                            const Candidates& candidates) {
+  if (leaf == nothing_hit) return {};
+  const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+  // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
+  std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
+  if (!hit)
+    hit = candidates.known ? tracer.closest_hit_among(ray, candidates.leaves) : tracer.closest_hit(ray);
+  return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
 }
 
 void prepare_tile(const View& view, const Sight& eye, const TileRect& rect, TileRays& rays) {
@@ -94,8 +111,78 @@ PacketBits vector_receivers(const Tracer& tracer, const View& view, const TileRe
 
 }  // namespace
 
+namespace {
+
+/// The tile's receivers from its hits. candidates(x, y, lane): of an unsure pixel.
+template <class CandidatesOf>
+void store_tile(const Tracer& tracer, const View& view, const TileRect& rect, TileHits& hits,
+                Image<SurfacePoint>* receivers, CompactTile* compact, const CandidatesOf& candidates) {
+  CompactDraft draft;
+  if (compact != nullptr) compact->clear();
+  const PacketBits left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
+  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
+    const std::uint32_t leaf = hits.leaf[lane];
+    if (leaf == nothing_hit && receivers == nullptr) return;
+    const Candidates some = leaf == unsure_hit ? candidates(x, y, lane) : Candidates{};
+    const SurfacePoint point = receiver_among(tracer, view, x, y, leaf, some);
+    if (leaf == unsure_hit) hits.leaf[lane] = leaf_of(tracer, some, point.primitive);
+    if (receivers != nullptr) receivers->at(x, y) = point;
+    if (compact != nullptr) compact->put(lane, point, draft);
+  });
+  if (compact != nullptr) compact->finish(draft, view.eye);
+}
+
+/// tile(index in the block, its rectangle) for every tile of a block's rectangle.
+template <class Tile>
+void for_each_tile_of(const BlockRect& block, const Tile& tile) {
+  for (int y = block.y0; y < block.y1; y += tile_pixels)
+    for (int x = block.x0; x < block.x1; x += tile_pixels) {
+      const int index = (y - block.y0) / tile_pixels * block_tiles + (x - block.x0) / tile_pixels;
+      tile(static_cast<std::size_t>(index),
+           TileRect{x, y, std::min(x + tile_pixels, block.x1), std::min(y + tile_pixels, block.y1)});
+    }
+}
+
+/// The tile's receivers from a block's hits; `hits` may be the block's own.
+void store_tile_of(const Tracer& tracer, const View& view, const BlockHits& block, std::size_t index,
+                   const TileRect& rect, TileHits& hits, Image<SurfacePoint>* receivers,
+                   CompactTile* compact) {
+  std::vector<std::uint32_t> leaves;
+  store_tile(tracer, view, rect, hits, receivers, compact, [&](int, int, std::size_t lane) {
+    leaves.clear();
+    for (const BlockDoubt& doubt : block.doubts_at(index * tile_rays + lane)) leaves.push_back(doubt.leaf);
+    return Candidates{leaves, block.all_doubts};
+  });
+}
+
+/// block(rectangle) for every block of the picture, over all threads.
+template <class Block>
+void for_each_block(ImageSize size, const Block& block) {
+  const int columns = (size.width + block_pixels - 1) / block_pixels;
+  const int rows = (size.height + block_pixels - 1) / block_pixels;
+  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), [&](const tbb::blocked_range<int>& r) {
+    for (int i = r.begin(); i != r.end(); ++i) {
+      const int x = i % columns * block_pixels, y = i / columns * block_pixels;
+      block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
+    }
+  });
+}
+
+std::size_t tile_at(ImageSize size, const TileRect& rect) {
+  return static_cast<std::size_t>(rect.y0 / tile_pixels) * TileGrid{size}.columns() +
+         static_cast<std::size_t>(rect.x0 / tile_pixels);
+}
+
+}  // namespace
+
 void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                TileHits& hits) {
+  if (eye.by_blocks) {
+    BlockHits block;
+    closest_in_block(tracer.structures(), eye.seen, view, {rect.x0, rect.y0, rect.x1, rect.y1}, block);
+    hits = block.tiles[0];
+    return;
+  }
   TileRays rays;
   prepare_tile(view, eye, rect, rays);
   if (eye.by_cells)
@@ -107,31 +194,56 @@ void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const T
       hits.leaf[p * packet_rays + static_cast<std::size_t>(std::countr_zero(dead))] = unsure_hit;
 }
 
+void find_all_hits(const Tracer& tracer, const View& view, const Sight& eye, std::span<TileHits> hits) {
+  if (!eye.by_blocks)
+    return for_each_tile({view.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      find_hits(tracer, view, eye, {x0, y0, x1, y1}, hits[i]);
+    });
+  for_each_block(view.size, [&](const BlockRect& rect) {
+    BlockHits block;
+    closest_in_block(tracer.structures(), eye.seen, view, rect, block);
+    for_each_tile_of(
+        rect, [&](std::size_t i, const TileRect& tile) { hits[tile_at(view.size, tile)] = block.tiles[i]; });
+  });
+}
+
 SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& eye, int x, int y,
                          std::uint32_t leaf) {
-  if (leaf == nothing_hit) return {};
-  const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-  // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
-  std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
-  if (!hit) hit = closest_of_pixel(tracer, eye, x, y, ray);
-  return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
+  return receiver_among(tracer, view, x, y, leaf, candidates_in_cell(eye, x, y));
 }
 
 void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                   TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact) {
+  if (eye.by_blocks) {
+    BlockHits block;
+    closest_in_block(tracer.structures(), eye.seen, view, {rect.x0, rect.y0, rect.x1, rect.y1}, block);
+    hits = block.tiles[0];
+    return store_tile_of(tracer, view, block, 0, rect, hits, receivers, compact);
+  }
   find_hits(tracer, view, eye, rect, hits);
-  CompactDraft draft;
-  if (compact != nullptr) compact->clear();
-  const PacketBits left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
-  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
-    const std::uint32_t leaf = hits.leaf[lane];
-    if (leaf == nothing_hit && receivers == nullptr) return;
-    const SurfacePoint point = receiver_of(tracer, view, eye, x, y, leaf);
-    if (leaf == unsure_hit) hits.leaf[lane] = leaf_in_list(tracer, eye, x, y, point.primitive);
-    if (receivers != nullptr) receivers->at(x, y) = point;
-    if (compact != nullptr) compact->put(lane, point, draft);
+  store_tile(tracer, view, rect, hits, receivers, compact,
+             [&](int x, int y, std::size_t) { return candidates_in_cell(eye, x, y); });
+}
+
+void primary_pass(const Tracer& tracer, const View& view, const Sight& eye, const PrimarySinks& sinks) {
+  const auto compact_of = [&](std::size_t tile) {
+    return sinks.compact.empty() ? nullptr : &sinks.compact[tile];
+  };
+  if (!eye.by_blocks)
+    return for_each_tile({view.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
+      TileHits own;
+      primary_tile(tracer, view, eye, {x0, y0, x1, y1}, sinks.hits.empty() ? own : sinks.hits[i],
+                   sinks.receivers, compact_of(i));
+    });
+  for_each_block(view.size, [&](const BlockRect& rect) {
+    BlockHits block;
+    closest_in_block(tracer.structures(), eye.seen, view, rect, block);
+    for_each_tile_of(rect, [&](std::size_t i, const TileRect& tile) {
+      const std::size_t at = tile_at(view.size, tile);
+      store_tile_of(tracer, view, block, i, tile, block.tiles[i], sinks.receivers, compact_of(at));
+      if (!sinks.hits.empty()) sinks.hits[at] = block.tiles[i];
+    });
   });
-  if (compact != nullptr) compact->finish(draft, view.eye);
 }
 
 SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {

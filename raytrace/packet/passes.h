@@ -31,6 +31,18 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& ey
 void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
                   TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact);
 
+/// Where a whole picture's pass goes; what is empty is not asked for.
+struct PrimarySinks {
+  std::span<TileHits> hits;  ///< by tile, as primary_tile() gives them
+  Image<SurfacePoint>* receivers = nullptr;
+  std::span<CompactTile> compact;  ///< by tile
+};
+
+/// find_hits() and primary_tile() for a whole picture, over all threads: an eye by blocks finds many tiles at
+/// once.
+void find_all_hits(const Tracer& tracer, const View& view, const Sight& eye, std::span<TileHits> hits);
+void primary_pass(const Tracer& tracer, const View& view, const Sight& eye, const PrimarySinks& sinks);
+
 /// Where a tile's receivers are to be had in double: stored, or by tracing the pixel again.
 struct ReceiverSource {
   const Tracer& tracer;

@@ -183,6 +183,30 @@ void see_block(const Structures& s, const SeenPass& pass, std::size_t first, See
   for (std::size_t i = count; i < 8; ++i) set(i, -1.0f);
 }
 
+unsigned see_leaves(const Structures& s, const SeenPass& pass, std::span<const std::uint32_t> leaves,
+                    SeenBlock& block) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < 8; ++i) {
+    const LeafPrimitive& p = s.bvh.primitives[leaves[std::min(i, leaves.size() - 1)]];
+    for (std::size_t k = 0; k < 9; ++k) block.rows.corner[k][i] = p.v[k];
+  }
+  see_eight_triangles(block.rows, pass);
+  if (!s.has_shapes && !s.has_masks) return 0;
+  unsigned never = 0;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const std::uint32_t id = s.bvh.ids[leaves[i]];
+    if (!s.world->is_triangle(id)) {
+      const float void_rows[SeenRows::count] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+                                                0.0f, 0.0f, inf,  inf,  -inf, -inf, inf,  -inf, inf,  inf};
+      for (std::size_t k = 0; k < SeenRows::count; ++k) block.rows.seen[k][i] = void_rows[k];
+      never |= 1u << i;
+    } else if (s.has_masks && is_masked(*s.world, id)) {
+      never |= 1u << i;
+    }
+  }
+  return never;
+}
+
 SeenPrimitive primitive_in(const Structures& s, const SeenBlock& block, std::size_t i, std::size_t leaf) {
   return seen_leaf(s, block.rows, i, leaf);
 }

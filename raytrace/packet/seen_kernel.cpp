@@ -84,6 +84,24 @@ V inverse_or_zero(V length, V sign) {
   return hn::IfThenElseZero(hn::Gt(length, all(0.0)), hn::Div(sign, length));
 }
 
+// Divisions and roots are what these numbers cost, so several quotients share one.
+struct Inverses {
+  V of[3], most;  ///< of a length of zero: 0; the most: infinity there
+  explicit Inverses(const V (&l)[3]) {
+    const V product = hn::Mul(hn::Mul(l[0], l[1]), l[2]);
+    const auto in_range = hn::And(hn::Gt(product, all(1e-200)), hn::Lt(product, all(1e200)));
+    if (hn::AllTrue(d, in_range)) [[likely]] {
+      const V inverse = hn::Div(all(1.0), product), last = hn::Mul(inverse, l[2]);
+      of[0] = hn::Mul(last, l[1]), of[1] = hn::Mul(last, l[0]);
+      of[2] = hn::Mul(inverse, hn::Mul(l[0], l[1]));
+      most = max3(of[0], of[1], of[2]);
+      return;
+    }
+    for (int k = 0; k < 3; ++k) of[k] = inverse_or_zero(l[k], all(1.0));
+    most = hn::Div(all(1.0), min3(l[0], l[1], l[2]));
+  }
+};
+
 Out from_point(const V3& a, const V3& b, const V3& c, double m) {
   const V3 e0 = c - b, e1 = a - c, e2 = b - a;
   const V3 n[3] = {cross(b, e0), cross(c, e1), cross(a, e2)};
@@ -93,19 +111,20 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
   const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
   const V l[3] = {length(n[0]), length(n[1]), length(n[2])};
   const V doubt = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
+  const Inverses inverse(l);
   Out out;
-  out.edge_error = hn::Add(all(0x1p-20), hn::Div(doubt, min3(l[0], l[1], l[2])));
-  for (int k = 0; k < 3; ++k) out.edge[k] = times(n[k], inverse_or_zero(l[k], sign));
-  const V steep = hn::Div(area, size);
-  out.nearness = times(normal, hn::Div(sign, size));
-  out.depth_error =
-      hn::MulAdd(steep, hn::MulAdd(hn::Mul(all(0x1p-35 * m), corner), hn::Div(extent, size), all(0x1p-19)),
-                 hn::Mul(all(0x1p-40 * m), hn::Mul(steep, steep)));
+  out.edge_error = hn::MulAdd(doubt, inverse.most, all(0x1p-20));
+  for (int k = 0; k < 3; ++k) out.edge[k] = times(n[k], hn::Mul(inverse.of[k], sign));
+  const V per_size = hn::Div(all(1.0), size), steep = hn::Mul(area, per_size);
+  out.nearness = times(normal, hn::Mul(sign, per_size));
+  out.depth_error = hn::MulAdd(
+      steep, hn::MulAdd(hn::Mul(all(0x1p-35 * m), corner), hn::Mul(extent, per_size), all(0x1p-19)),
+      hn::Mul(all(0x1p-40 * m), hn::Mul(steep, steep)));
   // Rays in the widened triangle meet its plane ahead, at a distance that the double kernels know.
   const V well = hn::Max(hn::Mul(hn::Mul(all(12.0), out.edge_error), hn::Mul(max3(l[0], l[1], l[2]), corner)),
                          hn::Mul(all(0x1p-33 * m), hn::Mul(corner, corner)));
-  out.depth_floor =
-      hn::IfThenElse(hn::Ge(size, well), all(-infinity), hn::Div(hn::Mul(all(0x1p-34 * m), corner), size));
+  out.depth_floor = hn::IfThenElse(hn::Ge(size, well), all(-infinity),
+                                   hn::Mul(hn::Mul(all(0x1p-34 * m), corner), per_size));
   // Edge-on: all edge planes are the triangle's own; only rays within that plane's error are not surely off.
   const auto thin = hn::Not(hn::Gt(size, hn::Mul(hn::Mul(all(0x1p-38 * m), corner), extent)));
   if (!hn::AllFalse(d, thin)) {
@@ -137,18 +156,19 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
   const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
   const V doubt = all(0x1p-39 * m * corner);
   Out out;
-  out.edge_error = hn::Add(all(0x1p-20 * radius), hn::Div(doubt, min3(l[0], l[1], l[2])));
-  out.edge[0] = line(b, e0, inverse_or_zero(l[0], sign));
-  out.edge[1] = line(c, e1, inverse_or_zero(l[1], sign));
-  out.edge[2] = line(a, e2, inverse_or_zero(l[2], sign));
+  const Inverses per(l);
+  out.edge_error = hn::MulAdd(doubt, per.most, all(0x1p-20 * radius));
+  out.edge[0] = line(b, e0, hn::Mul(per.of[0], sign));
+  out.edge[1] = line(c, e1, hn::Mul(per.of[1], sign));
+  out.edge[2] = line(a, e2, hn::Mul(per.of[2], sign));
   const V inverse = hn::Div(all(1.0), normal.z);
   out.nearness = {hn::Neg(hn::Mul(normal.x, inverse)), hn::Neg(hn::Mul(normal.y, inverse)),
                   hn::Mul(dot(normal, a), inverse)};
   const V terms = hn::MulAdd(hn::Add(hn::Abs(out.nearness.x), hn::Abs(out.nearness.y)), all(2.0 * radius),
                              hn::Abs(out.nearness.z));
-  out.depth_error = hn::MulAdd(
-      terms, all(0x1p-20),
-      hn::MulAdd(all(0x1p-35 * m * corner), hn::Div(extent, size), all(0x1p-20 * radius + 0x1p-40 * m)));
+  out.depth_error = hn::MulAdd(terms, all(0x1p-20),
+                               hn::MulAdd(all(0x1p-35 * m * corner), hn::Mul(extent, hn::Abs(inverse)),
+                                          all(0x1p-20 * radius + 0x1p-40 * m)));
   out.depth_floor = all(-infinity);
   const auto thin = hn::Not(hn::Gt(size, all(0x1p-35 * m * corner)));
   if (!hn::AllFalse(d, thin)) {
@@ -209,12 +229,17 @@ void bound(SeenRows& rows, std::size_t first) {
   auto ahead = upright, behind = upright;
   V u_min = all(infinity), u_max = all(-infinity), v_min = all(infinity), v_max = all(-infinity);
   V nearest = all(-infinity);
-  for (const V3& corner : g) {
+  // One division for all three; where a corner is not ahead, what it gives is not looked at.
+  const V z01 = hn::Mul(g[0].z, g[1].z), per_z012 = hn::Div(all(1.0), hn::Mul(z01, g[2].z));
+  const V per_z01 = hn::Mul(per_z012, g[2].z);
+  const V per_z[3] = {hn::Mul(per_z01, g[1].z), hn::Mul(per_z01, g[0].z), hn::Mul(per_z012, z01)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const V3& corner = g[k];
     ahead = hn::And(ahead, hn::Gt(corner.z, all(0x1p-46)));
     behind = hn::And(behind, hn::Lt(corner.z, all(-0x1p-46)));
-    const V u = hn::Div(corner.x, corner.z), v = hn::Div(corner.y, corner.z);
-    const V du = hn::Div(hn::MulAdd(hn::Abs(u), doubt_z, doubt), corner.z);
-    const V dv = hn::Div(hn::MulAdd(hn::Abs(v), doubt_z, doubt), corner.z);
+    const V u = hn::Mul(corner.x, per_z[k]), v = hn::Mul(corner.y, per_z[k]);
+    const V du = hn::Mul(hn::MulAdd(hn::Abs(u), doubt_z, doubt), per_z[k]);
+    const V dv = hn::Mul(hn::MulAdd(hn::Abs(v), doubt_z, doubt), per_z[k]);
     u_min = hn::Min(u_min, hn::Sub(u, du)), u_max = hn::Max(u_max, hn::Add(u, du));
     v_min = hn::Min(v_min, hn::Sub(v, dv)), v_max = hn::Max(v_max, hn::Add(v, dv));
     const V terms = hn::MulAdd(hn::Abs(m.x), hn::Add(hn::Abs(u), du),

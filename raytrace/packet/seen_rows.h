@@ -1,6 +1,8 @@
 // What passes between seen.cpp's drivers and seen_kernel.cpp, which is compiled once per instruction set.
 #pragma once
 
+#include <span>
+
 #include "raytrace/packet/seen.h"
 
 namespace gnomon::raytrace {
@@ -39,6 +41,11 @@ void see_block(const Structures& structures, const SeenPass& pass, std::size_t f
 /// The block's i-th, which is this leaf.
 SeenPrimitive primitive_in(const Structures& structures, const SeenBlock& block, std::size_t i,
                            std::size_t leaf);
+
+/// The same for up to eight leaves by their numbers, of which those that are no triangles are void. Bit i:
+/// the i-th is never sure.
+unsigned see_leaves(const Structures& structures, const SeenPass& pass, std::span<const std::uint32_t> leaves,
+                    SeenBlock& block);
 
 /// Corners in, numbers out.
 void see_eight_triangles(SeenRows& rows, const SeenPass& pass);

@@ -153,20 +153,21 @@ Seen seen_from(const Structures& s, const Light& light) {
                                               : seen_from(s, light.position, true);
 }
 
-Sight sight_of_eye(const Structures& s, const View& view) {
+Sight sight_of_eye(const Structures& s, const View& view, EyeUse use) {
   Sight sight;
-  if (cells_pay(s, view.size.pixels()) && view.tan_half_x < widest_frame && view.tan_half_y < widest_frame) {
+  if (view.tan_half_x < widest_frame && view.tan_half_y < widest_frame) {
     sight.seen = open_seen_from(s, view.eye, false);
     frame_seen(s, view.right, view.forward, sight.seen);
-    const auto axis = [](double tan_half, int pixels) {
-      const double width = 2.0 * tan_half / pixels, first = 0.5 * width - tan_half;
-      return CellAxis{first, first, width, pixels, 4, 0.0f, 0.0f};
-    };
-    sight.cells.u = axis(view.tan_half_x, view.size.width);
-    sight.cells.v = axis(view.tan_half_y, view.size.height);
+    sight.by_blocks = true;
+    if (use == EyeUse::once || !cells_pay(s, view.size.pixels())) return sight;
+    const auto [u, v] = axes_of_view(view);
+    sight.cells.u = u, sight.cells.v = v;
     sight.by_cells = fill_cells(s, sight.seen, sight.cells);
+    sight.by_blocks = !sight.by_cells;
+    if (sight.by_blocks) sight.cells = {};
+    return sight;
   }
-  if (!sight.by_cells) sight.seen = seen_from(s, view.eye, false), sight.cells = {};
+  sight.seen = seen_from(s, view.eye, false);
   return sight;
 }
 

@@ -1,5 +1,5 @@
 // The world from an eye or a light, made ready for tiles of rays: the primitives seen from there, and cells
-// where they pay.
+// where they pay; or, for an eye that is looked through once, nothing but its frame.
 #pragma once
 
 #include <span>
@@ -16,7 +16,8 @@ inline constexpr double widest_slope = 1.5;
 struct Sight {
   Seen seen;
   Cells cells;
-  bool by_cells = false;  ///< else Seen::primitives are filled, for the hierarchy
+  bool by_cells = false;
+  bool by_blocks = false;  ///< an eye's: raytrace/packet/view_block.h. Neither: Seen::primitives are filled
 };
 
 /// Whether the world has a tree to walk and lengths that floats can hold.
@@ -25,8 +26,11 @@ bool packets_apply(const Structures& structures);
 /// The light as a common origin or direction, for the hierarchy.
 Seen seen_from(const Structures& structures, const Light& light);
 
-/// Cells are packets of 4 x 4 pixels.
-Sight sight_of_eye(const Structures& structures, const View& view);
+/// How often an eye's picture will be traced: a sight that is kept may cost more to make.
+enum class EyeUse { once, kept };
+
+/// Cells, where there are any, are packets of 4 x 4 pixels.
+Sight sight_of_eye(const Structures& structures, const View& view, EyeUse use = EyeUse::once);
 
 /// Cells cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without
 /// are left out; empty: all are wanted.

@@ -152,17 +152,14 @@ class Bench {
 
   const raytrace::Structures& structures() const { return tracer_.structures(); }
 
-  void our_hits(const Sight& eye) {
-    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      find_hits(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i]);
-    });
-  }
+  void our_hits(const Sight& eye) { find_all_hits(tracer_, view_, eye, hits_); }
   void our_receivers(const Sight& eye, bool in_double) {
-    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      primary_tile(tracer_, view_, eye, {x0, y0, x1, y1}, hits_[i], in_double ? &frame_.receiver : nullptr,
-                   &tiles_[i]);
-    });
+    primary_pass(tracer_, view_, eye,
+                 {.hits = hits_,
+                  .receivers = in_double ? &frame_.receiver : nullptr,
+                  .compact = {tiles_.data(), tiles_.size()}});
   }
+  Sight kept_eye() const { return sight_of_eye(structures(), view_, raytrace::EyeUse::kept); }
   Sight sight_of(std::size_t light) const {
     return sight_of_light(structures(), scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
   }
@@ -181,12 +178,12 @@ class Bench {
                              std::optional<double> goal) {
       add(name, threads, rays, in_turn(settings_.runs, threads, ours, theirs), peer, goal);
     };
-    const Sight ready = sight_of_eye(structures(), view_);
+    const Sight ready = kept_eye();
     const auto packets = [&] { embree_.closest_packets(primary_, peer_); };
     against(
         "primary", [&] { our_hits(ready); }, packets, "Embree 16 coherent", std::nullopt);
     against(
-        "primary, cells made anew", [&] { our_hits(sight_of_eye(structures(), view_)); }, packets,
+        "primary, made anew", [&] { our_hits(sight_of_eye(structures(), view_)); }, packets,
         "Embree 16 coherent", std::nullopt);
     if (threads > 1) return;
     against(
