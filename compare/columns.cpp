@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "scene/paging.h"
+
 namespace gnomon::compare {
 
 using raytrace::TexelKey;
@@ -20,7 +22,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
 }
 
 std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {
-  std::vector<TexelCentre> centres(keys.size());
+  auto centres = paged_vector<TexelCentre>(keys.size());
   tbb::parallel_for(std::size_t{0}, keys.size(),
                     [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
   return centres;

@@ -84,17 +84,16 @@ float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint
 }
 
 // V3: the same first hit against x's own depth.
-float flat_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre) {
+float flat_rung(const SurfacePoint& receiver, const TexelCentre& centre, double own) {
   if (!centre.hit) return 1.0f;
-  const double own = project_to_face(in.record.map.view, centre.face, receiver.position).depth;
   return lit(!(centre.depth < own - plane_rounding(centre.ray, receiver)));
 }
 
 // V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
 // does where the map stores the midpoint between two surfaces.
-float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre,
-                  raytrace::TexelKey key, float flat) {
+float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, double own,
+                  float flat) {
   const raster::ShadowMap& map = in.record.map;
   const std::size_t texel = map.texel_index(key.face(), key.column(), key.row());
   if (in.drawn.options.map.technique == raster::Technique::midpoint) return flat;
@@ -104,7 +103,6 @@ float stored_rung(const LadderInput& in, const SurfacePoint& receiver, const Tex
   const double stored = map.depth[texel];
   const double row = key.row();
   if (!holds_caster(map.view, stored)) return 1.0f;
-  const double own = project_to_face(map.view, centre.face, receiver.position).depth;
   return lit(!(own > depth_from_stored(map.view, centre.face, row + 0.5, stored)));
 }
 
@@ -131,12 +129,15 @@ void climb_lower(const Column& column, const TexelCentre& centre, raytrace::Texe
                  LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const float flat = flat_rung(in, receiver, centre);
+  const LightView& view = in.record.map.view;
+  // The depth that project_to_face gives.
+  const double own = glm::dot(receiver.position - view.origin, view.face(centre.face).forward);
+  const float flat = flat_rung(receiver, centre, own);
   out.rungs[0].data[pixel] = truth_rung(in, pixel);
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
   out.rungs[3].data[pixel] = flat;
-  out.rungs[4].data[pixel] = stored_rung(in, receiver, centre, key, flat);
+  out.rungs[4].data[pixel] = stored_rung(in, centre, key, own, flat);
 }
 
 bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
@@ -193,7 +194,8 @@ double gap_with_bias(const LadderInput& in, std::size_t pixel, std::size_t& look
 
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
-  for (auto& rung : rungs) rung = Image<float>(sorted.size, 1.0f);
+  tbb::parallel_for(std::size_t{0}, rungs.size(),
+                    [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
   const std::vector<std::uint32_t> pixels = compared_pixels(sorted);
   for (const std::uint32_t pixel : pixels) {
     raytrace::TexelKey key;
@@ -213,8 +215,10 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
 
 LowerClimb::~LowerClimb() = default;
 
-Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
-  Climb out{lower.rungs, lower.sorted};
+namespace {
+
+/// `out`: the lower rungs and what is to be compared.
+Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
   const raster::Technique technique = in.drawn.options.map.technique;
   if (technique == raster::Technique::hybrid || technique == raster::Technique::izb)
     return climb_without_map(in, std::move(out));
@@ -231,8 +235,16 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
   return out;
 }
 
+}  // namespace
+
+Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
+  return climb_on(lower, in, {lower.rungs, lower.sorted});
+}
+
 Climb climb(const LadderInput& in, Image<Label> sorted) {
-  return climb_up(LowerClimb(in, std::move(sorted)), in);
+  LowerClimb lower(in, std::move(sorted));
+  Climb start{std::move(lower.rungs), std::move(lower.sorted)};
+  return climb_on(lower, in, std::move(start));
 }
 
 }  // namespace gnomon::compare

@@ -10,8 +10,9 @@ namespace {
 // Between the entries of an evenly spaced table, linear in sRGB.
 template <std::size_t count>
 glm::u8vec3 between(const std::array<glm::u8vec3, count>& table, double t) {
-  const double clamped = std::isnan(t) ? 0.0 : std::min(std::max(t, 0.0), 1.0);
-  const double x = clamped * static_cast<double>(count - 1);
+  if (!(t > 0.0)) return table.front();
+  if (t >= 1.0) return table.back();
+  const double x = t * static_cast<double>(count - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(x), count - 2);
   const Vec3f mixed =
       glm::mix(Vec3f(table[i]), Vec3f(table[i + 1]), static_cast<float>(x - static_cast<double>(i)));

@@ -1,7 +1,10 @@
 #include "raster/shading_pass.h"
 
+#include <tbb/parallel_for.h>
+
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/paging.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -179,7 +182,7 @@ void ShadingPass::bind_visibility() const {
 }
 
 void ShadingPass::read_color(ColorImage& out) const {
-  out = ColorImage(size_);
+  out = paged_image<Vec3f>(size_);
   color_.read(GL_RGB, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
 }
 
@@ -200,29 +203,29 @@ std::vector<Vec3> ShadingPass::read_positions(const World& world, const View& vi
 }
 
 void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {
-  out = Image<std::uint32_t>(size_);
+  out = paged_image<std::uint32_t>(size_);
   visibility_.read(GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
 }
 
 void ShadingPass::read_records(LightRecord& record) const {
-  std::vector<Vec4f> values(size_.pixels());
+  auto values = paged_vector<Vec4f>(size_.pixels());
   std::vector<std::uint8_t> flags(size_.pixels());
   record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
-  record.visibility = Image<float>(size_);
+  record.visibility = paged_image<float>(size_);
   drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
-  record.texel_uv = Image<Vec2f>(size_);
+  record.texel_uv = paged_image<Vec2f>(size_);
   record.face = Image<std::uint8_t>(size_);
-  record.distance = Image<float>(size_);
-  record.gap = Image<float>(size_);
+  record.distance = paged_image<float>(size_);
+  record.gap = paged_image<float>(size_);
   record.outside_map = Image<std::uint8_t>(size_);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
     record.texel_uv.data[i] = Vec2f(values[i]);
     record.distance.data[i] = values[i].z;
     record.gap.data[i] = values[i].w;
     record.face.data[i] = static_cast<std::uint8_t>(flags[i] >> shaders::flag_face_shift);
     record.outside_map.data[i] = (flags[i] & shaders::flag_outside_map) != 0 ? 1 : 0;
-  }
+  });
 }
 
 }  // namespace gnomon::raster

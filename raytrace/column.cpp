@@ -1,5 +1,7 @@
 #include "raytrace/column.h"
 
+#include <algorithm>
+
 namespace gnomon::raytrace {
 namespace {
 
@@ -69,14 +71,13 @@ LightVertex Column::vertex(const Vec3& world) const {
 }
 
 bool Column::surely_outside(std::span<const LightVertex> vertices) const {
-  std::array<bool, 5> outside{true, true, true, true, perspective_ || face_.warp != 0.0};
-  for (const LightVertex& v : vertices) {
-    const std::array<double, 4> values = plane_values(v.h);
-    const double error = plane_error(v);
-    for (std::size_t k = 0; k < 4; ++k) outside[k] = outside[k] && values[k] < -error;
-    outside[4] = outside[4] && v.h.z < -v.error;
-  }
-  return outside[0] || outside[1] || outside[2] || outside[3] || outside[4];
+  // Most planes have the first vertex inside.
+  const auto all = [&](const auto& is_outside) {
+    return std::all_of(vertices.begin(), vertices.end(), is_outside);
+  };
+  for (std::size_t plane = 0; plane < 4; ++plane)
+    if (all([&](const LightVertex& v) { return side_value(v.h, plane) < -plane_error(v); })) return true;
+  return (perspective_ || face_.warp != 0.0) && all([](const LightVertex& v) { return v.h.z < -v.error; });
 }
 
 int Column::side_of_corners(const LightVertex& a, const LightVertex& b) const {
@@ -129,7 +130,8 @@ int Column::facing(const std::array<LightVertex, 3>& t) const {
 }
 
 Interval Column::distances(std::span<const LightVertex> polygon) const {
-  std::array<Vec3, max_clipped> part, next;
+  std::array<Vec3, max_clipped> room, other_room;
+  Vec3 *part = room.data(), *next = other_room.data();
   std::size_t count = 0;
   double error = 0.0;
   for (const LightVertex& v : polygon) {
@@ -140,15 +142,20 @@ Interval Column::distances(std::span<const LightVertex> polygon) const {
   // Clipped a little outside each plane (Sutherland & Hodgman 1974): rounding in the cut stays within the
   // slack.
   const double slack = 4.0 * error;
-  const auto value = [&](const Vec3& q, std::size_t plane) {
-    return plane < 4 ? plane_values(homogeneous(q))[plane] : q.z;
-  };
+  std::array<double, max_clipped> value;
   for (std::size_t plane = 0; plane < (perspective_ ? 5U : 4U); ++plane) {
+    bool all_inside = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      value[i] = plane_value(part[i], plane) + slack;
+      all_inside = all_inside && value[i] >= 0.0;
+    }
+    if (all_inside) continue;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t following = i + 1 < count ? i + 1 : 0;
       const Vec3& a = part[i];
-      const Vec3& b = part[(i + 1) % count];
-      const double va = value(a, plane) + slack, vb = value(b, plane) + slack;
+      const Vec3& b = part[following];
+      const double va = value[i], vb = value[following];
       if (va >= 0.0) next[kept++] = a;
       if ((va >= 0.0) != (vb >= 0.0)) next[kept++] = a + (va / (va - vb)) * (b - a);
     }

@@ -58,8 +58,14 @@ class Column {
   double grid_error() const { return corner_error_; }
 
  private:
-  std::array<double, 4> plane_values(const Vec3& h) const {
-    return {h.x - x_[0] * h.z, x_[1] * h.z - h.x, h.y - y_[0] * h.z, y_[1] * h.z - h.y};
+  /// Above 0 on the inner side of one of the four sides.
+  double side_value(const Vec3& h, std::size_t side) const {
+    if (side < 2) return side == 0 ? h.x - x_[0] * h.z : x_[1] * h.z - h.x;
+    return side == 2 ? h.y - y_[0] * h.z : y_[1] * h.z - h.y;
+  }
+  /// The same of a place in light space; the fifth plane's is the distance along forward.
+  double plane_value(const Vec3& q, std::size_t plane) const {
+    return plane < 4 ? side_value(homogeneous(q), plane) : q.z;
   }
   double plane_error(const LightVertex& v) const {
     return (1.0 + reach_) * v.error + grid_error_ * std::abs(v.h.z);

@@ -4,6 +4,7 @@
 #include "raytrace/packet/unstored.h"
 #include "raytrace/picture.h"
 #include "raytrace/tiles.h"
+#include "scene/paging.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -52,7 +53,7 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
 
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                    RayTracedFrame& frame, CompactTiles& tiles) {
-  frame.receiver = Image<SurfacePoint>(options.size);
+  frame.receiver = paged_image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(options.runs, [&] {
     if (packets_apply(tracer.structures())) {
       const Sight eye = sight_of_eye(tracer.structures(), view);
