@@ -2,6 +2,7 @@
 
 #include "raytrace/packet/cell_tile.h"
 #include "raytrace/packet/places.h"
+#include "raytrace/packet/plane_receivers.h"
 #include "raytrace/packet/prepare.h"
 #include "raytrace/packet/receivers.h"
 #include "raytrace/packet/view_block.h"
@@ -80,6 +81,10 @@ void prepare_tile(const View& view, const Sight& eye, const TileRect& rect, Tile
   keep_within(rect, rays.alive);
 }
 
+std::size_t place_in_tile(const TileRect& rect, int x, int y) {
+  return static_cast<std::size_t>(tile_pixels * (y - rect.y0) + x - rect.x0);
+}
+
 TileHits those_of(const TileHits& hits, const PacketBits& bits) {
   TileHits some;
   for (std::size_t lane = 0; lane < tile_rays; ++lane)
@@ -120,14 +125,22 @@ void store_tile(const Tracer& tracer, const View& view, const TileRect& rect, Ti
   CompactDraft draft;
   if (compact != nullptr) compact->clear();
   const PacketBits left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
+  TilePoints on_planes;
+  const PacketBits found =
+      find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
+  const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
+    if (receivers != nullptr) receivers->at(x, y) = point;
+    if (compact != nullptr) compact->put(lane, point, draft);
+  };
   for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
     const std::uint32_t leaf = hits.leaf[lane];
     if (leaf == nothing_hit && receivers == nullptr) return;
+    if ((found[lane / packet_rays] & bit_of(lane)) != 0)
+      return store(x, y, lane, on_planes[place_in_tile(rect, x, y)]);
     const Candidates some = leaf == unsure_hit ? candidates(x, y, lane) : Candidates{};
     const SurfacePoint point = receiver_among(tracer, view, x, y, leaf, some);
     if (leaf == unsure_hit) hits.leaf[lane] = leaf_of(tracer, some, point.primitive);
-    if (receivers != nullptr) receivers->at(x, y) = point;
-    if (compact != nullptr) compact->put(lane, point, draft);
+    store(x, y, lane, point);
   });
   if (compact != nullptr) compact->finish(draft, view.eye);
 }
@@ -263,10 +276,11 @@ void ReceiverSource::fill(const TileRect& rect, const PacketBits& asked, Surface
         store_receivers(bvh, *view, rect.x0, rect.y0, longest_axis(middle_ray(*view, rect)),
                         those_of(*hits, asked), {.points = points, .stride = tile_pixels});
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
+    const PacketBits found = find_plane_receivers(tracer.structures(), *view, rect, *hits, left, points);
+    for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= static_cast<std::uint16_t>(~found[p]);
   }
-  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
-    points[tile_pixels * (y - rect.y0) + x - rect.x0] = at(rect, lane);
-  });
+  for_each_place(rect, left,
+                 [&](int x, int y, std::size_t lane) { points[place_in_tile(rect, x, y)] = at(rect, lane); });
 }
 
 }  // namespace gnomon::raytrace
