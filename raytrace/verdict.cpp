@@ -19,13 +19,22 @@ struct Interval3 {  // of a ray parameter
   double lo, hi;
 };
 
+/// How far the ray's true origin may lie from its own.
+Vec3 origin_error(const SurfacePoint& from, const Ray& ray) {
+  return from.position_error + glm::abs(ray.origin - from.position);
+}
+/// shadow_ray ends before the light by less than this.
+double beyond_end(const Vec3& error, const Ray& ray) {
+  return 2.0 * (glm::dot(error, Vec3(1.0)) + error_gamma(8) * ray.t.max);
+}
+
 class Query {
  public:
   /// exact: none, or what decides every doubt.
-  Query(const Structures& s, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
-        const ExactShadow* exact = nullptr)
-      : s_(s), from_(from), given_(ray), ray_(frame), exact_(exact), surely_out_(frame.t.max) {
-    const Vec3 error = from.position_error + glm::abs(ray.origin - from.position);
+  Query(const Structures& s, const WideTree* tree, const SurfacePoint& from, const Ray& ray,
+        const RayFrame& frame, const ExactShadow* exact = nullptr)
+      : s_(s), tree_(tree), from_(from), given_(ray), ray_(frame), exact_(exact), surely_out_(frame.t.max) {
+    const Vec3 error = origin_error(from, ray);
     error_ = error;
     error_x_ = axis(error, frame.kx) + std::abs(frame.shear_x) * axis(error, frame.kz);
     error_y_ = axis(error, frame.ky) + std::abs(frame.shear_y) * axis(error, frame.kz);
@@ -34,11 +43,7 @@ class Query {
         bounds.empty()
             ? 0.0
             : max_component(glm::max(glm::abs(bounds.min - ray.origin), glm::abs(bounds.max - ray.origin)));
-    // shadow_ray ends before the light by less than this.
-    if (exact != nullptr) {
-      surely_out_ +=
-          2.0 * (glm::dot(error, Vec3(1.0)) * frame.kernel_t_from_t + error_gamma(8) * frame.t.max);
-    }
+    if (exact != nullptr) surely_out_ += beyond_end(error, ray) * frame.kernel_t_from_t;
     coarse_error_ = std::max(error_x_, error_y_) + 2.0 * error_gamma(coordinate_operations) * reach;
   }
 
@@ -68,12 +73,12 @@ class Query {
   /// The floats of the wide tree leave out no triangle that meet_triangle() would not (raytrace/wide/ray.h).
   template <class Visit>
   bool walk_all(const Visit& visit_leaf) const {
-    if (const WideTree* tree = wide_tree(s_)) {
+    if (tree_ != nullptr) {
       const auto visit_one = [&](std::uint32_t leaf, WideRay&) { return visit_leaf(leaf); };
       Ray ray = given_;
       ray.t.max = surely_out_ / ray_.kernel_t_from_t;
       const WideWalk walked =
-          visit_candidates(*tree, ray, {.origin_error = max_component(error_)}, visitor_of(visit_one));
+          visit_candidates(*tree_, ray, {.origin_error = max_component(error_)}, visitor_of(visit_one));
       if (walked != WideWalk::refused) return walked == WideWalk::ended;
     }
     BoxRay boxes(ray_, s_.bvh.center, error_);
@@ -353,6 +358,7 @@ class Query {
   }
 
   const Structures& s_;
+  const WideTree* tree_;
   const SurfacePoint& from_;
   const Ray& given_;
   const RayFrame& ray_;
@@ -364,22 +370,48 @@ class Query {
   std::array<Doubt, remembered_doubts> doubt_;
 };
 
+/// What the floats of the wide tree know: a sure answer for most rays, and what else may be met for the
+/// others. Where masks are, nothing is sure. False: the candidates are not known.
+bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& from, const Ray& ray,
+                bool exact, std::optional<Verdict>& answer, LeafCandidates& found) {
+  if (s.has_masks) return false;
+  const Vec3 error = origin_error(from, ray);
+  const WalkLimits limits{.origin_error = max_component(error),
+                          .beyond = exact ? beyond_end(error, ray) : 0.0};
+  const WideWalk walked = doubtful_candidates(tree, ray, limits, from.primitive, found);
+  if (walked == WideWalk::ended) answer = Verdict::shadowed;
+  if (walked == WideWalk::done && found.count == 0 && s.planes.empty()) answer = Verdict::lit;
+  return walked != WideWalk::refused;
+}
+
+Verdict ask(const Structures& s, const SurfacePoint& from, const Ray& ray, Candidates among,
+            const ExactShadow* exact) {
+  const WideTree* tree = among == nullptr ? wide_tree(s) : nullptr;
+  LeafCandidates found;
+  std::span<const std::uint32_t> some;
+  if (tree != nullptr) {
+    std::optional<Verdict> answer;
+    if (ask_floats(s, *tree, from, ray, exact != nullptr, answer, found))
+      some = {found.leaf.data(), found.count}, among = &some;
+    if (answer) return *answer;
+  }
+  RayFrame frame;
+  if (!scale_ray(ray, frame)) return Verdict::lit;  // the light lies within the point's own error bound
+  shear_ray(frame);
+  Query query(s, tree, from, ray, frame, exact);
+  return s.has_masks ? query.run<true>(among) : query.run<false>(among);
+}
+
 }  // namespace
 
 Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray, Candidates among) {
-  const std::optional<RayFrame> frame = make_ray_frame(ray);
-  if (!frame) return Verdict::lit;  // the light lies within the point's own error bound
-  Query query(structures, from, ray, *frame);
-  return structures.has_masks ? query.run<true>(among) : query.run<false>(among);
+  return ask(structures, from, ray, among, nullptr);
 }
 
 Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
                           const Light& light, Candidates among) {
-  const std::optional<RayFrame> frame = make_ray_frame(ray);
-  if (!frame) return Verdict::lit;
   const ExactShadow exact(*structures.world, from, light);
-  Query query(structures, from, ray, *frame, &exact);
-  return structures.has_masks ? query.run<true>(among) : query.run<false>(among);
+  return ask(structures, from, ray, among, &exact);
 }
 
 }  // namespace gnomon::raytrace

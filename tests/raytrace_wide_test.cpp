@@ -245,9 +245,7 @@ TEST(Wide, ShapesPlanesAndMasks) {
   expect_same(w.world(), hard_rays(w.world(), 4000, 5.0, 15), 3000, Precision::exact);
 }
 
-TEST(Wide, VerdictsAndNearestOccluders) {
-  Scene scene = mixed_scene();
-  scene.materials[1].alpha = 1.0f;
+void expect_same_verdicts(Scene scene, std::size_t least_open) {
   scene.lights = {test::point_light(Vec3(2.0, 6.0, 1.0)), test::sun(Vec3(0.0, -1.0, 0.0))};
   const TestWorld w(std::move(scene));
   for (const Precision precision : {Precision::robust, Precision::exact}) {
@@ -269,8 +267,57 @@ TEST(Wide, VerdictsAndNearestOccluders) {
       });
       EXPECT_EQ(wrong, 0u) << packet_target();
       if (precision == Precision::robust) {
-        EXPECT_GT(open, 10u);
+        EXPECT_GE(open, least_open);
       }
+    });
+  }
+}
+
+TEST(Wide, VerdictsAndNearestOccludersWithMasks) {
+  Scene scene = mixed_scene();
+  scene.materials[1].alpha = 1.0f;
+  expect_same_verdicts(std::move(scene), 10);
+}
+
+TEST(Wide, VerdictsAndNearestOccludersWithPlanes) {
+  Scene scene = mixed_scene();
+  scene.materials[1].alpha_mode = AlphaMode::opaque;
+  expect_same_verdicts(std::move(scene), 10);
+}
+
+TEST(Wide, VerdictsAndNearestOccluders) {
+  Scene scene = mixed_scene();
+  scene.materials[1].alpha_mode = AlphaMode::opaque;
+  scene.shapes.erase(scene.shapes.begin(), scene.shapes.begin() + 2);
+  expect_same_verdicts(std::move(scene), 10);
+  expect_same_verdicts(test::scene_of({test::uv_sphere(Vec3(0.0), 1.5, 16, 24, 0.1, 29),
+                                       test::quad(Vec3(-3, -2, -3), Vec3(0, 0, 6), Vec3(6, 0, 0))}),
+                       0);
+}
+
+/// The textbook's test walks the same tree, and its answers, wrong ones included, are those of its walk
+/// through the default hierarchy. Where rounding takes a hit out of its triangle's box, the boxes decide;
+/// these differ.
+TEST(Wide, TextbooksTest) {
+  for (const Vec3& offset : {Vec3(0.0), Vec3(148376.0, 1234.0, -223423.0)}) {
+    Scene scene = test::scene_of(
+        {test::uv_sphere(offset, 1.0, 24, 32, 0.1, 27)},
+        {test::sphere(offset + Vec3(1.5, 0.0, 0.0), 0.4), test::plane(Vec3(0, -2, 0), Vec3(0, 1, 0))});
+    const TestWorld w(std::move(scene));
+    const Tracer fast(w.world(), Accel::bvh, Precision::fast), robust(w.world(), Accel::bvh);
+    const auto rays = hard_rays(w.world(), 20000, 2.0, 28);
+    fold(fast);
+    for_each_target([&] {
+      std::size_t differ = 0, wrong = 0;
+      for (const Ray& ray : rays) {
+        WorkCounts work;
+        const auto hit = fast.closest_hit(ray), plain = fast.closest_hit(ray, work);
+        const bool equal = same(hit, plain) && fast.occluded(ray) == fast.occluded(ray, work);
+        differ += equal ? 0 : 1;
+        wrong += hit.has_value() != robust.closest_hit(ray).has_value() ? 1 : 0;
+      }
+      EXPECT_GT(wrong, 1000u) << packet_target();
+      EXPECT_LT(differ, wrong / 10) << packet_target();
     });
   }
 }

@@ -55,9 +55,10 @@ struct WideRay {
   float surely_after, surely_before;  ///< t between these is in range
   float inverse_z, t_per_z;           ///< 1 / d_z and its size
   float direction_x, direction_y;
-  float coordinate_error;  ///< 2.75 e q + 2^-34 r
-  std::uint32_t axis[3];   ///< which are x, y and z: z the direction's largest component
-  std::uint32_t octant;    ///< bit a: backwards along axis a
+  float coordinate_error;                               ///< 2.75 e q + 2^-34 r
+  float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
+  std::uint32_t axis[3];  ///< which are x, y and z: z the direction's largest component
+  std::uint32_t octant;   ///< bit a: backwards along axis a
 
   /// t in the units of RayFrame.
   void limit(float t_above) { t_max = std::min(t_max, t_above * widening); }

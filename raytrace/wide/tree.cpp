@@ -275,11 +275,11 @@ class Folding {
     leaf.first = piece.first, leaf.lanes = leaf.shapes = 0, leaf.extent = 0.0f;
     std::copy(corners.index.begin(), corners.index.end(), leaf.index);
     for (std::size_t a = 0; a < 3; ++a) {
-      leaf.anchor[a] = 0.5f * piece.box.at[a] + 0.5f * piece.box.at[3 + a];
+      leaf.anchor[a] = tree_.plain ? 0.0f : 0.5f * piece.box.at[a] + 0.5f * piece.box.at[3 + a];
+      const double origin = tree_.plain ? 0.0 : tree_.center[a];
       for (std::size_t i = 0; i < leaf_corners; ++i) {
-        const double x = i < corners.count
-                             ? corners.at[i][a] - tree_.center[a] - static_cast<double>(leaf.anchor[a])
-                             : 0.0;
+        const double x =
+            i < corners.count ? corners.at[i][a] - origin - static_cast<double>(leaf.anchor[a]) : 0.0;
         leaf.corner[a][i] = static_cast<float>(x);
         leaf.extent = std::max(leaf.extent, std::abs(leaf.corner[a][i]));
       }
@@ -312,10 +312,10 @@ float reach_of(const BvhNode& root) {
 
 }  // namespace
 
-std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world) {
+std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain) {
   if (bvh.nodes.empty()) return nullptr;
   auto tree = std::make_unique<WideTree>();
-  tree->origin = &bvh;
+  tree->origin = &bvh, tree->plain = plain;
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
   tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
@@ -327,7 +327,7 @@ std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world) {
 void WideOnDemand::fold(const Bvh& bvh, const World& world) {
   if (begun_.exchange(true)) return;
   tbb::this_task_arena::isolate(
-      [&] { ready_.store(fold_wide(bvh, world).release(), std::memory_order_release); });
+      [&] { ready_.store(fold_wide(bvh, world, plain_).release(), std::memory_order_release); });
 }
 
 std::uint64_t WideOnDemand::bytes() const {

@@ -47,17 +47,20 @@ struct WideTree {
   HugeVector<WideLeaf> leaves;
   const Bvh* origin = nullptr;                 ///< what was folded; it must outlive the tree
   alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
-  float reach = 0.0;                           ///< no coordinate of a box is above this
+  bool plain =
+      false;          ///< leaves' corners are the world's, rounded: for the textbook's test (Precision::fast)
+  float reach = 0.0;  ///< no coordinate of a box is above this
   std::uint64_t bytes() const { return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf); }
 };
 
 /// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than
 /// 2^-26.
-std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world);
+std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain = false);
 
 /// Folds the tree when so many rays have asked for it that it pays. Any number of threads may ask.
 class WideOnDemand {
  public:
+  explicit WideOnDemand(bool plain = false) : plain_(plain) {}
   ~WideOnDemand() { delete ready_.load(); }
   /// Null until it is there; counts the ray.
   const WideTree* for_ray(const Bvh& bvh, const World& world) {
@@ -70,6 +73,7 @@ class WideOnDemand {
 
  private:
   const WideTree* count_ray(const Bvh& bvh, const World& world);
+  bool plain_;
   std::atomic<const WideTree*> ready_{nullptr};
   std::atomic<std::uint64_t> rays_{0};
   std::atomic<bool> begun_{false};

@@ -3,34 +3,20 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <cstring>
-
+#include "raytrace/wide/leaf-inl.h"
 #include "raytrace/wide/walk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-using F = hn::CappedTag<float, node_lanes>;
-using U = hn::RebindToUnsigned<F>;
-using V = hn::Vec<F>;
-using M = hn::Mask<F>;
-constexpr F f;
-[[maybe_unused]] constexpr U ids;
-constexpr std::size_t lanes = hn::MaxLanes(f);
-static_assert(node_lanes % lanes == 0 && node_lanes == 16 && !HWY_HAVE_SCALABLE);
-
-constexpr float inf = std::numeric_limits<float>::infinity();
-inline V all(float v) {
-  return hn::Set(f, v);
-}
-template <class Tag, class Mask>
-HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(tag, mask, bytes);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+/// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
+inline bool prepare_plain(const Ray& given, double kernel_t, WideRay& ray) {
+  for (int a = 0; a < 3; ++a) {
+    ray.plain_origin[a] = static_cast<float>(given.origin[a]);
+    ray.plain_direction[a] = static_cast<float>(given.direction[a]);
+  }
+  ray.kernel_t = static_cast<float>(kernel_t);
+  return kernel_t >= 0x1p-60 && kernel_t <= 0x1p60;
 }
 
 /// Fills the ray; false: refused. The order of operations is that of raytrace/wide/ray.h.
@@ -80,7 +66,8 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
   const auto doubt = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
   const auto least = static_cast<float>(t_min), most = static_cast<float>(t_max);
   ray.t_min = std::max(0.0f, least - doubt(least)), ray.surely_after = least + doubt(least);
-  ray.t_max = std::min((most + doubt(most)) * WideRay::widening, FLT_MAX);
+  const auto last = static_cast<float>(t_max + limits.beyond * kernel_t);
+  ray.t_max = std::min((last + doubt(last)) * WideRay::widening, FLT_MAX);
   ray.surely_before = most <= FLT_MAX ? most - doubt(most) : FLT_MAX;
   ray.limit(limits.t_above);
   ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
@@ -90,6 +77,7 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
   ray.axis[0] = x, ray.axis[1] = y, ray.axis[2] = z;
   ray.inverse_z = ray.inverse[z], ray.t_per_z = std::abs(ray.inverse_z);
   ray.direction_x = ray.direction[x], ray.direction_y = ray.direction[y];
+  if (tree.plain) return prepare_plain(given, kernel_t, ray);
   return true;
 }
 
@@ -189,92 +177,6 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
   return true;
 }
 
-static_assert(leaf_lanes == node_lanes && leaf_corners == leaf_lanes);
-constexpr std::size_t leaf_steps = leaf_lanes / lanes;
-
-/// A coordinate of a leaf's corners, to be looked up by the triangles.
-struct Corners {
-  V part[leaf_steps];
-  template <class Index>
-  HWY_INLINE V at(Index index) const {
-    if constexpr (leaf_steps == 1) {
-      return hn::TableLookupLanes(part[0], hn::IndicesFromVec(f, index));
-    } else if constexpr (leaf_steps == 2) {
-      const auto low = hn::IndicesFromVec(f, hn::And(index, hn::Set(ids, lanes - 1)));
-      const auto is_low = hn::RebindMask(f, hn::Lt(index, hn::Set(ids, lanes)));
-      return hn::IfThenElse(is_low, hn::TableLookupLanes(part[0], low), hn::TableLookupLanes(part[1], low));
-    } else {
-      alignas(64) float table[leaf_corners];
-      for (std::size_t i = 0; i < leaf_steps; ++i) hn::Store(part[i], f, table + i * lanes);
-      return hn::GatherIndex(f, table, hn::BitCast(hn::RebindToSigned<F>(), index));
-    }
-  }
-};
-
-/// What the floats say of a leaf's triangles (raytrace/wide/ray.h).
-struct LeafTest {
-  unsigned candidates = 0, sure = 0;
-  alignas(64) float t_below[leaf_lanes], t_above[leaf_lanes];  ///< of candidates: none is met elsewhere
-
-  HWY_INLINE LeafTest(const WideLeaf& leaf, const WideRay& ray) {
-    const auto from = [&](std::size_t k) {
-      const std::size_t a = ray.axis[k];
-      return hn::Sub(all(ray.origin[a]), all(leaf.anchor[a]));
-    };
-    const V o[3] = {from(0), from(1), from(2)};
-    const V reach = hn::Add(hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2])), all(leaf.extent));
-    const V off = hn::MulAdd(all(12.0f * 0x1p-24f), reach, all(ray.coordinate_error));
-    const V wide = hn::MulAdd(all(16.0f), off, all(leaf.size_13));
-    const V error = hn::Mul(off, wide), depth_error = hn::Mul(hn::Mul(error, wide), all(ray.t_per_z));
-    Corners x, y, t;
-    for (std::size_t i = 0; i < leaf_steps; ++i) {
-      const auto corner = [&](std::size_t k) {
-        return hn::Sub(hn::Load(f, leaf.corner[ray.axis[k]] + i * lanes), o[k]);
-      };
-      t.part[i] = hn::Mul(corner(2), all(ray.inverse_z));
-      x.part[i] = hn::NegMulAdd(all(ray.direction_x), t.part[i], corner(0));
-      y.part[i] = hn::NegMulAdd(all(ray.direction_y), t.part[i], corner(1));
-    }
-    for (std::size_t i = 0; i < leaf_steps; ++i) {
-      const auto nibble = hn::Set(ids, leaf_corners - 1);
-      const auto packed =
-          hn::PromoteTo(ids, hn::Load(hn::Rebind<std::uint16_t, F>(), leaf.index + i * lanes));
-      const auto a = hn::And(packed, nibble), b = hn::And(hn::ShiftRight<4>(packed), nibble),
-                 c = hn::ShiftRight<8>(packed);
-      const V x0 = x.at(a), x1 = x.at(b), x2 = x.at(c), y0 = y.at(a), y1 = y.at(b), y2 = y.at(c);
-      const V u = hn::NegMulAdd(y2, x1, hn::Mul(x2, y1)), v = hn::NegMulAdd(y0, x2, hn::Mul(x0, y2)),
-              w = hn::NegMulAdd(y1, x0, hn::Mul(x1, y0));
-      const V least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
-      const V det = hn::Add(hn::Add(u, v), w), size_of_det = hn::Abs(det);
-      const V sum = hn::MulAdd(u, t.at(a), hn::MulAdd(v, t.at(b), hn::Mul(w, t.at(c))));
-      const V depth = hn::Xor(sum, hn::And(det, all(-0.0f)));
-      const auto met = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
-      const auto in_range = hn::And(hn::Ge(depth, hn::MulSub(all(ray.t_min), size_of_det, depth_error)),
-                                    hn::Le(depth, hn::MulAdd(all(ray.t_max), size_of_det, depth_error)));
-      const unsigned left =
-          (leaf.lanes >> i * lanes) & bits_of(f, hn::And(met, in_range)) & ((1u << lanes) - 1);
-      if (left == 0) continue;
-      candidates |= left << i * lanes;
-      const V surely = hn::Mul(all(3.0f), error);
-      const auto far_of = [](V p, V q, V r) { return hn::Max(hn::Max(hn::Abs(p), hn::Abs(q)), hn::Abs(r)); };
-      const auto is_sure =
-          hn::And(hn::Or(hn::Gt(least, surely), hn::Lt(most, hn::Neg(surely))),
-                  hn::Le(hn::Max(far_of(x0, x1, x2), far_of(y0, y1, y2)), all(0.25f * leaf.size_13)));
-      sure |= (left & bits_of(f, is_sure)) << i * lanes;
-      const V per_det = hn::Div(all(1.0f), size_of_det), middle = hn::Mul(depth, per_det);
-      const V wider = hn::MulAdd(hn::Abs(middle), all(0x1p-20f), hn::Mul(depth_error, per_det));
-      hn::Store(hn::IfThenElse(is_sure, hn::Sub(middle, wider), all(-inf)), f, t_below + i * lanes);
-      hn::Store(hn::Add(middle, wider), f, t_above + i * lanes);
-    }
-    for (unsigned shapes = leaf.shapes; shapes != 0; shapes &= shapes - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(shapes));
-      t_below[i] = -inf;
-    }
-    candidates |= leaf.shapes;
-  }
-  bool is_sure(unsigned i) const { return (sure >> i & 1u) != 0; }
-};
-
 /// Asks memory ahead of need for a child that comes after the next one.
 HWY_INLINE void prefetch(const WideNode* nodes, const WideLeaf* leaves, WideChild child) {
   const char* bytes = child.is_leaf() ? reinterpret_cast<const char*>(leaves + child.index())
@@ -326,23 +228,30 @@ inline bool keep(LeafCandidates& found, std::uint32_t leaf, float t, const WideR
   return true;
 }
 
-/// candidate(leaf, i, test) for each; true ends.
-template <class Candidate>
-HWY_INLINE bool each_candidate(const WideLeaf& leaf, const WideRay& ray, const Candidate& candidate) {
-  const LeafTest test(leaf, ray);
+constexpr auto all_wanted = [](unsigned candidates) { return candidates; };
+
+/// candidate(i, test) for each; true ends.
+template <class Test, class Candidate, class Wanted = decltype(all_wanted)>
+HWY_INLINE bool each_candidate(const WideLeaf& leaf, const WideRay& ray, const Candidate& candidate,
+                               const Wanted& wanted = all_wanted) {
+  const Test test(leaf, ray, wanted);
   for (unsigned left = test.candidates; left != 0; left &= left - 1)
     if (candidate(static_cast<unsigned>(std::countr_zero(left)), test)) return true;
   return false;
 }
 
-WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
-  WideRay ray;
-  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
+template <class Test>
+bool is_surely_met(unsigned i, const Test& test, const WideRay& ray) {
+  return test.is_sure(i) && test.t_below(i) > ray.surely_after && test.t_above(i) < ray.surely_before;
+}
+
+template <class Test>
+HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
   const auto walked = walk(tree, ray, [&](const WideLeaf& leaf) {
-    return each_candidate(leaf, ray, [&](unsigned i, const LeafTest& test) {
-      const float t = test.t_below[i];
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+      const float t = test.t_below(i);
       if (t > ray.t_max) return false;
-      if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above[i]);
+      if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
       tree.origin->prefetch(leaf.first + i);
       return !keep(found, leaf.first + i, t, ray);
     });
@@ -351,27 +260,64 @@ WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& 
   return walked == WideWalk::ended ? WideWalk::refused : walked;
 }
 
-WideWalk visit_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits,
-                      CandidateVisitor visitor) {
-  WideRay ray;
-  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+template <class Test>
+HWY_INLINE WideWalk visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
   return walk(tree, ray, [&](const WideLeaf& leaf) {
-    return each_candidate(leaf, ray, [&](unsigned i, const LeafTest&) {
+    return each_candidate<Test>(
+        leaf, ray, [&](unsigned i, const Test&) { return visitor.visit(visitor.self, leaf.first + i, ray); });
+  });
+}
+
+template <class Test>
+HWY_INLINE WideWalk visit_unsure(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
+  return walk(tree, ray, [&](const WideLeaf& leaf) {
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+      if (is_surely_met(i, test, ray)) return true;
       return visitor.visit(visitor.self, leaf.first + i, ray);
     });
   });
 }
 
+WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
+  WideRay ray;
+  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
+  return tree.plain ? closest<PlainTest>(tree, ray, found) : closest<LeafTest>(tree, ray, found);
+}
+
+WideWalk visit_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits,
+                      CandidateVisitor visitor) {
+  WideRay ray;
+  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  return tree.plain ? visit_all<PlainTest>(tree, ray, visitor) : visit_all<LeafTest>(tree, ray, visitor);
+}
+
+WideWalk collect_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits, std::uint32_t skip,
+                        LeafCandidates& found) {
+  WideRay ray;
+  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  bool full = false;
+  const auto walked = walk(tree, ray, [&](const WideLeaf& leaf) {
+    const auto others = [&](unsigned candidates) {
+      for (unsigned left = candidates; left != 0; left &= left - 1)
+        if (tree.origin->ids[leaf.first + static_cast<unsigned>(std::countr_zero(left))] == skip)
+          candidates &= ~(left & -left);
+      return candidates;
+    };
+    const auto keep_doubtful = [&](unsigned i, const LeafTest& test) {
+      if (is_surely_met(i, test, ray)) return true;
+      full = !keep(found, leaf.first + i, test.t_below(i), ray);
+      return full;
+    };
+    return each_candidate<LeafTest>(leaf, ray, keep_doubtful, others);
+  });
+  return full ? WideWalk::refused : walked;
+}
+
 WideWalk doubtful_kernel(const WideTree& tree, const Ray& given, CandidateVisitor visitor) {
   WideRay ray;
   if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
-  return walk(tree, ray, [&](const WideLeaf& leaf) {
-    return each_candidate(leaf, ray, [&](unsigned i, const LeafTest& test) {
-      if (test.is_sure(i) && test.t_below[i] > ray.surely_after && test.t_above[i] < ray.surely_before)
-        return true;
-      return visitor.visit(visitor.self, leaf.first + i, ray);
-    });
-  });
+  return tree.plain ? visit_unsure<PlainTest>(tree, ray, visitor)
+                    : visit_unsure<LeafTest>(tree, ray, visitor);
 }
 
 }  // namespace
@@ -383,6 +329,7 @@ namespace gnomon::raytrace {
 HWY_EXPORT(closest_kernel);
 HWY_EXPORT(visit_kernel);
 HWY_EXPORT(doubtful_kernel);
+HWY_EXPORT(collect_kernel);
 
 WideWalk closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
   return HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
@@ -393,6 +340,10 @@ WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits
 }
 WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
   return HWY_DYNAMIC_DISPATCH(doubtful_kernel)(tree, ray, visitor);
+}
+WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found) {
+  return HWY_DYNAMIC_DISPATCH(collect_kernel)(tree, ray, limits, skip, found);
 }
 
 }  // namespace gnomon::raytrace

@@ -34,11 +34,17 @@ struct CandidateVisitor {
 struct WalkLimits {
   float t_above = std::numeric_limits<float>::infinity();  ///< none from here on; in the units of RayFrame
   double origin_error = 0.0;  ///< how far the ray's true origin may lie from its own, along any axis
+  double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
 };
 WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
                           CandidateVisitor visitor);
 /// The same, but a triangle that is surely met in range ends it, too, and is not offered.
 WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor);
+
+/// All that the ray may meet, but for the triangle `skip` (a primitive's id); ended: one is surely met.
+/// `refused` also where there would be too many.
+WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found);
 
 /// visit(leaf, ray)
 template <class Visit>

@@ -1,0 +1,203 @@
+// A leaf's triangles against one ray, sixteen at once, whatever the instruction set's width: what floats
+// surely know of the answers in double, and the textbook's test for itself.
+
+#if defined(GNOMON_RAYTRACE_WIDE_LEAF_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_WIDE_LEAF_INL_H_
+#undef GNOMON_RAYTRACE_WIDE_LEAF_INL_H_
+#else
+#define GNOMON_RAYTRACE_WIDE_LEAF_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "raytrace/wide/ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+using F = hn::CappedTag<float, node_lanes>;
+using U = hn::RebindToUnsigned<F>;
+using V = hn::Vec<F>;
+using M = hn::Mask<F>;
+constexpr F f;
+constexpr U ids;
+constexpr std::size_t lanes = hn::MaxLanes(f);
+static_assert(node_lanes % lanes == 0 && node_lanes == 16 && !HWY_HAVE_SCALABLE);
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+inline V all(float v) {
+  return hn::Set(f, v);
+}
+template <class Tag, class Mask>
+HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(tag, mask, bytes);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+static_assert(leaf_lanes == node_lanes && leaf_corners == leaf_lanes);
+constexpr std::size_t leaf_steps = leaf_lanes / lanes;
+
+/// A coordinate of a leaf's corners, to be looked up by the triangles.
+struct Corners {
+  V part[leaf_steps];
+  template <class Index>
+  HWY_INLINE V at(Index index) const {
+    if constexpr (leaf_steps == 1) {
+      return hn::TableLookupLanes(part[0], hn::IndicesFromVec(f, index));
+    } else if constexpr (leaf_steps == 2) {
+      const auto low = hn::IndicesFromVec(f, hn::And(index, hn::Set(ids, lanes - 1)));
+      const auto is_low = hn::RebindMask(f, hn::Lt(index, hn::Set(ids, lanes)));
+      return hn::IfThenElse(is_low, hn::TableLookupLanes(part[0], low), hn::TableLookupLanes(part[1], low));
+    } else {
+      alignas(64) float table[leaf_corners];
+      for (std::size_t i = 0; i < leaf_steps; ++i) hn::Store(part[i], f, table + i * lanes);
+      return hn::GatherIndex(f, table, hn::BitCast(hn::RebindToSigned<F>(), index));
+    }
+  }
+};
+
+/// Of the triangles from lane i * lanes on.
+struct CornerIndices {
+  hn::Vec<U> a, b, c;
+  HWY_INLINE CornerIndices(const WideLeaf& leaf, std::size_t i) {
+    const auto nibble = hn::Set(ids, leaf_corners - 1);
+    const auto packed = hn::PromoteTo(ids, hn::Load(hn::Rebind<std::uint16_t, F>(), leaf.index + i * lanes));
+    a = hn::And(packed, nibble), b = hn::And(hn::ShiftRight<4>(packed), nibble);
+    c = hn::ShiftRight<8>(packed);
+  }
+};
+constexpr unsigned lane_bits = (1u << lanes) - 1;
+
+/// They are met somewhere, for all that is known.
+HWY_INLINE void add_shapes(const WideLeaf& leaf, unsigned& candidates, float* t_below) {
+  candidates |= leaf.shapes;
+  for (unsigned left = leaf.shapes; left != 0; left &= left - 1) t_below[std::countr_zero(left)] = -inf;
+}
+
+/// What the floats say of a leaf's triangles (raytrace/wide/ray.h).
+struct LeafTest {
+  unsigned candidates = 0, sure = 0;
+  alignas(64) float below[leaf_lanes], above[leaf_lanes];
+
+  /// wanted(candidates) leaves out what nobody asks for.
+  template <class Wanted>
+  HWY_INLINE LeafTest(const WideLeaf& leaf, const WideRay& ray, const Wanted& wanted) {
+    const auto from = [&](std::size_t k) {
+      const std::size_t a = ray.axis[k];
+      return hn::Sub(all(ray.origin[a]), all(leaf.anchor[a]));
+    };
+    const V o[3] = {from(0), from(1), from(2)};
+    const V reach = hn::Add(hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2])), all(leaf.extent));
+    const V off = hn::MulAdd(all(12.0f * 0x1p-24f), reach, all(ray.coordinate_error));
+    const V wide = hn::MulAdd(all(16.0f), off, all(leaf.size_13));
+    const V error = hn::Mul(off, wide), depth_error = hn::Mul(hn::Mul(error, wide), all(ray.t_per_z));
+    Corners x, y, t;
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const auto corner = [&](std::size_t k) {
+        return hn::Sub(hn::Load(f, leaf.corner[ray.axis[k]] + i * lanes), o[k]);
+      };
+      t.part[i] = hn::Mul(corner(2), all(ray.inverse_z));
+      x.part[i] = hn::NegMulAdd(all(ray.direction_x), t.part[i], corner(0));
+      y.part[i] = hn::NegMulAdd(all(ray.direction_y), t.part[i], corner(1));
+    }
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const CornerIndices k(leaf, i);
+      const V x0 = x.at(k.a), x1 = x.at(k.b), x2 = x.at(k.c), y0 = y.at(k.a), y1 = y.at(k.b), y2 = y.at(k.c);
+      const V u = hn::NegMulAdd(y2, x1, hn::Mul(x2, y1)), v = hn::NegMulAdd(y0, x2, hn::Mul(x0, y2)),
+              w = hn::NegMulAdd(y1, x0, hn::Mul(x1, y0));
+      const V least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+      const V det = hn::Add(hn::Add(u, v), w), size_of_det = hn::Abs(det);
+      const V sum = hn::MulAdd(u, t.at(k.a), hn::MulAdd(v, t.at(k.b), hn::Mul(w, t.at(k.c))));
+      const V depth = hn::Xor(sum, hn::And(det, all(-0.0f)));
+      const auto met = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
+      const auto in_range = hn::And(hn::Ge(depth, hn::MulSub(all(ray.t_min), size_of_det, depth_error)),
+                                    hn::Le(depth, hn::MulAdd(all(ray.t_max), size_of_det, depth_error)));
+      unsigned left = (leaf.lanes >> i * lanes) & bits_of(f, hn::And(met, in_range)) & lane_bits;
+      if (left == 0) continue;
+      left = wanted(left << i * lanes) >> i * lanes;
+      if (left == 0) continue;
+      candidates |= left << i * lanes;
+      const V surely = hn::Mul(all(3.0f), error);
+      const auto far_of = [](V p, V q, V r) { return hn::Max(hn::Max(hn::Abs(p), hn::Abs(q)), hn::Abs(r)); };
+      const auto is_sure =
+          hn::And(hn::Or(hn::Gt(least, surely), hn::Lt(most, hn::Neg(surely))),
+                  hn::Le(hn::Max(far_of(x0, x1, x2), far_of(y0, y1, y2)), all(0.25f * leaf.size_13)));
+      sure |= (left & bits_of(f, is_sure)) << i * lanes;
+      const V per_det = hn::Div(all(1.0f), size_of_det), middle = hn::Mul(depth, per_det);
+      const V wider = hn::MulAdd(hn::Abs(middle), all(0x1p-20f), hn::Mul(depth_error, per_det));
+      hn::Store(hn::IfThenElse(is_sure, hn::Sub(middle, wider), all(-inf)), f, below + i * lanes);
+      hn::Store(hn::Add(middle, wider), f, above + i * lanes);
+    }
+    add_shapes(leaf, candidates, below);
+  }
+  bool is_sure(unsigned i) const { return (sure >> i & 1u) != 0; }
+  /// A candidate is met between these or not at all; t_above: of sure ones.
+  float t_below(unsigned i) const { return below[i]; }
+  float t_above(unsigned i) const { return above[i]; }
+};
+
+/// The test of FastArithmetic (raytrace/precision/fast.h), step by step, so that it has the same hits at the
+/// same t.
+struct PlainTest {
+  unsigned candidates = 0;
+  alignas(64) float t[leaf_lanes];
+
+  template <class Wanted>
+  HWY_INLINE PlainTest(const WideLeaf& leaf, const WideRay& ray, const Wanted&) {
+    struct V3 {
+      V x, y, z;
+    };
+    const auto minus = [](const V3& a, const V3& b) {
+      return V3{hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+    };
+    const auto cross = [](const V3& a, const V3& b) {
+      const auto part = [](V p, V q, V r, V s) { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
+      return V3{part(a.y, b.z, b.y, a.z), part(a.z, b.x, b.z, a.x), part(a.x, b.y, b.x, a.y)};
+    };
+    const auto dot = [](const V3& a, const V3& b) {
+      return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+    };
+    const auto every = [](const float* v) { return V3{all(v[0]), all(v[1]), all(v[2])}; };
+    const V3 origin = every(ray.plain_origin), direction = every(ray.plain_direction);
+    const V zero = hn::Zero(f), one = all(1.0f);
+    Corners x, y, z;
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const auto corner = [&](std::size_t a) { return hn::Load(f, leaf.corner[a] + i * lanes); };
+      x.part[i] = corner(0), y.part[i] = corner(1), z.part[i] = corner(2);
+    }
+    for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const CornerIndices k(leaf, i);
+      const auto at = [&](hn::Vec<U> index) { return V3{x.at(index), y.at(index), z.at(index)}; };
+      const V3 first = at(k.a), edge1 = minus(at(k.b), first), edge2 = minus(at(k.c), first);
+      const V3 p = cross(direction, edge2), s = minus(origin, first), q = cross(s, edge1);
+      const V det = dot(edge1, p), inverse = hn::Div(one, det);
+      const V u = hn::Mul(dot(s, p), inverse), w = hn::Mul(dot(direction, q), inverse);
+      const V kernel_t = hn::Mul(hn::Mul(dot(edge2, q), inverse), all(ray.kernel_t));
+      const M missed =
+          hn::Or(hn::Or(hn::Or(hn::Eq(det, zero), hn::Lt(u, zero)), hn::Or(hn::Gt(u, one), hn::Lt(w, zero))),
+                 hn::Gt(hn::Add(u, w), one));
+      const M in_range = hn::And(hn::Ge(kernel_t, all(ray.t_min)), hn::Le(kernel_t, all(ray.t_max)));
+      candidates |= ((leaf.lanes >> i * lanes) & bits_of(f, in_range) & ~bits_of(f, missed) & lane_bits)
+                    << i * lanes;
+      hn::Store(kernel_t, f, t + i * lanes);
+    }
+    add_shapes(leaf, candidates, t);
+  }
+  bool is_sure(unsigned i) const { return t[i] > -inf; }
+  float t_below(unsigned i) const { return t[i]; }
+  float t_above(unsigned i) const { return t[i]; }
+};
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
