@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <future>
 #include <new>
 
 #include "scene/builtin.h"
@@ -17,7 +18,9 @@
 namespace gnomon {
 namespace {
 
-Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path, std::string_view bytes) {
+/// `sha256`: of the file's bytes.
+Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path,
+                         std::future<std::string> sha256) {
   if (!loaded) {
     Error error = loaded.error();
     if (error.file.empty()) error.file = path;
@@ -30,13 +33,20 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path, s
   }
   Scene scene = add_defaults(std::move(*loaded));
   scene.path = path;
-  scene.sha256 = sha256_hex(bytes);
+  scene.sha256 = sha256.get();
   if (scene.name.empty()) scene.name = std::filesystem::path(path).stem().string();
   if (auto defect = find_setting_defect(scene)) {
     defect->file = path;
     return fail(std::move(*defect));
   }
   return scene;
+}
+
+/// On a thread of its own where that is worth one.
+std::future<std::string> hash_beside(std::string_view bytes) {
+  constexpr std::size_t large = std::size_t{1} << 19;
+  return std::async(bytes.size() < large ? std::launch::deferred : std::launch::async | std::launch::deferred,
+                    sha256_hex, bytes);
 }
 
 Error unknown_name(const std::string& name) {
@@ -59,7 +69,8 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
   const auto bytes = read_file(path);
   if (!bytes) return fail(bytes.error());
   IncludeState includes;
-  return complete(read_by_extension(*bytes, path, options, includes), path, *bytes);
+  auto sha256 = hash_beside(*bytes);
+  return complete(read_by_extension(*bytes, path, options, includes), path, std::move(sha256));
 }
 
 }  // namespace
@@ -85,7 +96,8 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
 Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
                                 const LoadOptions& options) {
   IncludeState includes;
-  return complete(read_json_scene(text, file, folder, options, includes), file, text);
+  auto sha256 = hash_beside(text);
+  return complete(read_json_scene(text, file, folder, options, includes), file, std::move(sha256));
 }
 
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options) try {

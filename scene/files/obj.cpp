@@ -97,6 +97,9 @@ class MeshGatherer {
   Mesh gather(const tinyobj::shape_t& shape, std::uint32_t default_material) {
     const auto& m = shape.mesh;
     mesh_.name = shape.name;
+    const std::size_t corners_in_all = m.indices.size();
+    known_.reserve(std::min(corners_in_all, from_.vertices.size() / 3));
+    mesh_.triangles.reserve(corners_in_all / 3), mesh_.triangle_materials.reserve(corners_in_all / 3);
     std::size_t corner = 0;
     for (std::size_t face = 0; face < m.num_face_vertices.size(); ++face) {
       const std::size_t corners = m.num_face_vertices[face];
@@ -113,16 +116,16 @@ class MeshGatherer {
 
  private:
   void add_face(std::span<const tinyobj::index_t> corners, std::uint32_t material) {
-    std::vector<Vec3> positions;
-    std::vector<std::uint32_t> vertices;
-    for (const tinyobj::index_t& corner : corners) {
-      vertices.push_back(vertex(corner));
-      positions.push_back(mesh_.positions[vertices.back()]);
-    }
-    for (const auto& t : triangulate_polygon(positions)) {
-      mesh_.triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+    vertices_.clear();
+    for (const tinyobj::index_t& corner : corners) vertices_.push_back(vertex(corner));
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh_.triangles.push_back({vertices_[a], vertices_[b], vertices_[c]});
       mesh_.triangle_materials.push_back(material);
-    }
+    };
+    if (corners.size() == 3) return add(0, 1, 2);  // most of them
+    std::vector<Vec3> positions;
+    for (const std::uint32_t v : vertices_) positions.push_back(mesh_.positions[v]);
+    for (const auto& t : triangulate_polygon(positions)) add(t[0], t[1], t[2]);
   }
 
   std::uint32_t vertex(const tinyobj::index_t& index) {
@@ -152,6 +155,7 @@ class MeshGatherer {
   const tinyobj::attrib_t& from_;
   Mesh mesh_;
   std::unordered_map<std::array<int, 3>, std::uint32_t, CornerHash> known_;
+  std::vector<std::uint32_t> vertices_;  // of the face at hand
   bool has_uvs_ = false, has_normals_ = false;
 };
 
