@@ -164,16 +164,21 @@ inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* l
   }
 }
 
+/// A packet's pixels on the plane at distance one.
+inline void place_packet(const View& view, int x0, int y0, std::size_t packet, double* sx, double* sy) {
+  const TilePlace corner = tile_place(packet * packet_rays);
+  for (int i = 0; i < 4; ++i) {
+    const double x = (2.0 * (x0 + corner.x + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
+    const double y = (1.0 - 2.0 * (y0 + corner.y + i + 0.5) / view.size.height) * view.tan_half_y;
+    for (int k = 0; k < 4; ++k) sx[4 * k + i] = x, sy[4 * i + k] = y;
+  }
+}
+
 std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0,
                                                          int axis, const TileHits& hits,
                                                          const ReceiverSinks& sinks) {
-  alignas(64) double sx[tile_rays], sy[tile_rays];
+  alignas(64) double sx[packet_rays], sy[packet_rays];
   alignas(64) std::int64_t at[packet_rays];
-  for (std::size_t i = 0; i < tile_rays; ++i) {
-    const TilePlace place = tile_place(i);
-    sx[i] = (2.0 * (x0 + place.x + 0.5) / view.size.width - 1.0) * view.tan_half_x;
-    sy[i] = (1.0 - 2.0 * (y0 + place.y + 0.5) / view.size.height) * view.tan_half_y;
-  }
   const V3 origin{{all(view.eye.x), all(view.eye.y), all(view.eye.z)}};
   const double* corners = bvh.primitives.front().v.data();
   const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
@@ -189,12 +194,14 @@ std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const V
       known |= static_cast<unsigned>(triangle) << i;
       at[i] = triangle ? 9 * static_cast<std::int64_t>(leaf[i]) : 0;
     }
-    for (std::size_t i = 0; i < packet_rays && known != 0; i += hn::Lanes(d)) {
+    if (known != 0) place_packet(view, x0, y0, p, sx, sy);
+    for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
+      if ((known >> i & ((1u << hn::Lanes(d)) - 1)) == 0) continue;
       V3 corner[3];
       for (std::size_t c = 0; c < 9; ++c)
         corner[c / 3].a[c % 3] = hn::GatherIndex(d, corners + c, hn::Load(index, at + i));
       const std::size_t lane = p * packet_rays + i;
-      const V3 direction = pixel_direction(view, hn::Load(d, sx + lane), hn::Load(d, sy + lane));
+      const V3 direction = pixel_direction(view, hn::Load(d, sx + i), hn::Load(d, sy + i));
       const Weights w = meet(direction, origin, corner, static_cast<std::size_t>(axis));
       const unsigned sound = bits_of(w.sound) & (known >> i);
       if (sound == 0) continue;

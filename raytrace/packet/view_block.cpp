@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "raytrace/packet/block_plane-inl.h"
 #include "raytrace/packet/cell_cover.h"
 #include "raytrace/packet/frustum-inl.h"
 #include "raytrace/packet/seen_rows.h"
@@ -13,40 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-
-using Eight = hn::CappedTag<float, 8>;
-using V8 = hn::Vec<Eight>;
-constexpr Eight eight;
-alignas(32) constexpr float corner_bit[3][8] = {
-    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
-
-constexpr std::size_t block_side = 4 * block_tiles;  // packets
-constexpr std::size_t block_packets = block_side * block_side, block_rays = block_packets * packet_rays;
-
-/// A packet's place in BlockHits.
-constexpr std::size_t packet_at(std::size_t x, std::size_t y) {
-  return ((y / 4 * block_tiles + x / 4) * tile_packets) + y % 4 * 4 + x % 4;
-}
-
-/// The rays of a block on the plane at distance one, as prepare_framed() gives them.
-struct alignas(64) BlockPlane {
-  float u[block_side][packet_rays], v[block_side][packet_rays];  ///< of a column's packets, of a row's
-  float u_min, u_max, v_min, v_max;
-
-  BlockPlane(const View& view, const BlockRect& rect) {
-    const auto at = [](int pixel, int size, double tan_half) {
-      return static_cast<float>((2.0 * (pixel + 0.5) / size - 1.0) * tan_half);
-    };
-    for (std::size_t packet = 0; packet < block_side; ++packet)
-      for (std::size_t i = 0; i < packet_rays; ++i) {
-        const int x = static_cast<int>(4 * packet + i % 4), y = static_cast<int>(4 * packet + i / 4);
-        u[packet][i] = at(rect.x0 + x, view.size.width, view.tan_half_x);
-        v[packet][i] = at(rect.y0 + y, view.size.height, view.tan_half_y);
-      }
-    u_min = u[0][0], u_max = at(rect.x1 - 1, view.size.width, view.tan_half_x);
-    v_min = v[0][0], v_max = at(rect.y1 - 1, view.size.height, view.tan_half_y);
-  }
-};
 
 /// One of eight primitives' numbers in every lane.
 struct LaneNumbers {
@@ -68,17 +35,6 @@ struct LaneNumbers {
   }
 };
 
-/// Packets of the whole picture by columns and rows, both ends included.
-struct PacketRect {
-  int x0, y0, x1, y1;
-};
-
-/// Packets that a box may cover, and how near it comes.
-struct BoxPlace {
-  PacketRect met;
-  float nearest;
-};
-
 /// Of each ray the best sure hit's nearness is known to lie in [low, high], and no other hit is nearer than
 /// `doubt`.
 class BlockClosest {
@@ -87,14 +43,11 @@ class BlockClosest {
       : s_(s),
         seen_(seen),
         pass_(seen_pass(s, seen)),
-        plane_(view, rect),
+        plane_(s, seen, view, rect),
+        packets_(plane_.packets),
         rect_(rect),
-        out_(out),
-        origin_(seen.origin - s.bvh.center) {
+        out_(out) {
     pass_.bounds = true;
-    packets_ = {rect.x0 / 4, rect.y0 / 4, (rect.x1 - 1) / 4, (rect.y1 - 1) / 4};
-    const auto axes = axes_of_view(view);
-    columns_ = axes[0], rows_ = axes[1];
     start();
   }
 
@@ -123,11 +76,7 @@ class BlockClosest {
     for (std::size_t y = 0; y < block_side; ++y)
       for (std::size_t x = 0; x < block_side; ++x) {
         const std::size_t packet = packet_at(x, y);
-        unsigned alive = 0;
-        for (int i = 0; i < static_cast<int>(packet_rays); ++i)
-          if (rect_.x0 + static_cast<int>(4 * x) + i % 4 < rect_.x1 &&
-              rect_.y0 + static_cast<int>(4 * y) + i / 4 < rect_.y1)
-            alive |= 1u << i;
+        const unsigned alive = alive_in(static_cast<int>(4 * x), static_cast<int>(4 * y));
         nearest_asked_[y][x] = alive != 0 ? 0.0f : inf;
         for (std::size_t i = 0; i < packet_rays; i += lanes()) {
           const std::size_t at = packet * packet_rays + i;
@@ -140,6 +89,16 @@ class BlockClosest {
         }
       }
     out_.doubts.clear(), out_.all_doubts = true;
+  }
+
+  /// Of the packet with this corner in the block.
+  unsigned alive_in(int x, int y) const {
+    const int columns = rect_.x1 - rect_.x0 - x, rows = rect_.y1 - rect_.y0 - y;
+    if (columns >= 4 && rows >= 4) return 0xffff;
+    unsigned alive = 0;
+    for (int i = 0; i < static_cast<int>(packet_rays); ++i)
+      if (i % 4 < columns && i / 4 < rows) alive |= 1u << i;
+    return alive;
   }
 
   std::uint32_t* leaf_at(std::size_t place) { return out_.tiles[place / tile_rays].leaf + place % tile_rays; }
@@ -199,52 +158,11 @@ class BlockClosest {
     BoxRef box{};
     for (std::size_t a = 0; a < 3; ++a)
       box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
-    const BoxPlace place = packets_of(box);
+    const BoxPlace place = plane_.packets_of(box);
     if (place.met.x0 > place.met.x1) return true;
     for (int y = place.met.y0; y <= place.met.y1; ++y)
       if (asking(place.nearest, place.met, y) != 0) return false;
     return true;
-  }
-
-  /// Conservative. A box that is not clear of the eye may cover everything.
-  BoxPlace packets_of(const BoxRef& box) const {
-    const auto set = [](double v) { return hn::Set(eight, static_cast<float>(v)); };
-    const float slack = float_above(seen_.slack);
-    float nearest = inf, u_min = inf, u_max = -inf, v_min = inf, v_max = -inf;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 u = hn::Zero(eight), v = u, depth = u;
-      for (int a = 0; a < 3; ++a) {
-        const auto axis = static_cast<std::size_t>(a);
-        const V8 low = hn::Set(eight, box.min[axis]), high = hn::Set(eight, box.max[axis]);
-        const V8 corner =
-            hn::IfThenElse(hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight)), high, low);
-        const V8 p = hn::Sub(corner, set(origin_[a]));
-        u = hn::MulAdd(p, set(seen_.axes[0][a]), u), v = hn::MulAdd(p, set(seen_.axes[1][a]), v);
-        depth = hn::MulAdd(p, set(seen_.axes[2][a]), depth);
-      }
-      nearest = std::min(nearest, hn::GetLane(hn::MinOfLanes(eight, depth)));
-      if (!(nearest > 64.0f * slack)) return {packets_, inf};
-      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), depth);
-      const V8 doubt = hn::MulAdd(hn::Set(eight, 2.0f * slack), per_depth, hn::Set(eight, 0x1p-20f));
-      const auto grow = [&](V8 along, float& min, float& max) {
-        const V8 at = hn::Mul(along, per_depth);
-        const V8 room = hn::MulAdd(hn::Abs(at), doubt, doubt);
-        min = std::min(min, hn::GetLane(hn::MinOfLanes(eight, hn::Sub(at, room))));
-        max = std::max(max, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(at, room))));
-      };
-      grow(u, u_min, u_max), grow(v, v_min, v_max);
-    }
-    const auto range = [&](float low, float high, const CellAxis& axis, int first, int last, int& begin,
-                           int& end) {
-      const float start = static_cast<float>(axis.lo), per = static_cast<float>(0.25 / axis.width);
-      const float most = static_cast<float>(last);
-      begin = std::max(first, static_cast<int>(std::min(std::max((low - start) * per, 0.0f), most + 1.0f)));
-      end = std::min(last, static_cast<int>(std::min(std::max((high - start) * per, -1.0f), most)));
-    };
-    PacketRect met;
-    range(u_min, u_max, columns_, packets_.x0, packets_.x1, met.x0, met.x1);
-    range(v_min, v_max, rows_, packets_.y0, packets_.y1, met.y0, met.y1);
-    return {met, (1.0f + 0x1p-20f) / (nearest - slack)};
   }
 
   /// Bits of the row's packets that ask for something of that nearness.
@@ -266,8 +184,10 @@ class BlockClosest {
       SeenBlock& block = blocks_[first / 8];
       never[first / 8] =
           see_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
-      place_eight(columns_, 0x1p-21 * std::abs(columns_.lo), block.u_min(), block.u_max(), u_[first / 8]);
-      place_eight(rows_, 0x1p-21 * std::abs(rows_.lo), block.v_min(), block.v_max(), v_[first / 8]);
+      place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.lo), block.u_min(), block.u_max(),
+                  u_[first / 8]);
+      place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.lo), block.v_min(), block.v_max(),
+                  v_[first / 8]);
       std::copy_n(block.nearest(), 8, nearest + first);
     }
     rank_falling(nearest, count, rank);
@@ -281,7 +201,7 @@ class BlockClosest {
                      std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
       // A sphere's or a solid's own numbers have no bounds.
       if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.ids[leaf]))
-        met = packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).met;
+        met = plane_.packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).met;
       if (met.x0 > met.x1 || met.y0 > met.y1) continue;
       const LaneNumbers numbers(blocks_[b].rows, i);
       taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], met);
@@ -392,12 +312,10 @@ class BlockClosest {
   const Seen& seen_;
   SeenPass pass_;
   BlockPlane plane_;
+  PacketRect packets_;
   BlockRect rect_;
   BlockHits& out_;
-  PacketRect packets_;
-  CellAxis columns_, rows_;
   float limit_ = -inf;
-  Vec3 origin_;  // from the middle that boxes count from
   std::uint32_t pending_[batch + 2 * run_size];
   std::size_t pending_count_ = 0;
   SeenBlock blocks_[batch / 8];
