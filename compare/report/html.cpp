@@ -71,15 +71,13 @@ std::string data_uri(std::string_view mime, std::string_view bytes) {
   return fmt::format("data:{};base64,{}", mime, base64(bytes));
 }
 
-std::string script_safe(std::string_view json) {
-  std::string out;
-  out.reserve(json.size());
+void append_script_safe(std::string& html, std::string_view json) {
   std::size_t copied = 0;
   for (std::size_t at = json.find('<'); at != std::string_view::npos; at = json.find('<', copied)) {
-    out.append(json.substr(copied, at - copied)).append("\\u003c");
+    html.append(json.substr(copied, at - copied)).append("\\u003c");
     copied = at + 1;
   }
-  return out += json.substr(copied);
+  html.append(json.substr(copied));
 }
 
 std::string keyed(std::string_view key, double value, std::string_view text) {

@@ -16,8 +16,8 @@ std::string escaped(std::string_view text);
 std::string flowing(std::string_view text);
 std::string base64(std::string_view bytes);
 std::string data_uri(std::string_view mime, std::string_view bytes);
-/// JSON text that may stand inside <script>: no '<' is left in it.
-std::string script_safe(std::string_view json);
+/// Appends JSON text that may stand inside <script>: no '<' is left in it.
+void append_script_safe(std::string& html, std::string_view json);
 
 /// <data value="0.041" data-key="lights.0.error.wrong_fraction">4.1 %</data>; `text` is escaped.
 std::string keyed(std::string_view key, double value, std::string_view text);

@@ -109,8 +109,10 @@ class Packer {
   std::string filled(const Json& json, std::size_t first) const {
     constexpr std::string_view empty = "\"data\":\"\"";
     const std::string bare = json.dump();
+    std::size_t size = bare.size(), copied = 0;
+    for (std::size_t i = first; i < jobs_.size(); ++i) size += jobs_[i].text.size();
     std::string text;
-    std::size_t copied = 0;
+    text.reserve(size);
     for (std::size_t at = bare.find(empty); at != std::string::npos; at = bare.find(empty, copied)) {
       const std::size_t place = at + empty.size() - 1;
       text.append(bare, copied, place - copied).append(jobs_[first++].text);

@@ -62,15 +62,23 @@ std::string head(const PageShell& shell, const Template& page) {
 constexpr std::string_view data_file_head = "(globalThis.gnomonFiles=globalThis.gnomonFiles||{})",
                            data_file_value = "]=";
 
-// The data with its parts, or with the folder that holds them.
-std::string whole_data(const PageShell& shell) {
-  std::string text(shell.data.substr(0, shell.data.rfind('}')));
-  text += shell.data.find(':') == std::string::npos ? "" : ",";
-  if (shell.beside) return text + fmt::format("\"folder\":\"{}\"}}", shell.folder);
-  text += "\"parts\":{";
-  for (std::size_t i = 0; i < shell.parts.size(); ++i)
-    text.append(i > 0 ? ",\"" : "\"").append(shell.parts[i].name).append("\":").append(shell.parts[i].json);
-  return text + "}}";
+// The data with its parts, which are large, or with the folder that holds them.
+void append_data(std::string& html, const PageShell& shell) {
+  append_script_safe(html, std::string_view(shell.data).substr(0, shell.data.rfind('}')));
+  html += shell.data.find(':') == std::string::npos ? "" : ",";
+  if (shell.beside) return append_script_safe(html, fmt::format("\"folder\":\"{}\"}}", shell.folder));
+  html += "\"parts\":{";
+  for (std::size_t i = 0; i < shell.parts.size(); ++i) {
+    append_script_safe(html, fmt::format("{}\"{}\":", i > 0 ? "," : "", shell.parts[i].name));
+    append_script_safe(html, shell.parts[i].json);
+  }
+  html += "}}";
+}
+
+std::size_t bytes_of(const PageShell& shell) {
+  std::size_t bytes = shell.main.size() + shell.result.size() + shell.data.size();
+  for (const DataPart& part : shell.parts) bytes += shell.beside ? 0 : part.json.size();
+  return bytes;
 }
 
 }  // namespace
@@ -96,16 +104,21 @@ std::string_view data_in_file(std::string_view file) {
 BuiltPage build_page(const PageShell& shell) {
   const Template built = page_template();
   BuiltPage out;
+  out.html.reserve(bytes_of(shell) + embedded::report("page.html").size() + (std::size_t{1} << 16));
   out.html = built.before_head;
   out.html.append(head(shell, built)).append(built.after_head);
   out.html += R"(<a class="skip" href="#main">Skip to the report</a>
 <header class="bar-top"><span class="brand">Gnomon</span>
 <nav aria-label="Sections"><ul>)" +
               shell.links + "</ul></nav></header>\n<main id=\"main\">\n" + shell.main + "</main>\n";
-  if (!shell.result.empty())
-    out.html += R"(<script type="application/json" id="result">)" + script_safe(shell.result) + "</script>\n";
-  out.html +=
-      R"(<script type="application/json" id="page-data">)" + script_safe(whole_data(shell)) + "</script>\n";
+  if (!shell.result.empty()) {
+    out.html += R"(<script type="application/json" id="result">)";
+    append_script_safe(out.html, shell.result);
+    out.html += "</script>\n";
+  }
+  out.html += R"(<script type="application/json" id="page-data">)";
+  append_data(out.html, shell);
+  out.html += "</script>\n";
   out.html.append(built.after_body);
   if (shell.beside)
     for (const DataPart& part : shell.parts)
