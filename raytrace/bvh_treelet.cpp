@@ -1,8 +1,14 @@
-#include "raytrace/bvh_treelet.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raytrace/bvh_treelet.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
 
 #include <algorithm>
 
-namespace gnomon::raytrace::binned {
+#include "raytrace/bvh_treelet.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::binned::HWY_NAMESPACE {
 namespace {
 
 // So many are a leaf without asking what a split would gain: half the nodes, and rays are no slower for it.
@@ -197,12 +203,22 @@ class Treelet {
   std::uint32_t first_;
 };
 
+BvhChild treelet_kernel(TreeletRoom& room, std::uint32_t first, int depth) {
+  return Treelet(room, first).run(depth);
+}
+
 }  // namespace
+}  // namespace gnomon::raytrace::binned::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::raytrace::binned {
+HWY_EXPORT(treelet_kernel);
 
 BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeStore& store) {
   room.scratch.resize(std::max(room.scratch.size(), room.refs.size()));
   room.nodes.clear(), room.below.clear();
-  const BvhChild root = Treelet(room, first).run(depth);
+  const BvhChild root = HWY_DYNAMIC_DISPATCH(treelet_kernel)(room, first, depth);
   if (root.is_leaf()) return root;
   const std::uint32_t base = store.take(static_cast<std::uint32_t>(room.nodes.size()));
   for (std::uint32_t i = 0; i < room.nodes.size(); ++i) {
@@ -215,3 +231,4 @@ BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeSt
 }
 
 }  // namespace gnomon::raytrace::binned
+#endif  // HWY_ONCE

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "raytrace/bvh.h"
 #include "raytrace/frame.h"
 #include "raytrace/packet/cell_cover.h"
 #include "raytrace/packet/passes.h"
@@ -384,6 +385,25 @@ TEST(Cells, ListsAreInOrderOnAnyNumberOfThreads) {
     }
   }
   EXPECT_GT(longest, 500U);
+}
+
+TEST(Treelets, TheTreeIsThatOfEveryInstructionSet) {
+  Mesh mesh = test::triangle_soup(20000, 1.0, 0.03, 9);
+  mesh.triangles.insert(mesh.triangles.end(), 50, mesh.triangles.front());  // equals
+  const TestWorld w(test::scene_of({mesh}));
+  const auto build = [&] {
+    tbb::task_arena arena(1);  // on several threads the nodes' numbers may differ
+    return arena.execute([&] { return raytrace::build_bvh(w.world()); });
+  };
+  const raytrace::Bvh first = build();
+  on_all_targets([&] {
+    const raytrace::Bvh tree = build();
+    ASSERT_EQ(tree.ids, first.ids) << raytrace::packet_target();
+    ASSERT_EQ(tree.nodes.size(), first.nodes.size());
+    EXPECT_EQ(
+        std::memcmp(tree.nodes.data(), first.nodes.data(), tree.nodes.size() * sizeof(raytrace::BvhNode)), 0)
+        << raytrace::packet_target();
+  });
 }
 
 TEST(HugeArrays, PagesAreUsedAgain) {
