@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "raytrace/wide/ray.h"
 
@@ -36,6 +37,7 @@ inline V all(float v) {
 }
 template <class Tag, class Mask>
 HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
+  if constexpr (requires { requires std::is_integral_v<decltype(mask.raw)>; }) return mask.raw;
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(tag, mask, bytes);
   std::uint32_t bits = 0;

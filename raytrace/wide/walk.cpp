@@ -137,13 +137,12 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
       next = node.child[std::countr_zero(bits)];
       return true;
     }
-    const V none = all(inf);
-    near = hn::IfThenElse(met, near, none);
     const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
                                hn::Set(ids, node_lanes - 1));
     near = hn::TableLookupLanes(near, hn::IndicesFromVec(f, order));
+    far = hn::TableLookupLanes(far, hn::IndicesFromVec(f, order));
     const auto child = hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order));
-    const M ordered = hn::Lt(near, none);
+    const M ordered = hn::Le(near, far);
     const auto nearest_first = hn::Compress(child, hn::RebindMask(ids, ordered));
     next = hn::GetLane(nearest_first);
     const auto count = static_cast<std::uint32_t>(std::popcount(bits));
