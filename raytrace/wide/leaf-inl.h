@@ -49,22 +49,30 @@ static_assert(leaf_lanes == node_lanes && leaf_corners == leaf_lanes);
 constexpr std::size_t leaf_steps = leaf_lanes / lanes;
 
 /// A coordinate of a leaf's corners, to be looked up by the triangles.
-struct Corners {
-  V part[leaf_steps];
-  template <class Index>
-  HWY_INLINE V at(Index index) const {
+class Corners {
+ public:
+  HWY_INLINE void set(std::size_t i, V part) {
+    if constexpr (in_registers)
+      part_[i] = part;
+    else
+      hn::Store(part, f, table_ + i * lanes);
+  }
+  HWY_INLINE V at(hn::Vec<U> index) const {
     if constexpr (leaf_steps == 1) {
-      return hn::TableLookupLanes(part[0], hn::IndicesFromVec(f, index));
-    } else if constexpr (leaf_steps == 2) {
+      return hn::TableLookupLanes(part_[0], hn::IndicesFromVec(f, index));
+    } else if constexpr (in_registers) {
       const auto low = hn::IndicesFromVec(f, hn::And(index, hn::Set(ids, lanes - 1)));
       const auto is_low = hn::RebindMask(f, hn::Lt(index, hn::Set(ids, lanes)));
-      return hn::IfThenElse(is_low, hn::TableLookupLanes(part[0], low), hn::TableLookupLanes(part[1], low));
+      return hn::IfThenElse(is_low, hn::TableLookupLanes(part_[0], low), hn::TableLookupLanes(part_[1], low));
     } else {
-      alignas(64) float table[leaf_corners];
-      for (std::size_t i = 0; i < leaf_steps; ++i) hn::Store(part[i], f, table + i * lanes);
-      return hn::GatherIndex(f, table, hn::BitCast(hn::RebindToSigned<F>(), index));
+      return hn::GatherIndex(f, table_, hn::BitCast(hn::RebindToSigned<F>(), index));
     }
   }
+
+ private:
+  static constexpr bool in_registers = leaf_steps <= 2;
+  V part_[in_registers ? leaf_steps : 1];
+  alignas(64) float table_[in_registers ? 1 : leaf_corners];
 };
 
 /// Of the triangles from lane i * lanes on.
@@ -107,23 +115,27 @@ struct LeafTest {
       const auto corner = [&](std::size_t k) {
         return hn::Sub(hn::Load(f, leaf.corner[ray.axis[k]] + i * lanes), o[k]);
       };
-      t.part[i] = hn::Mul(corner(2), all(ray.inverse_z));
-      x.part[i] = hn::NegMulAdd(all(ray.direction_x), t.part[i], corner(0));
-      y.part[i] = hn::NegMulAdd(all(ray.direction_y), t.part[i], corner(1));
+      const V along = hn::Mul(corner(2), all(ray.inverse_z));
+      t.set(i, along);
+      x.set(i, hn::NegMulAdd(all(ray.direction_x), along, corner(0)));
+      y.set(i, hn::NegMulAdd(all(ray.direction_y), along, corner(1)));
     }
     for (std::size_t i = 0; i < leaf_steps; ++i) {
+      const unsigned present = (leaf.lanes >> i * lanes) & lane_bits;
+      if (leaf_steps > 1 && present == 0) continue;
       const CornerIndices k(leaf, i);
       const V x0 = x.at(k.a), x1 = x.at(k.b), x2 = x.at(k.c), y0 = y.at(k.a), y1 = y.at(k.b), y2 = y.at(k.c);
       const V u = hn::NegMulAdd(y2, x1, hn::Mul(x2, y1)), v = hn::NegMulAdd(y0, x2, hn::Mul(x0, y2)),
               w = hn::NegMulAdd(y1, x0, hn::Mul(x1, y0));
       const V least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+      const auto met = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
+      if (leaf_steps > 1 && (present & bits_of(f, met)) == 0) continue;
       const V det = hn::Add(hn::Add(u, v), w), size_of_det = hn::Abs(det);
       const V sum = hn::MulAdd(u, t.at(k.a), hn::MulAdd(v, t.at(k.b), hn::Mul(w, t.at(k.c))));
       const V depth = hn::Xor(sum, hn::And(det, all(-0.0f)));
-      const auto met = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
       const auto in_range = hn::And(hn::Ge(depth, hn::MulSub(all(ray.t_min), size_of_det, depth_error)),
                                     hn::Le(depth, hn::MulAdd(all(ray.t_max), size_of_det, depth_error)));
-      unsigned left = (leaf.lanes >> i * lanes) & bits_of(f, hn::And(met, in_range)) & lane_bits;
+      unsigned left = present & bits_of(f, hn::And(met, in_range));
       if (left == 0) continue;
       left = wanted(left << i * lanes) >> i * lanes;
       if (left == 0) continue;
@@ -174,7 +186,7 @@ struct PlainTest {
     Corners x, y, z;
     for (std::size_t i = 0; i < leaf_steps; ++i) {
       const auto corner = [&](std::size_t a) { return hn::Load(f, leaf.corner[a] + i * lanes); };
-      x.part[i] = corner(0), y.part[i] = corner(1), z.part[i] = corner(2);
+      x.set(i, corner(0)), y.set(i, corner(1)), z.set(i, corner(2));
     }
     for (std::size_t i = 0; i < leaf_steps; ++i) {
       const CornerIndices k(leaf, i);
