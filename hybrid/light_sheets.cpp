@@ -113,12 +113,14 @@ std::uint32_t LightSheets::find_lone_plane() const {
   const World& world = world_;
   if (grid_.perspective) return no_id;
   std::uint32_t plane = no_id;
-  const auto on_map = [&](const Vec3& p, double radius) {
+  // Around p, so many world units along u and v.
+  const auto on_map = [&](const Vec3& p, double along_u, double along_v) {
     const GridPoint at = grid_.point(0, p);
-    const double u = radius * glm::length(grid_.faces[0].u) - texel_slack;
-    const double v = radius * glm::length(grid_.faces[0].v) - texel_slack;
+    const double u = along_u * glm::length(grid_.faces[0].u) - texel_slack;
+    const double v = along_v * glm::length(grid_.faces[0].v) - texel_slack;
     return at.u >= u && at.v >= v && at.u <= grid_.view.size - u && at.v <= grid_.view.size - v;
   };
+  const Vec3 along_u = glm::normalize(grid_.faces[0].u), along_v = glm::normalize(grid_.faces[0].v);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto& geometry = world.shape(id).geometry;
     if (std::holds_alternative<Plane>(geometry)) {
@@ -127,13 +129,15 @@ std::uint32_t LightSheets::find_lone_plane() const {
       continue;
     }
     const auto* sphere = std::get_if<Sphere>(&geometry);
-    const Sphere ball = sphere != nullptr ? *sphere : ball_around(geometry);
-    if (!on_map(ball.center, ball.radius)) return no_id;
+    const bool is_on_map = sphere != nullptr ? on_map(sphere->center, sphere->radius, sphere->radius)
+                                             : on_map(solid_center(geometry), reach_along(geometry, along_u),
+                                                      reach_along(geometry, along_v));
+    if (!is_on_map) return no_id;
   }
   if (plane == no_id) return no_id;
   for (const auto& triangle : world.triangles)
     for (const std::uint32_t v : triangle)
-      if (!on_map(world.positions[v], 0.0)) return no_id;
+      if (!on_map(world.positions[v], 0.0, 0.0)) return no_id;
   return plane;
 }
 

@@ -14,22 +14,18 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 /// Linear functions are used where their divisor is known to 1 in `well`.
 constexpr double well = 0x1p22;
 
-/// The tile's corner and the texel's sides: tangents (perspective) or world units from the view's origin.
-struct TilePlace {
-  double x, y, step_x, step_y;
-};
+Vec3 to_light_space(const LightFace& face, const Vec3& d) {
+  return {glm::dot(face.right, d), glm::dot(face.up, d), glm::dot(face.forward, d)};
+}
+
+}  // namespace
+
 TilePlace place_of(const LightView& view, int face, int tile_x, int tile_y) {
   const LightFace& f = view.face(face);
   const double step_x = 2.0 * f.half_extent.x / view.size, step_y = 2.0 * f.half_extent.y / view.size;
   return {tile_x * tile_texels * step_x - f.half_extent.x + f.center.x,
           tile_y * tile_texels * step_y - f.half_extent.y + f.center.y, step_x, step_y};
 }
-
-Vec3 to_light_space(const LightFace& face, const Vec3& d) {
-  return {glm::dot(face.right, d), glm::dot(face.up, d), glm::dot(face.forward, d)};
-}
-
-}  // namespace
 
 Piece Cover::at(float x, float y, float half_texels) const {
   Piece piece{

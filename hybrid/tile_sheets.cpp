@@ -167,28 +167,42 @@ void TileBuilder::add_shapes(int tile_x, int tile_y) {
       if (const auto cover = plane_cover(grid_, face_, tile_x, tile_y, *plane, masked))
         covers_.push_back(*cover);
     } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-      add_sphere(SphereColumns(grid_, face_, tile_x, tile_y, *sphere, masked), false);
+      const SphereColumns columns(grid_, face_, tile_x, tile_y, *sphere, masked);
+      if (!columns.is_everywhere()) {
+        add_sphere(columns);
+        continue;
+      }
+      const ShapeGeometry ball = make_ellipsoid(ShapeFrame{.origin = sphere->center}, Vec3(sphere->radius));
+      add_solid(SolidColumns(grid_, face_, tile_x, tile_y, ball, masked));
     } else {
-      add_sphere(SphereColumns(grid_, face_, tile_x, tile_y, ball_around(shape.geometry), true), true);
+      add_solid(SolidColumns(grid_, face_, tile_x, tile_y, shape.geometry, masked));
     }
   }
 }
 
-void TileBuilder::add_sphere(const SphereColumns& sphere, bool anywhere_inside) {
-  if (sphere.is_everywhere()) covers_.push_back(anything);
+void TileBuilder::add_sphere(const SphereColumns& sphere) {
   if (sphere.misses_tile()) return;
   for (int y = 0; y < tile_texels; ++y)
     for (int x = 0; x < tile_texels; ++x) {
       if (!is_wanted(x, y)) continue;
-      const auto sides = sphere.at(x, y);
-      if (!sides) continue;
-      if (!anywhere_inside) {
+      if (const auto sides = sphere.at(x, y))
         for (const Piece& side : *sides) place(x, y, side);
-        continue;
-      }
-      Piece inside{.low = (*sides)[1].low, .high = (*sides)[0].high};
-      inside.boundary = true;
-      place(x, y, inside);
+    }
+}
+
+void TileBuilder::add_solid(const SolidColumns& solid) {
+  constexpr int block = 8;  // texels
+  if (solid.is_everywhere()) covers_.push_back(anything);
+  if (solid.is_everywhere() || solid.misses_tile() || solid.misses(0, 0, tile_texels)) return;
+  for (int y0 = 0; y0 < tile_texels; y0 += block)
+    for (int x0 = 0; x0 < tile_texels; x0 += block) {
+      if (solid.misses(x0, y0, block)) continue;
+      for (int y = y0; y < y0 + block; ++y)
+        for (int x = x0; x < x0 + block; ++x) {
+          if (!is_wanted(x, y)) continue;
+          const SolidColumns::Pieces pieces = solid.at(x, y);
+          for (int i = 0; i < pieces.count; ++i) place(x, y, pieces.piece[static_cast<std::size_t>(i)]);
+        }
     }
 }
 

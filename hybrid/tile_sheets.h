@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "hybrid/solid_columns.h"
 #include "hybrid/texel_parts.h"
 #include "hybrid/tile_shapes.h"
 #include "raytrace/packet/huge_array.h"
@@ -124,8 +125,8 @@ class TileBuilder : private PieceRelations {
   void add_triangle(const TileTriangle& triangle);
   void add_texel(const TileTriangle& triangle, int x, int y);
   void add_shapes(int tile_x, int tile_y);
-  /// anywhere_inside: a body of unknown shape that the sphere holds.
-  void add_sphere(const SphereColumns& sphere, bool anywhere_inside);
+  void add_sphere(const SphereColumns& sphere);
+  void add_solid(const SolidColumns& solid);
   void place(int x, int y, const Piece& piece) {
     placed_.push_back({static_cast<std::uint32_t>(y * tile_texels + x), piece});
   }
