@@ -8,7 +8,6 @@
 namespace gnomon {
 namespace {
 
-using test::Outcome;
 using test::run;
 using test::Stage;
 

@@ -65,8 +65,8 @@ struct Measured {
 };
 
 double mrays_per_second(std::size_t rays, std::size_t step, const Times& times) {
-  const auto traced = static_cast<double>((rays + step - 1) / step);
-  return times.median() > 0.0 ? traced / times.median() / 1e3 : 0.0;
+  const std::size_t traced = (rays + step - 1) / step;
+  return times.median() > 0.0 ? static_cast<double>(traced) / times.median() / 1e3 : 0.0;
 }
 
 template <class Pass>

@@ -64,11 +64,11 @@ class Run {
 
   /// One row: trial(random, tally) so many times. unit and bound as in Row.
   template <class Trial>
-  void sample(std::string name, std::uint64_t trials, const Trial& trial, std::string unit = {},
+  void sample(const std::string& name, std::uint64_t trials, const Trial& trial, const std::string& unit = {},
               double bound = 0.0) {
     blocks({.number = number_,
-            .name = std::move(name),
-            .unit = std::move(unit),
+            .name = name,
+            .unit = unit,
             .bound = bound,
             .outcome = {},
             .naive = {}},

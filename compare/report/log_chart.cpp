@@ -57,10 +57,13 @@ std::string ChartLabels::place(double x, double y, std::string_view name) {
 std::vector<double> log_ticks(double min, double max) {
   const bool powers_only = max / min > 300.0;
   std::vector<double> ticks;
-  for (double power = std::pow(10.0, std::floor(std::log10(min))); power <= max; power *= 10.0)
+  const int first = static_cast<int>(std::floor(std::log10(min)));
+  for (int exponent = first; std::pow(10.0, exponent) <= max; ++exponent) {
+    const double power = std::pow(10.0, exponent);
     for (const double digit : {1.0, 2.0, 5.0})
       if ((digit == 1.0 || !powers_only) && power * digit >= min && power * digit <= max)
         ticks.push_back(power * digit);
+  }
   return ticks;
 }
 
