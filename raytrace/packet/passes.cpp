@@ -125,9 +125,10 @@ void store_tile(const Tracer& tracer, const View& view, const TileRect& rect, Ti
   CompactDraft draft;
   if (compact != nullptr) compact->clear();
   const PacketBits left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
-  TilePoints on_planes;
-  const PacketBits found =
-      find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
+  const bool any_planes = !tracer.structures().planes.empty();
+  HugeArray<SurfacePoint> on_planes(any_planes ? tile_rays : 0);
+  PacketBits found{};
+  if (any_planes) found = find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
   const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
     if (receivers != nullptr) receivers->at(x, y) = point;
     if (compact != nullptr) compact->put(lane, point, draft);
@@ -136,7 +137,7 @@ void store_tile(const Tracer& tracer, const View& view, const TileRect& rect, Ti
     const std::uint32_t leaf = hits.leaf[lane];
     if (leaf == nothing_hit && receivers == nullptr) return;
     if ((found[lane / packet_rays] & bit_of(lane)) != 0)
-      return store(x, y, lane, on_planes[place_in_tile(rect, x, y)]);
+      return store(x, y, lane, on_planes[static_cast<std::size_t>(place_in_tile(rect, x, y))]);
     const Candidates some = leaf == unsure_hit ? candidates(x, y, lane) : Candidates{};
     const SurfacePoint point = receiver_among(tracer, view, x, y, leaf, some);
     if (leaf == unsure_hit) hits.leaf[lane] = leaf_of(tracer, some, point.primitive);
