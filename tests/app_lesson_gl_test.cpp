@@ -15,8 +15,10 @@ using Words = std::vector<std::string>;
 using nlohmann::json;
 
 json result_of(Words words) {
-  for (const char* word : {"--size", "64x36", "--runs", "1", "--json", "-", "-o", "lesson-test", "--quiet"})
+  const TemporaryFolder folder;
+  for (const char* word : {"--size", "64x36", "--runs", "1", "--json", "-", "--quiet", "-o"})
     words.emplace_back(word);
+  words.push_back(folder / "out");
   const ProcessResult result = run_gnomon(words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   return json::parse(result.out, nullptr, false);

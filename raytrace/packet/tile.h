@@ -15,7 +15,8 @@ inline constexpr std::size_t packet_rays = 16, tile_packets = 16, tile_rays = pa
 
 /// The place of a ray in its tile: packets are 4 x 4 pixels, so that they stay narrow both ways.
 constexpr std::size_t tile_lane(int x, int y) {
-  return static_cast<std::size_t>(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
+  const int packet = (y >> 2) * 4 + (x >> 2), lane = (y & 3) * 4 + (x & 3);
+  return static_cast<std::size_t>(packet) * packet_rays + static_cast<std::size_t>(lane);
 }
 
 /// The pixel of a place.
