@@ -146,7 +146,8 @@ class TileBuilder : private PieceRelations {
   std::span<const Piece> pieces_in(std::size_t texel) const;
   PackedBounds solve_part(std::uint32_t part);
   bool is_wanted(int x, int y) const {
-    return wanted_.empty() || wanted_[static_cast<std::size_t>(y) * tile_texels + static_cast<std::size_t>(x)];
+    return wanted_.empty() ||
+           wanted_[static_cast<std::size_t>(y) * tile_texels + static_cast<std::size_t>(x)];
   }
 
   const World& world_;

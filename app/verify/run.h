@@ -66,12 +66,7 @@ class Run {
   template <class Trial>
   void sample(const std::string& name, std::uint64_t trials, const Trial& trial, const std::string& unit = {},
               double bound = 0.0) {
-    blocks({.number = number_,
-            .name = name,
-            .unit = unit,
-            .bound = bound,
-            .outcome = {},
-            .naive = {}},
+    blocks({.number = number_, .name = name, .unit = unit, .bound = bound, .outcome = {}, .naive = {}},
            trials, [&](Random& random, std::uint64_t count, Tally& tally) {
              for (std::uint64_t i = 0; i < count; ++i) trial(random, tally);
            });
