@@ -41,7 +41,8 @@ struct Direct {
     return std::abs(a.x - b.x) + std::sqrt((a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
   }
   const Vec3& clamped(const Field& f, int x, int y) const {
-    return f[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + std::clamp(x, 0, width - 1))];
+    const int at = std::clamp(y, 0, height - 1) * width + std::clamp(x, 0, width - 1);
+    return f[static_cast<std::size_t>(at)];
   }
 
   Vec3 blurred(const Field& opponent, int x, int y) const {

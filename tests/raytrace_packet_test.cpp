@@ -6,6 +6,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -56,15 +58,15 @@ Reference reference_of(const Tracer& tracer, const Scene& scene, ImageSize size)
 }
 
 bool same_bits(const Vec3& a, const Vec3& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  using Bits = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
 bool same_point(const SurfacePoint& a, const SurfacePoint& b) {
   if (a.primitive != b.primitive) return false;
   return a.primitive == no_id ||
          (same_bits(a.position, b.position) && same_bits(a.position_error, b.position_error) &&
-          same_bits(a.normal, b.normal) &&
-          std::memcmp(&a.barycentric, &b.barycentric, sizeof a.barycentric) == 0);
+          same_bits(a.normal, b.normal) && same_bits(Vec3(a.barycentric, 0.0), Vec3(b.barycentric, 0.0)));
 }
 
 void expect_same(const Scene& scene, const Tracer& tracer, const Reference& reference, ImageSize size) {

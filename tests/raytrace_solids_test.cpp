@@ -151,10 +151,8 @@ TEST(Implicits, TheSphereEqualsTheSphere) {
     const Ray ray = random_ray(random);
     const auto h = a.closest_hit(ray), k = b.closest_hit(ray);
     hits += h ? 1 : 0;
-    if (h.has_value() != k.has_value())
-      ++differ;
-    else if (h && std::abs(h->t - k->t) > 1e-7)  // 1e-7: the root of the rounding, at grazing rays
-      ++differ;
+    // 1e-7: the root of the rounding, at grazing rays.
+    differ += h.has_value() != k.has_value() || (h && std::abs(h->t - k->t) > 1e-7) ? 1 : 0;
   }
   EXPECT_EQ(differ, 0);
   EXPECT_GT(hits, 5000);

@@ -41,8 +41,7 @@ std::string binary_quad(bool big) {
   for (const std::array<int, 4>& face : {std::array{4, 0, 1, 2}, std::array{3, 0, 1, 2}}) {
     out += '\0';
     out += static_cast<char>(face[0]);
-    for (int i = 0; i < 3; ++i)
-      put_binary(out, static_cast<std::int32_t>(face[static_cast<std::size_t>(i + 1)]), big);
+    for (std::size_t i = 1; i <= 3; ++i) put_binary(out, static_cast<std::int32_t>(face[i]), big);
     if (face[0] == 4) put_binary(out, std::int32_t{3}, big);
   }
   return out;
@@ -181,7 +180,7 @@ TEST(Ply, RegularBinaryDataIsReadAsTextIs) {
 TEST(Ply, RegularBinaryDataWithAFaultIsToldAsAnyOther) {
   const TemporaryFolder folder;
   const std::string good = fan(true, 3);
-  const std::size_t vertices = good.find("end_header\n") + 11, faces = vertices + 5 * 12;
+  const std::size_t vertices = good.find("end_header\n") + 11, faces = vertices + std::size_t{5} * 12;
   const auto with = [&](std::size_t at, std::string_view bytes) {
     return std::string(good).replace(at, bytes.size(), bytes);
   };

@@ -25,7 +25,7 @@ constexpr Eight eight;
 alignas(32) constexpr float corner_bit[3][8] = {
     {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
-constexpr std::size_t block_side = 4 * block_tiles;  // packets
+constexpr std::size_t block_side = std::size_t{4} * block_tiles;  // packets
 constexpr std::size_t block_packets = block_side * block_side, block_rays = block_packets * packet_rays;
 
 /// A packet's place in BlockHits.

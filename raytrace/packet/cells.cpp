@@ -176,8 +176,9 @@ class Filler {
 
   void put_cells(const SeenBlock& block, std::size_t i, std::uint32_t leaf, const CellRect& rect,
                  Share& share) {
-    const auto width = static_cast<std::size_t>(rect.x1 - rect.x0 + 1);
-    const std::size_t area = width * static_cast<std::size_t>(rect.y1 - rect.y0 + 1);
+    const int across = rect.x1 - rect.x0 + 1, down = rect.y1 - rect.y0 + 1;
+    const auto width = static_cast<std::size_t>(across);
+    const std::size_t area = width * static_cast<std::size_t>(down);
     CoveredCell* to = share.room(area + packet_rays);
     const float nearest = block.nearest()[i];
     if (area <= 2) {  // what reaches into both of two cells is met in both

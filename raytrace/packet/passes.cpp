@@ -44,7 +44,8 @@ Candidates candidates_in_cell(const Sight& eye, int x, int y) {
   constexpr std::size_t most = 256;  // in longer lists the hierarchy is quicker
   if (!eye.by_cells) return {};
   const Cells& cells = eye.cells;
-  const auto cell = static_cast<std::size_t>(y / 4 * cells.columns() + x / 4);
+  const int at = y / 4 * cells.columns() + x / 4;
+  const auto cell = static_cast<std::size_t>(at);
   const std::size_t begin = cells.first[cell], count = cells.first[cell + 1] - begin;
   if (count > most) return {};
   return {{cells.leaf.data() + begin, count}, true};

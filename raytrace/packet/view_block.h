@@ -26,7 +26,7 @@ struct BlockDoubt {
 };
 
 struct BlockHits {
-  std::array<TileHits, block_tiles * block_tiles> tiles;  ///< row by row
+  std::array<TileHits, std::size_t{block_tiles} * block_tiles> tiles;  ///< row by row
   /// Of the unsure rays everything but planes that may be their nearest hit, in the order of places; of
   /// others some.
   std::vector<BlockDoubt> doubts;

@@ -26,12 +26,12 @@ using F = hn::CappedTag<float, node_lanes>;
 using U = hn::RebindToUnsigned<F>;
 using V = hn::Vec<F>;
 using M = hn::Mask<F>;
-constexpr F f;
-constexpr U ids;
-constexpr std::size_t lanes = hn::MaxLanes(f);
+inline constexpr F f;
+inline constexpr U ids;
+inline constexpr std::size_t lanes = hn::MaxLanes(f);
 static_assert(node_lanes % lanes == 0 && node_lanes == 16 && !HWY_HAVE_SCALABLE);
 
-constexpr float inf = std::numeric_limits<float>::infinity();
+inline constexpr float inf = std::numeric_limits<float>::infinity();
 inline V all(float v) {
   return hn::Set(f, v);
 }
@@ -46,7 +46,7 @@ HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
 }
 
 static_assert(leaf_lanes == node_lanes && leaf_corners == leaf_lanes);
-constexpr std::size_t leaf_steps = leaf_lanes / lanes;
+inline constexpr std::size_t leaf_steps = leaf_lanes / lanes;
 
 /// A coordinate of a leaf's corners, to be looked up by the triangles.
 class Corners {
@@ -85,7 +85,7 @@ struct CornerIndices {
     c = hn::ShiftRight<8>(packed);
   }
 };
-constexpr unsigned lane_bits = (1u << lanes) - 1;
+inline constexpr unsigned lane_bits = (1u << lanes) - 1;
 
 /// They are met somewhere, for all that is known.
 HWY_INLINE void add_shapes(const WideLeaf& leaf, unsigned& candidates, float* t_below) {

@@ -84,7 +84,7 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
 /// Children that the ray may yet meet, the next one last.
 struct Stack {
   // A level leaves at most fifteen behind; the last store may write sixteen.
-  static constexpr std::size_t most = 15 * Bvh::max_depth + 2 * node_lanes;
+  static constexpr std::size_t most = std::size_t{15} * Bvh::max_depth + 2 * node_lanes;
   std::uint32_t child[most];
   float near[most];
 };

@@ -173,7 +173,8 @@ class PlyReader {
     const auto value = number(property.length_type, element, index, property);
     if (!value) return fail(value.error());
     const std::size_t each = header_.encoding == PlyEncoding::ascii ? 2 : byte_size(property.type);
-    const double most = static_cast<double>((numbers_.remaining() + 1) / each);
+    const auto fit = (numbers_.remaining() + 1) / each;
+    const auto most = static_cast<double>(fit);
     if (!(*value >= 0.0) || *value > most || std::trunc(*value) != *value)
       return error(
           fmt::format("list length (got {:g}, allowed 0 to the {:g} that the data holds)", *value, most),

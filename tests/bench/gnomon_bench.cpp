@@ -221,14 +221,14 @@ class Bench {
     const Sight eye = sight_of_eye(structures(), view_);
     our_receivers(eye, false);
     const Sight light = sight_of(0);
-    const auto row = [&](std::string name, double rays, const auto& pass) {
+    const auto row = [&](const std::string& name, double rays, const auto& pass) {
       const auto on = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         pass();
       };
       const auto ms = in_turn(
           settings_.runs, 2, [&] { on(2); }, [&] { on(1); });
-      add(std::move(name), 2, rays, ms, "one thread", 1.8);
+      add(name, 2, rays, ms, "one thread", 1.8);
     };
     row("primary, float receivers", static_cast<double>(primary_.count), [&] { our_receivers(eye, false); });
     row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0, eye, light); });
