@@ -125,7 +125,8 @@ struct EdgeWalk : EdgeInput {
   // way to the pixel's centre, scaled to the way that was walked.
   Moved moved(const Start& start, std::size_t end, double offset) const {
     const auto width = static_cast<std::size_t>(labels.size.width);
-    const Vec2 centre(double(end % width) + 0.5, double(end / width) + 0.5);
+    const std::size_t column = end % width, row = end / width;
+    const Vec2 centre(double(column) + 0.5, double(row) + 0.5);
     const double scale = offset / glm::length(centre - start.middle);
     return {glm::length(Vec2(record.texel_uv.data[end]) - start.uv) * scale,
             glm::length(receivers.data[end].position - start.position) * scale};

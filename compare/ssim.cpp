@@ -19,9 +19,10 @@ constexpr std::size_t window = ssim_window;
 
 std::array<double, window> gaussian() {
   std::array<double, window> weights{};
+  constexpr std::size_t middle = window / 2;
   double sum = 0.0;
   for (std::size_t i = 0; i < window; ++i) {
-    const double x = static_cast<double>(i) - static_cast<double>(window / 2);
+    const double x = static_cast<double>(i) - static_cast<double>(middle);
     weights[i] = std::exp(-x * x / (2.0 * sigma * sigma));
     sum += weights[i];
   }

@@ -15,11 +15,11 @@ constexpr F f;
 /// Four vectors' sums stay in registers while the rows go by.
 void add_weighted_rows_kernel(std::span<const float* const> rows, std::span<const float> weights, float* sums,
                               int width) {
-  const auto lanes = static_cast<int>(hn::Lanes(f));
-  const auto weighted = [&](std::size_t k, int x) {
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(f));
+  const auto weighted = [&](std::size_t k, std::ptrdiff_t x) {
     return hn::Mul(hn::Set(f, weights[k]), hn::LoadU(f, rows[k] + x));
   };
-  int x = 0;
+  std::ptrdiff_t x = 0;
   for (; x + 4 * lanes <= width; x += 4 * lanes) {
     auto a = hn::LoadU(f, sums + x), b = hn::LoadU(f, sums + x + lanes);
     auto c = hn::LoadU(f, sums + x + 2 * lanes), d = hn::LoadU(f, sums + x + 3 * lanes);

@@ -201,8 +201,9 @@ class Classifier {
         }
         bounds_[lane] = sheet_at(lane).uniform;
         constexpr float to_middle = 0.5f * tile_texels - 0.5f;
-        from_middle_u_[lane] += static_cast<float>(texel % tile_texels) - to_middle;
-        from_middle_v_[lane] += static_cast<float>(texel / tile_texels) - to_middle;
+        const auto column = texel % tile_texels, row = texel / tile_texels;
+        from_middle_u_[lane] += static_cast<float>(column) - to_middle;
+        from_middle_v_[lane] += static_cast<float>(row) - to_middle;
       }
   }
 

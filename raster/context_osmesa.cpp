@@ -51,7 +51,7 @@ class OsmesaContext final : public Context {
   DynamicLibrary library_;
   Functions functions_;
   void* context_;
-  std::array<unsigned char, 4 * side * side> pixels_{};
+  std::array<unsigned char, std::size_t{4} * side * side> pixels_{};
 };
 
 }  // namespace

@@ -78,7 +78,8 @@ constexpr std::array<RungText, rung_count> rungs{{
 }  // namespace
 
 const LabelText& label_text(Label label) {
-  return labels[static_cast<std::size_t>(static_cast<int>(label) + 4)];
+  const int place = static_cast<int>(label) + 4;
+  return labels[static_cast<std::size_t>(place)];
 }
 const StepText& step_text(Cause cause) {
   return steps[static_cast<std::size_t>(cause)];

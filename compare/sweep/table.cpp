@@ -1,5 +1,7 @@
 #include "compare/sweep/table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -33,7 +35,7 @@ template <class Row>
 void add_flat(Row& row, const std::string& name, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, member] : value.items())
-      add_flat(row, name.empty() ? key : name + "_" + key, member);
+      add_flat(row, name.empty() ? key : fmt::format("{}_{}", name, key), member);
   } else if (!value.is_array()) {
     row.emplace_back(name, scalar_text(value));
   }

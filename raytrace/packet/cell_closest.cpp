@@ -77,7 +77,8 @@ void closest_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, 
   List lists[tile_packets];
   for (std::size_t p = 0; p < tile_packets; ++p) {
     const int x = column + static_cast<int>(p % 4), y = row + static_cast<int>(p / 4);
-    const auto cell = static_cast<std::size_t>(y * cells.columns() + x);
+    const int at = y * cells.columns() + x;
+    const auto cell = static_cast<std::size_t>(at);
     lists[p] = rays.alive[p] == 0 ? List{0, 0} : List{cells.first[cell], cells.first[cell + 1]};
     lists[p].prefetch(cells);
   }
