@@ -115,7 +115,7 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
   compare::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
-  options.goal.max_error = 0.01;
+  options.goal.max_error = 0.02;  // hard shadows reach it at the largest size
   options.sizes = {64, 128, 256, 512, 1024, 2048, 4096};
   options.families = {family("hard", Technique::hard), family("hard, front faces", Technique::hard),
                       family("vsm", Technique::vsm)};
@@ -137,8 +137,11 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
     std::printf("%-18s levels off near %.4f, at the largest size %.4f\n", result.family.name.c_str(),
                 result.floor, alone->families[0].closest.error);
     EXPECT_FALSE(alone->feasible) << result.family.name;
+    // The estimate leaves out what sampling still adds at that size.
+    EXPECT_NEAR(result.floor, alone->families[0].closest.error, 0.15 * result.floor) << result.family.name;
   }
   EXPECT_GE(left, 1u);
+  EXPECT_TRUE(tuned->feasible);
 }
 
 }  // namespace
