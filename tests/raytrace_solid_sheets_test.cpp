@@ -14,12 +14,9 @@ namespace gnomon {
 namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::frame_of_ray;
 using test::Random;
 using test::TestWorld;
-
-RayFrame frame_of_ray(const Ray& ray) {
-  return *make_ray_frame(ray);
-}
 
 LightView view_of(const World& world, const Light& light, int size) {
   Camera camera;

@@ -13,12 +13,9 @@ namespace gnomon {
 namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::frame_of_ray;
 using test::Random;
 using test::TestWorld;
-
-RayFrame frame_of_ray(const Ray& ray) {
-  return *make_ray_frame(ray);
-}
 
 // Of solids around the origin, of size about 1: aimed inside, from near and far.
 Ray random_ray(Random& random) {

@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "raytrace/intersect.h"
 #include "scene/solid.h"
 
 namespace gnomon::test {
+
+inline raytrace::RayFrame frame_of_ray(const Ray& ray) {
+  return *raytrace::make_ray_frame(ray);
+}
 
 inline Shape solid(std::string name, ShapeGeometry geometry) {
   Shape shape;

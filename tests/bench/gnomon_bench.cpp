@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <hwy/targets.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/machine.h"
 #include "bench_scenes.h"
 #include "embree_peer.h"
+#include "instruction_set.h"
 #include "raytrace/kernels.h"
 #include "raytrace/packet/passes.h"
 #include "raytrace/tiles.h"
@@ -46,28 +45,8 @@ struct Settings {
   std::string target;  ///< of instruction_sets(); empty: the best that the machine has
 };
 
-struct InstructionSet {
-  const char* embree;
-  std::int64_t highway;
-};
-
-/// What other machines have, tried on this one: both are held to the same.
-const std::map<std::string, InstructionSet>& instruction_sets() {
-  static const std::map<std::string, InstructionSet> sets{{"avx2", {"isa=avx2", HWY_AVX2}},
-                                                          {"sse4", {"isa=sse4.2", HWY_SSE4}}};
-  return sets;
-}
-
 std::string embree_settings(const Settings& settings) {
   return settings.target.empty() ? std::string() : instruction_sets().at(settings.target).embree;
-}
-
-bool hold_to(const std::string& target) {
-  const std::int64_t wanted = instruction_sets().at(target).highway;
-  if ((hwy::SupportedTargets() & wanted) == 0) return false;
-  hwy::SetSupportedTargetsForTest(wanted);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return true;
 }
 
 /// Milliseconds of the process's own CPU time: for one thread the wall clock's, but for other programs'
