@@ -1,7 +1,6 @@
 gnomon_test(hybrid_test
-  SOURCES hybrid_classify_test.cpp hybrid_sheets_test.cpp hybrid_solids_test.cpp hybrid_soft_test.cpp hybrid_surfaces_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::hybrid TBB::tbb)
-target_include_directories(hybrid_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES hybrid_classify_test.cpp hybrid_sheets_test.cpp hybrid_solids_test.cpp hybrid_soft_test.cpp hybrid_surfaces_test.cpp
+  LIBS gnomon::hybrid raytrace_support TBB::tbb)
 
 gnomon_test(hybrid_gl_test
   SOURCES hybrid_gl_test.cpp

@@ -18,6 +18,7 @@ namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
 using test::Random;
+using test::same;
 using test::TestWorld;
 
 constexpr std::array<std::pair<const char*, Accel>, 9> structures{{{"bvh", Accel::bvh},
@@ -29,11 +30,6 @@ constexpr std::array<std::pair<const char*, Accel>, 9> structures{{{"bvh", Accel
                                                                    {"grid-textbook", Accel::grid_textbook},
                                                                    {"bsp", Accel::bsp},
                                                                    {"two-level", Accel::two_level}}};
-
-bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
-}
 
 /// The structures of a world, and brute force.
 class Rivals {

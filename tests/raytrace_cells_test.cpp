@@ -291,8 +291,9 @@ void check(const Setting& setting, int triangles, std::uint64_t seed, int& cells
     EXPECT_EQ(one_by_one(Tracer(w.world(), accel), setting.light, receivers).data, truth.data);
   const auto counts = counts_of(truth);
   const std::uint64_t all = truth.data.size();
-  EXPECT_GT(counts[0], all / 100);  // neither all dark
-  EXPECT_GT(counts[1], all / 100);  // nor all lit
+  // Neither all lit nor all dark: large triangles can hide everything, so the seed is chosen.
+  EXPECT_GT(counts[static_cast<std::size_t>(Verdict::shadowed)], all / 100);
+  EXPECT_GT(counts[static_cast<std::size_t>(Verdict::lit)], all / 100);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -325,7 +326,7 @@ std::vector<Setting> settings() {
 }
 
 TEST(LightCells, VerdictsAtTheCellsBordersAreThoseOfBruteForce) {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 61;
   int runs = 0, cells_used = 0;
   for (const Setting& setting : settings())
     for (const int triangles : {60, 500, 3000}) check(setting, triangles, ++seed, cells_used), ++runs;

@@ -14,15 +14,10 @@ using raytrace::Accel;
 using raytrace::Hit;
 using raytrace::Tracer;
 using test::Random;
+using test::same;
 using test::TestWorld;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// The same hit to the last bit.
-bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
-}
 
 Scene mixed_scene() {
   std::vector<Mesh> meshes{test::triangle_soup(300, 4.0, 1.0, 1)};

@@ -1,60 +1,54 @@
+add_library(raytrace_support STATIC support/raytrace_support.cpp)
+target_link_libraries(raytrace_support PUBLIC gnomon_flags gnomon::small_world PRIVATE gnomon_warnings)
+target_include_directories(raytrace_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_verdict_test.cpp raytrace_frame_test.cpp
-    raytrace_sheets_test.cpp raytrace_builder_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb)
-target_include_directories(raytrace_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    raytrace_sheets_test.cpp raytrace_builder_test.cpp
+  LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_solids_test
-  SOURCES raytrace_solids_test.cpp raytrace_solid_sheets_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb)
-target_include_directories(raytrace_solids_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_solids_test.cpp raytrace_solid_sheets_test.cpp
+  LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_packet_test
-  SOURCES raytrace_packet_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb hwy::hwy)
-target_include_directories(raytrace_packet_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_packet_test.cpp
+  LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_wide_test
-  SOURCES raytrace_wide_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb hwy::hwy)
-target_include_directories(raytrace_wide_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_wide_test.cpp
+  LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_cells_test
-  SOURCES raytrace_cells_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb hwy::hwy)
-target_include_directories(raytrace_cells_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_cells_test.cpp
+  LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_accel_test
-  SOURCES raytrace_accel_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb)
-target_include_directories(raytrace_accel_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_accel_test.cpp
+  LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_two_level_test
-  SOURCES raytrace_two_level_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace TBB::tbb)
-target_include_directories(raytrace_two_level_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_two_level_test.cpp
+  LIBS raytrace_support TBB::tbb)
 
 # Real models, against Embree: a comparator, never behind the user's own result.
 find_package(embree 3 REQUIRED)
 gnomon_test(raytrace_models_test
-  SOURCES raytrace_models_test.cpp support/raytrace_support.cpp
-  LIBS gnomon::raytrace embree TBB::tbb)
-target_include_directories(raytrace_models_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES raytrace_models_test.cpp
+  LIBS raytrace_support embree TBB::tbb)
 
 # The speed figures; a short run of it is a test that it runs, not of how fast.
-add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/embree_peer.cpp support/raytrace_support.cpp
+add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/embree_peer.cpp
   ${PROJECT_SOURCE_DIR}/app/machine.cpp)
-target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raytrace embree TBB::tbb hwy::hwy CLI11::CLI11
+target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
-target_include_directories(gnomon_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_compile_definitions(gnomon_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
 add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
 
 # Whole processes against POV-Ray 3.7, where it is installed (it is no part of the set-up).
-add_executable(povray_bench bench/povray_bench.cpp bench/bench_scenes.cpp support/raytrace_support.cpp)
-target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raytrace CLI11::CLI11 fmt::fmt
+add_executable(povray_bench bench/povray_bench.cpp bench/bench_scenes.cpp)
+target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support CLI11::CLI11 fmt::fmt
   nlohmann_json::nlohmann_json)
-target_include_directories(povray_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_compile_definitions(povray_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
 find_program(GNOMON_POVRAY povray)
 mark_as_advanced(GNOMON_POVRAY)

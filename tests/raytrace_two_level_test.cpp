@@ -19,12 +19,8 @@ namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
 using test::Random;
+using test::same;
 using test::TestWorld;
-
-bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
-}
 
 Scene instances_of(std::vector<Mesh> meshes, const std::vector<std::pair<std::uint32_t, Mat4>>& placed) {
   Scene scene = test::scene_of(std::move(meshes));

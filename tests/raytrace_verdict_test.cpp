@@ -14,12 +14,6 @@ using raytrace::Verdict;
 using test::Random;
 using test::TestWorld;
 
-SurfacePoint point_on(const Tracer& tracer, const Vec3& eye, const Vec3& target) {
-  const Ray ray{eye, target - eye};
-  const auto hit = tracer.closest_hit(ray);
-  return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
-}
-
 raytrace::RayTracedFrame trace(const TestWorld& w, const Tracer& tracer, ImageSize size) {
   std::vector<std::uint32_t> lights(w.scene().lights.size());
   for (std::uint32_t i = 0; i < lights.size(); ++i) lights[i] = i;
@@ -80,7 +74,7 @@ TEST(Verdict, TheDoubtIsReal) {
   const Tracer tracer(w.world(), Accel::bvh);
   const Light light = test::sun({0, -1, 0});
   const auto at = [&](double x) {
-    return tracer.light_verdict(point_on(tracer, {x, 0.5, 0.25}, {x, 0, 0.25}), light);
+    return tracer.light_verdict(test::seen(tracer, {x, 0.5, 0.25}, {x, 0, 0.25}), light);
   };
   EXPECT_EQ(at(0.0), Verdict::uncertain);
   EXPECT_EQ(at(1e-12), Verdict::shadowed);
@@ -94,7 +88,7 @@ TEST(Verdict, SharedEdgeIsNoDoubt) {
   const TestWorld w(scene);
   const Tracer tracer(w.world(), Accel::bvh);
   for (const double x : {-0.5, 0.0, 0.25, 0.7})
-    EXPECT_EQ(tracer.light_verdict(point_on(tracer, {x, 0.5, x}, {x, 0, x}), test::sun({0, -1, 0})),
+    EXPECT_EQ(tracer.light_verdict(test::seen(tracer, {x, 0.5, x}, {x, 0, x}), test::sun({0, -1, 0})),
               Verdict::shadowed);
 }
 
@@ -131,7 +125,7 @@ TEST(Verdict, Case22LightInTheReceiversPlaneIsUnlit) {
   const TestWorld w(test::scene_of({test::quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0})}));
   for (const Accel accel : {Accel::bvh, Accel::brute}) {
     const Tracer tracer(w.world(), accel);
-    const SurfacePoint p = point_on(tracer, {0.2, 1, 0.1}, {0.2, 0, 0.1});
+    const SurfacePoint p = test::seen(tracer, {0.2, 1, 0.1}, {0.2, 0, 0.1});
     EXPECT_TRUE(light_cannot_reach(test::point_light({5, p.position.y, 0}), p.position, p.normal));
     EXPECT_TRUE(light_cannot_reach(test::sun({1, 0, 0}), p.position, p.normal));
   }
@@ -146,7 +140,7 @@ TEST(Verdict, Case23LightAtAVertexIsLit) {
     Random random(33);
     for (int i = 0; i < 300; ++i) {
       const Vec3 foot(random.uniform(1.5, 4.0), 0.0, random.uniform(1.5, 4.0));
-      const SurfacePoint p = point_on(tracer, foot + Vec3(0, 0.5, 0), foot);
+      const SurfacePoint p = test::seen(tracer, foot + Vec3(0, 0.5, 0), foot);
       ASSERT_EQ(tracer.light_verdict(p, test::point_light({1, 2, 1})), Verdict::lit);
     }
   }
@@ -167,7 +161,7 @@ TEST(Verdict, Case25LightInsideAClosedMeshReachesNothingOutside) {
           light.position;
       if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
     }
-    ASSERT_NE(tracer.light_verdict(point_on(tracer, foot + Vec3(0, 0.01, 0), foot), light), Verdict::lit);
+    ASSERT_NE(tracer.light_verdict(test::seen(tracer, foot + Vec3(0, 0.01, 0), foot), light), Verdict::lit);
   }
 }
 
@@ -179,7 +173,7 @@ TEST(Verdict, Case26CoplanarDuplicatesDoNotShadowEachOther) {
   Random random(36);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 target = corner + random.uniform(0.25, 0.65) * a + random.uniform(0.05, 0.45) * b;
-    const SurfacePoint p = point_on(tracer, target + Vec3(0, 3, 0), target);
+    const SurfacePoint p = test::seen(tracer, target + Vec3(0, 3, 0), target);
     ASSERT_EQ(tracer.light_verdict(p, test::point_light({random.uniform(-3, 3), 4, 0})), Verdict::lit) << i;
   }
 }
@@ -191,7 +185,7 @@ TEST(Verdict, Case27BoxNearAPlaneShadowsRightUpToItsFoot) {
     const Tracer tracer(w.world(), Accel::bvh);
     const Light light = test::sun({1, -1, 0});  // shadows towards +x, at 45 degrees
     const auto at = [&](double x) {
-      return tracer.light_verdict(point_on(tracer, {x, 1e-3, 0.3}, {x, 0, 0.3}), light);
+      return tracer.light_verdict(test::seen(tracer, {x, 1e-3, 0.3}, {x, 0, 0.3}), light);
     };
     EXPECT_EQ(at(1.0 + gap + 1e-9), Verdict::shadowed)
         << gap;  // the light slips below the box by `gap`, no more
@@ -219,7 +213,7 @@ TEST(Verdict, MaskedSurfacesLetLightThroughTheirHoles) {
       const Ray up{{x, 0.5, 0.1}, {0, 1, 0}};
       EXPECT_EQ(tracer.occluded(up), x < 0.0);
       EXPECT_EQ(tracer.closest_hit(up).has_value(), x < 0.0);
-      EXPECT_EQ(tracer.light_verdict(point_on(tracer, {x, 0.5, 0.1}, {x, 0, 0.1}), light),
+      EXPECT_EQ(tracer.light_verdict(test::seen(tracer, {x, 0.5, 0.1}, {x, 0, 0.1}), light),
                 x < 0.0 ? Verdict::shadowed : Verdict::lit);
     }
   }

@@ -19,12 +19,8 @@ namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
 using test::Random;
+using test::same;
 using test::TestWorld;
-
-bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
-}
 
 void for_each_target(const std::function<void()>& check) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {

@@ -15,7 +15,8 @@ Vec3 any_size(Random& r) {
 
 std::vector<Mesh> shadow_scene(std::uint64_t seed) {
   Random random(seed);
-  return {quad({-64, 0, -64}, {0, 0, 128}, {128, 0, 0}), round_mesh({0.0, 1.5, 0.0}, 1.0, 4, 5, 0.1, random)};
+  return {quad({-64, 0, -64}, {0, 0, 128}, {128, 0, 0}),
+          in_floats(round_mesh({0.0, 1.5, 0.0}, 1.0, 4, 5, 0.1, random))};
 }
 
 }  // namespace

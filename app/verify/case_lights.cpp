@@ -117,7 +117,7 @@ void contact_gap(Run& run) {
 
 void smooth_normals(Run& run) {
   Random random(run.seed());
-  Mesh mesh = round_mesh(Vec3(0.0), 1.0, 6, 8, 0.0, random);
+  Mesh mesh = in_floats(round_mesh(Vec3(0.0), 1.0, 6, 8, 0.0, random));
   for (const Vec3& p : mesh.positions) mesh.normals.emplace_back(Vec3f(glm::normalize(p)));
   const SmallWorld w(mesh);
   const Tracer tracer = run.tracer(w.world());

@@ -24,7 +24,7 @@ Ray inside_out(const World& world, const Vec3& center, bool at_edge, Random& ran
 void shared_edges(Run& run) {
   Random random(run.seed());
   for (const Vec3& center : {Vec3(0.0), Vec3(3e3), Vec3(148376.0, 1234.0, -223423.0)}) {
-    const SmallWorld w(round_mesh(center, 1.0, mesh_rings, mesh_rings, 0.05, random));
+    const SmallWorld w(in_floats(round_mesh(center, 1.0, mesh_rings, mesh_rings, 0.05, random)));
     const raytrace::Tracer tracer = run.tracer(w.world());
     for (const bool at_edge : {false, true}) {
       run.sample(fmt::format("{} at {:g}", at_edge ? "edges" : "vertices", glm::length(center)),
@@ -40,7 +40,7 @@ void shared_edges(Run& run) {
 void light_inside(Run& run) {
   Random random(run.seed());
   const Vec3 center(0.0, 2.0, 0.0);
-  const SmallWorld w({round_mesh(center, 1.0, mesh_rings, mesh_rings, 0.05, random)},
+  const SmallWorld w({in_floats(round_mesh(center, 1.0, mesh_rings, mesh_rings, 0.05, random))},
                      {plane(Vec3(0.0), Vec3(0.0, 1.0, 0.0))});
   const raytrace::Tracer tracer = run.tracer(w.world());
   const auto& corners = w.world().positions;

@@ -96,8 +96,9 @@ void stadium(Run& run) {
   constexpr double small = 1e-3, large = 1e5;
   Random random(run.seed());
   const Vec3 center(30.0, 0.5, -20.0);
-  const SmallWorld w(
-      std::vector<Mesh>{round_mesh(center, small, 12, 12, 0.0, random), box(Vec3(-large), Vec3(large))}, {});
+  const SmallWorld w(std::vector<Mesh>{in_floats(round_mesh(center, small, 12, 12, 0.0, random)),
+                                       box(Vec3(-large), Vec3(large))},
+                     {});
   const std::vector<Tracer> all = every_structure(run, w.world());
   const Tracer brute = run.tracer(w.world(), Accel::brute);
   // Bounded memory: ten megabytes are room for the coarsest of grids.

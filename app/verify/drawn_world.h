@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "app/verify/run.h"
 #include "app/verify/small_world.h"
 #include "raster/renderer.h"
 

@@ -19,23 +19,6 @@ std::uint64_t block_seed(std::uint64_t seed, int number, std::size_t row, std::u
 
 }  // namespace
 
-Vec3 Random::direction() {
-  for (;;) {
-    const Vec3 d = in_box(1.0);
-    const double length = glm::length(d);
-    if (length > 0.1 && length <= 1.0) return d / length;
-  }
-}
-
-Vec3 Random::nudged(const Vec3& p, int steps) {
-  Vec3 moved = p;
-  for (int a = 0; a < 3; ++a) {
-    const int n = integer(-steps, steps);
-    for (int i = 0; i < std::abs(n); ++i) moved[a] = std::nextafter(moved[a], n < 0 ? -infinity : infinity);
-  }
-  return moved;
-}
-
 std::uint64_t Run::rays(double share, std::uint64_t most) const {
   const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(options_.rays));
   return std::clamp(wanted, std::uint64_t{256}, most);

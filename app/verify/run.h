@@ -1,42 +1,15 @@
-// What a case works with: seeded random numbers, the tracer under test, and the loop that spreads trials over
-// all threads in blocks whose results do not depend on which thread took them.
+// What a case works with: the tracer under test, and the loop that spreads trials over all threads in blocks
+// whose results do not depend on which thread took them.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 
+#include "app/verify/random.h"
 #include "app/verify/verify.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::verify {
-
-/// SplitMix64 (Steele, Lea, Flood 2014): small, and any two seeds give unrelated sequences.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  double uniform(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
-  int integer(int lo, int hi) {
-    return lo + static_cast<int>(below(static_cast<std::uint32_t>(hi - lo + 1)));
-  }
-  bool coin() { return (next() >> 63) != 0; }
-  double power_of_ten(double lo, double hi) { return std::pow(10.0, uniform(lo, hi)); }
-  Vec3 in_box(double half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
-  Vec3 direction();
-  /// Moved by up to `steps` representable numbers per component.
-  Vec3 nudged(const Vec3& p, int steps);
-
- private:
-  std::uint64_t state_;
-};
 
 /// What one block of trials found; sums and maxima, so that the order of blocks does not matter.
 struct Tally {

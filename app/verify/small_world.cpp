@@ -20,11 +20,11 @@ Scene scene_of(std::vector<Mesh> meshes, std::vector<Shape> shapes) {
   return scene;
 }
 
-Shape sphere(const Vec3& center, double radius) {
-  return {"sphere", Sphere{center, radius}, 0};
+Shape sphere(const Vec3& center, double radius, std::uint32_t material) {
+  return {"sphere", Sphere{center, radius}, material};
 }
-Shape plane(const Vec3& point, const Vec3& unit_normal) {
-  return {"plane", Plane{point, unit_normal}, 0};
+Shape plane(const Vec3& point, const Vec3& unit_normal, std::uint32_t material) {
+  return {"plane", Plane{point, unit_normal}, material};
 }
 
 Mesh quad(const Vec3& origin, const Vec3& a, const Vec3& b) {
@@ -58,8 +58,7 @@ Mesh soup(int count, double extent, double size, Random& random) {
 Mesh round_mesh(const Vec3& center, double radius, int rings, int sectors, double jitter, Random& random) {
   Mesh mesh;
   const auto add = [&](const Vec3& n) {
-    const Vec3 p = center + radius * (1.0 + random.uniform(-jitter, jitter)) * n;
-    mesh.positions.emplace_back(Vec3f(p));
+    mesh.positions.push_back(center + radius * (1.0 + random.uniform(-jitter, jitter)) * n);
   };
   add({0.0, 1.0, 0.0});
   for (int i = 1; i < rings; ++i)
@@ -80,6 +79,11 @@ Mesh round_mesh(const Vec3& center, double radius, int rings, int sectors, doubl
     }
     mesh.triangles.push_back({at(rings - 1, j), at(rings - 1, j + 1), last});
   }
+  return mesh;
+}
+
+Mesh in_floats(Mesh mesh) {
+  for (Vec3& p : mesh.positions) p = Vec3(Vec3f(p));
   return mesh;
 }
 

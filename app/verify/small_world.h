@@ -1,7 +1,12 @@
-// The small scenes that the cases are made of.
+// The small scenes that the cases and the tests of rays are made of: in a library of their own, which needs
+// no rasterizer.
 #pragma once
 
-#include "app/verify/run.h"
+#include <optional>
+#include <vector>
+
+#include "app/verify/random.h"
+#include "raytrace/tracer.h"
 #include "scene/world.h"
 
 namespace gnomon::verify {
@@ -25,14 +30,16 @@ class SmallWorld {
 
 /// One grey material, the meshes as instances, the shapes as they are.
 Scene scene_of(std::vector<Mesh> meshes, std::vector<Shape> shapes = {});
-Shape sphere(const Vec3& center, double radius);
-Shape plane(const Vec3& point, const Vec3& unit_normal);
+Shape sphere(const Vec3& center, double radius, std::uint32_t material = 0);
+Shape plane(const Vec3& point, const Vec3& unit_normal, std::uint32_t material = 0);
 Mesh quad(const Vec3& origin, const Vec3& edge_a, const Vec3& edge_b);
 Mesh box(const Vec3& min, const Vec3& max);
 Mesh soup(int count, double extent, double size, Random& random);
-/// A closed sphere of rings x sectors quads, two triangles each, its vertices moved along the radius by up to
-/// this share; corners are rounded to float, so that every precision is given the same mesh.
+/// A closed sphere of rings x sectors quads, two triangles each, outward-wound, its vertices moved along the
+/// radius by up to this share.
 Mesh round_mesh(const Vec3& center, double radius, int rings, int sectors, double jitter, Random& random);
+/// Its corners rounded to float: every precision, and every other tracer, is given the same mesh.
+Mesh in_floats(Mesh mesh);
 Light point_light(const Vec3& position);
 Light sun(const Vec3& direction);
 

@@ -8,8 +8,7 @@ namespace gnomon::bench {
 namespace {
 
 void round_to_float(Scene& scene) {
-  for (Mesh& mesh : scene.meshes)
-    for (Vec3& p : mesh.positions) p = Vec3(Vec3f(p));
+  for (Mesh& mesh : scene.meshes) mesh = test::in_floats(std::move(mesh));
 }
 
 std::optional<Mesh> bunny() {
