@@ -11,7 +11,6 @@
 namespace gnomon::app_test {
 namespace {
 
-using Words = std::vector<std::string>;
 using nlohmann::json;
 
 json result_of(Words words) {

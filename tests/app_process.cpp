@@ -28,8 +28,7 @@ struct Pipe {
   }
 };
 
-[[noreturn]] void become(const std::vector<std::string>& arguments, const ProcessOptions& options, int out,
-                         int err) {
+[[noreturn]] void become(const Words& arguments, const ProcessOptions& options, int out, int err) {
   if (!options.out_path.empty()) out = open(options.out_path.c_str(), O_WRONLY | O_CREAT, 0644);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
@@ -86,7 +85,7 @@ void interrupt_when_ready(pid_t process, int after_ms) {
 
 }  // namespace
 
-ProcessResult run_gnomon(const std::vector<std::string>& arguments, const ProcessOptions& options) {
+ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) {
   const Pipe out, err;
   const pid_t child = fork();
   if (child == 0) become(arguments, options, out.write_end, err.write_end);
@@ -105,6 +104,13 @@ ProcessResult run_gnomon(const std::vector<std::string>& arguments, const Proces
   return result;
 }
 
+void expect_one_line(const ProcessResult& result, int code, const std::string& part) {
+  EXPECT_EQ(result.exit_code, code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+}
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "gnomon-test-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
@@ -116,8 +122,8 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
-std::vector<std::string> TemporaryFolder::entries() const {
-  std::vector<std::string> names;
+Words TemporaryFolder::entries() const {
+  Words names;
   for (const auto& entry : fs::recursive_directory_iterator(path_)) {
     names.push_back(fs::relative(entry.path(), path_).string() + (entry.is_directory() ? "/" : ""));
   }

@@ -6,6 +6,16 @@
 
 namespace gnomon::app_test {
 
+using Words = std::vector<std::string>;
+
+inline Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Options that make `compare` quick.
+inline const Words small = {"--size", "64x36", "--map-size", "128", "--runs", "1"};
+
 struct ProcessResult {
   int exit_code = -1;  ///< -1 when a signal ended it
   std::string out, err;
@@ -19,7 +29,10 @@ struct ProcessOptions {
 };
 
 /// The program under test with these arguments.
-ProcessResult run_gnomon(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options = {});
+
+/// That exit code, nothing on stdout, and on stderr one line that holds the part.
+void expect_one_line(const ProcessResult& result, int code, const std::string& part);
 
 /// A folder of its own that is removed at the end.
 class TemporaryFolder {
@@ -31,7 +44,7 @@ class TemporaryFolder {
   const std::string& path() const { return path_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   /// Names of what lies in it, sorted; folders end in '/'.
-  std::vector<std::string> entries() const;
+  Words entries() const;
 
  private:
   std::string path_;

@@ -1,0 +1,60 @@
+#include "app/picture_command.h"
+
+#include <fmt/format.h>
+
+#include "app/effect_options.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/picture_file.h"
+
+namespace gnomon::app {
+
+void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output) {
+  add_scene(app, command.scene);
+  add_output(app, "-o,--output", command.image, "IMAGE", output);
+  add_size(app, size);
+  add_tessellate(app, command.tessellate);
+}
+
+void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json) {
+  add_threads(app, command.threads, threads);
+  add_exposure(app, command.exposure);
+  add_json(app, command.json, json);
+  add_quiet(app, command.quiet);
+}
+
+void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand& command) {
+  command.command_line = invocation.command_line;
+  command.given = given_options(app);
+}
+
+Expected<void> check_outputs(PictureCommand& command, const std::string& renderer) {
+  if (command.image.empty()) command.image = default_output(command.scene) + "-" + renderer + ".png";
+  if (const auto known = check_extension("-o", command.image, ".png .exr"); !known) return known;
+  if (const auto writable = check_output_file(command.image); !writable) return writable;
+  return check_output_file(command.json);
+}
+
+Expected<LoadedScene> open_scene(const PictureCommand& command, ImageSize size, const BytesPerPixel& bytes,
+                                 Console& console) {
+  if (const auto fits = check_memory(size, command.wants_records() ? bytes.exr : bytes.png); !fits)
+    return fail(fits.error());
+  return load(command.scene, console, command.tessellate);
+}
+
+Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,
+                            const PictureWriter& writer, const Stopwatch& watch, Console& console) {
+  const OutputGuard whole_outputs;
+  if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
+  const double exposure = choose_exposure(command.exposure, *loaded.scene, color);
+  if (const auto written = writer.picture(exposure); !written) return fail(written.error());
+  console.message(fmt::format("picture: {}", command.image));
+  const RenderRecord record{command.command_line, command.image, loaded, exposure, watch.elapsed_ms()};
+  if (command.json.empty()) return ExitCode::done;
+  if (const auto out = hand_out_json(command.json, writer.json(record)); !out) return fail(out.error());
+  return ExitCode::done;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,57 @@
+// What `gnomon raster` and `gnomon raytrace` have in common: they make one picture of a scene, as a PNG or as
+// an EXR with the renderer's records, and tell of it in JSON. In order: check_outputs, open_scene, the
+// renderer's own work, hand_out.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/invocation.h"
+#include "app/pose_options.h"
+#include "app/render_json.h"
+#include "app/session.h"
+#include "scene/timing.h"
+
+namespace gnomon::app {
+
+struct PictureCommand {
+  std::string scene, image, light, json, command_line;
+  std::optional<std::optional<double>> exposure;
+  PoseOptions poses;
+  int threads = 0;
+  int tessellate = 0;  ///< sectors; 0: shapes stay exact
+  bool quiet = false;
+  std::vector<std::string> given;  ///< options
+
+  bool wants_records() const { return image.ends_with(".exr"); }
+};
+
+/// The scene, --output, --size, --tessellate.
+void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output);
+/// --threads, --exposure, --json, --quiet.
+void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json);
+/// When all is parsed: how the command was called.
+void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand& command);
+
+/// Gives the picture its default name, out/NAME-RENDERER.png; nothing is written yet.
+Expected<void> check_outputs(PictureCommand& command, const std::string& renderer);
+
+/// By which the peak of memory grows.
+struct BytesPerPixel {
+  double png, exr;
+};
+Expected<LoadedScene> open_scene(const PictureCommand& command, ImageSize size, const BytesPerPixel& bytes,
+                                 Console& console);
+
+/// How a renderer's frame becomes a file and a document.
+struct PictureWriter {
+  std::function<Expected<void>(double exposure)> picture;
+  std::function<std::string(const RenderRecord& record)> json;
+};
+/// Writes the picture and, where it is asked for, the JSON, neither to be interrupted.
+Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,
+                            const PictureWriter& writer, const Stopwatch& watch, Console& console);
+
+}  // namespace gnomon::app

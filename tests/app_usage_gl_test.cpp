@@ -1,0 +1,179 @@
+// The program's words from outside: what a wrong word is told (exit code 2, one line on stderr), what the
+// help, the manual and the shells' completions say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+TEST(Usage, WrongNamesGetASuggestion) {
+  expect_one_line(run_gnomon({"comapre", "fence"}), 2, "did you mean compare?");
+  expect_one_line(run_gnomon({"compare", "fence", "--bais", "1"}), 2, "did you mean --bias?");
+  expect_one_line(run_gnomon({"compare", "fence", "--map-sise=1"}), 2, "did you mean --map-size?");
+  expect_one_line(run_gnomon({"fence"}), 2, "did you mean gnomon compare fence?");
+  expect_one_line(run_gnomon({"model.glb"}), 2, "did you mean gnomon compare model.glb?");
+  expect_one_line(run_gnomon({"compare", "fence", "--depth-format", "d32"}), 2, "did you mean d32f?");
+}
+
+TEST(Usage, ValuesOutOfRange) {
+  const std::vector<Words> wrong = {{"--bias", "nan"},          {"--bias", "inf"},
+                                    {"--bias", "-inf"},         {"--bias", "wide"},
+                                    {"--slope-bias", "nan"},    {"--slope-bias", "inf"},
+                                    {"--normal-offset", "-1"},  {"--size", "0x10"},
+                                    {"--size", "-1x10"},        {"--size", "10"},
+                                    {"--size", "2147483648x1"}, {"--map-size", "0"},
+                                    {"--map-size", "-5"},       {"--map-size", "2147483648"},
+                                    {"--threads", "-1"},        {"--runs", "0"},
+                                    {"--technique", "soft"},    {"--precision", "half"},
+                                    {"--accel", "quadtree"},    {"--cull", "both"},
+                                    {"--backend", "vulkan"},    {"--exposure", "0"},
+                                    {"--seed", "-1"},           {"--fail-above", "101%"},
+                                    {"--min-contribution", "2"}};
+  for (const Words& option : wrong) {
+    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, option[0] + ": ");
+    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, "(got " + option[1] + ", allowed ");
+  }
+}
+
+TEST(Usage, MissingAndSuperfluousWords) {
+  expect_one_line(run_gnomon({"compare"}), 2, "SCENE is required");
+  expect_one_line(run_gnomon({"compare", "fence", "other"}), 2, "one argument too many (got other)");
+  expect_one_line(run_gnomon({"compare", "fence", "--bias"}), 2, "--bias");
+  expect_one_line(run_gnomon({"--bogus"}), 2, "--bogus");
+  expect_one_line(run_gnomon({"raster", "fence", "-o", "x.jpg"}), 2, "(got x.jpg, allowed .png .exr)");
+  EXPECT_EQ(run_gnomon({}).exit_code, 2);
+}
+
+TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
+  expect_one_line(run_gnomon({"raytrace", "fence", "--map-size", "64"}), 2, "unknown option --map-size");
+  expect_one_line(run_gnomon({"raster", "fence", "--accel", "bvh"}), 2, "unknown option --accel");
+  expect_one_line(run_gnomon({"plan", "fence", "--map-size", "1"}), 2, "unknown option --map-size");
+}
+
+// A class that edits the shaders: what it leaves alone is the program's own, and a mistake is one line.
+TEST(ShaderFolder, ReplacesFilesAndNamesMistakes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path shaders = std::filesystem::path(folder.path()) / "shaders";
+  std::filesystem::create_directories(shaders / "technique");
+  const auto draw = [&](const std::string& image, const Words& more) {
+    return run_gnomon(
+        Words{"raster", "acne-floor", "--size", "64x36", "--map-size", "64", "-o", image, "-q"} + more,
+        {.folder = folder.path()});
+  };
+  const auto write = [&](const std::string& body) {
+    std::ofstream(shaders / "technique/hard.glsl")
+        << "float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {\n"
+        << body << "\n}\n";
+  };
+  const auto bytes = [&](const std::string& image) {
+    std::ifstream file(std::filesystem::path(folder.path()) / image, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  EXPECT_EQ(draw("own.png", {}).exit_code, 0);
+  EXPECT_EQ(draw("empty.png", {"--shader-dir", "shaders"}).exit_code, 0);
+  EXPECT_EQ(bytes("own.png"), bytes("empty.png"));
+  write("  return 0.0;");
+  EXPECT_EQ(draw("dark.png", {"--shader-dir", "shaders"}).exit_code, 0);
+  EXPECT_NE(bytes("own.png"), bytes("dark.png"));
+  write("  return 0.0");
+  expect_one_line(draw("bad.png", {"--shader-dir", "shaders"}), 3, "shaders/technique/hard.glsl:3: ");
+  write("  return nonsense(1.0);");
+  expect_one_line(draw("bad.png", {"--shader-dir", "shaders"}), 3, "shaders/technique/hard.glsl:2: ");
+  expect_one_line(draw("bad.png", {"--shader-dir", "nowhere"}), 2, "no such folder (got nowhere)");
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(folder.path()) / "bad.png"));
+}
+
+TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon(Words{"compare", "acne-floor", "--light", "snu", "--quiet"} + small,
+                                          {.folder = folder.path()});
+  expect_one_line(result, 2, "(got snu, allowed ");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+// --- Help
+// ----------------------------------------------------------------------------------------------------
+
+/// The paragraphs of a help text that describe an option: each starts with two blanks and a dash.
+std::vector<std::string> option_paragraphs(const std::string& help) {
+  std::vector<std::string> paragraphs;
+  std::istringstream lines(help);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  -")) {
+      paragraphs.push_back(line);
+      inside = true;
+    } else if (inside && line.starts_with("      ")) {
+      paragraphs.back().append(" ").append(line.substr(6));
+    } else {
+      inside = false;
+    }
+  }
+  return paragraphs;
+}
+
+TEST(Help, EveryOptionSaysItsDefaultAndNoLineIsTooLong) {
+  for (const char* command : {"compare", "raster", "raytrace", "plan", "scenes"}) {
+    const ProcessResult result = run_gnomon({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_LT(result.out.find("Examples:"), result.out.find("Options:"));
+    const std::vector<std::string> options = option_paragraphs(result.out);
+    EXPECT_GE(options.size(), 2u);
+    for (const std::string& option : options) {
+      if (option.find("--help") != std::string::npos) continue;
+      EXPECT_NE(option.find("default "), std::string::npos) << command << ":" << option;
+      EXPECT_NE(option.find('['), std::string::npos) << command << ":" << option;
+    }
+  }
+}
+
+TEST(Help, UnitsAreNamed) {
+  const std::string help = run_gnomon({"compare", "--help"}).out;
+  const std::vector<std::string> options = option_paragraphs(help);
+  const std::pair<const char*, const char*> units[] = {{"--size ", "pixels"},
+                                                       {"--map-size ", "texels"},
+                                                       {"--bias ", "world units along the light ray"},
+                                                       {"--slope-bias ", "multiples"},
+                                                       {"--normal-offset ", "texels"},
+                                                       {"--threads ", "cores"}};
+  for (const auto& [name, unit] : units) {
+    const auto found = std::find_if(options.begin(), options.end(), [&](const std::string& option) {
+      return option.find(name) != std::string::npos;
+    });
+    ASSERT_NE(found, options.end()) << name;
+    EXPECT_NE(found->find(unit), std::string::npos) << *found;
+  }
+}
+
+TEST(Help, Version) {
+  EXPECT_EQ(run_gnomon({"--version"}).out.substr(0, 7), "gnomon ");
+  EXPECT_EQ(run_gnomon({"--help"}).exit_code, 0);
+}
+
+TEST(Help, CompletionAndManualNameEveryOption) {
+  const std::string manual = run_gnomon({"--man-page"}).out;
+  EXPECT_TRUE(manual.starts_with(".TH GNOMON 1"));
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const ProcessResult script = run_gnomon({"--completion", shell});
+    EXPECT_EQ(script.exit_code, 0);
+    for (const char* name : {"compare", "map-size", "receiver-plane", "fence"}) {
+      EXPECT_NE(script.out.find(name), std::string::npos) << shell << " " << name;
+    }
+  }
+  for (const char* name : {"map\\-size", "receiver\\-plane", "gnomon compare fence"}) {
+    EXPECT_NE(manual.find(name), std::string::npos) << name;
+  }
+  expect_one_line(run_gnomon({"--completion", "ksh"}), 2, "(got ksh, allowed bash, zsh, fish)");
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
