@@ -67,9 +67,8 @@ class GlRenderer final : public Renderer {
   Expected<void> shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
                        LightRecord* record);
   Expected<void> shade_without_light(Job& job);
-  /// `warm`: no pass is needed before the timed ones.
-  Expected<void> time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass,
-                           bool warm = false);
+  using Pass = std::function<Expected<void>()>;
+  Expected<void> time_pass(int runs, Times& times, const Pass& warm_up, const Pass& pass);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
     RasterOptions options;  ///< without the bias
@@ -186,13 +185,10 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   return std::move(job.frame);
 }
 
-// One warm-up, then the timed runs, each from an idle device to an idle device.
-Expected<void> GlRenderer::time_pass(int runs, Times& times, const std::function<Expected<void>()>& pass,
-                                     bool warm) {
+// The warm-up, then the timed runs, each from an idle device to an idle device.
+Expected<void> GlRenderer::time_pass(int runs, Times& times, const Pass& warm_up, const Pass& pass) {
   if (runs == 0) return {};
-  if (!warm) {
-    if (auto ok = pass(); !ok) return ok;
-  }
+  if (auto ok = warm_up(); !ok) return ok;
   (*gl_)->Finish();
   Expected<void> result;
   for (int i = 0; i < runs && result; ++i) {
@@ -273,8 +269,8 @@ Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& r
   if (auto ok = external_.check(); !ok) return ok;
   job.frame.map_texels += texels_of(request.map);
   if (record != nullptr) {
-    auto ok = time_pass(job.options.runs, record->map_pass, [&] { return external_.prepare(request, true); });
-    if (!ok) return ok;
+    const Pass pass = [&] { return external_.prepare(request, true); };
+    if (auto ok = time_pass(job.options.runs, record->map_pass, pass, pass); !ok) return ok;
   }
   return external_.prepare(request, false);
 }
@@ -323,13 +319,13 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     job.visibility_drawn = true;
   }
   if (record != nullptr && map.options.technique != Technique::hybrid) {
-    auto ok = time_pass(job.options.runs, record->map_pass, [&]() -> Expected<void> {
+    const Pass pass = [&]() -> Expected<void> {
       if (fits_to_samples(map.options)) {
         if (auto fitted = fit(job, map.light, map.options); !fitted) return fail(fitted.error());
       }
       return draw_map(map, false);
-    });
-    if (!ok) return ok;
+    };
+    if (auto ok = time_pass(job.options.runs, record->map_pass, pass, pass); !ok) return ok;
   }
   const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (auto ok = draw_map(map, with_ids); !ok) return ok;
@@ -357,15 +353,17 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr) {
     const ShadePermutation timed = shade_permutation(light, map, job.first_light, false);
-    auto ok = time_pass(
-        job.options.runs, record->shade_pass,
-        [&]() -> Expected<void> {
-          if (auto seen = see(job, asked); !seen) return seen;
-          job.visibility_drawn = true;
-          return shading_.draw_light(buffers_, timed, !job.first_light);
-        },
-        last_timed_ == timed);
-    if (!ok) return ok;
+    const Pass pass = [&]() -> Expected<void> {
+      if (auto seen = see(job, asked); !seen) return seen;
+      job.visibility_drawn = true;
+      return shading_.draw_light(buffers_, timed, !job.first_light);
+    };
+    const Pass warm_up = [&]() -> Expected<void> {
+      if (last_timed_ == timed) return {};
+      if (asked != nullptr) return pass();
+      return shading_.warm_up(buffers_, job.view, timed, !job.first_light);
+    };
+    if (auto ok = time_pass(job.options.runs, record->shade_pass, warm_up, pass); !ok) return ok;
     if (job.options.runs > 0) last_timed_ = timed;
   }
   if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {

@@ -78,7 +78,7 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
   if (with_records) {
     if (auto ok = record_target_.check_complete(); !ok) return ok;
   }
-  size_ = size;
+  size_ = drawn_ = size;
   return {};
 }
 
@@ -105,7 +105,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
-  gl->Viewport(0, 0, size_.width, size_.height);
+  gl->Viewport(0, 0, drawn_.width, drawn_.height);
   gl->Disable(GL_BLEND);
   gl->Disable(GL_SCISSOR_TEST);
   gl->Disable(GL_CULL_FACE);
@@ -161,7 +161,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-  gl->Viewport(0, 0, size_.width, size_.height);
+  gl->Viewport(0, 0, drawn_.width, drawn_.height);
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
@@ -174,6 +174,16 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   (*program)->use();
   gl->DrawArrays(GL_TRIANGLES, 0, 3);
   return {};
+}
+
+Expected<void> ShadingPass::warm_up(const WorldBuffers& world, const View& view,
+                                    const ShadePermutation& permutation, bool trial) {
+  constexpr int corner = 64;  // pixels
+  drawn_ = {std::min(corner, size_.width), std::min(corner, size_.height)};
+  Expected<void> done = draw_visibility(world, view);
+  if (done) done = draw_light(world, permutation, trial);
+  drawn_ = size_;
+  return done;
 }
 
 void ShadingPass::bind_visibility() const {

@@ -19,6 +19,10 @@ class ShadingPass {
   Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
+  /// Both, into a corner of the images: whatever the device compiles or sets up at the first use is then
+  /// there, without the time of a whole picture. Leaves the visibility buffer to be filled again.
+  Expected<void> warm_up(const WorldBuffers& world, const View& view, const ShadePermutation& permutation,
+                         bool trial);
 
   void bind_visibility() const;
   ImageSize size() const { return size_; }
@@ -37,6 +41,7 @@ class ShadingPass {
   ProgramCache* programs_;
   Buffer camera_block_;
   ImageSize size_;
+  ImageSize drawn_;  ///< part of the images that is drawn to
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
 };
