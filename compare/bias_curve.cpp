@@ -1,8 +1,11 @@
 #include "compare/bias_curve.h"
 
-#include <tbb/parallel_sort.h>
+#include <tbb/parallel_invoke.h>
 
 #include <set>
+
+#include "compare/pixel_list.h"
+#include "compare/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {
@@ -41,12 +44,17 @@ BiasCurvePoint GapLists::at(double bias) const {
 }
 
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels) {
+  const auto sorted = [&](bool lit) {
+    const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
+      return is_compared(labels.data[i]) && (truth.data[i] > 0.5f) == lit;
+    });
+    std::vector<float> values(pixels.size());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = record.gap.data[pixels[i]];
+    sort_numbers(std::span(values));
+    return values;
+  };
   GapLists gaps;
-  for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (is_compared(labels.data[i]))
-      (truth.data[i] > 0.5f ? gaps.lit : gaps.shadowed).push_back(record.gap.data[i]);
-  tbb::parallel_sort(gaps.lit);
-  tbb::parallel_sort(gaps.shadowed);
+  tbb::parallel_invoke([&] { gaps.lit = sorted(true); }, [&] { gaps.shadowed = sorted(false); });
   return gaps;
 }
 

@@ -15,8 +15,23 @@ double plane_depth(const LightView& view, int face, double u, double v, const Ve
   return t * glm::dot(ray.direction, view.faces[static_cast<std::size_t>(face)].forward);
 }
 
+namespace {
+
+/// Of a map whose texels are all alike: the plane's depth changes by the same from each texel to the next.
+double even_depth_slope(const LightView& view, const LightFace& face, const Vec3& normal) {
+  const double facing = -glm::dot(normal, face.forward);
+  if (!(facing > 0.0)) return infinity;
+  return (std::abs(glm::dot(normal, face.right)) * face.half_extent.x +
+          std::abs(glm::dot(normal, face.up)) * face.half_extent.y) /
+         (facing * view.size);
+}
+
+}  // namespace
+
 double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const Vec3& position,
                          const Vec3& normal) {
+  if (view.projection == LightProjection::orthographic && view.face(at.face).warp == 0.0)
+    return even_depth_slope(view, view.face(at.face), normal);
   const auto slope = [&](double du, double dv) {
     const double below = plane_depth(view, at.face, at.u - du, at.v - dv, position, normal);
     const double above = plane_depth(view, at.face, at.u + du, at.v + dv, position, normal);

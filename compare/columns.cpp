@@ -8,16 +8,27 @@ namespace gnomon::compare {
 
 using raytrace::TexelKey;
 
+Ray caster_ray(const LightView& view, int face_index, double u, double v) {
+  Ray ray = texel_ray(view, face_index, u, v);
+  if (view.projection == LightProjection::perspective) return ray;
+  const LightFace& face = view.face(face_index);
+  const double before = face.far_depth - face.near_depth;
+  ray.origin += (face.near_depth - before) * ray.direction;
+  ray.t = {before, infinity};
+  return ray;
+}
+
 TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
   const LightView& view = in.record.map.view;
   TexelCentre out;
   out.face = key.face();
-  out.ray = texel_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
-  // Casters of an orthographic map may lie before depth 0, never before its near depth.
-  if (view.projection == LightProjection::orthographic) out.ray.t.min = view.face(out.face).near_depth;
+  out.ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
   out.hit = in.tracer.closest_hit(out.ray);
-  if (out.hit)
-    out.depth = out.hit->t * glm::dot(out.ray.direction, view.faces[std::size_t(out.face)].forward);
+  if (out.hit) {
+    const Vec3& forward = view.face(out.face).forward;
+    out.depth =
+        glm::dot(out.ray.origin - view.origin, forward) + out.hit->t * glm::dot(out.ray.direction, forward);
+  }
   return out;
 }
 
@@ -58,10 +69,11 @@ bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
 }
 
 // The lower rungs hang on sheets where the centre ray is stopped before the receiver's tangent plane, and by
-// another primitive than the receiver's.
+// another triangle than the receiver's.
 bool needs_sheets(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   return centre.hit && centre.hit->primitive != receiver.primitive &&
+         in.world.is_triangle(receiver.primitive) && in.world.is_triangle(centre.hit->primitive) &&
          !meets_plane_unhindered(in, centre, receiver);
 }
 

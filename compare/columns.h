@@ -18,6 +18,9 @@ struct TexelCentre {
   double depth = infinity;  ///< of the hit, along the map's forward axis
 };
 
+/// texel_ray(), but that of an orthographic map starts well before the near depth, which lies before all
+/// casters and is where its interval begins: no t is negative then, as single rays are traced fastest.
+Ray caster_ray(const LightView& view, int face, double u, double v);
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);
 std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vector<raytrace::TexelKey>& keys);
 

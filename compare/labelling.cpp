@@ -17,8 +17,7 @@ constexpr int max_chain = 64;
 int own_surface_on_ray(const LadderInput& in, const Column& column, std::uint32_t receiver, double u,
                        double v) {
   const LightView& view = in.record.map.view;
-  Ray ray = texel_ray(view, column.key().face(), u, v);
-  if (view.projection == LightProjection::orthographic) ray.t.min = view.face(column.key().face()).near_depth;
+  Ray ray = caster_ray(view, column.key().face(), u, v);
   for (int depth = 0; depth < max_chain; ++depth) {
     const auto hit = in.tracer.closest_hit(ray);
     if (!hit) return -1;

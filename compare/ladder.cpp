@@ -10,6 +10,7 @@
 #include "compare/biased_test.h"
 #include "compare/columns.h"
 #include "compare/labelling.h"
+#include "compare/pixel_list.h"
 #include "raytrace/shape_sheets.h"
 #include "scene/solid.h"
 
@@ -173,10 +174,7 @@ Climb climb_without_map(const LadderInput& in, Climb out) {
 }
 
 std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
-  std::vector<std::uint32_t> pixels;
-  for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (labels.data[i] == Label::right) pixels.push_back(static_cast<std::uint32_t>(i));
-  return pixels;
+  return pixels_where(labels.data.size(), [&](std::size_t i) { return labels.data[i] == Label::right; });
 }
 
 }  // namespace
@@ -196,15 +194,11 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
   tbb::parallel_for(std::size_t{0}, rungs.size(),
                     [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
-  const std::vector<std::uint32_t> pixels = compared_pixels(sorted);
-  for (const std::uint32_t pixel : pixels) {
-    raytrace::TexelKey key;
-    if (texel_of_pixel(in.record, pixel, key)) continue;
-    outside.push_back(pixel);
-    rungs[0].data[pixel] = truth_rung(in, pixel);
-    rungs[1].data[pixel] = point_rung(in, pixel);
-  }
-  groups = group_by_texel(in.record, pixels);
+  groups = group_by_texel(in.record, compared_pixels(sorted), outside);
+  tbb::parallel_for(std::size_t{0}, outside.size(), [&](std::size_t i) {
+    rungs[0].data[outside[i]] = truth_rung(in, outside[i]);
+    rungs[1].data[outside[i]] = point_rung(in, outside[i]);
+  });
   const std::vector<TexelCentre> centres = trace_centres(in, groups.keys);
   columns = std::make_unique<ColumnSet>(input, groups, centres);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {

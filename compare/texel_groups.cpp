@@ -1,6 +1,9 @@
 #include "compare/texel_groups.h"
 
-#include <tbb/parallel_sort.h>
+#include <algorithm>
+
+#include "compare/pixel_list.h"
+#include "compare/sort_numbers.h"
 
 namespace gnomon::compare {
 
@@ -14,30 +17,75 @@ bool texel_of_pixel(const raster::LightRecord& record, std::size_t pixel, TexelK
   return true;
 }
 
-TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const std::uint32_t> pixels) {
-  struct Entry {
-    TexelKey key;
-    std::uint32_t pixel;
-    auto operator<=>(const Entry&) const = default;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(pixels.size());
-  for (const std::uint32_t pixel : pixels) {
-    Entry entry{{}, pixel};
-    if (texel_of_pixel(record, pixel, entry.key)) entries.push_back(entry);
+namespace {
+
+/// A texel and, in the lowest bits, a pixel: one number to sort by. Pictures have up to 2^28 pixels, maps up
+/// to 6 faces of 2^16 texels a side.
+class Entry {
+ public:
+  static constexpr int pixel_bits = 28, texel_bits = 35;
+
+  explicit Entry(std::uint64_t packed) : packed_(packed) {}
+  Entry(std::uint64_t texel, std::uint32_t pixel) : packed_(texel << pixel_bits | pixel) {}
+  std::uint64_t packed() const { return packed_; }
+  std::uint64_t texel() const { return packed_ >> pixel_bits; }
+  std::uint32_t pixel() const { return static_cast<std::uint32_t>(packed_ & ((1u << pixel_bits) - 1)); }
+
+ private:
+  std::uint64_t packed_;
+};
+constexpr std::uint64_t outside_map = (std::uint64_t{1} << Entry::texel_bits) - 1;  // behind all texels
+
+/// Texels numbered in the order of their keys.
+class TexelNumbers {
+ public:
+  explicit TexelNumbers(int size) : side_(static_cast<std::uint64_t>(size)) {}
+  std::uint64_t number(TexelKey key) const {
+    return (static_cast<std::uint64_t>(key.face()) * side_ + static_cast<std::uint64_t>(key.row())) * side_ +
+           static_cast<std::uint64_t>(key.column());
   }
-  tbb::parallel_sort(entries);
+  TexelKey key(std::uint64_t number) const {
+    return TexelKey::pack(static_cast<int>(number / (side_ * side_)), static_cast<int>(number % side_),
+                          static_cast<int>(number / side_ % side_));
+  }
+
+ private:
+  std::uint64_t side_;
+};
+
+std::vector<std::uint64_t> sorted_entries(const raster::LightRecord& record,
+                                          std::span<const std::uint32_t> pixels, const TexelNumbers& texels) {
+  auto entries = paged_vector<std::uint64_t>(pixels.size());
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    TexelKey key;
+    const bool inside = texel_of_pixel(record, pixels[i], key);
+    entries[i] = Entry(inside ? texels.number(key) : outside_map, pixels[i]).packed();
+  });
+  sort_numbers(std::span(entries));
+  return entries;
+}
+
+}  // namespace
+
+TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const std::uint32_t> pixels,
+                           std::vector<std::uint32_t>& outside) {
+  const TexelNumbers texels(record.map.view.size);
+  const std::vector<std::uint64_t> entries = sorted_entries(record, pixels, texels);
+  const auto inside = static_cast<std::size_t>(
+      std::lower_bound(entries.begin(), entries.end(), Entry(outside_map, 0).packed()) - entries.begin());
+  const auto texel = [&](std::size_t i) { return Entry(entries[i]).texel(); };
 
   TexelGroups groups;
-  groups.pixels.reserve(entries.size());
-  for (const Entry& entry : entries) {
-    if (groups.keys.empty() || groups.keys.back() != entry.key) {
-      groups.keys.push_back(entry.key);
-      groups.offsets.push_back(static_cast<std::uint32_t>(groups.pixels.size()));
-    }
-    groups.pixels.push_back(entry.pixel);
-  }
-  groups.offsets.push_back(static_cast<std::uint32_t>(groups.pixels.size()));
+  groups.offsets = pixels_where(inside, [&](std::size_t i) { return i == 0 || texel(i) != texel(i - 1); });
+  groups.keys.resize(groups.offsets.size());
+  groups.pixels = paged_vector<std::uint32_t>(inside);
+  tbb::parallel_for(std::size_t{0}, groups.keys.size(),
+                    [&](std::size_t g) { groups.keys[g] = texels.key(texel(groups.offsets[g])); });
+  tbb::parallel_for(std::size_t{0}, inside,
+                    [&](std::size_t i) { groups.pixels[i] = Entry(entries[i]).pixel(); });
+  groups.offsets.push_back(static_cast<std::uint32_t>(inside));
+  outside.clear();
+  for (std::size_t i = inside; i < entries.size(); ++i) outside.push_back(Entry(entries[i]).pixel());
   return groups;
 }
 

@@ -24,7 +24,8 @@ struct TexelGroups {
 /// The texel that a pixel's receiver looked up (before any offset), or none when that lies outside the map.
 bool texel_of_pixel(const raster::LightRecord& record, std::size_t pixel, raytrace::TexelKey& key);
 
-/// Groups the given pixels; those that look outside the map are left out.
-TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const std::uint32_t> pixels);
+/// Groups the given pixels, ascending and below 2^28. Those that look outside the map go into `outside`.
+TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const std::uint32_t> pixels,
+                           std::vector<std::uint32_t>& outside);
 
 }  // namespace gnomon::compare

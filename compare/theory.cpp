@@ -47,6 +47,9 @@ struct PixelTheory {
 // Area of a texel square to the light ray at the receiver.
 double texel_area(const LightView& view, const TexelCoordinate& at) {
   if (view.projection == LightProjection::orthographic) {
+    const LightFace& face = view.face(at.face);
+    if (face.warp == 0.0)
+      return 4.0 * face.half_extent.x * face.half_extent.y / (double(view.size) * view.size);
     const auto c = column_corners(view, at.face, at.column(), at.row());  // a trapezium
     const Vec2 a = c[2] - c[0], b = c[3] - c[1];
     return 0.5 * std::abs(a.x * b.y - a.y * b.x);

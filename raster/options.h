@@ -136,9 +136,9 @@ struct RasterOptions {
   ImageSize size{1280, 720};
   MapOptions map;
   /// Timed repetitions of each pass after a warm-up, which shades a corner of the picture, and nothing where
-  /// the frame before was shaded by the same program; 0: render once, untimed. A frame with whole records that
-  /// differs from the one before in bias or camera alone takes that one's map, and with it the map pass's
-  /// times.
+  /// the frame before was shaded by the same program; 0: render once, untimed. A frame with whole records
+  /// that differs from the one before in bias or camera alone takes that one's map, and with it the map
+  /// pass's times.
   int runs = 3;
   bool analysis =
       true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)

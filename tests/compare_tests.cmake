@@ -1,3 +1,5 @@
+gnomon_test(compare_lists_test SOURCES compare_lists_test.cpp LIBS gnomon::compare hwy::hwy)
+
 gnomon_test(compare_closed_form_gl_test TIMEOUT 900
   SOURCES compare_closed_form_gl_test.cpp compare_filter_gl_test.cpp compare_units_test.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::compare nlohmann_json::nlohmann_json)

@@ -49,7 +49,9 @@ function unpack({ bytes, difference, data }) {
 
 async function checkData(page, aov) {
   const data = JSON.parse(await page.locator("#page-data").textContent()), light = data.parts["light-0"];
-  const numbers = Object.fromEntries(Object.entries({ ...light.channels, ...data.parts.pixels }).map(([name, packed]) => [name, unpack(packed)]));
+  const channels = { ...light.channels, ...data.parts.pixels };
+  const numbersOf = (channel) => channel.same ? numbersOf(channels[channel.same]) : unpack(channel);
+  const numbers = Object.fromEntries(Object.entries(channels).map(([name, channel]) => [name, numbersOf(channel)]));
   const gaps = new Float32Array(numbers.gap.buffer);
   aov.forEach(([label, gap, u, v, primitive, ...ladder], i) => {
     assert.equal(numbers.label[i], label, `label of pixel ${i}`);

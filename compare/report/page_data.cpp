@@ -143,6 +143,8 @@ class Channels {
       return numbers;
     });
   }
+  /// The numbers of a channel that is there.
+  void add_same(const std::string& name, const std::string& as) { json_[name] = {{"same", as}}; }
   const Json& json() const { return json_; }
 
  private:
@@ -159,10 +161,16 @@ void add_ladder(Channels& channels, const LightComparison& light) {
   const std::size_t n = light.labels.data.size();
   channels.add("label", n, {1, false},
                [&light](std::size_t i) { return static_cast<std::uint32_t>(light.labels.data[i]); });
-  for (std::size_t k = 0; k < rung_count; ++k)
-    channels.add(fmt::format("V{}", k), n, {2, false}, [&light, k](std::size_t i) {
+  for (std::size_t k = 0; k < rung_count; ++k) {
+    const std::string name = fmt::format("V{}", k);
+    if (k > 0 && light.rungs[k].data == light.rungs[k - 1].data) {
+      channels.add_same(name, fmt::format("V{}", k - 1));
+      continue;
+    }
+    channels.add(name, n, {2, false}, [&light, k](std::size_t i) {
       return rounded(visibility_steps * double{light.rungs[k].data[i]});
     });
+  }
 }
 
 void add_lookup(Channels& channels, const Comparison& c, const LightComparison& light) {
@@ -185,9 +193,16 @@ void add_lookup(Channels& channels, const Comparison& c, const LightComparison& 
 
 // Linear light as 16-bit floats, before exposure.
 void add_picture(Channels& channels, const ColorImage& image, std::string_view prefix) {
-  for (int k = 0; k < 3; ++k)
-    channels.add(fmt::format("{}{}", prefix, "RGB"[k]), image.data.size(), {2, true},
-                 [&image, k](std::size_t i) { return std::uint32_t{glm::packHalf1x16(image.data[i][k])}; });
+  const bool grey = std::all_of(image.data.begin(), image.data.end(),
+                                [](const Vec3f& c) { return c.x == c.y && c.y == c.z; });
+  for (int k = 0; k < 3; ++k) {
+    const std::string name = fmt::format("{}{}", prefix, "RGB"[k]);
+    if (grey && k > 0)
+      channels.add_same(name, fmt::format("{}R", prefix));
+    else
+      channels.add(name, image.data.size(), {2, true},
+                   [&image, k](std::size_t i) { return std::uint32_t{glm::packHalf1x16(image.data[i][k])}; });
+  }
 }
 
 // The metrics' maps: FLIP in steps of 1/255, SSIM in steps of 1/127 with -128 where no window fits.

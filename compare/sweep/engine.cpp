@@ -2,11 +2,11 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "compare/sort_numbers.h"
 #include "compare/sweep/engine_impl.h"
 #include "scene/exposure.h"
 
@@ -269,8 +269,8 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting) {
     probe.bias_world = frame.lights.front().bias_constant_world;
     probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
   }
-  tbb::parallel_sort(probe.gaps.lit.begin(), probe.gaps.lit.end());
-  tbb::parallel_sort(probe.gaps.shadowed.begin(), probe.gaps.shadowed.end());
+  sort_numbers(std::span(probe.gaps.lit));
+  sort_numbers(std::span(probe.gaps.shadowed));
   return probe;
 }
 

@@ -1,6 +1,6 @@
 // What the page knows: words, and each light's pixels, map and geometry (../../page_data.cpp), unpacked on first use.
 import { alongRay, texelRay, add, type LightView, type MapPoint, type Vec3 } from "./light_view";
-import { unpack, type Packed } from "./packed";
+import { unpack, unpackAll, type Channel, type Numbers, type Packed } from "./packed";
 import { pageData, part } from "./parts";
 
 export interface LabelWords {
@@ -29,7 +29,7 @@ export interface LightJson {
   bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean };
   texel_world: number;
   depth_step: number;
-  channels: Record<string, Packed>;
+  channels: Record<string, Channel>;
   map: Packed & { step: number };
 }
 
@@ -48,26 +48,19 @@ interface GeometryJson {
   shapes: Shape[];
   solid_sectors: number;
   complete: boolean;
-  triangles?: { low: Vec3; step: number; channels: Record<string, Packed> };
+  triangles?: { low: Vec3; step: number; channels: Record<string, Channel> };
 }
 
 export const page = pageData<PageJson>();
 const labelWords = new Map(page.labels.map((label) => [label.value, label]));
 export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
 
-type Numbers = Int8Array | Int16Array | Int32Array;
-async function unpackAll(channels: Record<string, Packed>): Promise<Record<string, Numbers>> {
-  const names = Object.keys(channels);
-  const arrays = await Promise.all(names.map((name) => unpack(channels[name]!)));
-  return Object.fromEntries(names.map((name, i) => [name, arrays[i]!]));
-}
-
 /** What both renderers see, and their linear pictures. */
 export class Pixels {
   private static loading: Promise<Pixels> | null = null;
   private constructor(readonly channels: Record<string, Numbers>) {}
   static load(): Promise<Pixels> {
-    return Pixels.loading ??= part<Record<string, Packed>>("pixels").then(unpackAll).then((channels) => new Pixels(channels));
+    return Pixels.loading ??= part<Record<string, Channel>>("pixels").then(unpackAll).then((channels) => new Pixels(channels));
   }
   /** Red, green and blue of a picture as 16-bit floats. */
   picture(name: PictureName): Int16Array[] {
