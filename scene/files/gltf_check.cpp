@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/files/gltf_container.h"
+#include "scene/files/gltf_tree.h"
 #include "scene/files/json_generate.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/read_file.h"
@@ -60,7 +61,7 @@ class GltfChecker {
     each("nodes", [&](const JsonNode& n) { check_node(n); });
     each("scenes", [&](const JsonNode& n) { indices(n, "nodes", counts_.nodes); });
     index(root_, "scene", counts_.scenes);
-    if (!errors_.first) check_tree();
+    if (const auto nodes = root_.child("nodes"); nodes && !errors_.first) check_gltf_tree(nodes->as_array());
     return errors_.first;
   }
 
@@ -337,47 +338,6 @@ class GltfChecker {
     if (!extensions) return;
     if (const auto light = extensions->child("KHR_lights_punctual"))
       required_index(*light, "light", counts_.lights);
-  }
-
-  // Every node has at most one parent and is not its own ancestor (glTF 2.0, section 3.5.2): walking down
-  // from nodes without a parent must reach all of them.
-  void check_tree() {
-    const auto list = root_.child("nodes");
-    if (!list) return;
-    const auto nodes = list->as_array();
-    std::vector<int> parent(nodes.size(), -1);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto children = nodes[i].child("children");
-      if (!children) continue;
-      for (const JsonNode& child : children->as_array()) {
-        const auto c = static_cast<std::size_t>(child.value().number);
-        if (parent[c] >= 0)
-          return child.error(fmt::format("node {} has two parents ({} and {})", c, parent[c], i));
-        parent[c] = static_cast<int>(i);
-      }
-    }
-    report_cycle(nodes, parent);
-  }
-
-  // With one parent each, the nodes that a walk down from the roots does not meet are those on and below
-  // cycles.
-  void report_cycle(const std::vector<JsonNode>& nodes, const std::vector<int>& parent) {
-    std::vector<bool> met(nodes.size(), false);
-    std::vector<std::size_t> stack;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (parent[i] < 0) stack.push_back(i);
-    while (!stack.empty()) {
-      const std::size_t at = stack.back();
-      stack.pop_back();
-      met[at] = true;
-      if (const auto children = nodes[at].child("children"))
-        for (const JsonValue& child : children->value().items)
-          stack.push_back(static_cast<std::size_t>(child.number));
-    }
-    const auto missed = std::find(met.begin(), met.end(), false);
-    if (missed != met.end())
-      nodes[static_cast<std::size_t>(missed - met.begin())].error(
-          "the node is its own ancestor, or below one (a cycle of children)");
   }
 
   JsonErrors errors_;
