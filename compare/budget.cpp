@@ -1,96 +1,115 @@
 #include "compare/budget.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace gnomon::compare {
 namespace {
 
-// Sums term(pixel) over the compared pixels.
-template <class Term>
-double sum_compared(const Image<Label>& labels, const Term& term) {
-  std::vector<double> rows(static_cast<std::size_t>(labels.size.height), 0.0);
+/// add(sums, pixel) for the compared pixels, all sums in one pass.
+template <std::size_t count, class Add>
+std::array<double, count> sum_compared(const Image<Label>& labels, const Add& add) {
+  using Sums = std::array<double, count>;
+  std::vector<Sums> rows(static_cast<std::size_t>(labels.size.height), Sums{});
   const auto width = static_cast<std::size_t>(labels.size.width);
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
-    double sum = 0.0;
+    Sums sums{};
     for (std::size_t i = y * width; i < (y + 1) * width; ++i)
-      if (is_compared(labels.data[i])) sum += term(i);
-    rows[y] = sum;
+      if (is_compared(labels.data[i])) add(sums, i);
+    rows[y] = sums;
   });
-  double total = 0.0;
-  for (const double row : rows) total += row;
+  Sums total{};
+  for (const Sums& row : rows)
+    for (std::size_t k = 0; k < count; ++k) total[k] += row[k];
   return total;
+}
+
+/// How many pixels have each label.
+std::array<std::uint64_t, 256> count_labels(const Image<Label>& labels) {
+  using Counts = std::array<std::uint64_t, 256>;
+  constexpr std::size_t block = 1 << 16;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, labels.data.size(), block), Counts{},
+      [&](const auto& range, Counts counts) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+          ++counts[static_cast<std::uint8_t>(labels.data[i])];
+        return counts;
+      },
+      [](Counts a, const Counts& b) {
+        for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
+        return a;
+      });
 }
 
 }  // namespace
 
 PixelCounts count_pixels(const Image<Label>& labels) {
+  const auto of = [counts = count_labels(labels)](Label label) {
+    return counts[static_cast<std::uint8_t>(label)];
+  };
   PixelCounts counts;
   counts.total = labels.data.size();
-  for (const Label label : labels.data) {
-    switch (label) {
-      case Label::background:
-        ++counts.background;
-        break;
-      case Label::facing_away:
-        ++counts.facing_away;
-        break;
-      case Label::silhouette:
-        ++counts.silhouette;
-        break;
-      case Label::uncertain:
-        ++counts.uncertain;
-        break;
-      default:
-        ++counts.compared;
-        break;
-    }
-  }
+  counts.background = of(Label::background);
+  counts.facing_away = of(Label::facing_away);
+  counts.silhouette = of(Label::silhouette);
+  counts.uncertain = of(Label::uncertain);
+  counts.compared =
+      counts.total - counts.background - counts.facing_away - counts.silhouette - counts.uncertain;
   return counts;
 }
 
 std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels) {
+  const auto counts = count_labels(labels);
   std::array<std::uint64_t, class_count> classes{};
-  for (const Label label : labels.data)
-    if (is_wrong(label)) ++classes[static_cast<std::size_t>(label) - 1];
+  for (std::size_t k = 0; k < class_count; ++k) classes[k] = counts[k + 1];  // Label's first values
   return classes;
 }
 
 ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels) {
-  const auto difference = [&](std::size_t i) { return double(rungs[6].data[i]) - double(rungs[0].data[i]); };
+  const auto [count, false_shadow, missed_shadow, absolute, squared] =
+      sum_compared<5>(labels, [&](auto& sums, std::size_t i) {
+        const double difference = double(rungs[6].data[i]) - double(rungs[0].data[i]);
+        sums[0] += 1.0;
+        sums[1] += difference < -0.5 ? 1.0 : 0.0, sums[2] += difference > 0.5 ? 1.0 : 0.0;
+        sums[3] += std::abs(difference), sums[4] += difference * difference;
+      });
   ErrorStats error;
-  error.false_shadow =
-      static_cast<std::uint64_t>(sum_compared(labels, [&](auto i) { return difference(i) < -0.5; }));
-  error.missed_shadow =
-      static_cast<std::uint64_t>(sum_compared(labels, [&](auto i) { return difference(i) > 0.5; }));
+  error.false_shadow = static_cast<std::uint64_t>(false_shadow);
+  error.missed_shadow = static_cast<std::uint64_t>(missed_shadow);
   error.wrong = error.false_shadow + error.missed_shadow;
-  const double count = sum_compared(labels, [](auto) { return 1.0; });
   if (!(count > 0.0)) return error;
   error.wrong_fraction = double(error.wrong) / count;
-  error.mean_absolute = sum_compared(labels, [&](auto i) { return std::abs(difference(i)); }) / count;
-  error.rms = std::sqrt(sum_compared(labels, [&](auto i) { return difference(i) * difference(i); }) / count);
+  error.mean_absolute = absolute / count;
+  error.rms = std::sqrt(squared / count);
   return error;
 }
 
 std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
                                           const Image<Label>& labels) {
+  const auto sums = sum_compared<rung_count + 1>(labels, [&](auto& sum, std::size_t i) {
+    for (std::size_t k = 0; k < rung_count; ++k) sum[k] += double(rungs[k].data[i]);
+    sum[rung_count] += 1.0;
+  });
   std::array<double, rung_count> means{};
-  const double count = sum_compared(labels, [](auto) { return 1.0; });
-  if (!(count > 0.0)) return means;
-  for (std::size_t k = 0; k < rung_count; ++k)
-    means[k] = sum_compared(labels, [&](auto i) { return double(rungs[k].data[i]); }) / count;
+  const double count = sums[rung_count];
+  for (std::size_t k = 0; k < rung_count && count > 0.0; ++k) means[k] = sums[k] / count;
   return means;
 }
 
 std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
                                                   const Image<Label>& labels) {
+  const auto sums = sum_compared<2 * cause_count + 1>(labels, [&](auto& sum, std::size_t i) {
+    for (std::size_t k = 0; k < cause_count; ++k) {
+      const double step = double(rungs[k + 1].data[i]) - double(rungs[k].data[i]);
+      sum[2 * k] += step, sum[2 * k + 1] += std::abs(step);
+    }
+    sum[2 * cause_count] += 1.0;
+  });
   std::array<BudgetStep, cause_count> budget{};
-  const double count = sum_compared(labels, [](auto) { return 1.0; });
-  if (!(count > 0.0)) return budget;
-  for (std::size_t k = 0; k < cause_count; ++k) {
-    const auto step = [&](std::size_t i) { return double(rungs[k + 1].data[i]) - double(rungs[k].data[i]); };
-    budget[k].signed_mean = sum_compared(labels, step) / count;
-    budget[k].absolute_mean = sum_compared(labels, [&](auto i) { return std::abs(step(i)); }) / count;
-  }
+  const double count = sums[2 * cause_count];
+  for (std::size_t k = 0; k < cause_count && count > 0.0; ++k)
+    budget[k].signed_mean = sums[2 * k] / count, budget[k].absolute_mean = sums[2 * k + 1] / count;
   return budget;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "compare/weighted_rows.h"
@@ -257,10 +258,14 @@ void perceive_colour(const Filters& filters, Perceived& p) {
   blur(p.opponent_cz, filters.margin, filters.cz, p.along_rows, p.cz);
   static const glm::mat3 xyz = relative_xyz_from_rgb(), rgb = glm::mat3(glm::inverse(Mat3(xyz)));
   p.colour.resize(p.y.data.size());
+  Vec3f last(0.0f), colour(0.0f);  // most pixels are as the one before
   for (std::size_t i = 0; i < p.colour.size(); ++i) {
-    const Vec3f shown =
-        glm::clamp(rgb * xyz_from_ycxcz({p.y.data[i], p.cx.data[i], p.cz.data[i]}), 0.0f, 1.0f);
-    p.colour[i] = hunt_lab_from_xyz(xyz * shown);
+    const Vec3f seen(p.y.data[i], p.cx.data[i], p.cz.data[i]);
+    if (i == 0 || seen != last) {
+      colour = hunt_lab_from_xyz(xyz * glm::clamp(rgb * xyz_from_ycxcz(seen), 0.0f, 1.0f));
+      last = seen;
+    }
+    p.colour[i] = colour;
   }
 }
 
@@ -334,6 +339,9 @@ void flip_patch(const Filters& filters, const Patch& patch, const Linear& refere
     perceive_features(filters, *p);
   }
   for_each_pixel(error.size, patch, 0, [&](std::size_t i, std::size_t place) {
+    if (a.colour[place] == b.colour[place] && a.edges[place] == b.edges[place] &&
+        a.points[place] == b.points[place])
+      return;  // the error is 0
     const float colour = colour_difference(a.colour[place], b.colour[place]);
     const float feature =
         feature_difference(a.edges[place], b.edges[place], a.points[place], b.points[place]);
@@ -378,8 +386,12 @@ double mean_flip(const ColorImage& reference_linear, const ColorImage& test_line
 }
 
 double mean_flip(const Image<float>& error) {
-  double sum = 0.0;
-  for (const float e : error.data) sum += static_cast<double>(e);
+  std::vector<double> rows(static_cast<std::size_t>(error.size.height), 0.0);
+  const auto width = static_cast<std::size_t>(error.size.width);
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+    for (std::size_t i = y * width; i < (y + 1) * width; ++i) rows[y] += static_cast<double>(error.data[i]);
+  });
+  const double sum = std::accumulate(rows.begin(), rows.end(), 0.0);
   return error.data.empty() ? 0.0 : sum / static_cast<double>(error.data.size());
 }
 

@@ -28,8 +28,8 @@ struct Job {
   std::function<Rgb8Image()> draw;
 };
 
-void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComparison& light,
-                    LightPictures& out) {
+void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image& drawn,
+                    const LightComparison& light, LightPictures& out) {
   const std::string suffix = c.lights.size() > 1 ? fmt::format("-{}", light_file_part(c, light)) : "";
   const raster::ShadowMap& map = drawn_record(c, light).map;
   out.difference.file_name = "difference" + suffix + ".png";
@@ -47,7 +47,7 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComp
   if (small_step != full_step)
     jobs.push_back({&out.depth_map_small,
                     [&map, small_step] { return depth_map_picture(reduced_map(map, small_step)); }});
-  jobs.push_back({&out.difference, [&c, &light] { return difference_picture(c, light); }});
+  jobs.push_back({&out.difference, [&drawn, &light] { return difference_picture(drawn, light); }});
   jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
   jobs.push_back({&out.error, [&light] { return error_picture(light); }});
   const auto& external = drawn_record(c, light).external;
@@ -98,8 +98,10 @@ Expected<PictureSet> encode_pictures(const Comparison& c) {
   set.raytraced.file_name = "raytrace.png";
   set.lights.resize(c.lights.size());
   std::vector<Job> jobs;
-  for (std::size_t i = 0; i < c.lights.size(); ++i) add_light_jobs(jobs, c, c.lights[i], set.lights[i]);
-  jobs.push_back({&set.raster, [&c] { return raster_picture(c); }});
+  const Rgb8Image drawn = raster_picture(c);
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    add_light_jobs(jobs, c, drawn, c.lights[i], set.lights[i]);
+  jobs.push_back({&set.raster, [&drawn] { return drawn; }});
   jobs.push_back({&set.raytraced, [&c] { return raytraced_picture(c); }});
 
   std::vector<std::optional<Error>> errors(jobs.size());

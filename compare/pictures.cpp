@@ -52,7 +52,10 @@ Rgb8Image raytraced_picture(const Comparison& c) {
 }
 
 Rgb8Image difference_picture(const Comparison& c, const LightComparison& light) {
-  const Rgb8Image drawn = raster_picture(c);
+  return difference_picture(raster_picture(c), light);
+}
+
+Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& light) {
   const Image<float>& v0 = light.rungs[static_cast<std::size_t>(Rung::truth)];
   const Image<float>& v6 = light.rungs[static_cast<std::size_t>(Rung::drawn)];
   return picture(drawn.size, [&](std::size_t i) {

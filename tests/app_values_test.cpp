@@ -5,7 +5,9 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "app/help.h"
 #include "app/suggest.h"
@@ -115,6 +117,26 @@ TEST(Exposure, BlackAndBrokenPixelsDoNotCount) {
   image.data[151] = Vec3f(std::numeric_limits<float>::infinity());
   EXPECT_EQ(auto_exposure(image), expected);
   EXPECT_EQ(auto_exposure(ColorImage(ImageSize{4, 4})), 1.0);
+}
+
+// Against sorting, over many powers of two and with many equal pixels.
+TEST(Exposure, IsTheSortedListsPercentile) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> exponent(-30.0f, 20.0f);
+  for (const int width : {1, 2, 3, 19, 20, 21, 700}) {
+    ColorImage image(ImageSize{width, width});
+    std::vector<float> sorted;
+    for (Vec3f& pixel : image.data) {
+      const float value = random() % 4 == 0 ? 0.5f : random() % 9 == 0 ? 0.0f : std::exp2(exponent(random));
+      pixel = Vec3f(value);
+      const float luminance = glm::dot(Vec3f(0.2126f, 0.7152f, 0.0722f), pixel);
+      if (luminance > 0.0f) sorted.push_back(luminance);
+    }
+    if (sorted.empty()) continue;
+    std::sort(sorted.begin(), sorted.end());
+    const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1;
+    EXPECT_EQ(auto_exposure(image), 0.8 / static_cast<double>(sorted[rank])) << width;
+  }
 }
 
 }  // namespace
