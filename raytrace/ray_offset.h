@@ -4,6 +4,9 @@
 // above zero is used.
 #pragma once
 
+#include <bit>
+#include <cmath>
+
 #include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
@@ -47,15 +50,19 @@ inline Vec3 offset_vector(const SurfacePoint& from, const Vec3& direction) {
   return glm::dot(from.normal, direction) < 0.0 ? -distance * from.normal : distance * from.normal;
 }
 
+/// std::nextafter towards the infinity that has the sign of `to`; x itself where that is zero. Without
+/// branches, for which way is anyone's guess.
+inline double stepped(double x, double to) {
+  const int step = (to > 0.0 ? 1 : 0) - (to < 0.0 ? 1 : 0);
+  if (x == 0.0 || !std::isfinite(x)) [[unlikely]]
+    return step == 0 ? x : std::nextafter(x, step * infinity);
+  return std::bit_cast<double>(std::bit_cast<std::int64_t>(x) + (x > 0.0 ? step : -step));
+}
+
 /// The origin of a ray that leaves the point towards `direction`, rounded away from the surface.
 inline Vec3 offset_origin(const SurfacePoint& from, const Vec3& direction) {
-  const Vec3 offset = offset_vector(from, direction);
-  Vec3 origin = from.position + offset;
-  for (int a = 0; a < 3; ++a) {
-    if (offset[a] > 0.0) origin[a] = std::nextafter(origin[a], infinity);
-    if (offset[a] < 0.0) origin[a] = std::nextafter(origin[a], -infinity);
-  }
-  return origin;
+  const Vec3 offset = offset_vector(from, direction), origin = from.position + offset;
+  return {stepped(origin.x, offset.x), stepped(origin.y, offset.y), stepped(origin.z, offset.z)};
 }
 
 }  // namespace gnomon::raytrace

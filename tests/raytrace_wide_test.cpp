@@ -203,6 +203,50 @@ TEST(Wide, LeafOfTooManyCornersIsHalved) {
   EXPECT_EQ(missing, 0u);
 }
 
+/// Corners in sixteen bits are off by half a step at most, no step is longer than it has to be, and no edge
+/// longer than is said: the floats' bounds stand on these.
+void expect_packed_within_bounds(const World& world) {
+  const Tracer tracer(world, Accel::bvh);
+  const Bvh& bvh = tracer.structures().bvh;
+  const auto tree = fold_wide(bvh, world);
+  ASSERT_NE(tree, nullptr);
+  double farthest = 0.0, longest = 0.0, coarsest = 0.0;  // in steps; in L; of what sixteen bits need
+  std::size_t triangles = 0;
+  for (const WideLeaf& leaf : tree->leaves) {
+    const auto step = static_cast<double>(leaf.step());
+    double extent = 0x1p-14 * static_cast<double>(tree->reach);
+    for (unsigned i = 0; i <= leaf.triangles.last(); ++i, ++triangles)
+      for (std::size_t at = 0; at < 9; ++at) {
+        const auto& v = bvh.primitives[leaf.triangles.first() + i].v;
+        const auto number = leaf.triangles.index[at / 3][i % 2] >> (4 * (i / 2)) & 15u;
+        ASSERT_GT(number, 0u);
+        const double corner = v[at] - tree->center[at % 3], anchor = static_cast<double>(leaf.anchor(at % 3));
+        farthest =
+            std::max(farthest, std::abs(anchor + leaf.corner[at % 3][number - 1] * step - corner) / step);
+        extent = std::max(extent, std::abs(corner - anchor));
+        const double edge = std::abs(v[(at + 3) % 9] - v[at]);
+        longest = std::max(longest, 13.0 * edge / static_cast<double>(leaf.size_13()));
+      }
+    coarsest = std::max(coarsest, step * 32767.0 / extent);
+  }
+  EXPECT_EQ(triangles, bvh.primitives.size());
+  EXPECT_LE(farthest, 0.5 + 0x1p-20);
+  EXPECT_LE(longest, 1.0);
+  EXPECT_LE(coarsest, 1.02);
+}
+
+TEST(Wide, CornersInSixteenBitsAreWithinTheirBounds) {
+  for (const double size : {0.001, 0.1, 4.0}) {
+    const TestWorld w(test::scene_of({test::triangle_soup(500, 2.0, size, 30)}));
+    expect_packed_within_bounds(w.world());
+  }
+  for (const Vec3& offset : {Vec3(0.0), Vec3(148376.0, 1234.0, -223423.0)}) {
+    const TestWorld w(test::scene_of({test::uv_sphere(offset, 1.0, 24, 32, 0.1, 31),
+                                      test::quad(offset, Vec3(1e3, 0, 0), Vec3(0, 0, 1e3))}));
+    expect_packed_within_bounds(w.world());
+  }
+}
+
 TEST(Wide, LatticeOfBoxesWhosePlanesCoincide) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < 216; ++i) {

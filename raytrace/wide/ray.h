@@ -17,25 +17,29 @@
 // Triangles. The test in double (raytrace/intersect.h) moves corners to the ray's origin and shears them so
 // that the ray is the z axis; so do these floats, z being the direction's largest component, and with the
 // depth in units of t: t = s_z / d_z, x = s_x - d_x t, y likewise, s = v - o'. A leaf's corners v count from
-// its anchor, |v| <= X = `extent`; o' is the origin from there, S = |o'| + X. v is right to e X, o' to e (q +
-// |o'|), s to e (q + 2 S); d_x t is d_x / d_z times s_z, the factor, of at most 1, right to 5 e; so x, with
-// fused steps or without, is right to 2 e (q + 2 S) + 8 e S,
-//   f = 12 e S + `coordinate_error`, the latter 2.75 e q + 2^-34 r,
-// whose last term holds what the doubles' own coordinates are off by, and the doubts of a verdict
-// (raytrace/verdict.cpp) in a point's place, all below 2^-41 r.
-// Let no component of an edge be above L >= 2^-16 r. Where the doubles see edge functions of one sign, or a
-// verdict doubts their signs and the triangle's box is passed, the axis passes within the corners' x and y,
-// so none of these is above 2 L but for f. The edge functions U, V, W = x_i y_j - x_j y_i are then right to 8
-// L f + 2 f f and, by rounding, 16 e (L + f)^2, together less than 12 L f + 4 f f (an edge that is not that
-// small has L <= 2 X <= 2 S). Let C = 13 L + 16 f and E = C f, which is more: if one of the three is above E
-// and another below -E, it is a miss. The doubles' t is a mean of the corners' t_i with weights that, with
-// det = U + V + W, are right to 4.1 E / |det| each, and d_z t_i is right to f. So |U t_0 + V t_1 + W t_2 -
-// det t| is at most (7.6 (L + 2 f) E + 5 f E + 1.25 f |det|) / |d_z|, also where all weights are in doubt:
-// none of U, V, W is above E then, and t is between the corners'. As |det| <= 8 (L + f)^2, that is less than
-// C E / |d_z|, and a hit's t within C E / |d_z det| of the floats' own. If all three are above 3 E, or below
-// -3 E, and no x or y is above 3.25 L, they are right to 13 L f + 4 f f + 43 e L L < 3 E: the doubles see one
-// sign, a hit, unless t is out of range. Without the second condition a needle seen from far might pass, by
-// rounding alone.
+// its anchor in steps of g, |v| <= X = 2^15 g; o' is the origin from there, S = |o'| + X. v is right to g / 2
+// and, times g, to e X, o' to e (q + |o'|), s to g / 2 + e (q + 2 S); d_x t is d_x / d_z times s_z, the
+// factor, of at most 1, right to 5 e; so x, with fused steps or without, is right to g + 2 e (q + 2 S) + 8 e
+// S,
+//   f = 12 e |o'| + `corner_error` g + `coordinate_error`,
+// where corner_error is 1.03 > 1 + 12 e 2^15 and coordinate_error 2.75 e q + 2^-34 r, whose last term holds
+// what the doubles' own coordinates are off by, and the doubts of a verdict (raytrace/verdict.cpp) in a
+// point's place, all below 2^-41 r.
+//   First, for all triangles of a leaf: let no component of an edge be above L >= 2^-16 r. Where the doubles
+// see edge functions of one sign, or a verdict doubts their signs and the triangle's box is passed, the axis
+// passes within the corners' x and y, so none of these is above 2 L but for f. The edge functions U, V, W =
+// x_i y_j - x_j y_i are then right to 8 L f + 2 f f and, by rounding, 16 e (L + f)^2, together less than 12 L
+// f + 4 f f (an edge that is not that small has L <= 2 X <= 2 S), less than f (13 L + 16 f): if one of the
+// three is above that and another below its negative, it is a miss.
+//   Then closer, for the few that are left: let no x or y be above m <= 2 S. An edge function is right to 4 m
+// f + 2 f f and, by rounding, 4 e m m < 0.67 m f, less than E = f (5 m + 2 f): two on either side of that are
+// a miss, three on one side a hit in double, too, unless t is out of range. The doubles' t is a mean of the
+// corners' t_i, which are right to p = f / |d_z| and span R, with weights U, V, W. So |U t_0 + V t_1 + W t_2
+// - det t|, det = U + V + W, is at most E (2 R + 6 p) for the weights and (|det| + 9 E) p for the t_i;
+// rounding, as e |t_i| <= e S / |d_z| < p / 12, adds less than (|det| + 12 E) p / 2: together less than
+//   D = 2 |det| p + E (2 R + 30 p),
+// also where all weights are in doubt, for t is between the corners' then. A hit's t is within D / |det| of
+// the floats' own.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +51,7 @@ namespace gnomon::raytrace {
 struct WideRay {
   static constexpr float widening = 1.0f + 0x1p-20f;
   static constexpr float least_direction = 0x1p-60f;  ///< smaller ones are taken for this
+  static constexpr float corner_error = 1.03f;        ///< in steps of a leaf
   // By axis; the fourth means nothing.
   alignas(16) float origin[4], direction[4];
   // t of a plane at x along an axis: x inverse + near, and, widened, x far_inverse + far.

@@ -8,24 +8,14 @@
 #include <limits>
 #include <span>
 
+#include "raytrace/wide/pack.h"
+
 namespace gnomon::raytrace {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float inf = Box::inf;
 constexpr int parallel_depth = 4;                    // below it one thread does all
 constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
-
-struct Box {
-  std::array<float, 6> at{inf, inf, inf, -inf, -inf, -inf};  // as a column of BvhNode::bounds
-  void grow(const Box& b) {
-    for (std::size_t a = 0; a < 3; ++a)
-      at[a] = std::min(at[a], b.at[a]), at[3 + a] = std::max(at[3 + a], b.at[3 + a]);
-  }
-  float half_area() const {
-    const float x = at[3] - at[0], y = at[4] - at[1], z = at[5] - at[2];
-    return x * y + y * z + z * x;
-  }
-};
 
 /// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
 struct Part {
@@ -55,7 +45,7 @@ bool is_empty(const BvhChild& child) {
 struct Corners {
   std::array<const double*, leaf_corners> at;
   std::array<std::uint32_t, leaf_corners> hash{};
-  std::array<std::uint16_t, leaf_lanes> index{};  // as in WideLeaf
+  std::uint32_t index[3][2] = {};  // as in LeafTriangles
   std::uint32_t count = 0;
 
   /// The k-th corner of the leaf's i-th triangle; false: no room.
@@ -71,7 +61,7 @@ struct Corners {
     const std::uint32_t found = equal != 0 ? static_cast<std::uint32_t>(std::countr_zero(equal)) : count;
     if (found == leaf_corners) return false;
     if (found == count) at[count] = corner, hash[count++] = h;
-    index[i] = static_cast<std::uint16_t>(index[i] | found << (4 * k));
+    index[k][i % 2] |= (found + 1) << (4 * (i / 2));
     return true;
   }
 };
@@ -89,17 +79,22 @@ double longest_edge(const LeafPrimitive& triangle) {
 // top down. A thread takes the places of what it makes when it begins it.
 class Folding {
  public:
-  Folding(const Bvh& bvh, const World& world, WideTree& tree) : bvh_(bvh), world_(world), tree_(tree) {
+  Folding(const Bvh& bvh, const World& world, WideTree& tree)
+      : bvh_(bvh), world_(world), tree_(tree), has_shapes_(world.primitive_count() > world.triangle_count()) {
     pairs_.resize(bvh.primitives.size());  // without values: pages that are not reached cost nothing
-    tree.nodes.resize(bvh.primitives.size()), tree.leaves.resize(bvh.primitives.size());
+    tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
     Box all;
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(bvh.nodes[0].child[i])) all.grow(box_of(bvh.nodes[0], i));
     fold(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
-    tree.nodes.resize(nodes_), tree.leaves.resize(leaves_);
+    tree.nodes.resize(nodes_), resize_leaves(leaves_);
   }
 
  private:
+  void resize_leaves(std::size_t count) {
+    tree_.plain ? tree_.plain_leaves.resize(count) : tree_.leaves.resize(count);
+  }
+
   struct Pieces {
     std::array<Part, node_lanes> at;
     std::size_t count = 0;
@@ -120,18 +115,24 @@ class Folding {
 
   bool is_triangle(std::uint32_t leaf) const { return world_.is_triangle(bvh_.ids[leaf]); }
 
+  bool are_alike(std::uint32_t first, std::uint32_t count) const {
+    for (std::uint32_t i = 1; i < count; ++i)
+      if (is_triangle(first + i) != is_triangle(first)) return false;
+    return true;
+  }
   /// False: more than a leaf has room for.
   bool corners_of(std::uint32_t first, std::uint32_t count, Corners& corners) const {
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < count && is_triangle(first); ++i) {
       const double* v = bvh_.primitives[first + i].v.data();
-      for (std::size_t k = 0; k < 3 && is_triangle(first + i); ++k)
+      for (std::size_t k = 0; k < 3; ++k)
         if (!corners.put(v + 3 * k, i, k)) return false;
     }
     return true;
   }
   bool fits(std::uint32_t first, std::uint32_t count) const {
+    if (count > leaf_lanes || (has_shapes_ && !are_alike(first, count))) return false;
     Corners corners;
-    return count <= leaf_corners / 3 || (count <= leaf_lanes && corners_of(first, count, corners));
+    return count <= leaf_corners / 3 || corners_of(first, count, corners);
   }
 
   Part part_of(const BvhChild& child, const Box& box, int depth) {
@@ -235,7 +236,7 @@ class Folding {
       const std::uint32_t place = piece.is_leaf() ? leaves_++ : nodes_++;
       node.child[i] = piece.is_leaf() ? WideChild::leaf_flag | place : place;
       if (piece.is_leaf())
-        put_leaf(piece, tree_.leaves[place]);
+        put_leaf(piece, place);
       else
         fold(piece, place, depth + 1);
     };
@@ -269,34 +270,41 @@ class Folding {
     }
   }
 
-  void put_leaf(const Part& piece, WideLeaf& leaf) const {
+  void put_leaf(const Part& piece, std::uint32_t place) {
     Corners corners;
     corners_of(piece.first, piece.count, corners);
-    leaf.first = piece.first, leaf.lanes = leaf.shapes = 0, leaf.extent = 0.0f;
-    std::copy(corners.index.begin(), corners.index.end(), leaf.index);
-    for (std::size_t a = 0; a < 3; ++a) {
-      leaf.anchor[a] = tree_.plain ? 0.0f : 0.5f * piece.box.at[a] + 0.5f * piece.box.at[3 + a];
-      const double origin = tree_.plain ? 0.0 : tree_.center[a];
-      for (std::size_t i = 0; i < leaf_corners; ++i) {
-        const double x =
-            i < corners.count ? corners.at[i][a] - origin - static_cast<double>(leaf.anchor[a]) : 0.0;
-        leaf.corner[a][i] = static_cast<float>(x);
-        leaf.extent = std::max(leaf.extent, std::abs(leaf.corner[a][i]));
-      }
+    LeafTriangles triangles;
+    std::copy(&corners.index[0][0], &corners.index[0][0] + 6, &triangles.index[0][0]);
+    triangles.range = piece.first | (piece.count - 1) << 27 | (is_triangle(piece.first) ? 0u : 1u << 31);
+    if (tree_.plain) {
+      tree_.plain_leaves[place].triangles = triangles;
+      put_plain_corners(corners, tree_.plain_leaves[place]);
+    } else {
+      tree_.leaves[place].triangles = triangles;
+      put_corners(piece, corners, tree_.leaves[place]);
     }
-    double size = 0x1p-16 * static_cast<double>(tree_.reach);
-    for (std::uint32_t i = 0; i < piece.count; ++i) {
-      const bool triangle = is_triangle(piece.first + i);
-      std::uint16_t& bits = triangle ? leaf.lanes : leaf.shapes;
-      bits = static_cast<std::uint16_t>(bits | 1u << i);
-      if (triangle) size = std::max(size, longest_edge(bvh_.primitives[piece.first + i]));
-    }
-    leaf.size_13 = 13.0f * float_above(size);
+  }
+
+  static void put_plain_corners(const Corners& corners, PlainLeaf& leaf) {
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t i = 0; i <= leaf_corners; ++i)
+        leaf.corner[a][i] = i > 0 && i <= corners.count ? static_cast<float>(corners.at[i - 1][a]) : 0.0f;
+  }
+
+  void put_corners(const Part& piece, const Corners& corners, WideLeaf& leaf) const {
+    std::array<std::array<double, 3>, leaf_corners> from_center;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < corners.count; ++i)
+      for (std::size_t a = 0; a < 3; ++a) from_center[i][a] = corners.at[i][a] - tree_.center[a];
+    for (std::uint32_t i = 0; i < piece.count && !leaf.triangles.shapes(); ++i)
+      longest = std::max(longest, longest_edge(bvh_.primitives[piece.first + i]));
+    pack_corners(piece.box, {from_center.data(), corners.count}, longest, tree_.reach, leaf);
   }
 
   const Bvh& bvh_;
   const World& world_;
   WideTree& tree_;
+  bool has_shapes_;
   HugeVector<Pair> pairs_;
   std::atomic<std::uint32_t> used_pairs_{0}, nodes_{0}, leaves_{0};
 };

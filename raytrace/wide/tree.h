@@ -5,13 +5,14 @@
 #pragma once
 
 #include <atomic>
+#include <cstring>
 #include <memory>
 
 #include "raytrace/bvh.h"
 
 namespace gnomon::raytrace {
 
-inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16, leaf_corners = 16;
+inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16, leaf_corners = 15;
 
 /// A node's index, or a leaf's with the top bit set.
 struct WideChild {
@@ -29,28 +30,56 @@ struct alignas(64) WideNode {
   std::uint32_t order[node_lanes];
 };
 
-/// Triangles that share their corners: these by axis, counted from `anchor`, and of each triangle four bits
-/// for each of its three. Four lines of memory, so that what a ray reads here and there stays in the caches.
+/// The triangles of a leaf share their corners, numbered from 1. Triangle i has the number of its k-th in the
+/// four bits from 4 (i / 2) on of index[k][i % 2], from where a vector unpacks all at once.
+struct LeafTriangles {
+  std::uint32_t index[3][2];
+  std::uint32_t range;  ///< position in leaf order, 27 bits; count - 1, 4 bits; whether all are shapes
+  std::uint32_t first() const { return range & BvhChild::first_mask; }
+  std::uint32_t last() const { return range >> 27 & 15u; }
+  unsigned lanes() const { return (2u << last()) - 1; }
+  bool shapes() const { return (range >> 31) != 0; }  ///< of which the corners say nothing
+};
+
+/// Corners in sixteen bits: anchor + corner * step, to the nearest. Anchor, step and size are floats of which
+/// only the upper halves are stored; the lower half of each is what stands before it, whatever that is, and
+/// the corners are made to fit. Two lines of memory, so that what a ray reads here and there stays in the
+/// caches.
 struct alignas(64) WideLeaf {
-  float corner[3][leaf_corners];
-  std::uint16_t index[leaf_lanes];
-  float anchor[3];       ///< from the tree's centre
-  float extent;          ///< no corner's coordinate is above this
-  float size_13;         ///< 13 L: no component of an edge is above L, and L is not below 2^-16 of `reach`
-  std::uint32_t first;   ///< position in leaf order of the first
-  std::uint16_t lanes;   ///< bit i: a triangle
-  std::uint16_t shapes;  ///< bit i: a shape, of which these floats say nothing
+  LeafTriangles triangles;
+  std::uint16_t half[5];  ///< of anchor (from the tree's centre), step, size_13
+  std::int16_t corner[3][leaf_corners];
+
+  float value(std::size_t i) const {
+    float value;
+    std::memcpy(&value, reinterpret_cast<const char*>(half + i) - sizeof(std::uint16_t), sizeof value);
+    return value;
+  }
+  float anchor(std::size_t axis) const { return value(axis); }
+  float step() const { return value(3); }
+  /// 13 L: no component of an edge is above L, and L is not below 2^-16 of `reach`.
+  float size_13() const { return value(4); }
+};
+static_assert(sizeof(WideLeaf) == 128);
+
+/// The world's corners, rounded: for the textbook's test (Precision::fast). corner[a][0] is unused.
+struct alignas(64) PlainLeaf {
+  float corner[3][leaf_corners + 1];
+  LeafTriangles triangles;
 };
 
 struct WideTree {
   HugeVector<WideNode> nodes;  ///< node 0 is the root
   HugeVector<WideLeaf> leaves;
+  HugeVector<PlainLeaf> plain_leaves;          ///< instead of these, where `plain`
   const Bvh* origin = nullptr;                 ///< what was folded; it must outlive the tree
   alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
-  bool plain =
-      false;          ///< leaves' corners are the world's, rounded: for the textbook's test (Precision::fast)
+  bool plain = false;
   float reach = 0.0;  ///< no coordinate of a box is above this
-  std::uint64_t bytes() const { return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf); }
+  std::uint64_t bytes() const {
+    return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf) +
+           plain_leaves.size() * sizeof(PlainLeaf);
+  }
 };
 
 /// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than

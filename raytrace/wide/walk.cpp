@@ -176,21 +176,33 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
   return true;
 }
 
-/// Asks memory ahead of need for a child that comes after the next one.
-HWY_INLINE void prefetch(const WideNode* nodes, const WideLeaf* leaves, WideChild child) {
-  const char* bytes = child.is_leaf() ? reinterpret_cast<const char*>(leaves + child.index())
-                                      : reinterpret_cast<const char*>(nodes + child.index());
-  constexpr std::size_t line = 64;
-  static_assert(sizeof(WideNode) == 8 * line && sizeof(WideLeaf) == 4 * line);
-  for (std::size_t i = 0; i < 4; ++i) __builtin_prefetch(bytes + i * line);
+template <class Leaf>
+const Leaf* leaves_of(const WideTree& tree) {
+  if constexpr (std::is_same_v<Leaf, PlainLeaf>)
+    return tree.plain_leaves.data();
+  else
+    return tree.leaves.data();
 }
 
-/// leaf(WideLeaf) returns true to end the walk.
+/// Asks memory ahead of need for a child that comes after the next one.
 template <class Leaf>
-HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Leaf& leaf) {
+HWY_INLINE void prefetch(const WideNode* nodes, const Leaf* leaves, WideChild child) {
+  constexpr std::size_t line = 64;
+  const auto lines = [](const void* at, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(at) + i);
+  };
+  if (child.is_leaf())
+    lines(leaves + child.index(), sizeof(Leaf));
+  else
+    lines(nodes + child.index(), sizeof(WideNode));
+}
+
+/// meet(leaf) returns true to end the walk.
+template <class Leaf, class Meet>
+HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
   const SpreadRay spread(ray);
   const WideNode* nodes = tree.nodes.data();
-  const WideLeaf* leaves = tree.leaves.data();
+  const Leaf* leaves = leaves_of<Leaf>(tree);
   float t_max = ray.t_max;
   Stack stack;
   std::size_t size = 0;
@@ -198,7 +210,7 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Leaf& leaf) {
   WideChild child{0};
   for (;;) {
     if (child.is_leaf()) {
-      if (leaf(leaves[child.index()])) return WideWalk::ended;
+      if (meet(leaves[child.index()])) return WideWalk::ended;
       t_max = ray.t_max;
     } else if (take_children(nodes[child.index()], spread, t_max, stack, size, child.bits)) {
       if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
@@ -231,8 +243,8 @@ constexpr auto all_wanted = [](unsigned candidates) { return candidates; };
 
 /// candidate(i, test) for each; true ends.
 template <class Test, class Candidate, class Wanted = decltype(all_wanted)>
-HWY_INLINE bool each_candidate(const WideLeaf& leaf, const WideRay& ray, const Candidate& candidate,
-                               const Wanted& wanted = all_wanted) {
+HWY_INLINE bool each_candidate(const typename Test::Leaf& leaf, const WideRay& ray,
+                               const Candidate& candidate, const Wanted& wanted = all_wanted) {
   const Test test(leaf, ray, wanted);
   for (unsigned left = test.candidates; left != 0; left &= left - 1)
     if (candidate(static_cast<unsigned>(std::countr_zero(left)), test)) return true;
@@ -246,13 +258,13 @@ bool is_surely_met(unsigned i, const Test& test, const WideRay& ray) {
 
 template <class Test>
 HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
-  const auto walked = walk(tree, ray, [&](const WideLeaf& leaf) {
+  const auto walked = walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       const float t = test.t_below(i);
       if (t > ray.t_max) return false;
       if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
-      tree.origin->prefetch(leaf.first + i);
-      return !keep(found, leaf.first + i, t, ray);
+      tree.origin->prefetch(leaf.triangles.first() + i);
+      return !keep(found, leaf.triangles.first() + i, t, ray);
     });
   });
   found.t_max = ray.t_max;
@@ -261,18 +273,19 @@ HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& 
 
 template <class Test>
 HWY_INLINE WideWalk visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
-  return walk(tree, ray, [&](const WideLeaf& leaf) {
-    return each_candidate<Test>(
-        leaf, ray, [&](unsigned i, const Test&) { return visitor.visit(visitor.self, leaf.first + i, ray); });
+  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) {
+      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
+    });
   });
 }
 
 template <class Test>
 HWY_INLINE WideWalk visit_unsure(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
-  return walk(tree, ray, [&](const WideLeaf& leaf) {
+  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       if (is_surely_met(i, test, ray)) return true;
-      return visitor.visit(visitor.self, leaf.first + i, ray);
+      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
     });
   });
 }
@@ -295,16 +308,16 @@ WideWalk collect_kernel(const WideTree& tree, const Ray& given, const WalkLimits
   WideRay ray;
   if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
   bool full = false;
-  const auto walked = walk(tree, ray, [&](const WideLeaf& leaf) {
+  const auto walked = walk<WideLeaf>(tree, ray, [&](const WideLeaf& leaf) {
     const auto others = [&](unsigned candidates) {
       for (unsigned left = candidates; left != 0; left &= left - 1)
-        if (tree.origin->ids[leaf.first + static_cast<unsigned>(std::countr_zero(left))] == skip)
+        if (tree.origin->ids[leaf.triangles.first() + static_cast<unsigned>(std::countr_zero(left))] == skip)
           candidates &= ~(left & -left);
       return candidates;
     };
     const auto keep_doubtful = [&](unsigned i, const LeafTest& test) {
       if (is_surely_met(i, test, ray)) return true;
-      full = !keep(found, leaf.first + i, test.t_below(i), ray);
+      full = !keep(found, leaf.triangles.first() + i, test.t_below(i), ray);
       return full;
     };
     return each_candidate<LeafTest>(leaf, ray, keep_doubtful, others);
