@@ -13,6 +13,23 @@
 
 namespace gnomon::test {
 
+inline Scene lit_still_life(LightType type) {
+  Scene scene = still_life(false);
+  scene.lights = {type == LightType::directional ? sun({-0.5, -1.0, -0.6})
+                                                 : lamp(type, {0.3, 3.2, 1.2}, {0.0, 0.0, 0.0})};
+  return scene;
+}
+
+/// A small map whose filter has no mipmaps.
+inline raster::RasterOptions technique_options(raster::Technique technique) {
+  raster::RasterOptions options = small_options(128);
+  options.map.technique = technique;
+  options.map.bias.constant = 1.5;
+  options.map.filter.mipmaps = false;
+  options.map.filter.receiver_plane = technique == raster::Technique::pcss;
+  return options;
+}
+
 /// A receiver that the reference can be asked about: in the map's texels, with its plane.
 struct FilterReceiver {
   std::size_t pixel = 0;

@@ -3,11 +3,11 @@
 // a cell in one point, slivers, triangles that reach through the light's plane; lights near and far. Every
 // verdict is held against brute force in double, for every instruction set that this machine has.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
 
+#include "every_target.h"
 #include "raytrace/packet/passes.h"
 #include "raytrace/packet/seen.h"
 #include "raytrace/ray_offset.h"
@@ -294,9 +294,7 @@ void check(const Setting& setting, int triangles, std::uint64_t seed, int& cells
   // Neither all lit nor all dark: large triangles can hide everything, so the seed is chosen.
   EXPECT_GT(counts[static_cast<std::size_t>(Verdict::shadowed)], all / 100);
   EXPECT_GT(counts[static_cast<std::size_t>(Verdict::lit)], all / 100);
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  test::for_each_target([&] {
     const Sight sight =
         sight_of_light(tracer.structures(), setting.light, {receivers.tiles.data(), receivers.tiles.size()});
     if (sight.by_cells) {
@@ -309,9 +307,7 @@ void check(const Setting& setting, int triangles, std::uint64_t seed, int& cells
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < found.data.size(); ++i) wrong += found.data[i] == truth.data[i] ? 0 : 1;
     EXPECT_EQ(wrong, 0u) << packet_target();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
 }
 
 std::vector<Setting> settings() {

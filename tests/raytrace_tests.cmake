@@ -12,7 +12,7 @@ gnomon_test(raytrace_solids_test
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_packet_test
-  SOURCES raytrace_packet_test.cpp
+  SOURCES raytrace_packet_test.cpp raytrace_packet_parts_test.cpp
   LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_wide_test
@@ -39,7 +39,7 @@ gnomon_test(raytrace_models_test
 
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/embree_peer.cpp
-  ${PROJECT_SOURCE_DIR}/app/machine.cpp)
+  ${PROJECT_SOURCE_DIR}/app/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
 target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
 target_compile_definitions(gnomon_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")

@@ -2,12 +2,11 @@
 // this machine has: rays that a filter of floats or a box may lose, scenes that strain its bounds, verdicts
 // of points in doubt. And that nobody pays for it who casts no such rays.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <functional>
 
+#include "every_target.h"
 #include "raytrace/kernels.h"
 #include "raytrace/packet/seen.h"
 #include "raytrace/wide/walk.h"
@@ -18,19 +17,10 @@ namespace gnomon {
 namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::for_each_target;
 using test::Random;
 using test::same;
 using test::TestWorld;
-
-void for_each_target(const std::function<void()>& check) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    check();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
 
 void fold(const Tracer& tracer) {
   const Structures& s = tracer.structures();

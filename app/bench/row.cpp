@@ -11,7 +11,7 @@ std::optional<double> BenchRow::ratio() const {
   return more_is_better ? value / peer->value : peer->value / value;
 }
 
-std::string bench_json(std::span<const BenchRow> rows) {
+std::string bench_json(std::span<const BenchRow> rows, std::string_view target) {
   const auto or_null = [](const std::optional<double>& v) {
     return v ? nlohmann::ordered_json(*v) : nullptr;
   };
@@ -30,10 +30,11 @@ std::string bench_json(std::span<const BenchRow> rows) {
                     {"met", row.goal && ratio ? nlohmann::ordered_json(*ratio >= *row.goal) : nullptr}});
   }
   const compare::MachineInfo machine = machine_info();
-  const nlohmann::ordered_json document{
+  nlohmann::ordered_json document{
       {"schema", "gnomon/bench/1"},
-      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}},
-      {"rows", list}};
+      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}}};
+  if (!target.empty()) document["target"] = target;
+  document["rows"] = std::move(list);
   return document.dump(2) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/session.h"
@@ -47,7 +48,8 @@ struct BenchResult {
   std::vector<BenchRow> rows;
 };
 
-std::string bench_json(std::span<const BenchRow> rows);
+/// gnomon/bench/1. `target`: the instruction set in use, where it is a matter of the rows.
+std::string bench_json(std::span<const BenchRow> rows, std::string_view target = {});
 
 /// Every structure on the same rays: build time, memory, work per ray, rays per second. An error when two
 /// structures see different things.

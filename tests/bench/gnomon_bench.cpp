@@ -5,12 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "app/machine.h"
+#include "app/bench/row.h"
 #include "bench_scenes.h"
+#include "cpu_time.h"
 #include "embree_peer.h"
 #include "instruction_set.h"
 #include "raytrace/kernels.h"
@@ -20,6 +19,7 @@
 namespace gnomon::bench {
 namespace {
 
+using app::BenchRow;
 using raytrace::Accel;
 using raytrace::CompactTile;
 using raytrace::HugeArray;
@@ -27,15 +27,6 @@ using raytrace::RayTracedFrame;
 using raytrace::Sight;
 using raytrace::Tracer;
 using raytrace::Verdict;
-
-struct Row {
-  std::string name, scene;
-  int threads = 1;
-  double value = 0.0;
-  std::string unit, peer;
-  double peer_value = 0.0, ratio = 0.0;
-  std::optional<double> goal;
-};
 
 struct Settings {
   ImageSize size{1920, 1080};
@@ -47,14 +38,6 @@ struct Settings {
 
 std::string embree_settings(const Settings& settings) {
   return settings.target.empty() ? std::string() : instruction_sets().at(settings.target).embree;
-}
-
-/// Milliseconds of the process's own CPU time: for one thread the wall clock's, but for other programs'
-/// share.
-double cpu_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 template <class Pass>
@@ -92,7 +75,7 @@ class Bench {
       shadow_.push_back(shadow_rays(frame_, light, world_.finite_bounds.diagonal()));
   }
 
-  std::vector<Row> run() {
+  std::vector<BenchRow> run() {
     fmt::print("{}: {} triangles, {} x {}\n", scene_.name, world_.triangle_count(), settings_.size.width,
                settings_.size.height);
     check_hits();
@@ -116,17 +99,22 @@ class Bench {
 
   void add(std::string name, int threads, double rays, std::pair<double, double> ms, std::string peer,
            std::optional<double> goal) {
-    const double value = rays / ms.first * 1e-3, peer_value = rays / ms.second * 1e-3;
-    rows_.push_back({std::move(name), scene_.name, threads, value, "Mrays/s", std::move(peer), peer_value,
-                     value / peer_value, goal});
-    print(rows_.back());
+    add({.name = std::move(name),
+         .scene = scene_.name,
+         .threads = threads,
+         .value = rays / ms.first * 1e-3,
+         .unit = "Mrays/s",
+         .peer = app::BenchPeer{std::move(peer), rays / ms.second * 1e-3},
+         .goal = goal});
   }
-  static void print(const Row& r) {
+  void add(BenchRow row) {
+    const double ratio = row.ratio().value();
     fmt::print(
-        "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", r.name, r.threads, r.value, r.unit,
-        r.peer, r.peer_value, r.ratio,
-        r.goal ? fmt::format("  goal {:.1f} {}", *r.goal, r.ratio >= *r.goal ? "met" : "NOT MET") : "");
+        "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name, row.threads, row.value,
+        row.unit, row.peer->name, row.peer->value, ratio,
+        row.goal ? fmt::format("  goal {:.1f} {}", *row.goal, ratio >= *row.goal ? "met" : "NOT MET") : "");
     std::fflush(stdout);
+    rows_.push_back(std::move(row));
   }
 
   const raytrace::Structures& structures() const { return tracer_.structures(); }
@@ -241,8 +229,14 @@ class Bench {
     const double theirs = 0x1p-20 * static_cast<double>(embree_.bytes());
     const auto row = [&](const char* name, std::uint64_t bytes, std::optional<double> goal) {
       const double ours = 0x1p-20 * static_cast<double>(bytes);
-      rows_.push_back({name, scene_.name, 1, ours, "MiB", "Embree medium", theirs, theirs / ours, goal});
-      print(rows_.back());
+      add({.name = name,
+           .scene = scene_.name,
+           .threads = 1,
+           .value = ours,
+           .unit = "MiB",
+           .more_is_better = false,
+           .peer = app::BenchPeer{"Embree medium", theirs},
+           .goal = goal});
     };
     row("memory of the structure", tracer_.stats().bytes, 1.0 / 1.3);
     row("memory, with single rays", tracer_.stats().bytes + structures().wide->bytes(), std::nullopt);
@@ -268,9 +262,14 @@ class Bench {
         });
     const auto row = [&](std::string name, double ours, double theirs, std::string peer,
                          std::optional<double> goal) {
-      rows_.push_back(
-          {std::move(name), scene_.name, 2, ours, "ms", std::move(peer), theirs, theirs / ours, goal});
-      print(rows_.back());
+      add({.name = std::move(name),
+           .scene = scene_.name,
+           .threads = 2,
+           .value = ours,
+           .unit = "ms",
+           .more_is_better = false,
+           .peer = app::BenchPeer{std::move(peer), theirs},
+           .goal = goal});
     };
     row("build", build, peer_build, "Embree medium", std::nullopt);
     row("build, primary, point", ms.first, ms.second, "Embree medium, packets", 1.2);
@@ -337,32 +336,15 @@ class Bench {
   RayTracedFrame frame_;
   PeerHits peer_;
   std::vector<std::uint8_t> occluded_;
-  std::vector<Row> rows_;
+  std::vector<BenchRow> rows_;
 };
-
-nlohmann::ordered_json to_json(const std::vector<Row>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Row& r : rows) {
-    nlohmann::ordered_json row{
-        {"name", r.name},  {"scene", r.scene}, {"threads", r.threads},       {"value", r.value},
-        {"unit", r.unit},  {"peer", r.peer},   {"peer_value", r.peer_value}, {"ratio", r.ratio},
-        {"goal", nullptr}, {"met", nullptr}};
-    if (r.goal) row["goal"] = *r.goal, row["met"] = r.ratio >= *r.goal;
-    list.push_back(row);
-  }
-  const compare::MachineInfo machine = app::machine_info();
-  return {{"schema", "gnomon/bench/1"},
-          {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}},
-          {"target", raytrace::packet_target()},
-          {"rows", list}};
-}
 
 int run(const Settings& settings) {
   const auto wanted = [&](const std::string& name) {
     return settings.scenes.empty() ||
            std::find(settings.scenes.begin(), settings.scenes.end(), name) != settings.scenes.end();
   };
-  std::vector<Row> rows;
+  std::vector<BenchRow> rows;
   const auto bench = [&](const BenchScene& scene) {
     const auto more = Bench(scene, settings).run();
     rows.insert(rows.end(), more.begin(), more.end());
@@ -378,7 +360,7 @@ int run(const Settings& settings) {
   fmt::print("Instruction set in use: {}\n", raytrace::packet_target());
   if (settings.json.empty()) return 0;
   std::ofstream out(settings.json);
-  out << to_json(rows).dump(2) << '\n';
+  out << app::bench_json(rows, raytrace::packet_target());
   if (out.flush()) return 0;
   fmt::print(stderr, "{}: could not be written\n", settings.json);
   return 4;
