@@ -163,17 +163,22 @@ HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float 
       met |= bits_of(f, hn::Le(near, far)) << i;
     }
     if (met == 0) return false;
+    next = node.child[std::countr_zero(met)];
+    float nearest = nears[std::countr_zero(met)];
     const std::size_t base = size;
-    for (; met != 0; met &= met - 1) {  // the farthest at the bottom
+    for (met &= met - 1; met != 0; met &= met - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-      std::size_t at = size++;
-      for (; at > base && stack.near[at - 1] < nears[lane]; --at)
+      const bool nearer = nears[lane] < nearest;
+      const std::uint32_t child = nearer ? next : node.child[lane];
+      const float near = nearer ? nearest : nears[lane];
+      next = nearer ? node.child[lane] : next, nearest = nearer ? nears[lane] : nearest;
+      std::size_t at = size++;  // the farthest at the bottom
+      for (; at > base && stack.near[at - 1] < near; --at)
         stack.child[at] = stack.child[at - 1], stack.near[at] = stack.near[at - 1];
-      stack.child[at] = node.child[lane], stack.near[at] = nears[lane];
+      stack.child[at] = child, stack.near[at] = near;
     }
+    return true;
   }
-  next = stack.child[--size];
-  return true;
 }
 
 template <class Leaf>
