@@ -76,7 +76,7 @@ BestBias find_best_bias(const GapLists& gaps) {
         shadowed == gaps.shadowed.end() ? std::numeric_limits<float>::infinity() : *shadowed;
     const float next = std::min(next_lit, next_shadowed);
     if (wrong < least) least = wrong, best_start = start, best_end = next;
-    if (std::isinf(next)) break;
+    if (!(next < std::numeric_limits<float>::infinity())) break;
     while (lit != gaps.lit.end() && *lit == next) ++lit;
     while (shadowed != gaps.shadowed.end() && *shadowed == next) ++shadowed;
     start = next;

@@ -63,7 +63,8 @@ struct LightRecord {
   Image<std::uint8_t> face;  ///< of texel_uv
   Image<float> distance;     ///< along the light ray, world units
   /// The gap less every part of the bias but the constant: a hard test shadows iff gap >
-  /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map.
+  /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map, and
+  /// where the bias has no bound; never NaN.
   Image<float> gap;
   /// 1 where the lookup falls beside the map or behind the light, or finds nothing stored for a receiver that
   /// lies outside the map's depth range.

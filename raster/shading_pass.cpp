@@ -2,7 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
 #include "scene/paging.h"
 #include "shaders/shared_constants.h"
@@ -232,7 +234,8 @@ void ShadingPass::read_records(LightRecord& record) const {
   tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
     record.texel_uv.data[i] = Vec2f(values[i]);
     record.distance.data[i] = values[i].z;
-    record.gap.data[i] = values[i].w;
+    // A slope without bound leaves no number: nothing is above the bias then.
+    record.gap.data[i] = std::isnan(values[i].w) ? -std::numeric_limits<float>::infinity() : values[i].w;
     record.face.data[i] = static_cast<std::uint8_t>(flags[i] >> shaders::flag_face_shift);
     record.outside_map.data[i] = (flags[i] & shaders::flag_outside_map) != 0 ? 1 : 0;
   });

@@ -1,9 +1,11 @@
 // The parts of the bias one by one: their formulas in double precision against the gaps that the shader
 // wrote.
+#include <algorithm>
 #include <cmath>
 
 #include "raster/options_check.h"
 #include "scene/light.h"
+#include "scene/load.h"
 #include "tests/raster_fixture.h"
 
 namespace gnomon::test {
@@ -138,6 +140,20 @@ TEST_P(Bias, ConstantInTexelsBecomesWorldUnitsOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, Bias,
                          testing::Values(LightType::directional, LightType::point, LightType::spot));
+
+// Edge-on to the light neither the receiver's plane nor its slope has a bound, and the shader's gap would be
+// no number (whitted: one pixel).
+TEST(BiasOfAScene, LeavesNumbersEverywhere) {
+  Expected<Scene> scene = load_scene("whitted");
+  ASSERT_TRUE(scene);
+  raster::RasterOptions options = small_options();
+  options.size = {480, 270};
+  options.map.size = 1024;
+  options.map.bias.slope = 1.0, options.map.bias.receiver_plane = true;
+  const Drawn drawn = draw(std::move(*scene), options);
+  const auto& gaps = drawn.light().gap.data;
+  EXPECT_EQ(std::count_if(gaps.begin(), gaps.end(), [](float gap) { return std::isnan(gap); }), 0);
+}
 
 }  // namespace
 }  // namespace gnomon::test
