@@ -128,6 +128,16 @@ Meets DoubtfulRay::meet_plane(std::uint32_t id) const {
   return in_interval({t - spread, t + spread});
 }
 
+bool clearly_leaves(const Plane& plane, const Ray& ray, const Vec3& error) {
+  constexpr double clearly = 8.0;
+  const Vec3 n = glm::abs(plane.normal), offset = plane.point - ray.origin;
+  const double height = glm::dot(plane.normal, offset), slope = glm::dot(plane.normal, ray.direction);
+  const double height_error = glm::dot(n, error_gamma(5) * glm::abs(offset) + error);
+  const double slope_error = error_gamma(8) * glm::dot(n, glm::abs(ray.direction));
+  return (height < 0.0) != (slope < 0.0) && std::abs(height) > clearly * height_error &&
+         std::abs(slope) > clearly * slope_error;
+}
+
 bool DoubtfulRay::is_same_surface(const Plane& plane) const {
   return glm::length(glm::cross(plane.normal, from_.normal)) <= error_gamma(16);
 }

@@ -17,6 +17,10 @@ inline double beyond_end(const Vec3& error, const Ray& ray) {
   return 2.0 * (glm::dot(error, Vec3(1.0)) + error_gamma(8) * ray.t.max);
 }
 
+/// The ray leaves the plane behind it, so clearly that meet_plane() says no, too: by eight times its bounds,
+/// where half would do. `error` as origin_error() has it.
+bool clearly_leaves(const Plane& plane, const Ray& ray, const Vec3& error);
+
 class DoubtfulRay {
  public:
   /// `decided`: every doubt is decided by exact predicates afterwards, so none may be left out for being too

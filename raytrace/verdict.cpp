@@ -159,7 +159,12 @@ bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& f
                           .beyond = exact ? beyond_end(error, ray) : 0.0};
   const WideWalk walked = doubtful_candidates(tree, ray, limits, from.primitive, found);
   if (walked == WideWalk::ended) answer = Verdict::shadowed;
-  if (walked == WideWalk::done && found.count == 0 && s.planes.empty()) answer = Verdict::lit;
+  const auto is_left = [&](std::uint32_t plane) {
+    return plane == from.primitive ||
+           clearly_leaves(std::get<Plane>(s.world->shape(plane).geometry), ray, error);
+  };
+  if (walked == WideWalk::done && found.count == 0 && std::all_of(s.planes.begin(), s.planes.end(), is_left))
+    answer = Verdict::lit;
   return walked != WideWalk::refused;
 }
 

@@ -269,6 +269,13 @@ Scene mixed_scene() {
   return scene;
 }
 
+TEST(Wide, ShapesAndPlanes) {
+  Scene scene = mixed_scene();
+  scene.materials[1].alpha_mode = AlphaMode::opaque;
+  const TestWorld w(std::move(scene));
+  expect_same(w.world(), hard_rays(w.world(), 10000, 5.0, 32), 7000);
+}
+
 TEST(Wide, ShapesPlanesAndMasks) {
   const TestWorld w(mixed_scene());
   expect_same(w.world(), hard_rays(w.world(), 20000, 5.0, 14), 15000);

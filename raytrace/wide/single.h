@@ -17,15 +17,15 @@ template <bool masks, class Arithmetic>
 bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std::uint32_t skip,
                   std::optional<Hit>& best) {
   RayFrame frame;
-  if (!masks && skip == no_id && s.planes.empty()) {
+  if (!masks && skip == no_id) {
     LeafCandidates found;
     if (closest_candidates(tree, ray, found) != WideWalk::refused) {
       std::size_t left = 0;
       for (std::size_t i = 0; i < found.count; ++i)
         if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
-      if (left == 0) return true;
+      if (left == 0 && s.planes.empty()) return true;
       scale_ray(ray, frame), shear_ray(frame);
-      if (left == 1) {
+      if (left == 1 && s.planes.empty()) {
         Hit& hit = best.emplace();
         if (Arithmetic(s, frame).leaf(s, frame, found.leaf[0], hit))
           hit.t /= frame.kernel_t_from_t;
