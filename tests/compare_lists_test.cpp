@@ -1,7 +1,6 @@
 // The comparison's long lists, against slower ways to the same: sorted numbers, pixels that something holds
 // of, pixels by their texel, and the closed form of a plane's depth slope.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,7 @@
 #include "compare/pixel_list.h"
 #include "compare/sort_numbers.h"
 #include "compare/texel_groups.h"
+#include "tests/every_target.h"
 
 namespace gnomon::compare {
 namespace {
@@ -49,14 +49,7 @@ void expect_standard_order() {
 }
 
 TEST(SortNumbers, EqualsTheStandardSortOnEveryInstructionSet) {
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    expect_standard_order();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  test::for_each_target(expect_standard_order);
 }
 
 TEST(SortNumbers, PutsWhatIsNoNumberLast) {

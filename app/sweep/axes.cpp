@@ -50,7 +50,7 @@ int speed(const std::string& name, const std::vector<std::string>& map_names) {
 }
 
 std::string sweep_text(const CLI::Option& option) {
-  std::string text = option.get_description();
+  const std::string& text = option.get_description();
   return is_flag(option) ? text + "; off or on" : text;
 }
 
@@ -78,7 +78,7 @@ Expected<SettingOptions> parse(const Values& values, bool whole) {
   std::vector<std::string> arguments;  // CLI11 wants them last first
   for (const auto& [name, value] : values) {
     if (!is_flag(*parser.app.get_option("--" + name))) {
-      arguments.push_back("--" + name + "=" + value);
+      arguments.push_back(fmt::format("--{}={}", name, value));
       continue;
     }
     const Expected<bool> on = parse_switch(name, value);
