@@ -17,7 +17,9 @@ const results = () => readFileSync(join(swept, "sweep.jsonl"), "utf8").trim().sp
 
 const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 async function opened(page, cell) {
-  await page.waitForFunction((n) => document.querySelector("#cell h2").textContent.startsWith(`Cell ${n}:`), cell);
+  const title = page.locator("#cell h2");
+  await page.waitForFunction((n) => document.querySelector("#cell h2").textContent.startsWith(`Cell ${n}:`), cell).catch(async (error) =>
+    assert.fail(`cell ${cell} does not open: "${await title.textContent()}", ${page.url().split("#")[1]}, ${page.offences}, ${error.message}`));
   await settled(page);
 }
 const canvasOf = (page, pane) => page.locator("#cell .pane canvas").nth(pane).evaluate((canvas) => {

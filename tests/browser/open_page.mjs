@@ -24,7 +24,8 @@ export const browser = await chromium.launch({ executablePath: browserPath });
 /** Opens FOLDER/report.html and collects everything that it must not do. `hash` begins with #. */
 export async function open(folder, options = {}, hash = "") {
   const { beside, ...contextOptions } = options;
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...contextOptions });
+  // Without motion: a page that still scrolls when a button goes up again makes no click of it.
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...contextOptions });
   const page = await context.newPage();
   const url = pathToFileURL(resolve(folder, "report.html")).href;
   page.offences = [];

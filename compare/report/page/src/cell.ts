@@ -24,11 +24,14 @@ async function pictureUrl(name: string): Promise<string> {
   return isBeside ? `${pageData<{ folder: string }>().folder}/${name}.png` : part<string>(`${name}.png`);
 }
 
-async function decoded(url: string): Promise<HTMLImageElement> {
-  const image = new Image();
-  image.src = url;
-  await image.decode();
-  return image;
+// Loaded is enough: what draws it waits for its decoding. (decode() settles only with a frame of the page.)
+function loaded(url: string): Promise<HTMLImageElement> {
+  return new Promise((resolve, reject) => {
+    const image = new Image();
+    image.onload = () => resolve(image);
+    image.onerror = () => reject(new Error(`${isBeside ? url : "a picture of the cell"} cannot be read`));
+    image.src = url;
+  });
 }
 
 const trueShadow = 0x20, darker = 0x40, labelMask = 0x1f, rightInShadow: Rgb = [198, 198, 194];
@@ -44,8 +47,8 @@ export class Cell {
 
   static async load(json: CellJson): Promise<Cell> {
     const data = await part<{ width: number; height: number; truth: string; classes: Packed }>(nameOf(json.cell));
-    const [codes, truth, drawing] = await Promise.all([unpack(data.classes), pictureUrl(data.truth).then(decoded),
-      json.drawn ? pictureUrl(nameOf(json.cell)).then(decoded) : null]);
+    const [codes, truth, drawing] = await Promise.all([unpack(data.classes), pictureUrl(data.truth).then(loaded),
+      json.drawn ? pictureUrl(nameOf(json.cell)).then(loaded) : null]);
     return new Cell(json, data.width, data.height, codes as Int8Array, truth, drawing);
   }
 

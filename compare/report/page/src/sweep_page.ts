@@ -80,14 +80,16 @@ class SweepPage {
     const loading = this.load(number);
     if (!loading) return;
     this.state.cell = number;
+    let cell: Cell;
     try {
-      this.shown = await loading;
+      cell = await loading;
     } catch (error) {
       this.section.hidden = false;
       this.section.querySelector(".cell-line")!.textContent = (error as Error).message;
       return;
     }
     if (this.state.cell !== number) return;  // another one was asked for meanwhile
+    this.shown = cell;
     Object.assign(this.size, { width: this.shown.width, height: this.shown.height });
     this.section.hidden = false;
     this.describe(this.shown);
