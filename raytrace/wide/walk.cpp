@@ -3,7 +3,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "raytrace/wide/leaf-inl.h"
+#include "raytrace/wide/node-inl.h"
 #include "raytrace/wide/walk.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,106 +81,6 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
   return true;
 }
 
-/// Children that the ray may yet meet, the next one last.
-struct Stack {
-  // A level leaves at most fifteen behind; the last store may write sixteen.
-  static constexpr std::size_t most = std::size_t{15} * Bvh::max_depth + 2 * node_lanes;
-  std::uint32_t child[most];
-  float near[most];
-};
-
-/// The ray in every lane, and where in a node the near and the far planes are.
-struct SpreadRay {
-  V inverse[3], near[3], far_inverse[3], far[3], t_min;
-  std::size_t near_row[3], far_row[3];  // bytes
-  int octant_shift;
-  explicit SpreadRay(const WideRay& ray)
-      : t_min(all(ray.t_min)),
-        octant_shift(static_cast<int>(4 * (lanes == node_lanes ? 7 - ray.octant : ray.octant))) {
-    constexpr std::size_t row = sizeof(WideNode::bounds[0]);
-    for (std::size_t a = 0; a < 3; ++a) {
-      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
-      far_inverse[a] = all(ray.far_inverse[a]), far[a] = all(ray.far[a]);
-      near_row[a] = row * ((ray.octant >> a & 1u) != 0 ? 3 + a : a);
-      far_row[a] = row * (2 * a + 3) - near_row[a];
-    }
-  }
-};
-
-/// Where the ray enters and leaves the boxes from the i-th on.
-HWY_INLINE void meet_children(const WideNode& node, const SpreadRay& ray, std::size_t i, V t_max, V& near,
-                              V& far) {
-  const char* bounds = reinterpret_cast<const char*>(node.bounds) + i * sizeof(float);
-  const auto at = [&](std::size_t row, V inverse, V constant) {
-    return hn::MulAdd(hn::Load(f, reinterpret_cast<const float*>(bounds + row)), inverse, constant);
-  };
-  near = hn::Max(hn::Max(at(ray.near_row[0], ray.inverse[0], ray.near[0]),
-                         at(ray.near_row[1], ray.inverse[1], ray.near[1])),
-                 hn::Max(at(ray.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
-  far = hn::Min(hn::Min(at(ray.far_row[0], ray.far_inverse[0], ray.far[0]),
-                        at(ray.far_row[1], ray.far_inverse[1], ray.far[1])),
-                hn::Min(at(ray.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
-}
-
-/// Takes the children whose boxes the ray may meet: the next one into `next`, the others onto the stack.
-/// False: none.
-template <std::size_t width = lanes>
-HWY_INLINE bool take_children(const WideNode& node, const SpreadRay& ray, float t_max, Stack& stack,
-                              std::size_t& size, std::uint32_t& next) {
-  if constexpr (width == node_lanes) {
-    V near, far;
-    meet_children(node, ray, 0, all(t_max), near, far);
-    const M met = hn::Le(near, far);
-    const unsigned bits = bits_of(f, met);
-    if (bits == 0) return false;
-    if ((bits & (bits - 1)) == 0) {
-      next = node.child[std::countr_zero(bits)];
-      return true;
-    }
-    const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
-                               hn::Set(ids, node_lanes - 1));
-    near = hn::TableLookupLanes(near, hn::IndicesFromVec(f, order));
-    far = hn::TableLookupLanes(far, hn::IndicesFromVec(f, order));
-    const auto child = hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order));
-    const M ordered = hn::Le(near, far);
-    const auto nearest_first = hn::Compress(child, hn::RebindMask(ids, ordered));
-    next = hn::GetLane(nearest_first);
-    const auto count = static_cast<std::uint32_t>(std::popcount(bits));
-    const auto back =
-        hn::And(hn::Sub(hn::Set(ids, count - 1), hn::Iota(ids, 0)), hn::Set(ids, node_lanes - 1));
-    hn::StoreU(hn::TableLookupLanes(nearest_first, hn::IndicesFromVec(ids, back)), ids, stack.child + size);
-    hn::StoreU(hn::TableLookupLanes(hn::Compress(near, ordered), hn::IndicesFromVec(f, back)), f,
-               stack.near + size);
-    size += count - 1;
-    return true;
-  } else {
-    alignas(64) float nears[node_lanes];
-    unsigned met = 0;
-    for (std::size_t i = 0; i < node_lanes; i += width) {
-      V near, far;
-      meet_children(node, ray, i, all(t_max), near, far);
-      hn::Store(near, f, nears + i);
-      met |= bits_of(f, hn::Le(near, far)) << i;
-    }
-    if (met == 0) return false;
-    next = node.child[std::countr_zero(met)];
-    float nearest = nears[std::countr_zero(met)];
-    const std::size_t base = size;
-    for (met &= met - 1; met != 0; met &= met - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-      const bool nearer = nears[lane] < nearest;
-      const std::uint32_t child = nearer ? next : node.child[lane];
-      const float near = nearer ? nearest : nears[lane];
-      next = nearer ? node.child[lane] : next, nearest = nearer ? nears[lane] : nearest;
-      std::size_t at = size++;  // the farthest at the bottom
-      for (; at > base && stack.near[at - 1] < near; --at)
-        stack.child[at] = stack.child[at - 1], stack.near[at] = stack.near[at - 1];
-      stack.child[at] = child, stack.near[at] = near;
-    }
-    return true;
-  }
-}
-
 template <class Leaf>
 const Leaf* leaves_of(const WideTree& tree) {
   if constexpr (std::is_same_v<Leaf, PlainLeaf>)
@@ -212,22 +112,35 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
   Stack stack;
   std::size_t size = 0;
   std::size_t known = 0;  // on the stack, asked for already
+  const auto ask_ahead = [&] {
+    if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
+    known = size;
+  };
   WideChild child{0};
   for (;;) {
     if (child.is_leaf()) {
       if (meet(leaves[child.index()])) return WideWalk::ended;
       t_max = ray.t_max;
-    } else if (take_children(nodes[child.index()], spread, t_max, stack, size, child.bits)) {
-      if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
-      known = size;
-      continue;
+    } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
+      known = 0;
+      const WideNode& after = nodes[stack.child[--size]];
+      if (take_children_of_two(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
+    } else {
+      const WideNode& node = nodes[child.index()];
+      if (MetChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
     }
     do {
       if (size == 0) return WideWalk::done;
       child.bits = stack.child[--size];
     } while (stack.near[size] > t_max);
-    if (size > 0) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
-    known = size;
+    known = 0;
+    ask_ahead();
   }
 }
 
