@@ -1,5 +1,6 @@
 #include "app/sweep/cell_pictures.h"
 
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -16,18 +17,23 @@ Expected<void> CellPictureWriter::make_folders() const {
   return make_output_folder(compare::cells_folder(folder_));
 }
 
-namespace {
+/// The name of a truth's picture, empty if it could not be encoded. The job of the truth's first cell tells;
+/// the others, on other threads, wait for it.
+struct CellPictureWriter::TruthName {
+  std::promise<std::string> told;
+  std::shared_future<std::string> name = told.get_future().share();
+};
 
-struct Pictures {
+struct CellPictureWriter::Pictures {
   std::string folder;
   std::size_t cell = 0;
-  std::shared_ptr<std::string> truth_name;
+  std::shared_ptr<TruthName> truth_name;
   std::optional<Rgb8Image> truth, drawing;  ///< empty: written before, not drawn
   Image<std::uint8_t> codes;
   Rgb8Image thumbnail;
 };
 
-Expected<void> write_pictures(const Pictures& p) {
+Expected<void> CellPictureWriter::write(const Pictures& p) {
   const std::string cells = compare::cells_folder(p.folder) + "/";
   std::vector<std::pair<std::string, std::string>> files;  // path, bytes
   const auto add = [&files](const std::string& path, const Rgb8Image& image) -> Expected<void> {
@@ -37,12 +43,13 @@ Expected<void> write_pictures(const Pictures& p) {
     return {};
   };
   if (p.truth) {
-    if (auto added = add({}, *p.truth); !added) return added;
-    *p.truth_name = compare::truth_name(files.back().second);
-    files.back().first = cells + *p.truth_name + ".png";
+    const auto added = add({}, *p.truth);
+    p.truth_name->told.set_value(added ? compare::truth_name(files.back().second) : "");
+    if (!added) return added;
+    files.back().first = cells + p.truth_name->name.get() + ".png";
   }
   const std::string name = cells + compare::cell_name(p.cell);
-  files.emplace_back(name + ".js", compare::cell_data_file(p.cell, p.codes, *p.truth_name));
+  files.emplace_back(name + ".js", compare::cell_data_file(p.cell, p.codes, p.truth_name->name.get()));
   if (p.drawing)
     if (auto added = add(name + ".png", *p.drawing); !added) return added;
   if (auto added = add(compare::thumbnail_path(p.folder, p.cell), p.thumbnail); !added) return added;
@@ -52,22 +59,20 @@ Expected<void> write_pictures(const Pictures& p) {
   return {};
 }
 
-}  // namespace
-
 CellPictureWriter::Job CellPictureWriter::pictures(std::size_t cell, const compare::Comparison& comparison) {
   auto pictures = std::make_shared<Pictures>();
   pictures->folder = folder_;
   pictures->cell = cell;
   if (truths_ != engine_.work().truths) {
     truths_ = engine_.work().truths;
-    truth_ = std::make_shared<std::string>();
+    truth_ = std::make_shared<TruthName>();
     pictures->truth = compare::raytraced_picture(comparison);
   }
   pictures->truth_name = truth_;
   pictures->codes = engine_.class_codes();
   pictures->thumbnail = engine_.thumbnail(compare::thumbnail_width);
   if (!engine_.last_was_derived()) pictures->drawing = engine_.drawing(compare::drawing_width);
-  return [pictures] { return write_pictures(*pictures); };
+  return [pictures] { return write(*pictures); };
 }
 
 }  // namespace gnomon::app

@@ -19,16 +19,21 @@ class CellPictureWriter {
 
   Expected<void> make_folders() const;
   /// Encodes and writes pictures: all of them are there then, or an error. May run on any thread, while the
-  /// engine goes on.
+  /// engine and other cells' jobs go on; waits for the job of the first cell with the same truth, which must
+  /// run, too.
   using Job = std::function<Expected<void>()>;
   /// The pictures of the engine's last comparison.
   Job pictures(std::size_t cell, const compare::Comparison& comparison);
 
  private:
+  struct TruthName;
+  struct Pictures;
+  static Expected<void> write(const Pictures& p);
+
   const std::string& folder_;
   const compare::Engine& engine_;
-  std::uint64_t truths_ = 0;            ///< made when the last one was written
-  std::shared_ptr<std::string> truth_;  ///< its name; written by the job of the truth's first cell
+  std::uint64_t truths_ = 0;          ///< made when the last one was written
+  std::shared_ptr<TruthName> truth_;  ///< of that one
 };
 
 }  // namespace gnomon::app
