@@ -212,7 +212,7 @@ class Bench {
                         Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
     std::size_t hits = 0, theirs = 0;
     const auto ms = in_turn(
-        std::min(settings_.runs, 3), 1,
+        settings_.runs, 1,
         [&] {
           hits = 0;
           for (const Ray& ray : ours) hits += tracer_.closest_hit(ray) ? 1 : 0;
@@ -246,7 +246,7 @@ class Bench {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
     double build = 0.0, peer_build = 0.0;
     const auto ms = in_turn(
-        std::min(settings_.runs, 3), 2,
+        settings_.runs, 2,
         [&] {
           const Stopwatch watch;
           tracer_ = Tracer(world_, Accel::bvh);
