@@ -10,8 +10,6 @@
 
 #include "app/shell.h"
 
-extern char** environ;
-
 namespace gnomon::app {
 
 std::string slurm_script(const std::string& program, const std::string& arguments, const std::string& folder,

@@ -8,7 +8,7 @@
 
 namespace gnomon::verify {
 
-__extension__ typedef __float128 Quad;
+__extension__ using Quad = __float128;
 
 struct Quad3 {
   Quad x, y, z;

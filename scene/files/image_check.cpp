@@ -49,7 +49,7 @@ Expected<void> check_header(std::string_view data, const std::string& name) {
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side)
     return damage(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", width, height,
                                     max_image_side, max_image_side));
-  const int depth = data[8], type = data[9];
+  const int depth = static_cast<unsigned char>(data[8]), type = static_cast<unsigned char>(data[9]);
   const bool small_depth = depth == 1 || depth == 2 || depth == 4;
   const bool fits = (depth == 8 && (type == 0 || type == 2 || type == 3 || type == 4 || type == 6)) ||
                     (depth == 16 && (type == 0 || type == 2 || type == 4 || type == 6)) ||

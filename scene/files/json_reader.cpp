@@ -42,11 +42,11 @@ int hex_digit(char c) {
 std::optional<Vec3f> hex_color(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
   Vec3f color;
-  for (int i = 0; i < 3; ++i) {
-    const int high = hex_digit(text[static_cast<std::size_t>(1 + 2 * i)]);
-    const int low = hex_digit(text[static_cast<std::size_t>(2 + 2 * i)]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int high = hex_digit(text[1 + 2 * i]);
+    const int low = hex_digit(text[2 + 2 * i]);
     if (high < 0 || low < 0) return std::nullopt;
-    color[i] = linear_from_srgb(static_cast<float>(16 * high + low) / 255.0f);
+    color[static_cast<int>(i)] = linear_from_srgb(static_cast<float>(16 * high + low) / 255.0f);
   }
   return color;
 }

@@ -8,7 +8,6 @@ namespace gnomon {
 namespace {
 
 using teapot::NamedPatch;
-using teapot::Piece;
 
 Vec3 y_up(const Vec3& p) {
   return {p.x, p.z, -p.y};
