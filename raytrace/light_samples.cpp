@@ -1,5 +1,7 @@
 #include "raytrace/light_samples.h"
 
+#include "raytrace/light_shaft.h"
+
 namespace gnomon::raytrace {
 
 LightSamples::LightSamples(const Tracer& tracer, const SurfacePoint& from, const Light& light, int count,
@@ -68,6 +70,8 @@ std::optional<Ray> LightSamples::operator[](int i) const {
 
 Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,
                             std::uint64_t key) {
+  if (samples >= least_shaft_rays && surely_sees_whole_light(tracer.structures(), from, light))
+    return {1.0, static_cast<std::uint64_t>(samples)};
   const LightSamples rays(tracer, from, light, samples, key);
   Visibility seen;
   int lit = 0;

@@ -18,6 +18,7 @@
 #include "raytrace/fresnel.h"
 #include "raytrace/interior.h"
 #include "raytrace/light_samples.h"
+#include "raytrace/light_shaft.h"
 #include "raytrace/microfacet.h"
 #include "raytrace/surface_uv.h"
 
@@ -142,12 +143,22 @@ class Shader {
   /// What a path takes of `wanted` samples.
   static int shared(int wanted, const Path& path) { return (wanted + path.siblings - 1) / path.siblings; }
 
+  static bool is_in_vacuum(const Path& path) {
+    if constexpr (Policy::refracts) return path.inside.empty();
+    return true;
+  }
+
   /// The mean over the light's samples; each point of the pixel's paths has its own.
   Vec3f soft_transmittance(const SurfacePoint& point, const Path& path, const Light& light,
                            std::uint32_t light_index) {
     const int count =
         shared(options_.shadow_samples > 0 ? options_.shadow_samples : light.shadow_samples, path);
     const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_sampled_);
+    if (is_in_vacuum(path) && count >= least_shaft_rays &&
+        surely_sees_whole_light(tracer_.structures(), point, light)) {
+      counts_.soft_shadow += static_cast<std::uint64_t>(count);
+      return Vec3f(1.0f);
+    }
     const LightSamples samples(tracer_, point, light, count, key);
     Vec3f sum(0.0f);
     for (int i = 0; i < count; ++i) {

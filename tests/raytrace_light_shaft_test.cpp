@@ -1,0 +1,209 @@
+// Where the shaft to a light with size is said to be clear, each of its rays gets through, in another
+// structure: random lights, lights that corners all but touch, and all but below the horizon; for every
+// instruction set.
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "every_target.h"
+#include "raytrace/light_samples.h"
+#include "raytrace/light_shaft.h"
+#include "raytrace_support.h"
+
+namespace gnomon {
+namespace {
+
+using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::for_each_target;
+using test::Random;
+using test::TestWorld;
+
+constexpr int samples = 64;
+
+Vec3 corner_of(const World& world, Random& random) {
+  return world.corners(random.below(world.triangle_count()))[random.below(3)];
+}
+
+/// A light of any shape, `size` about its radius.
+Light light_at(const Vec3& position, double size, Random& random) {
+  Light light = test::point_light(position);
+  switch (random.below(4)) {
+    case 0:
+      light = test::sun(random.direction());
+      light.extent = SunDisc{std::exp2(random.uniform(-20.0, 0.0))};
+      break;
+    case 1:
+      light.extent = SphereLight{size};
+      break;
+    case 2:
+      light.extent = DiscLight{size, random.direction()};
+      break;
+    default: {
+      const Vec3 across = random.direction();
+      light.extent =
+          RectangleLight{size * across, 0.5 * size * glm::normalize(glm::cross(across, random.direction()))};
+    }
+  }
+  return light;
+}
+
+struct Pair {
+  SurfacePoint from;
+  Light light;
+};
+
+/// A light anywhere; one whose rim a corner touches but for a little, seen from the point; one that all but
+/// touches the horizon.
+Light hard_light(const World& world, const SurfacePoint& from, int kind, Random& random) {
+  const double reach = world.finite_bounds.diagonal();
+  const double size = reach * std::exp2(random.uniform(-12.0, 0.0));
+  const Vec3 toward = random.direction(),
+             away = toward + (1.001 - glm::dot(toward, from.normal)) * from.normal;
+  if (kind == 0) return light_at(from.position + reach * away, size, random);
+  const double little = (random.below(2) == 0 ? 1.0 : -1.0) * std::exp2(random.uniform(-40.0, -3.0));
+  const Vec3 across = glm::normalize(glm::cross(random.direction(), random.direction()));
+  if (kind == 1) {
+    const Vec3 behind = from.position + random.uniform(0.9, 4.0) * (corner_of(world, random) - from.position);
+    return light_at(behind + size * (1.0 + little) * across, size, random);
+  }
+  const Vec3 along = reach * glm::cross(from.normal, across);
+  return light_at(from.position + along + size * (1.0 + little) * from.normal, size, random);
+}
+
+/// Points inside of triangles, on their edges and at their corners.
+std::vector<Pair> pairs_in(const World& world, const Tracer& tracer, int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Pair> pairs;
+  const double reach = world.finite_bounds.diagonal();
+  for (int i = 0; i < count; ++i) {
+    const auto [p, q, r] = world.corners(random.below(world.triangle_count()));
+    const double u = random.uniform(0.0, 1.0), v = i % 5 == 0 ? 0.0 : random.uniform(0.0, 1.0 - u);
+    const Vec3 target = i % 11 == 0 ? p : p + u * (q - p) + v * (r - p);
+    const Vec3 origin = target + reach * random.direction();
+    const Ray ray{origin, target - origin};
+    const std::optional<Hit> hit = tracer.closest_hit(ray);
+    if (!hit) continue;
+    const SurfacePoint from = tracer.surface_point(ray, *hit);
+    pairs.push_back({from, hard_light(world, from, i % 3, random)});
+  }
+  return pairs;
+}
+
+bool all_arrive(const Tracer& tracer, const Pair& pair, std::uint64_t key) {
+  const LightSamples rays(tracer, pair.from, pair.light, samples, key);
+  for (int i = 0; i < samples; ++i) {
+    const std::optional<Ray> ray = rays[i];
+    if (!ray || tracer.occluded(*ray)) return false;
+  }
+  return true;
+}
+
+/// At least the share `useful` of the pairs whose rays all arrive must be found.
+void expect_clear(const World& world, int count, double useful, std::uint64_t seed) {
+  const Tracer tracer(world, Accel::bvh), other(world, Accel::bvh_median);
+  tracer.structures().wide->fold(tracer.structures().bvh, world);
+  const std::vector<Pair> pairs = pairs_in(world, other, count, seed);
+  std::vector<char> arrive(pairs.size());
+  tbb::parallel_for(std::size_t{0}, pairs.size(),
+                    [&](std::size_t i) { arrive[i] = all_arrive(other, pairs[i], i) ? 1 : 0; });
+  const auto whole = std::count(arrive.begin(), arrive.end(), 1);
+  EXPECT_GE(whole, static_cast<std::ptrdiff_t>(pairs.size() / 20));
+  for_each_target([&] {
+    std::atomic<int> wrong = 0, found = 0;
+    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+      const bool clear = surely_sees_whole_light(tracer.structures(), pairs[i].from, pairs[i].light);
+      wrong += clear && arrive[i] == 0 ? 1 : 0;
+      found += clear ? 1 : 0;
+    });
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GE(found, useful * static_cast<double>(whole)) << "of " << whole;
+  });
+}
+
+Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
+  for (Vec3& p : mesh.positions) p = scale * p + offset;
+  return mesh;
+}
+
+TEST(LightShaft, SoupOfAllSizes) {
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 4; ++i)
+    meshes.push_back(test::triangle_soup(60, 2.0, std::exp2(-3.0 * i), static_cast<std::uint64_t>(i) + 1));
+  const TestWorld w(test::scene_of(std::move(meshes)));
+  expect_clear(w.world(), 20000, 0.35, 2);
+}
+
+TEST(LightShaft, ClosedMeshesAnywhere) {
+  for (const Vec3& offset : {Vec3(0.0), Vec3(1e6, -1e6, 1e6), Vec3(148376.0, 1234.0, -223423.0)}) {
+    const TestWorld w(test::scene_of({test::uv_sphere(offset, 1.0, 24, 32, 0.1, 3),
+                                      test::quad(offset + Vec3(-3, -1.2, -3), {0, 0, 6}, {6, 0, 0})}));
+    expect_clear(w.world(), 6000, 0.5, 4);
+  }
+}
+
+TEST(LightShaft, TinyAndHugeWorlds) {
+  for (const double scale : {1e-6, 1e-3, 1e6, 1e8}) {
+    const TestWorld w(test::scene_of({moved(test::triangle_soup(100, 2.0, 0.3, 5), scale, Vec3(0.0))}));
+    expect_clear(w.world(), 4000, 0.4, 6);
+  }
+}
+
+TEST(LightShaft, Needles) {
+  Random random(7);
+  Mesh needles = test::triangle_soup(200, 2.0, 1.0, 8);
+  for (std::size_t i = 2; i < needles.positions.size(); i += 3)
+    needles.positions[i] = needles.positions[i - 1] + random.in_box(std::exp2(random.uniform(-50.0, -5.0)));
+  const TestWorld w(test::scene_of({needles, test::triangle_soup(60, 2.0, 0.5, 17)}));
+  expect_clear(w.world(), 6000, 0.05, 9);
+}
+
+TEST(LightShaft, FlatFloorOfManyTriangles) {
+  Mesh floor;
+  constexpr std::uint32_t side = 24;
+  for (std::uint32_t y = 0; y <= side; ++y)
+    for (std::uint32_t x = 0; x <= side; ++x)
+      floor.positions.emplace_back(0.1 * x, 0.3 * y - 0.7 * x, 0.1 * y);
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const std::uint32_t a = y * (side + 1) + x, b = a + side + 1;
+      floor.triangles.push_back({a, b, a + 1});
+      floor.triangles.push_back({a + 1, b, b + 1});
+    }
+  const TestWorld w(test::scene_of({floor, test::box({1, 1, 1}, {1.2, 1.3, 1.1})}));
+  expect_clear(w.world(), 6000, 0.5, 10);
+}
+
+TEST(LightShaft, ShapesAndPlanes) {
+  Scene scene =
+      test::scene_of({test::triangle_soup(30, 2.0, 0.5, 11)}, {test::plane({0, -1.5, 0}, {0, 1, 0})});
+  scene.shapes.push_back(test::sphere({0.5, 0.2, 0.1}, 0.6));
+  Torus ring;
+  ring.frame.origin = {-0.5, 0.4, 0.3}, ring.major = 0.5, ring.minor = 0.1;
+  scene.shapes.push_back({"ring", ring, 0});
+  const TestWorld w(scene);
+  expect_clear(w.world(), 6000, 0.4, 12);
+}
+
+TEST(LightShaft, SharesAreThoseOfAllRays) {
+  const TestWorld w(test::scene_of({test::triangle_soup(60, 2.0, 0.4, 13)}));
+  const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::bvh_median);
+  tracer.structures().wide->fold(tracer.structures().bvh, w.world());
+  for (const Pair& pair : pairs_in(w.world(), other, 500, 14)) {
+    const Visibility with = light_visibility(tracer, pair.from, pair.light, samples, 15);
+    const Visibility without = light_visibility(other, pair.from, pair.light, samples, 15);
+    EXPECT_EQ(with.share, without.share);
+    EXPECT_EQ(with.rays, without.rays);
+  }
+}
+
+TEST(LightShaft, Bunny) {
+  const std::optional<Mesh> bunny =
+      test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+  if (!bunny) GTEST_SKIP() << "no bunny beside the sources";
+  const TestWorld w(test::scene_of({*bunny}));
+  expect_clear(w.world(), 20000, 0.5, 16);
+}
+
+}  // namespace
+}  // namespace gnomon
