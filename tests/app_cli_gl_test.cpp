@@ -25,7 +25,8 @@ TEST(Json, ScenesAndPlanArePure) {
   for (const json& scene : scenes["scenes"]) {
     const ProcessResult plan = run_gnomon({"plan", scene["name"], "--json", "-"});
     EXPECT_EQ(plan.exit_code, 0) << plan.err;
-    const json document = json::parse(plan.out), effects = document["effects"];
+    const json document = json::parse(plan.out);
+    const json& effects = document["effects"];
     EXPECT_EQ(effects.size(), 12u);
     std::uint64_t total = document["rays"]["primary"];
     for (const json& effect : effects) total += effect["rays"].get<std::uint64_t>();

@@ -146,8 +146,8 @@ TEST(Help, UnitsAreNamed) {
                                                        {"--normal-offset ", "texels"},
                                                        {"--threads ", "cores"}};
   for (const auto& [name, unit] : units) {
-    const auto found = std::find_if(options.begin(), options.end(), [&](const std::string& option) {
-      return option.find(name) != std::string::npos;
+    const auto found = std::find_if(options.begin(), options.end(), [flag = name](const std::string& option) {
+      return option.find(flag) != std::string::npos;
     });
     ASSERT_NE(found, options.end()) << name;
     EXPECT_NE(found->find(unit), std::string::npos) << *found;

@@ -56,7 +56,7 @@ Tally check_camera(const Drawn& drawn, const Tracer& tracer) {
     for (int x = 0; x < view.size.width; ++x) {
       std::optional<raytrace::Hit> hit;
       if (!agreed(tracer, ray_at, x + 0.5, y + 0.5, hit)) continue;
-      const auto i = static_cast<std::size_t>(y * view.size.width + x);
+      const std::size_t i = drawn.frame.primitive.index(x, y);
       ++tally.seen;
       if (drawn.frame.primitive.data[i] != (hit ? hit->primitive : no_id)) {
         ++tally.wrong_id;
@@ -197,8 +197,7 @@ TEST(SolidImpostors, TheShapesSceneDiffersAtEdgesAlone) {
   for (int y = 0; y < 144; ++y)
     for (int x = 0; x < 256; ++x) {
       const auto hit = tracer.closest_hit(pixel_ray(view, x + 0.5, y + 0.5));
-      if (drawn.frame.primitive.data[static_cast<std::size_t>(y * 256 + x)] == (hit ? hit->primitive : no_id))
-        continue;
+      if (drawn.frame.primitive.at(x, y) == (hit ? hit->primitive : no_id)) continue;
       ++silhouettes;
       std::optional<raytrace::Hit> again;
       inner += agreed(

@@ -98,13 +98,14 @@ std::uint64_t bytes_of_a_frame(const Scene& scene) {
 }
 
 TEST(EffectCost, AnEffectNotCalledForAllocatesNothing) {
-  const std::uint64_t pixels = 64 * 48, base = bytes_of_a_frame(plain());
+  constexpr std::uint64_t pixels = std::uint64_t{64} * 48, kib = 1024;
+  const std::uint64_t base = bytes_of_a_frame(plain());
   // Receivers, colours, verdicts of two lights, counts per tile; and what primary and hard shadow rays are
   // traced with: the lists of the cells of eye and lights, and receivers as floats (packet/), 220 KiB here.
   const std::uint64_t images =
       pixels * (sizeof(raytrace::SurfacePoint) + sizeof(Vec3f) + 2 * sizeof(raytrace::Verdict));
   EXPECT_GE(base, images);
-  EXPECT_LT(base, images + 320 * 1024);
+  EXPECT_LT(base, images + 320 * kib);
   // However many samples the effects would take: nobody asks for them.
   Scene ready = plain();
   ready.glossy_samples = max_samples;
@@ -119,8 +120,8 @@ TEST(EffectCost, AnEffectNotCalledForAllocatesNothing) {
     on.call(scene);
     const std::uint64_t bytes = bytes_of_a_frame(scene);
     const std::uint64_t visibility = pixels * (sizeof(float) - sizeof(raytrace::Verdict));
-    EXPECT_EQ(bytes > base + 1024, on.effect == Effect::soft_shadow) << effect_name(on.effect);
-    EXPECT_LE(bytes, base + visibility + 1024) << effect_name(on.effect);
+    EXPECT_EQ(bytes > base + kib, on.effect == Effect::soft_shadow) << effect_name(on.effect);
+    EXPECT_LE(bytes, base + visibility + kib) << effect_name(on.effect);
   }
 }
 

@@ -51,7 +51,7 @@ class SchemaCheck {
     const Json properties = schema.value("properties", Json::object());
     for (const auto& [key, member] : value.items()) {
       if (properties.contains(key))
-        check(properties[key], member, path + "." + key);
+        check(properties[key], member, std::string(path).append(".").append(key));
       else if (!schema.value("additionalProperties", true))
         report(path, "has the unknown key " + key);
     }

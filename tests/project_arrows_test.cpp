@@ -139,7 +139,12 @@ std::vector<std::string> linked_rooms(const std::string& text) {
   return rooms;
 }
 
-/// One line per forbidden arrow: "file: what it names: why not".
+/// "file: what it names: why not".
+std::string arrow_line(const std::string& file, const std::string& named, const std::string& why) {
+  return file + ": " + named + ": " + why;
+}
+
+/// One line per forbidden arrow.
 std::vector<std::string> broken_arrows(const Files& files) {
   std::vector<std::string> broken;
   const std::set<std::string> opengl = opengl_headers(files);
@@ -147,12 +152,12 @@ std::vector<std::string> broken_arrows(const Files& files) {
     if (is_cpp(file)) {
       for (const Include& include : includes_of(text)) {
         const std::string why = check_include(file, include, opengl, files);
-        if (!why.empty()) broken.push_back(file + ": " + include.path + ": " + why);
+        if (!why.empty()) broken.push_back(arrow_line(file, include.path, why));
       }
     } else {
       for (const std::string& to : linked_rooms(text)) {
         if (is_room(to) && !allowed(room_of(file), to)) {
-          broken.push_back(file + ": gnomon::" + to + ": " + room_of(file) + " may not link it");
+          broken.push_back(arrow_line(file, "gnomon::" + to, room_of(file) + " may not link it"));
         }
       }
     }

@@ -104,11 +104,11 @@ TEST(FilterScenes, CubeEdgesDoNotShow) {
 TEST(FilterScenes, CostsOfTheFilterAreCounted) {
   const Drawn hard = draw(lit_still_life(LightType::directional), technique_options(Technique::hard));
   const Drawn vsm = draw(lit_still_life(LightType::directional), technique_options(Technique::vsm));
-  const std::uint64_t texels = 128 * 128;
+  const std::uint64_t texels = std::uint64_t{128} * 128;
   EXPECT_EQ(hard.frame.map_texels, texels);
   EXPECT_EQ(hard.frame.map_bytes, 4 * texels);
   EXPECT_EQ(vsm.frame.map_texels, 4 * texels);
-  EXPECT_EQ(vsm.frame.map_bytes, 4 * texels + 2 * 8 * texels);
+  EXPECT_EQ(vsm.frame.map_bytes, 4 * texels + 2 * (8 * texels));
 }
 
 /// A world on a device with one light's depth map drawn: the passes without the renderer around them.

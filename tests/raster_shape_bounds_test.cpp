@@ -9,7 +9,6 @@
 namespace gnomon::test {
 namespace {
 
-using raster::ClipRectangle;
 using raster::Projection;
 
 Projection camera_projection() {

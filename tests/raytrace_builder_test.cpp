@@ -129,7 +129,7 @@ void expect_built_well(Scene scene, int rays, double half) {
   expect_same_hits(w.world(), rays, half, 5);
 }
 
-Mesh all_of(std::vector<Mesh> meshes) {
+Mesh all_of(const std::vector<Mesh>& meshes) {
   Mesh sum;
   for (const Mesh& mesh : meshes) {
     const auto first = static_cast<std::uint32_t>(sum.positions.size());

@@ -5,7 +5,7 @@
 namespace gnomon::test {
 namespace {
 
-Scene floor_under(Light light) {
+Scene floor_under(const Light& light) {
   Scene scene = sunlit_scene({floor_mesh(4, 4)}, {0.6, -1.0, 0.25});
   if (light.type != LightType::directional) scene.lights = {light};
   scene.camera = {{1.5, 2.0, 3.0}, {0, 0, 0}, {0, 1, 0}, 0.5};

@@ -101,7 +101,7 @@ inline raster::ShadowMap make_map(const Light& light) {
   map.view.faces.fill(down);
   map.view.origin = Vec3(160, 5.5, 90);
   map.view.set_extent(point ? Vec2(1.0) : Vec2(160.0), 1.0, 11.0);
-  const auto texels = static_cast<std::size_t>(map.view.face_count * map_size * map_size);
+  const auto texels = static_cast<std::size_t>(map.view.face_count) * map_size * map_size;
   map.depth.assign(texels, 1.0f);
   map.primitive.assign(texels, no_id);
   for (int face = 0; face < map.view.face_count; ++face)

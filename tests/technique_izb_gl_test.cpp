@@ -50,7 +50,8 @@ TEST(Izb, IsExactOnEverySolid) {
   scene.materials.resize(1);
   const std::size_t kinds = solid_samples().size();
   for (std::size_t i = 0; i < kinds; ++i) {
-    const Vec3 at(2.2 * static_cast<double>(i % 5) - 4.4, 0.0, 2.2 * static_cast<double>(i / 5) - 2.2);
+    const std::size_t column = i % 5, row = i / 5;
+    const Vec3 at(2.2 * static_cast<double>(column) - 4.4, 0.0, 2.2 * static_cast<double>(row) - 2.2);
     scene.shapes.push_back(solid_samples(1.0, at)[i]);
   }
   scene.shapes.push_back({"floor", Plane{Vec3(0.0, -1.3, 0.0), Vec3(0.0, 1.0, 0.0)}, 0});

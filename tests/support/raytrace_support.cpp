@@ -46,7 +46,7 @@ Mesh normalised(Mesh mesh) {
 
 namespace {
 
-__extension__ typedef __float128 Quad;
+__extension__ using Quad = __float128;
 
 struct Quad3 {
   Quad x, y, z;
