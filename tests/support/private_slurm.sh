@@ -7,9 +7,24 @@ set -eu
 action=$1 folder=$2
 user=$(id -un)
 
+# wait_for SECONDS COMMAND…
+wait_for() {
+  tries=$(($1 * 10))
+  shift
+  while ! "$@" >/dev/null 2>&1; do
+    tries=$((tries - 1))
+    [ $tries -gt 0 ] || return 1
+    sleep 0.1
+  done
+}
+
+# Each has ended, or had ten seconds for it, before the next is told: slurmctld still writes its state as it ends.
 stop() {
   for name in slurmd slurmctld munged; do
-    [ -s "$folder/$name.pid" ] && kill "$(cat "$folder/$name.pid")" 2>/dev/null || :
+    [ -s "$folder/$name.pid" ] || continue
+    pid=$(cat "$folder/$name.pid")
+    kill "$pid" 2>/dev/null || continue
+    wait_for 10 sh -c "! grep -qs . /proc/$pid/cmdline" || :
   done
 }
 
@@ -27,17 +42,6 @@ sockets = [socket.socket() for _ in range(2)]
 for s in sockets: s.bind(("127.0.0.1", 0))
 print(*(s.getsockname()[1] for s in sockets))
 EOF
-}
-
-# wait_for SECONDS COMMAND…
-wait_for() {
-  tries=$(($1 * 10))
-  shift
-  while ! "$@" >/dev/null 2>&1; do
-    tries=$((tries - 1))
-    [ $tries -gt 0 ] || return 1
-    sleep 0.1
-  done
 }
 
 start() {
