@@ -38,7 +38,7 @@ gnomon_test(raytrace_models_test
   LIBS raytrace_support embree TBB::tbb)
 
 # The speed figures; a short run of it is a test that it runs, not of how fast.
-add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/embree_peer.cpp
+add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/ball_light.cpp bench/embree_peer.cpp
   ${PROJECT_SOURCE_DIR}/app/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
 target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)

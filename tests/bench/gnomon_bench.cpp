@@ -8,12 +8,12 @@
 #include <fstream>
 
 #include "app/bench/row.h"
+#include "ball_light.h"
 #include "bench_scenes.h"
 #include "cpu_time.h"
 #include "embree_peer.h"
 #include "instruction_set.h"
 #include "raytrace/kernels.h"
-#include "raytrace/light_samples.h"
 #include "raytrace/packet/passes.h"
 #include "raytrace/tiles.h"
 
@@ -86,7 +86,7 @@ class Bench {
                                       static_cast<std::size_t>(threads));
       primary(threads), shadows(0, threads), shadows(1, threads);
     }
-    two_threads(), mirrors(), large_light(), memory();
+    two_threads(), mirrors(), ball_light(), memory();
     whole_frame();
     return rows_;
   }
@@ -225,42 +225,15 @@ class Bench {
     add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, "Embree single", 1.2);
   }
 
-  /// The point light grown to a ball, at every 16th pixel: shares with the shaft and as all rays have them.
-  void large_light() {
-    constexpr int samples = 64, step = 4;
+  void ball_light() {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    Light light = scene_.scene.lights[0];
-    light.extent = SphereLight{0.05 * world_.finite_bounds.diagonal()};
-    std::vector<raytrace::SurfacePoint> points;
-    for (int y = 0; y < settings_.size.height; y += step)
-      for (int x = 0; x < settings_.size.width; x += step)
-        if (const auto& p = frame_.receiver.at(x, y);
-            p.primitive != no_id && !light_cannot_reach(light, p.position, p.normal))
-          points.push_back(p);
-    double sum = 0.0, sum_of_all = 0.0;
+    const BallLight light(tracer_, frame_, scene_.scene.lights[0]);
+    double with_shaft = 0.0, by_rays = 0.0;
     const auto ms = in_turn(
-        std::min(settings_.runs, 3), 1,
-        [&] {
-          sum = 0.0;
-          for (std::size_t i = 0; i < points.size(); ++i)
-            sum += light_visibility(tracer_, points[i], light, samples, i).share;
-        },
-        [&] {
-          sum_of_all = 0.0;
-          for (std::size_t i = 0; i < points.size(); ++i)
-            sum_of_all += share_of_all_rays({tracer_, points[i], light, samples, i});
-        });
-    fmt::print("  mean share of the ball seen: {} with the shaft, {} by all rays\n",
-               sum / static_cast<double>(points.size()), sum_of_all / static_cast<double>(points.size()));
-    add("ball light, 64 samples", 1, static_cast<double>(samples * points.size()), ms, "every ray cast",
-        std::nullopt);
-  }
-
-  double share_of_all_rays(const raytrace::LightSamples& rays) const {
-    int lit = 0;
-    for (int i = 0; i < rays.count(); ++i)
-      if (const std::optional<Ray> ray = rays[i]) lit += tracer_.occluded(*ray) ? 0 : 1;
-    return static_cast<double>(lit) / rays.count();
+        std::min(settings_.runs, 3), 1, [&] { with_shaft = light.share_by_shaft(); },
+        [&] { by_rays = light.share_by_every_ray(); });
+    fmt::print("  mean share of the ball seen: {} with the shaft, {} by every ray\n", with_shaft, by_rays);
+    add("ball light, 64 samples", 1, light.rays(), ms, "every ray cast", std::nullopt);
   }
 
   /// Of all that packets need, and with the tree that many single rays make.
