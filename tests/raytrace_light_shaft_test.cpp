@@ -121,11 +121,6 @@ void expect_clear(const World& world, int count, double useful, std::uint64_t se
   });
 }
 
-Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
-  for (Vec3& p : mesh.positions) p = scale * p + offset;
-  return mesh;
-}
-
 TEST(LightShaft, SoupOfAllSizes) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < 4; ++i)
@@ -144,7 +139,7 @@ TEST(LightShaft, ClosedMeshesAnywhere) {
 
 TEST(LightShaft, TinyAndHugeWorlds) {
   for (const double scale : {1e-6, 1e-3, 1e6, 1e8}) {
-    const TestWorld w(test::scene_of({moved(test::triangle_soup(100, 2.0, 0.3, 5), scale, Vec3(0.0))}));
+    const TestWorld w(test::scene_of({test::moved(test::triangle_soup(100, 2.0, 0.3, 5), scale, Vec3(0.0))}));
     expect_clear(w.world(), 4000, 0.4, 6);
   }
 }

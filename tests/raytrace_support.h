@@ -28,6 +28,8 @@ Mesh uv_sphere(const Vec3& center, double radius, int rings, int sectors, double
 Mesh triangle_soup(int count, double extent, double size, std::uint64_t seed);
 /// Positions and faces of an OBJ file; nothing when the file is absent.
 std::optional<Mesh> read_obj(const std::string& path);
+/// Scaled, then moved.
+Mesh moved(Mesh mesh, double scale, const Vec3& offset);
 /// Moved and scaled to a unit diagonal around the origin.
 Mesh normalised(Mesh mesh);
 

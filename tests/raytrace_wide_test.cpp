@@ -117,11 +117,6 @@ std::vector<Ray> hard_rays(const World& world, int count, double reach, std::uin
   return rays;
 }
 
-Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
-  for (Vec3& p : mesh.positions) p = scale * p + offset;
-  return mesh;
-}
-
 TEST(Wide, SoupOfAllSizes) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < 5; ++i)
@@ -148,7 +143,7 @@ TEST(Wide, ClosedMeshesFarFromTheOriginAndSeenFromFar) {
 
 TEST(Wide, TinyAndHugeWorlds) {
   for (const double scale : {1e-12, 1e-8, 1e-3, 1e6, 1e8, 1e12}) {  // the first and last have no wide tree
-    const TestWorld w(test::scene_of({moved(test::triangle_soup(300, 2.0, 0.5, 5), scale, Vec3(0.0))}));
+    const TestWorld w(test::scene_of({test::moved(test::triangle_soup(300, 2.0, 0.5, 5), scale, Vec3(0.0))}));
     expect_same(w.world(), hard_rays(w.world(), 5000, 3.0 * scale, 6), 2000);
   }
 }

@@ -37,6 +37,11 @@ std::optional<Mesh> read_obj(const std::string& path) {
   return mesh;
 }
 
+Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
+  for (Vec3& p : mesh.positions) p = scale * p + offset;
+  return mesh;
+}
+
 Mesh normalised(Mesh mesh) {
   Aabb bounds;
   for (const Vec3& p : mesh.positions) bounds.grow(p);
