@@ -10,6 +10,7 @@
 
 #include "tests/app_process.h"
 #include "tests/json_schema_check.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app_test {
 namespace {
@@ -182,7 +183,7 @@ TEST(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
 }
 
 void expect_valid(const std::string& text) {
-  SchemaCheck check(json::parse(std::ifstream(GNOMON_SOURCE_DIR "/app/render.schema.json")));
+  SchemaCheck check(json::parse(std::ifstream(gnomon::test::source_dir() + "/app/render.schema.json")));
   EXPECT_EQ(check.violations(json::parse(text)), std::vector<std::string>{}) << text;
 }
 
@@ -221,7 +222,7 @@ TEST(Outputs, RasterAndRaytraceTellWhatTheyDid) {
 // A broken installation: the library that the module for image files needs is no library.
 TEST(Outputs, AnInternalErrorIsExitCode6) {
   const TemporaryFolder folder;
-  const std::string module = read_file(GNOMON_IMAGE_MODULE);
+  const std::string module = read_file(gnomon::test::image_module());
   const std::string prefix = "libOpenImageIO.so";
   const std::size_t at = module.find(prefix);
   ASSERT_NE(at, std::string::npos);

@@ -14,6 +14,8 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/places.h"
+
 namespace gnomon::app_test {
 
 namespace {
@@ -35,10 +37,11 @@ struct Pipe {
   signal(SIGINT, SIG_DFL);  // a shell that runs the tests in the background has it ignored
   for (const std::string& variable : options.environment) putenv(strdup(variable.c_str()));
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(99);
-  std::vector<char*> words{const_cast<char*>(GNOMON_PROGRAM)};
+  std::string program = gnomon::test::program();
+  std::vector<char*> words{program.data()};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-  execv(GNOMON_PROGRAM, words.data());
+  execv(program.c_str(), words.data());
   _exit(98);
 }
 

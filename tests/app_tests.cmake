@@ -3,6 +3,4 @@ find_package(rapidcheck REQUIRED)
 gnomon_test(app_test
   SOURCES app_heatmap_test.cpp app_values_test.cpp app_interrupt_test.cpp app_lesson_gl_test.cpp app_cli_gl_test.cpp app_usage_gl_test.cpp app_technique_options_gl_test.cpp app_process.cpp
   LIBS gnomon::app gnomon::scene OpenImageIO::OpenImageIO nlohmann_json::nlohmann_json rapidcheck rapidcheck_gtest)
-target_compile_definitions(app_test PRIVATE GNOMON_PROGRAM="$<TARGET_FILE:gnomon_program>"
-  GNOMON_IMAGE_MODULE="$<TARGET_FILE:gnomon_images>")
 add_dependencies(app_test gnomon_program)

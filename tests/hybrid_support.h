@@ -10,6 +10,7 @@
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
 #include "raytrace_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon::test {
 
@@ -87,7 +88,7 @@ inline Outcome run(const Stage& stage, std::uint32_t light, int map_size) {
 
 /// A model of ../shared/data over a ground, with a point light, a sun and a spot; null where it is absent.
 inline std::unique_ptr<Stage> model_stage(const std::string& file, ImageSize size, bool soft = false) {
-  auto mesh = read_obj(std::string(GNOMON_SHARED_DATA) + file);
+  auto mesh = read_obj(gnomon::test::shared_data() + file);
   if (!mesh) return nullptr;
   Mesh model = normalised(std::move(*mesh));
   double low = infinity;

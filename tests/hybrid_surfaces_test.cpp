@@ -4,6 +4,7 @@
 
 #include "hybrid_support.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -56,7 +57,7 @@ TEST(HybridSurfaces, HolesAndGlassEqualRayTracing) {
 }
 
 TEST(HybridSurfaces, FilesWithHolesAndGlassEqualRayTracing) {
-  const std::string data = GNOMON_SHARED_DATA;
+  const std::string data = gnomon::test::shared_data();
   for (const char* file : {"/alpha_blend_mode_test/AlphaBlendModeTest.glb", "/glass_table/glass-table.glb",
                            "/bevy_palmtree/PalmTree.gltf"}) {
     auto scene = load_scene(data + file);

@@ -5,6 +5,7 @@
 
 #include "compare/outputs.h"
 #include "tests/json_schema_check.h"
+#include "tests/support/places.h"
 #include "tests/synthetic_comparison.h"
 
 namespace gnomon::compare {
@@ -13,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json load_schema() {
-  std::ifstream file(GNOMON_SOURCE_DIR "/compare/report/result.schema.json");
+  std::ifstream file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
   return Json::parse(file);
 }
 

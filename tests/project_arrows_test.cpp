@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,7 +174,7 @@ bool is_read(const fs::path& path) {
 
 Files project_files() {
   Files files;
-  const fs::path root = GNOMON_SOURCE_DIR;
+  const fs::path root = gnomon::test::source_dir();
   for (const auto& [room, unused] : arrows) {
     for (auto entry = fs::recursive_directory_iterator(root / room);
          entry != fs::recursive_directory_iterator(); ++entry) {

@@ -12,6 +12,7 @@
 #include "raytrace/kernels.h"
 #include "raytrace/sheets.h"
 #include "raytrace_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -356,7 +357,7 @@ TEST(Accel, SameForAnyNumberOfThreads) {
 }
 
 TEST(Accel, Bunny) {
-  auto bunny = test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+  auto bunny = test::read_obj(gnomon::test::shared_data() + "/common_organic/stanford-bunny.obj");
   if (!bunny) GTEST_SKIP() << "no bunny beside the sources";
   const TestWorld w(test::scene_of({test::normalised(std::move(*bunny))}));
   Rivals rivals(w.world());

@@ -10,6 +10,7 @@
 #include "raytrace/light_samples.h"
 #include "raytrace/light_shaft.h"
 #include "raytrace_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -194,7 +195,7 @@ TEST(LightShaft, SharesAreThoseOfAllRays) {
 
 TEST(LightShaft, Bunny) {
   const std::optional<Mesh> bunny =
-      test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+      test::read_obj(gnomon::test::shared_data() + "/common_organic/stanford-bunny.obj");
   if (!bunny) GTEST_SKIP() << "no bunny beside the sources";
   const TestWorld w(test::scene_of({*bunny}));
   expect_clear(w.world(), 20000, 0.5, 16);

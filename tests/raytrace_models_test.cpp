@@ -8,6 +8,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/sheets.h"
 #include "raytrace_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -80,7 +81,7 @@ class EmbreeScene {
 
 /// The model, rounded to float, over a floor, seen by a camera and lit by a point and a sun.
 std::optional<Scene> model_scene(const std::string& file) {
-  std::optional<Mesh> mesh = test::read_obj(std::string(GNOMON_SHARED_DATA) + "/" + file);
+  std::optional<Mesh> mesh = test::read_obj(gnomon::test::shared_data() + "/" + file);
   if (!mesh) return std::nullopt;
   *mesh = test::normalised(std::move(*mesh));
   double low = 0.0;

@@ -17,6 +17,7 @@
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -297,7 +298,7 @@ TEST(Packets, ShapesMasksAndBuiltInScenes) {
 }
 
 TEST(Packets, Bunny) {
-  const std::string path = std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj";
+  const std::string path = gnomon::test::shared_data() + "/common_organic/stanford-bunny.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the bunny is not here";
   const Expected<Scene> loaded = load_scene(path);
   ASSERT_TRUE(loaded.has_value());

@@ -40,16 +40,14 @@ gnomon_test(raytrace_models_test
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/ball_light.cpp bench/embree_peer.cpp
   ${PROJECT_SOURCE_DIR}/app/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
-target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
+target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
-target_compile_definitions(gnomon_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
 add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
 
 # Whole processes against POV-Ray 3.7, where it is installed (it is no part of the set-up).
 add_executable(povray_bench bench/povray_bench.cpp bench/bench_scenes.cpp)
-target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings raytrace_support CLI11::CLI11 fmt::fmt
+target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support CLI11::CLI11 fmt::fmt
   nlohmann_json::nlohmann_json)
-target_compile_definitions(povray_bench PRIVATE GNOMON_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
 find_program(GNOMON_POVRAY povray)
 mark_as_advanced(GNOMON_POVRAY)
 if(GNOMON_POVRAY)

@@ -12,6 +12,7 @@
 #include "raytrace/wide/walk.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -386,7 +387,7 @@ TEST(Wide, IsThereOnlyWhenManyRaysHaveAskedForIt) {
 }
 
 TEST(Wide, Bunny) {
-  auto bunny = test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+  auto bunny = test::read_obj(gnomon::test::shared_data() + "/common_organic/stanford-bunny.obj");
   if (!bunny) GTEST_SKIP() << "no bunny beside the sources";
   const TestWorld w(test::scene_of({test::normalised(std::move(*bunny))}));
   expect_same(w.world(), hard_rays(w.world(), 400, 0.8, 20), 200);

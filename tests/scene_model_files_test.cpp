@@ -8,6 +8,7 @@
 #include "scene/load.h"
 #include "scene/world.h"
 #include "scene_files_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
@@ -131,7 +132,7 @@ const std::map<std::string_view, std::uint32_t> known_triangles{
 
 std::vector<std::string> model_paths() {
   std::vector<std::string> paths;
-  const std::filesystem::path root = GNOMON_SHARED_DATA;
+  const std::filesystem::path root = gnomon::test::shared_data();
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension().string();
     for (const std::string_view known : {".gltf", ".glb", ".obj", ".ply", ".off"})
@@ -158,7 +159,7 @@ void check_loaded(const std::string& path, const Scene& scene) {
 }
 
 void check_outcome(const std::string& path, const Outcome& outcome) {
-  const std::string file = std::string(GNOMON_SHARED_DATA) + "/" + path;
+  const std::string file = gnomon::test::shared_data() + "/" + path;
   const auto scene = load_scene(file);
   if (scene) {
     EXPECT_TRUE(outcome.loads) << path << " loaded";
@@ -171,7 +172,7 @@ void check_outcome(const std::string& path, const Outcome& outcome) {
     return check_loaded(path, *scene);
   }
   const std::string message = scene.error().message();
-  fmt::print("{}\n", message.substr(std::string(GNOMON_SHARED_DATA).size() + 1));
+  fmt::print("{}\n", message.substr(gnomon::test::shared_data().size() + 1));
   EXPECT_FALSE(outcome.loads) << message;
   EXPECT_EQ(scene.error().kind, ErrorKind::bad_input) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -180,8 +181,8 @@ void check_outcome(const std::string& path, const Outcome& outcome) {
 }
 
 TEST(ModelFiles, EveryOneLoadsOrSaysWhyNot) {
-  if (!std::filesystem::is_directory(GNOMON_SHARED_DATA))
-    GTEST_SKIP() << "the models are not here: " << GNOMON_SHARED_DATA;
+  if (!std::filesystem::is_directory(gnomon::test::shared_data()))
+    GTEST_SKIP() << "the models are not here: " << gnomon::test::shared_data();
   std::size_t broken = 0;
   for (const std::string& path : model_paths()) {
     const auto found = expected_outcomes.find(path);
@@ -194,8 +195,9 @@ TEST(ModelFiles, EveryOneLoadsOrSaysWhyNot) {
 }
 
 TEST(ModelFiles, TheDigestIsTheFiles) {
-  const std::string path = std::string(GNOMON_SHARED_DATA) + "/cornell_obj/cornell_box.obj";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the models are not here: " << GNOMON_SHARED_DATA;
+  const std::string path = gnomon::test::shared_data() + "/cornell_obj/cornell_box.obj";
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "the models are not here: " << gnomon::test::shared_data();
   const auto scene = load_scene(path);
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->sha256, sha256_hex(slurp(path)));

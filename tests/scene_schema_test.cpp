@@ -5,12 +5,13 @@
 
 #include "scene/files/formats.h"
 #include "scene_files_support.h"
+#include "tests/support/places.h"
 
 namespace gnomon {
 namespace {
 
 nlohmann::json schema() {
-  return nlohmann::json::parse(slurp(GNOMON_SOURCE_DIR "/scene/files/scene.schema.json"));
+  return nlohmann::json::parse(slurp(gnomon::test::source_dir() + "/scene/files/scene.schema.json"));
 }
 
 std::vector<std::string> schema_keys(const nlohmann::json& object) {

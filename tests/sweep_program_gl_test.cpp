@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "json_schema_check.h"
+#include "tests/support/places.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ using Words = std::vector<std::string>;
 
 /// Starts the program; stdout and stderr go to `log`.
 pid_t start(const Words& words, const std::string& log) {
-  Words all{GNOMON_PROGRAM};
+  Words all{gnomon::test::program()};
   all.insert(all.end(), words.begin(), words.end());
   const pid_t child = fork();
   if (child != 0) return child;
@@ -78,7 +79,7 @@ class SweepProgram : public ::testing::Test {
 
 TEST_F(SweepProgram, WritesResultsWithAxes) {
   ASSERT_EQ(run(words("whole")), 0) << said();
-  std::ifstream schema_file(std::string(GNOMON_SOURCE_DIR) + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> results;
@@ -187,7 +188,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
     return run(all);
   };
   ASSERT_EQ(sweep("whole", {}), 0) << said();
-  std::ifstream schema_file(std::string(GNOMON_SOURCE_DIR) + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> cells;
@@ -254,7 +255,7 @@ class PrivateSlurm {
 
  private:
   std::string command(const std::string& action) const {
-    return "sh " GNOMON_SOURCE_DIR "/tests/support/private_slurm.sh " + action + " " + folder_;
+    return "sh " + gnomon::test::source_dir() + "/tests/support/private_slurm.sh " + action + " " + folder_;
   }
   std::string folder_;
 };

@@ -5,5 +5,4 @@ gnomon_test(sweep_engine_gl_test TIMEOUT 900
   LIBS gnomon::app gnomon::compare)
 target_include_directories(sweep_engine_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp LIBS nlohmann_json::nlohmann_json)
-target_compile_definitions(sweep_program_gl_test PRIVATE GNOMON_PROGRAM="$<TARGET_FILE:gnomon_program>")
 add_dependencies(sweep_program_gl_test gnomon_program)

@@ -5,5 +5,4 @@ gnomon_test(view_test SOURCES view_pose_test.cpp view_state_test.cpp view_input_
 
 gnomon_test(view_window_gl_test SOURCES view_window_gl_test.cpp view_display.cpp app_process.cpp
   LIBS gnomon::compare gnomon::scene)
-target_compile_definitions(view_window_gl_test PRIVATE GNOMON_PROGRAM="$<TARGET_FILE:gnomon_program>")
 add_dependencies(view_window_gl_test gnomon_program)

@@ -3,6 +3,7 @@
 #include "raytrace_support.h"
 #include "scene/generate/noise.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 
 namespace gnomon::bench {
 namespace {
@@ -13,7 +14,7 @@ void round_to_float(Scene& scene) {
 
 std::optional<Mesh> bunny() {
   std::optional<Mesh> mesh =
-      test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/stanford-bunny.obj");
+      test::read_obj(gnomon::test::shared_data() + "/common_organic/stanford-bunny.obj");
   if (mesh) *mesh = test::normalised(std::move(*mesh));
   return mesh;
 }
@@ -22,7 +23,7 @@ Mesh teapot();
 
 // Six thousand triangles where the model is there; else the built-in one, finer.
 Mesh coarse_teapot() {
-  std::optional<Mesh> mesh = test::read_obj(std::string(GNOMON_SHARED_DATA) + "/common_organic/teapot.obj");
+  std::optional<Mesh> mesh = test::read_obj(gnomon::test::shared_data() + "/common_organic/teapot.obj");
   return mesh ? test::normalised(std::move(*mesh)) : teapot();
 }
 

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace gnomon::test {
 
 inline std::filesystem::path data_folder() {
-  return GNOMON_SHARED_DATA;
+  return gnomon::test::shared_data();
 }
 
 inline bool data_is_absent() {

@@ -1,0 +1,21 @@
+#include "tests/support/places.h"
+
+namespace gnomon::test {
+
+std::string source_dir() {
+  return GNOMON_SOURCE_DIR;
+}
+
+std::string shared_data() {
+  return source_dir() + "/../shared/data";
+}
+
+std::string program() {
+  return GNOMON_PROGRAM;
+}
+
+std::string image_module() {
+  return GNOMON_IMAGE_MODULE;
+}
+
+}  // namespace gnomon::test

@@ -1,0 +1,17 @@
+// Where a test finds what it reads and runs. The paths are compiled into places.cpp alone, so that every
+// other object file is the same in each checkout and a compiler cache can share it.
+#pragma once
+
+#include <string>
+
+namespace gnomon::test {
+
+/// The root of the sources.
+std::string source_dir();
+/// The real models that tests may use (tests/support/model_files.h); the folder may be absent.
+std::string shared_data();
+/// The built program, and the module with which it reads images.
+std::string program();
+std::string image_module();
+
+}  // namespace gnomon::test
