@@ -1,6 +1,5 @@
 // The whole chain on real models: everything loads, compares and adds up; the bunny's acne is called acne;
 // the truth agrees with Embree; nothing depends on the number of threads.
-#include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "scene/load.h"
 #include "support/compare_support.h"
 #include "support/model_files.h"
+#include "tests/support/embree.h"
 
 namespace gnomon::test {
 namespace {
@@ -95,7 +95,7 @@ class EmbreeTruth {
  public:
   explicit EmbreeTruth(const World& world)
       : world_(world), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | test::filter_by_query);
     RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.positions.size()));
@@ -118,16 +118,16 @@ class EmbreeTruth {
   EmbreeTruth& operator=(const EmbreeTruth&) = delete;
 
   bool shadowed(const Vec3& from, const Vec3& direction, double distance, std::uint32_t own) const {
-    struct Context {
-      RTCIntersectContext base;
+    struct Query {
+      test::EmbreeQuery base;
       std::uint32_t own;
-    } context;
-    rtcInitIntersectContext(&context.base);
-    context.own = own;
-    context.base.filter = [](const RTCFilterFunctionNArguments* a) {
-      if (RTCHitN_primID(a->hit, a->N, 0) == reinterpret_cast<const Context*>(a->context)->own)
-        a->valid[0] = 0;
     };
+    Query query{test::EmbreeQuery(false,
+                                  [](const RTCFilterFunctionNArguments* a) {
+                                    const auto* asked = reinterpret_cast<const Query*>(a->context);
+                                    if (RTCHitN_primID(a->hit, a->N, 0) == asked->own) a->valid[0] = 0;
+                                  }),
+                own};
     const double scale = world_.finite_bounds.diagonal();
     RTCRay ray{};
     ray.org_x = float(from.x), ray.org_y = float(from.y), ray.org_z = float(from.z);
@@ -136,7 +136,7 @@ class EmbreeTruth {
     ray.tfar = std::isfinite(distance) ? static_cast<float>(distance * (1.0 - 1e-6))
                                        : std::numeric_limits<float>::infinity();
     ray.mask = ~0u;
-    rtcOccluded1(scene_, &context.base, &ray);
+    test::embree_occluded(scene_, query.base, ray);
     return ray.tfar < 0.0f;
   }
 

@@ -1,6 +1,5 @@
 // Real models: hits and shadows against Embree (float, robust mode), and texel lists and sheets of the bunny.
 // Vertices and rays are rounded to float first, so that both tracers are asked the same question.
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/sheets.h"
 #include "raytrace_support.h"
+#include "tests/support/embree.h"
 #include "tests/support/places.h"
 
 namespace gnomon {
@@ -52,16 +52,14 @@ class EmbreeScene {
     RTCRayHit query{};
     query.ray = start(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_, &context, &query);
+    test::EmbreeQuery plain;
+    test::embree_intersect(scene_, plain, query);
     return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? infinity : static_cast<double>(query.ray.tfar);
   }
   bool occluded(const Ray& ray) const {
     RTCRay query = start(ray);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_, &context, &query);
+    test::EmbreeQuery plain;
+    test::embree_occluded(scene_, plain, query);
     return query.tfar < 0.0f;
   }
 

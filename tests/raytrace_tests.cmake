@@ -32,7 +32,6 @@ gnomon_test(raytrace_two_level_test
   LIBS raytrace_support TBB::tbb)
 
 # Real models, against Embree: a comparator, never behind the user's own result.
-find_package(embree 3 REQUIRED)
 gnomon_test(raytrace_models_test
   SOURCES raytrace_models_test.cpp
   LIBS raytrace_support embree TBB::tbb)

@@ -60,13 +60,6 @@ void load_one(const PeerRays& r, std::size_t at, RTCRay& p) {
   p.tfar = r.far[at], p.mask = 0xffffffffu;
 }
 
-RTCIntersectContext coherent() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
-
 template <class Tile>
 void for_each_tile(std::size_t tiles, const Tile& tile) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles, 1), [&](const auto& r) {
@@ -150,12 +143,12 @@ Embree::~Embree() {
 void Embree::closest_single(const PeerRays& rays, PeerHits& hits) const {
   prepare(rays, hits);
   for_each_tile(rays.tiles, [&](std::size_t first) {
-    RTCIntersectContext context = coherent();
+    test::EmbreeQuery coherent(true);
     for (std::size_t at = first; at < first + tile_rays; ++at) {
       RTCRayHit query;
       load_one(rays, at, query.ray);
       query.hit.primID = query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      if (rays.valid[at] != 0) rtcIntersect1(scene_, &context, &query);
+      if (rays.valid[at] != 0) test::embree_intersect(scene_, coherent, query);
       hits.t[at] = query.ray.tfar, hits.u[at] = query.hit.u, hits.v[at] = query.hit.v;
       hits.primitive[at] = query.hit.primID;
     }
@@ -165,7 +158,7 @@ void Embree::closest_single(const PeerRays& rays, PeerHits& hits) const {
 void Embree::closest_packets(const PeerRays& rays, PeerHits& hits) const {
   prepare(rays, hits);
   for_each_tile(rays.tiles, [&](std::size_t first) {
-    RTCIntersectContext context = coherent();
+    test::EmbreeQuery coherent(true);
     RTCRayHit16 query;
     for (std::size_t at = first; at < first + tile_rays; at += 16) {
       load(rays, at, query.ray);
@@ -173,7 +166,7 @@ void Embree::closest_packets(const PeerRays& rays, PeerHits& hits) const {
         query.hit.primID[i] = query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       alignas(64) int valid[16];
       std::memcpy(valid, &rays.valid[at], sizeof valid);
-      rtcIntersect16(valid, scene_, &context, &query);
+      test::embree_intersect(valid, scene_, coherent, query);
       std::memcpy(&hits.t[at], query.ray.tfar, sizeof valid),
           std::memcpy(&hits.u[at], query.hit.u, sizeof valid);
       std::memcpy(&hits.v[at], query.hit.v, sizeof valid);
@@ -185,13 +178,13 @@ void Embree::closest_packets(const PeerRays& rays, PeerHits& hits) const {
 void Embree::occluded_single(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const {
   occluded.resize(rays.tiles * tile_rays);
   for_each_tile(rays.tiles, [&](std::size_t first) {
-    RTCIntersectContext context = coherent();
+    test::EmbreeQuery coherent(true);
     for (std::size_t at = first; at < first + tile_rays; ++at) {
       occluded[at] = 0;
       if (rays.valid[at] == 0) continue;
       RTCRay query;
       load_one(rays, at, query);
-      rtcOccluded1(scene_, &context, &query);
+      test::embree_occluded(scene_, coherent, query);
       occluded[at] = query.tfar < 0.0f ? 1 : 0;
     }
   });
@@ -200,13 +193,13 @@ void Embree::occluded_single(const PeerRays& rays, std::vector<std::uint8_t>& oc
 void Embree::occluded_packets(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const {
   occluded.resize(rays.tiles * tile_rays);
   for_each_tile(rays.tiles, [&](std::size_t first) {
-    RTCIntersectContext context = coherent();
+    test::EmbreeQuery coherent(true);
     RTCRay16 query;
     for (std::size_t at = first; at < first + tile_rays; at += 16) {
       load(rays, at, query);
       alignas(64) int valid[16];
       std::memcpy(valid, &rays.valid[at], sizeof valid);
-      rtcOccluded16(valid, scene_, &context, &query);
+      test::embree_occluded(valid, scene_, coherent, query);
       for (std::size_t i = 0; i < 16; ++i)
         occluded[at + i] = rays.valid[at + i] != 0 && query.tfar[i] < 0.0f ? 1 : 0;
     }

@@ -1,9 +1,7 @@
-// Embree 3 as the peer: the same rays in the same order (16 x 16 tiles, packets of 4 x 4 pixels), one at a
+// Embree as the peer: the same rays in the same order (16 x 16 tiles, packets of 4 x 4 pixels), one at a
 // time or 16 coherent ones together, over all threads that oneTBB is allowed. Its rays are floats, made ready
 // beforehand: their making is not in its times.
 #pragma once
-
-#include <embree3/rtcore.h>
 
 #include <atomic>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "raytrace/frame.h"
+#include "tests/support/embree.h"
 
 namespace gnomon::bench {
 
