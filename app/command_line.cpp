@@ -23,6 +23,7 @@
 #include "app/shell.h"
 #include "app/suggest.h"
 #include "scene/load.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app {
 
@@ -41,7 +42,7 @@ std::vector<std::string_view> command_names(const CLI::App& program) {
 }
 
 int usage_error(const std::string& text) {
-  print_error("gnomon " + text);
+  print_error("gnomon " + one_line(text));
   return static_cast<int>(ErrorKind::usage);
 }
 

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "scene/one_line.h"
+
 namespace gnomon::app {
 
 void print_data(std::string_view text) {
@@ -30,6 +32,10 @@ Console::~Console() {
 }
 
 void Console::message(const std::string& text) {
+  lines(one_line(text));
+}
+
+void Console::lines(const std::string& text) {
   if (quiet_) return;
   clear_progress();
   print_error(text);

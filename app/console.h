@@ -24,7 +24,10 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
+  /// One line; control characters in it are escaped (scene/one_line.h).
   void message(const std::string& text);
+  /// Lines of the program's own, with no word from a file.
+  void lines(const std::string& text);
   /// What a loader made up or could not use.
   void note(const std::string& text) { message("note: " + text); }
   /// Redraws the progress line when its text would change; done is in [0, 1].

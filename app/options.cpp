@@ -154,7 +154,8 @@ void add_shader_dir(CLI::App& command, std::string& folder) {
                      "technique/pcf_box.glsl",
                      "a folder", "none"),
             [&folder](const std::string& text) -> Expected<void> {
-              if (!std::filesystem::is_directory(text))
+              std::error_code none;  // too long a name is no folder either
+              if (!std::filesystem::is_directory(text, none))
                 return fail(ErrorKind::usage, fmt::format("no such folder (got {})", text));
               folder = text;
               return {};

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/csv_field.h"
 #include "compare/filter_parameters.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -16,13 +17,6 @@ namespace gnomon::compare {
 namespace {
 
 using Row = std::vector<std::pair<std::string, std::string>>;  // column name, value
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string out = "\"";
-  for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 
 std::string number(double v) {
   return std::isfinite(v) ? fmt::format("{}", v) : std::string();
@@ -34,8 +28,8 @@ std::string median(const Times& t) {
 void add_setting(Row& row, const Comparison& c, const LightComparison& light) {
   const raster::MapOptions& map = c.raster.options.map;
   const raster::LightRecord& record = drawn_record(c, light);
-  row.emplace_back("scene", c.world->scene->name);
-  row.emplace_back("light", light_of(c, light).name);
+  row.emplace_back("scene", csv_name(c.world->scene->name));
+  row.emplace_back("light", csv_name(light_of(c, light).name));
   row.emplace_back("light_type", light_type_name(light_of(c, light).type));
   row.emplace_back("width_pixels", fmt::to_string(c.raster.options.size.width));
   row.emplace_back("height_pixels", fmt::to_string(c.raster.options.size.height));
@@ -105,7 +99,7 @@ std::string line(const Row& row, bool names) {
   std::string text;
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (i > 0) text += ',';
-    text += quoted(names ? row[i].first : row[i].second);
+    text += csv_field(names ? row[i].first : row[i].second);
   }
   return text + "\r\n";
 }

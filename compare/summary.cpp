@@ -10,6 +10,7 @@
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/text_layout.h"
+#include "scene/one_line.h"
 
 namespace gnomon::compare {
 namespace {
@@ -45,14 +46,6 @@ class Page {
   bool colour_;
   std::string text_;
 };
-
-// A name from a file, on one line and without control characters.
-std::string safe_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
-      ' ');
-  return name;
-}
 
 std::string spoken(std::string_view name) {
   std::string text(name);
@@ -179,7 +172,7 @@ void add_times(Page& page, const Comparison& c, const LightComparison& light) {
 
 void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.blank();
-  page.heading(fmt::format("light '{}' ({})", safe_name(light_of(c, light).name),
+  page.heading(fmt::format("light '{}' ({})", one_line(light_of(c, light).name),
                            light_type_name(light_of(c, light).type)));
   page.paragraph(verdict_sentence(c, light));
   page.blank();
@@ -204,7 +197,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
 std::string summary_table(const Comparison& c, bool colour) {
   Page page(colour);
   const ImageSize size = c.raster.options.size;
-  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", safe_name(c.world->scene->name), size.width,
+  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", one_line(c.world->scene->name), size.width,
                            size.height, counted(c.world->triangle_count(), "triangle"),
                            counted(c.world->shapes.size(), "shape")));
   for (const LightComparison& light : c.lights) add_light(page, c, light);

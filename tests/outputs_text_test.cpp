@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "compare/csv_field.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -56,6 +57,20 @@ struct Case {
   }
   std::string verdict() const { return verdict_sentence(made->comparison, light); }
 };
+
+TEST(Csv, NamesAreNoFormulas) {
+  EXPECT_EQ(csv_name("=HYPERLINK(A1)"), "'=HYPERLINK(A1)");
+  EXPECT_EQ(csv_name("+cmd"), "'+cmd");
+  EXPECT_EQ(csv_name("-sun"), "'-sun");
+  EXPECT_EQ(csv_name("@sum"), "'@sum");
+  EXPECT_EQ(csv_name("\tsun"), "'\tsun");
+  EXPECT_EQ(csv_name("sun = 1"), "sun = 1");
+  EXPECT_EQ(csv_name("-1.5,2e-3,+4"), "-1.5,2e-3,+4");  // a camera's place
+  EXPECT_EQ(csv_name(""), "");
+  const auto made = make_synthetic();
+  const_cast<Scene*>(made->comparison.world->scene)->lights[0].name = "=1+1,\"x\"";
+  EXPECT_NE(result_csv(made->comparison).find(",\"'=1+1,\"\"x\"\"\","), std::string::npos);
+}
 
 TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});

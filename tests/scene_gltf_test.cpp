@@ -222,6 +222,28 @@ TEST_F(Gltf, TexturesComeThroughOpenImageIO) {
   EXPECT_EQ(error(b.text()).substr(0, 34), "images[0]: the PNG file is cut off");
 }
 
+// As for OBJ: said, and the plain factors take its place.
+TEST_F(Gltf, MissingImageFilesAreNoted) {
+  Builder b = simple();
+  b.json["images"] = Json::array({{{"uri", "nowhere.png"}}});
+  b.json["textures"] = Json::array({{{"source", 0}}});
+  b.json["materials"] = Json::array({{{"name", "wall"},
+                                      {"pbrMetallicRoughness",
+                                       {{"baseColorFactor", {0.5, 0.25, 0.125, 1}},
+                                        {"metallicFactor", 0.0},
+                                        {"baseColorTexture", {{"index", 0}}},
+                                        {"metallicRoughnessTexture", {{"index", 0}}}}}}});
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Scene s = loaded(b);
+  EXPECT_TRUE(
+      has_note(s, "Material 'wall': the texture nowhere.png is not there; its plain colour is used."));
+  EXPECT_EQ(std::count_if(s.notes.begin(), s.notes.end(),
+                          [](const std::string& n) { return n.find("nowhere.png") != n.npos; }),
+            1);
+  EXPECT_TRUE(s.textures.empty());
+  EXPECT_EQ(s.materials[0].diffuse, Vec3f(0.5f, 0.25f, 0.125f));
+}
+
 TEST_F(Gltf, Extensions) {
   Builder b = simple();
   b.json["extensionsUsed"] = {"ACME_sparkle"};

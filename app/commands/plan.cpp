@@ -12,6 +12,7 @@
 #include "app/session.h"
 #include "raytrace/forecast.h"
 #include "scene/files/write_file.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app {
 
@@ -104,8 +105,8 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
   std::string text = plan_row("effect", "", "rays", "why");
   for (const EffectEntry& entry : plan.entries) {
     const std::uint64_t rays = rays_of(entry.effect, forecast.rays);
-    text +=
-        plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-", entry.reason);
+    text += plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-",
+                     one_line(entry.reason));
   }
   text += plan_row("all", "", short_count(total_rays(forecast.rays)),
                    fmt::format("with {} from the eye; gnomon raytrace at {}x{}, {}",

@@ -103,11 +103,13 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (command.shard.of != 1)
     return fail(ErrorKind::usage, "--slurm: it makes the shards itself; leave out --shard");
   if (const auto plan = plan_of(command); !plan) return fail(plan.error());
-  if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
   std::error_code error;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).string();
   if (error) return fail(ErrorKind::graphics, "--slurm: cannot find the program itself: " + error.message());
   const std::string folder = std::filesystem::absolute(command.folder).lexically_normal().string();
+  if (holds_line_break(program + folder + task_arguments(command)))
+    return fail(ErrorKind::usage, "--slurm: a path or name holds a line break, which a batch script cannot");
+  if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
   const std::string script = folder + "/slurm.sh";
   const int tasks = *command.slurm_tasks;
   if (const auto written = write_file(script, slurm_script(program, task_arguments(command), folder, tasks));

@@ -15,9 +15,19 @@ namespace gnomon::app {
 std::string slurm_script(const std::string& program, const std::string& arguments, const std::string& folder,
                          int tasks) {
   return fmt::format(
-      "#!/bin/sh\n#SBATCH --job-name=gnomon-sweep\n#SBATCH --output={}/slurm-%a.log\n"
+      "#!/bin/sh\n#SBATCH --job-name=gnomon-sweep\n"
       "exec {} sweep{} --quiet --shard \"$SLURM_ARRAY_TASK_ID/{}\" -o {}/shard-\"$SLURM_ARRAY_TASK_ID\"\n",
-      folder, shell_quoted(program), arguments, tasks, shell_quoted(folder));
+      shell_quoted(program), arguments, tasks, shell_quoted(folder));
+}
+
+bool holds_line_break(std::string_view words) {
+  return words.find_first_of("\n\r") != std::string_view::npos;
+}
+
+std::string log_pattern(const std::string& folder) {
+  std::string pattern;
+  for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern + "/slurm-%a.log";
 }
 
 std::vector<std::string> shard_folders(const std::string& folder, int tasks) {
@@ -27,7 +37,11 @@ std::vector<std::string> shard_folders(const std::string& folder, int tasks) {
 }
 
 Expected<void> run_slurm_array(const std::string& script_path, const std::string& folder, int tasks) {
-  std::vector<std::string> words{"sbatch", "--wait", "--parsable", fmt::format("--array=1-{}", tasks),
+  std::vector<std::string> words{"sbatch",
+                                 "--wait",
+                                 "--parsable",
+                                 fmt::format("--array=1-{}", tasks),
+                                 "--output=" + log_pattern(folder),
                                  script_path};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

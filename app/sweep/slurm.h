@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/expected.h"
@@ -12,6 +13,10 @@ namespace gnomon::app {
 /// without the folder. Paths are absolute.
 std::string slurm_script(const std::string& program, const std::string& arguments, const std::string& folder,
                          int tasks);
+/// A line break in the script's words would begin a line of the script.
+bool holds_line_break(std::string_view words);
+/// sbatch's --output: the log of each task, DIR/slurm-K.log.
+std::string log_pattern(const std::string& folder);
 /// DIR/shard-1 … DIR/shard-N.
 std::vector<std::string> shard_folders(const std::string& folder, int tasks);
 

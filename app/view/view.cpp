@@ -66,7 +66,7 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   if (!script) return fail(script.error());
   const auto viewer = Viewer::open(options, *loaded, std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());
-  if (options.script.empty()) console.message(key_help());
+  if (options.script.empty()) console.lines(key_help());
   if (const auto ran = (*viewer)->run(); !ran) return fail(ran.error());
   return ExitCode::done;
 }

@@ -5,21 +5,16 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "compare/csv_field.h"
+
 namespace gnomon::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string out = "\"";
-  for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 std::string scalar_text(const Json& value) {
   if (value.is_null()) return {};
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? csv_name(value.get<std::string>()) : value.dump();
 }
 
 std::string joined(const Json& names) {
@@ -59,7 +54,7 @@ std::string SweepTable::row_text(const Row& row) const {
     if (i > 0) text += ',';
     const auto found =
         std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == columns_[i]; });
-    if (found != row.end()) text += quoted(found->second);
+    if (found != row.end()) text += csv_field(found->second);
   }
   return text + "\r\n";
 }
@@ -83,7 +78,7 @@ std::string SweepTable::add(std::size_t cell, std::string_view line) {
     Row row{{"cell", std::to_string(cell)}};
     add_flat(row, "axes", json.value("axes", Json::object()));
     if (json.contains("no_effect")) row.emplace_back("no_effect", joined(json.at("no_effect")));
-    row.emplace_back("light", light.at("light").at("name").get<std::string>());
+    row.emplace_back("light", csv_name(light.at("light").at("name").get<std::string>()));
     row.emplace_back("light_type", light.at("light").at("type").get<std::string>());
     add_flat(row, "size", json.at("size"));
     for (const auto& [key, member] : light.items()) {
@@ -106,7 +101,7 @@ std::string SweepTable::text() const {
   std::string text;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) text += ',';
-    text += quoted(columns_[i]);
+    text += csv_field(columns_[i]);
   }
   if (!columns_.empty()) text += "\r\n";
   for (const Row& row : rows_) text += row_text(row);

@@ -204,6 +204,7 @@ class MaterialReader {
     Vec2 out(pbr.metallicFactor, pbr.roughnessFactor);
     const int index = pbr.metallicRoughnessTexture.index;
     if (index < 0) return out;
+    if (is_missing(index, from.name)) return out;
     const auto texture = decode(index, false);
     if (!texture) return fail(texture.error());
     const Vec3f mean = statistics(*texture).mean;
@@ -226,6 +227,7 @@ class MaterialReader {
           "Material '{}': texture coordinates {} are not used (allowed 0 and 1).", m.name, sets_.back()));
       return {};
     }
+    if (is_missing(info.index, m.name)) return {};
     if (const auto known = textures_.find(info.index); known != textures_.end()) {
       m.diffuse_texture = known->second;
     } else {
@@ -238,6 +240,19 @@ class MaterialReader {
     }
     result = statistics(scene_.textures[m.diffuse_texture]);
     return {};
+  }
+
+  // The texture's file is not there: said, and the material's plain factors are used.
+  bool is_missing(int texture_index, const std::string& material) {
+    const int source = model_.textures[static_cast<std::size_t>(texture_index)].source;
+    if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size()) return false;
+    const tinygltf::Image& image = model_.images[static_cast<std::size_t>(source)];
+    if (!image.image.empty() || image.uri.empty() || image.uri.starts_with("data:")) return false;
+    std::string note = fmt::format("Material '{}': the texture {} is not there; its plain colour is used.",
+                                   material, image.uri);
+    if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end())
+      scene_.notes.push_back(std::move(note));
+    return true;
   }
 
   void apply_sampler(int texture_index, Texture& texture, const std::string& material) {
