@@ -134,6 +134,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_raytrace(*program, invocation);
   add_plan(*program, invocation);
   add_scenes(*program, invocation);
+  add_shaders(*program, invocation);
   add_sweep(*program, invocation);
   add_merge(*program, invocation);
   add_tune(*program, invocation);

@@ -77,6 +77,9 @@ std::string render_json(const RenderRecord& record, const raster::RasterFrame& f
   json["gl"] = {{"backend", frame.context.backend},
                 {"version", frame.context.version},
                 {"renderer", frame.context.renderer}};
+  json["shaders"] = Json::array();
+  for (const raster::ReplacedShader& shader : frame.replaced_shaders)
+    json["shaders"].push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
   json["map"] = {{"technique", compare::technique_name(map.technique)},
                  {"size", map.size},
                  {"depth_format", compare::depth_format_name(map.depth_format)},

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 
 #include "app/lesson_scene.h"
 #include "app/suggest.h"
+#include "compare/option_names.h"
 #include "hybrid/visibility.h"
+#include "raster/shader_folder.h"
 #include "scene/load.h"
 #include "scene/tessellate.h"
 #include "scene/timing.h"
@@ -57,6 +60,32 @@ Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster
   auto renderer = raster::Renderer::create(std::move(context), *loaded.world, loaded.plan, shader_folder);
   if (renderer) (*renderer)->use_external_visibility(hybrid::make_visibility(*loaded.world));
   return renderer;
+}
+
+Expected<void> check_shaders_used(const std::string& shader_folder, const raster::RasterFrame& frame,
+                                  const Scene& scene, Console& console) {
+  if (shader_folder.empty()) return {};
+  const auto folder = raster::ShaderFolder::read(shader_folder);
+  if (!folder) return fail(folder.error());
+  const std::vector<raster::ReplacedShader> replaced = folder->replaced();
+  if (replaced.empty())
+    console.note(fmt::format("{}: every shader in it is the program's own", shader_folder));
+  const std::vector<raster::ReplacedShader>& used = frame.replaced_shaders;
+  const raster::MapOptions& map = frame.options.map;
+  const std::string file =
+      frame.lights.empty() ? "" : raster::technique_file(map, scene.lights[frame.lights.front().light]);
+  for (const raster::ReplacedShader& shader : replaced) {
+    if (std::find(used.begin(), used.end(), shader) != used.end()) continue;
+    const std::string words = fmt::format("replaces nothing here: --technique {} reads {}",
+                                          compare::technique_name(map.technique), file);
+    if (used.empty()) {
+      Error error{ErrorKind::bad_input, words};
+      error.file = folder->path_of(shader.name);
+      return fail(std::move(error));
+    }
+    console.note(folder->path_of(shader.name) + " " + words);
+  }
+  return {};
 }
 
 struct ThreadLimit::Impl {

@@ -36,6 +36,11 @@ Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster
                                                           const LoadedScene& loaded,
                                                           const std::string& shader_folder = {});
 
+/// Files of --shader-dir that did not draw the frame are noted; an error (bad input) where none did, with the
+/// file that would have.
+Expected<void> check_shaders_used(const std::string& shader_folder, const raster::RasterFrame& frame,
+                                  const Scene& scene, Console& console);
+
 /// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,
 /// those of Mesa's software rasterizer from here on. 0: all cores.
 class ThreadLimit {

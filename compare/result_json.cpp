@@ -303,6 +303,14 @@ Json scene_json(const World& world) {
           {"notes", scene.notes}};
 }
 
+// The user's files that were compiled in place of the program's own.
+Json shaders_json(const std::vector<raster::ReplacedShader>& replaced) {
+  Json json = Json::array();
+  for (const raster::ReplacedShader& shader : replaced)
+    json.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
+  return json;
+}
+
 Json costs_json(const Comparison& c) {
   const raytrace::RayCounts& rays = c.raytraced.rays;
   return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
@@ -328,6 +336,7 @@ Json result_object(const Comparison& c, double report_ms, double total_ms) {
            {{"backend", c.raster.context.backend},
             {"version", c.raster.context.version},
             {"renderer", c.raster.context.renderer}}},
+          {"shaders", shaders_json(c.raster.replaced_shaders)},
           {"effects", effects_json(c.plan)},
           {"precision", raytrace::precision_name(c.precision)},
           {"costs", costs_json(c)},

@@ -76,8 +76,16 @@ struct LightRecord {
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
 };
 
+/// A file of the user's that was compiled in place of the program's own (--shader-dir).
+struct ReplacedShader {
+  std::string name;    ///< "technique/hard.glsl"
+  std::string sha256;  ///< of the user's file
+  bool operator==(const ReplacedShader&) const = default;
+};
+
 struct RasterFrame {
   ContextInfo context;
+  std::vector<ReplacedShader> replaced_shaders;  ///< those that drew this frame
   RasterOptions options;
   ColorImage color;                 ///< linear radiance, all lights
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "raster/shader_folder.h"
+
 namespace gnomon::raster {
 namespace {
 
@@ -33,6 +35,8 @@ std::string_view error_name(GLenum error) {
 }
 
 }  // namespace
+
+Gl::Gl() : shader_folder_(std::make_unique<ShaderFolder>()) {}
 
 void GLAD_API_PTR Gl::on_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                                  const void* self) {

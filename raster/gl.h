@@ -13,6 +13,8 @@
 
 namespace gnomon::raster {
 
+class ShaderFolder;
+
 class Gl {
  public:
   /// Loads the functions of the current context and turns its debug messages on.
@@ -24,9 +26,8 @@ class Gl {
   ~Gl();
 
   const GladGLContext* operator->() const { return &api_; }
-  /// A folder whose files take the place of those of the same name in shaders/; empty: none.
-  const std::string& shader_folder() const { return shader_folder_; }
-  void set_shader_folder(std::string folder) { shader_folder_ = std::move(folder); }
+  /// The files that take the place of those of the same name in shaders/, and which of them are in use.
+  ShaderFolder& shader_folder() const { return *shader_folder_; }
 
   GLint integer(GLenum name) const;
   std::string text(GLenum name) const;
@@ -34,12 +35,12 @@ class Gl {
   Expected<void> check(std::string_view what);
 
  private:
-  Gl() = default;
+  Gl();
   static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                                       const GLchar* message, const void* self);
   GladGLContext api_{};
   std::vector<std::string> messages_;
-  std::string shader_folder_;
+  std::unique_ptr<ShaderFolder> shader_folder_;
 };
 
 /// Side of the largest square depth map: the least of texture and viewport limits.

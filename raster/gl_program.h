@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "raster/gl_objects.h"
 
@@ -22,10 +23,14 @@ class Program : public GlObject<GlKind::program> {
                                 std::span<const std::string_view> defines);
   /// A compute program from source text that may include files of shaders/ (tests use it).
   static Expected<Program> link_compute(const Gl& gl, std::string_view source);
+  /// The shader folder's files among its sources count as used from here on (ShaderFolder::used).
   void use() const;
 
  protected:
   using GlObject::GlObject;
+
+ private:
+  std::vector<std::string> replaced_;  ///< sources from the shader folder
 };
 
 /// The text of a stage as the compiler gets it.

@@ -14,6 +14,7 @@
 #include "raster/light_block.h"
 #include "raster/map_shape.h"
 #include "raster/options_check.h"
+#include "raster/shader_folder.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"
 #include "shaders/shared_constants.h"
@@ -122,8 +123,10 @@ std::uint64_t texels_of(const LightView& view) {
   return static_cast<std::uint64_t>(view.face_count) * side * side;
 }
 
-// The permutations of the default options; others are linked when they are first asked for.
+// The permutations of the default options; others are linked when they are first asked for, as all are where
+// files of the user's could be at fault that the frame does not need.
 Expected<void> GlRenderer::compile() {
+  if (!gl_->shader_folder().replaced().empty()) return {};
   for (const bool ids : {false, true}) {
     if (auto program = programs_.triangles(ids, false); !program) return fail(program.error());
     if (!programs_.features().alpha_mask) continue;
@@ -161,6 +164,7 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
       return fail(ErrorKind::usage,
                   fmt::format("no such light (got {}, the scene has {})", light, scene.lights.size()));
   }
+  gl_->shader_folder().begin_frame();
   Job job{options, make_view(scene.camera, options.size)};
   job.options.map = effective_options(options.map);
   job.frame.context = info_;
@@ -182,6 +186,7 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   shading_.read_color(job.frame.color);
   shading_.read_primitives(job.frame.primitive);
   if (auto ok = gl_->check("reading the picture back"); !ok) return fail(ok.error());
+  job.frame.replaced_shaders = gl_->shader_folder().used();
   return std::move(job.frame);
 }
 
@@ -221,6 +226,8 @@ bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& 
 }
 
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
+  // A frame whose map was kept would not tell which of the user's shaders drew it.
+  if (!gl_->shader_folder().replaced().empty()) return;
   if (auto key = map_key(job.options, world_->scene->lights.size()))
     kept_map_ = KeptMap{*key, light, record.map, record.map_pass};
 }
@@ -373,6 +380,10 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   const ShadePermutation kept = shade_permutation(light, map, job.first_light, records);
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
   if (records) shading_.read_records(*record);
+  if (records && !gl_->shader_folder().replaced().empty()) {
+    const std::string file = technique_file(map, light);
+    if (auto ok = check_visibility(record->visibility, gl_->shader_folder(), file); !ok) return ok;
+  }
   if (asked != nullptr && record != nullptr) {
     record->external = external_.costs(request, records);
     job.frame.map_bytes = std::max(job.frame.map_bytes, record->external->bytes);
@@ -412,7 +423,9 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> co
   if (!context->make_current()) return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
   auto gl = Gl::load(*context);
   if (!gl) return fail(gl.error());
-  (*gl)->set_shader_folder(shader_folder);
+  auto folder = ShaderFolder::read(shader_folder);
+  if (!folder) return fail(folder.error());
+  (*gl)->shader_folder() = std::move(*folder);
   const SceneFeatures features = scene_features(plan, world);
   auto buffers = WorldBuffers::upload(**gl, world, features);
   if (!buffers) return fail(buffers.error());

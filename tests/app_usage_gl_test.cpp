@@ -56,39 +56,6 @@ TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
   expect_one_line(run_gnomon({"plan", "fence", "--map-size", "1"}), 2, "unknown option --map-size");
 }
 
-// A class that edits the shaders: what it leaves alone is the program's own, and a mistake is one line.
-TEST(ShaderFolder, ReplacesFilesAndNamesMistakes) {
-  const TemporaryFolder folder;
-  const std::filesystem::path shaders = std::filesystem::path(folder.path()) / "shaders";
-  std::filesystem::create_directories(shaders / "technique");
-  const auto draw = [&](const std::string& image, const Words& more) {
-    return run_gnomon(
-        Words{"raster", "acne-floor", "--size", "64x36", "--map-size", "64", "-o", image, "-q"} + more,
-        {.folder = folder.path()});
-  };
-  const auto write = [&](const std::string& body) {
-    std::ofstream(shaders / "technique/hard.glsl")
-        << "float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {\n"
-        << body << "\n}\n";
-  };
-  const auto bytes = [&](const std::string& image) {
-    std::ifstream file(std::filesystem::path(folder.path()) / image, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}};
-  };
-  EXPECT_EQ(draw("own.png", {}).exit_code, 0);
-  EXPECT_EQ(draw("empty.png", {"--shader-dir", "shaders"}).exit_code, 0);
-  EXPECT_EQ(bytes("own.png"), bytes("empty.png"));
-  write("  return 0.0;");
-  EXPECT_EQ(draw("dark.png", {"--shader-dir", "shaders"}).exit_code, 0);
-  EXPECT_NE(bytes("own.png"), bytes("dark.png"));
-  write("  return 0.0");
-  expect_one_line(draw("bad.png", {"--shader-dir", "shaders"}), 3, "shaders/technique/hard.glsl:3: ");
-  write("  return nonsense(1.0);");
-  expect_one_line(draw("bad.png", {"--shader-dir", "shaders"}), 3, "shaders/technique/hard.glsl:2: ");
-  expect_one_line(draw("bad.png", {"--shader-dir", "nowhere"}), 2, "no such folder (got nowhere)");
-  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(folder.path()) / "bad.png"));
-}
-
 TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
   const TemporaryFolder folder;
   const ProcessResult result = run_gnomon(Words{"compare", "acne-floor", "--light", "snu", "--quiet"} + small,

@@ -72,6 +72,8 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
       compare::compare_world(*loaded.world, **renderer, command.setting.options,
                              [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!comparison) return comparison;
+  const auto used = check_shaders_used(command.shader_folder, comparison->raster, *loaded.scene, console);
+  if (!used) return fail(used.error());
   comparison->command = command.command_line;
   comparison->seed = command.seed;
   comparison->machine = machine_info();

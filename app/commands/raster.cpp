@@ -41,9 +41,11 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);
   command.options.runs = command.json.empty() ? 0 : 1;
-  command.options.analysis = command.wants_records();
+  command.options.analysis = command.wants_records() || !command.shader_folder.empty();
   const auto frame = (*renderer)->render(command.options, *lights);
   if (!frame) return fail(frame.error());
+  const auto used = check_shaders_used(command.shader_folder, *frame, *loaded->scene, console);
+  if (!used) return fail(used.error());
   const PictureWriter writer{
       .picture =
           [&](double exposure) { return write_picture(command.image, *loaded->world, *frame, exposure); },

@@ -20,6 +20,7 @@
 #include "compare/sweep/merge.h"
 #include "compare/sweep/page.h"
 #include "compare/sweep/ray_points.h"
+#include "raster/shader_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
@@ -83,7 +84,7 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
 
 Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
                     compare::Journal& journal, Console& console) {
-  const auto renderer = make_renderer(command.backend, loaded);
+  const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
   Workshop shop{command, plan, loaded, {}, machine_info(), engine, {command.folder, engine}, console};
@@ -141,6 +142,9 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   auto plan = plan_of(command);
   if (!plan) return fail(plan.error());
   if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
+  const auto shaders = raster::ShaderFolder::read(command.shader_folder);
+  if (!shaders) return fail(shaders.error());
+  command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, console);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
@@ -225,6 +229,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
   add_report_max_mb(app, command.report_max_mb);
   add_backend(app, command.backend);
+  add_shader_dir(app, command.shader_folder);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs, "1");
   add_exposure(app, command.exposure);

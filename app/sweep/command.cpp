@@ -24,6 +24,9 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
   for (const compare::Axis& axis : plan.grid.axes())
     axes.push_back({{"name", axis.name}, {"values", axis.values}});
   for (const auto& [name, value] : command.options.fixed()) fixed[name] = value;
+  Json shaders = Json::array();
+  for (const raster::ReplacedShader& shader : command.replaced_shaders)
+    shaders.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
   Json exposure = nullptr;
   if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
   return Json{{"version", GNOMON_VERSION},
@@ -32,6 +35,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
               {"zip", command.zip},
               {"options", fixed},
               {"exposure", exposure},
+              {"shaders", shaders},
               {"perceptual", command.perceptual},
               {"runs", command.runs.value_or(1)},
               {"seed", command.seed}}
@@ -42,6 +46,7 @@ std::string compare_command(const SweepCommand& command, const Plan& plan, std::
   std::string text =
       "gnomon compare " + shell_quoted(command.scene) + command.options.cell_arguments(plan.grid, cell);
   text += exposure_argument(command);
+  if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   return text;
 }
@@ -53,6 +58,8 @@ std::string task_arguments(const SweepCommand& command) {
       fmt::format(" {}", shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene));
   text += command.options.arguments() + exposure_argument(command);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
+  if (!command.shader_folder.empty())
+    text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());
   if (command.runs) text += fmt::format(" --runs {}", *command.runs);
   if (command.threads != 0) text += fmt::format(" --threads {}", command.threads);
   if (command.backend != raster::Backend::automatic)

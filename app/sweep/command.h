@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/plan.h"
 #include "compare/outputs.h"
 #include "compare/sweep/journal.h"
+#include "raster/frame.h"
 
 namespace gnomon::app {
 
@@ -17,6 +19,8 @@ struct SweepCommand {
   std::string scene, folder;
   SweepOptions options;
   raster::Backend backend = raster::Backend::automatic;
+  std::string shader_folder;
+  std::vector<raster::ReplacedShader> replaced_shaders;  ///< what differs in it
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
   std::uint64_t seed = 0;

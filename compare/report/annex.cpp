@@ -217,6 +217,8 @@ std::string provenance_section(const PageInput& in) {
   out += text_entry("System", c.machine.os);
   out += text_entry("OpenGL", fmt::format("{} through {}: {}", c.raster.context.version,
                                           c.raster.context.backend, c.raster.context.renderer));
+  for (const raster::ReplacedShader& shader : c.raster.replaced_shaders)
+    out += text_entry("Replaced shader", fmt::format("{}, SHA-256 {}", shader.name, shader.sha256));
   out += entry("Exposure of both pictures", keyed("exposure", c.exposure, plain_number(c.exposure)));
   return R"(<section id="provenance" aria-labelledby="provenance-title">
 <h2 id="provenance-title">Where this comes from</h2>

@@ -216,8 +216,9 @@ void Engine::Impl::measure() {
 
 Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
   trace(setting);
-  derived = drawn_for && biases_follow_from_gaps(setting.raster.map) &&
-            same_but_bias(drawn_for->raster, setting.raster);
+  // A shader of the user's need not compare with the bias at all.
+  derived = drawn_for && comparison.raster.replaced_shaders.empty() &&
+            biases_follow_from_gaps(setting.raster.map) && same_but_bias(drawn_for->raster, setting.raster);
   if (!derived) {
     if (auto drawn = draw(setting); !drawn) return drawn;
     table.clear();

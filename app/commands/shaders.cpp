@@ -1,0 +1,86 @@
+// gnomon shaders: the rasterizer's GLSL, to be read and edited; --shader-dir takes what was edited.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "raster/shader_folder.h"
+#include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct ShadersCommand {
+  std::string folder;
+  bool quiet = false;
+};
+
+/// "technique/pcf_box.glsl      Percentage-closer filtering (Reeves, …)": a file's first comment line.
+std::string list_of_shaders() {
+  constexpr std::size_t name_column = 28;  // columns
+  std::string text;
+  for (const raster::ShaderFile& file : raster::own_shaders()) {
+    const std::string_view line = file.text.substr(0, file.text.find('\n'));
+    text += fmt::format("{:<{}}{}\n", file.name, name_column, line.starts_with("// ") ? line.substr(3) : "");
+  }
+  return text;
+}
+
+/// What is there and differs may be somebody's work.
+Expected<void> check_nothing_is_lost(const ShadersCommand& command) {
+  for (const raster::ShaderFile& file : raster::own_shaders()) {
+    const std::string path = (std::filesystem::path(command.folder) / file.name).string();
+    std::error_code none;
+    if (!std::filesystem::exists(path, none)) continue;
+    const auto there = read_file(path);
+    if (there && *there == file.text) continue;
+    return fail(Error{ErrorKind::cannot_write,
+                      "is there already and differs from the program's own; move it away first", path});
+  }
+  return {};
+}
+
+Expected<ExitCode> run_shaders(const ShadersCommand& command) {
+  if (command.folder.empty()) {
+    print_data(list_of_shaders());
+    return ExitCode::done;
+  }
+  Console console(command.quiet);
+  if (const auto safe = check_nothing_is_lost(command); !safe) return fail(safe.error());
+  if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
+  const OutputGuard whole_outputs;
+  for (const raster::ShaderFile& file : raster::own_shaders()) {
+    const std::string path = (std::filesystem::path(command.folder) / file.name).string();
+    if (const auto made = make_folder_for(path); !made) return fail(made.error());
+    if (const auto written = write_file(path, file.text); !written) return fail(written.error());
+  }
+  console.message(fmt::format("shaders: {}/technique/hard.glsl and {} more", command.folder,
+                              raster::own_shaders().size() - 1));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_shaders(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "shaders", "List the rasterizer's shaders, or write them into a folder to be edited for --shader-dir.");
+  app->footer(
+      "gnomon shaders                  their names and what they are\n"
+      "gnomon shaders -o mine          then edit mine/technique/hard.glsl\n"
+      "gnomon compare fence --shader-dir mine");
+  const auto command = std::make_shared<ShadersCommand>();
+  add_output(*app, "-o,--output", command->folder, "DIR",
+             "folder for the files; one that was edited there is not overwritten [default: list them]");
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_shaders(*command); }; });
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,121 @@
+#include "raster/shader_folder.h"
+
+#include <embedded/shaders.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "raster/technique_shader.h"
+#include "scene/files/json_reader.h"
+#include "scene/files/read_file.h"
+#include "scene/files/sha256.h"
+
+namespace gnomon::raster {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_shader(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".glsl" || extension == ".vert" || extension == ".frag" || extension == ".h";
+}
+
+bool is_own(std::string_view name) {
+  const std::vector<ShaderFile> own = own_shaders();
+  return std::any_of(own.begin(), own.end(), [&](const ShaderFile& file) { return file.name == name; });
+}
+
+// "; did you mean technique/hard.glsl?": one of the same file name in another folder, or else of a like name.
+std::string right_path(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const ShaderFile& file : own_shaders()) {
+    if (fs::path(file.name).filename() == fs::path(name).filename())
+      return fmt::format("; did you mean {}?", file.name);
+    names.push_back(file.name);
+  }
+  const std::string near = suggestion(name, names);
+  return near.empty() ? suggestion("technique/" + name, names) : near;
+}
+
+Error error_in(const std::string& file, std::string reason) {
+  return {ErrorKind::bad_input, std::move(reason), file};
+}
+
+}  // namespace
+
+std::vector<ShaderFile> own_shaders() {
+  std::vector<ShaderFile> files;
+  for (const embedded::Entry& entry : embedded::shaders_entries()) files.push_back({entry.name, entry.bytes});
+  return files;
+}
+
+std::string technique_file(const MapOptions& map, const Light& light) {
+  return "technique/" + technique_shader(map, light).name + ".glsl";
+}
+
+std::string ShaderFolder::path_of(std::string_view name) const {
+  return (fs::path(path_) / name).string();
+}
+
+Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
+  ShaderFolder out;
+  out.path_ = folder;
+  if (folder.empty()) return out;
+  std::string texts;  // of all files, to see what they include
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!is_shader(entry->path()) || entry->is_directory()) continue;
+    auto text = read_file(entry->path().string());
+    if (!text) return fail(text.error());
+    texts += *text + "\n";
+    const std::string name = entry->path().lexically_relative(folder).generic_string();
+    if (embedded::shaders(name) != *text) out.files_[name] = {*text, sha256_hex(*text)};
+  }
+  if (error) return fail(error_in(folder, fmt::format("cannot be read: {}", error.message())));
+  for (const auto& [name, file] : out.files_)
+    if (!is_own(name) && texts.find(fmt::format("#include \"{}\"", name)) == std::string::npos)
+      return fail(error_in(
+          out.path_of(name),
+          fmt::format("replaces no shader of the program{} (gnomon shaders lists them)", right_path(name))));
+  return out;
+}
+
+const std::string* ShaderFolder::find(const std::string& name) const {
+  const auto found = files_.find(name);
+  return found == files_.end() ? nullptr : &found->second.text;
+}
+
+std::vector<ReplacedShader> ShaderFolder::replaced() const {
+  std::vector<ReplacedShader> list;
+  for (const auto& [name, file] : files_) list.push_back({name, file.sha256});
+  return list;
+}
+
+std::vector<ReplacedShader> ShaderFolder::used() const {
+  std::vector<ReplacedShader> list;
+  for (const std::string& name : used_) list.push_back({name, files_.at(name).sha256});
+  return list;
+}
+
+Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
+                                const std::string& technique_file) {
+  // A mean of up to 256 tests, each rounded once, leaves [0, 1] by at most 256 * 2^-24.
+  constexpr float rounding = 1.6e-5f;
+  for (int y = 0; y < visibility.size.height; ++y) {
+    for (int x = 0; x < visibility.size.width; ++x) {
+      const float v = visibility.at(x, y);
+      if (v >= -rounding && v <= 1.0f + rounding) continue;
+      return fail(error_in(
+          folder.find(technique_file) != nullptr ? folder.path_of(technique_file) : folder.path(),
+          fmt::format(
+              "technique_visibility() gives no visibility at pixel ({}, {}), counted from the top left "
+              "(got {}, allowed 0 to 1)",
+              x, y, v)));
+    }
+  }
+  return {};
+}
+
+}  // namespace gnomon::raster

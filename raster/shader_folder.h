@@ -1,0 +1,60 @@
+// The program's own shaders, and a folder whose files take the place of those of the same name
+// (--shader-dir).
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raster/frame.h"
+#include "raster/options.h"
+#include "scene/light.h"
+
+namespace gnomon::raster {
+
+struct ShaderFile {
+  std::string_view name;  ///< as --shader-dir takes it: "technique/hard.glsl"
+  std::string_view text;
+};
+std::vector<ShaderFile> own_shaders();
+/// The file of technique/ that turns the map into visibility.
+std::string technique_file(const MapOptions& map, const Light& light);
+
+class ShaderFolder {
+ public:
+  ShaderFolder() = default;
+  /// Reads the folder's .glsl, .vert, .frag and .h files, deeper ones too; "" is no folder. Error (bad
+  /// input): a file that has no shader's name, nor is included by one that has; it names the path that would
+  /// count.
+  static Expected<ShaderFolder> read(const std::string& folder);
+
+  const std::string& path() const { return path_; }
+  /// "DIR/technique/hard.glsl".
+  std::string path_of(std::string_view name) const;
+  /// What to compile instead of the program's own; null where that stays.
+  const std::string* find(const std::string& name) const;
+  /// Every file that differs from the program's own, by name.
+  std::vector<ReplacedShader> replaced() const;
+
+  /// Which of them draw the frame.
+  void begin_frame() { used_.clear(); }
+  void note_use(const std::vector<std::string>& names) { used_.insert(names.begin(), names.end()); }
+  std::vector<ReplacedShader> used() const;
+
+ private:
+  struct File {
+    std::string text, sha256;
+  };
+  std::string path_;
+  std::map<std::string, File> files_;  ///< that differ from the program's own, or are new
+  std::set<std::string> used_;
+};
+
+/// Error (bad input) that names the first pixel where a shader of the folder wrote a visibility outside
+/// [0, 1] or one that is no number.
+Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
+                                const std::string& technique_file);
+
+}  // namespace gnomon::raster
