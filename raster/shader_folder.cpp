@@ -71,7 +71,7 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
     if (!text) return fail(text.error());
     texts += *text + "\n";
     const std::string name = entry->path().lexically_relative(folder).generic_string();
-    if (embedded::shaders(name) != *text) out.files_[name] = {*text, sha256_hex(*text)};
+    if (!is_own(name) || embedded::shaders(name) != *text) out.files_[name] = {*text, sha256_hex(*text)};
   }
   if (error) return fail(error_in(folder, fmt::format("cannot be read: {}", error.message())));
   for (const auto& [name, file] : out.files_)

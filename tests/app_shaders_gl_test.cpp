@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "raster/shader_folder.h"
 #include "scene/files/sha256.h"
@@ -122,8 +123,8 @@ TEST_F(ShaderFolder, ValuesThatAreNoVisibilityNameThePixel) {
   write_hard("  return ivec2(gl_FragCoord.xy) == ivec2(30, 16) ? -0.25 : 1.0;");
   expect_one_line(draw("bad.png"), 3, "(30, 16), counted from the top left (got -0.25");
   write_hard("  return ivec2(gl_FragCoord.xy) == ivec2(31, 17) ? uintBitsToFloat(0x7fc00000u) : 1.0;");
-  expect_one_line(gnomon(Words{"compare", "acne-floor", "-o", "out", "--shader-dir", "mine"} + small), 3,
-                  "pixel (31, 17), counted from the top left (got nan");
+  expect_one_line(gnomon(Words{"compare", "acne-floor", "-q", "-o", "out", "--shader-dir", "mine"} + small),
+                  3, "pixel (31, 17), counted from the top left (got nan");
   write_hard("  return ivec2(gl_FragCoord.xy) == ivec2(31, 17) ? 1.000001 : 1.0;");  // rounding
   EXPECT_EQ(draw("good.png").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
