@@ -20,8 +20,10 @@
 #include "app/invocation.h"
 #include "app/lesson_scene.h"
 #include "app/man_page.h"
+#include "app/manual.h"
 #include "app/shell.h"
 #include "app/suggest.h"
+#include "compare/option_names.h"
 #include "scene/load.h"
 #include "scene/one_line.h"
 
@@ -113,6 +115,21 @@ void add_man_page(CLI::App& program) {
       "print the manual page (roff) and exit");
 }
 
+void add_manual(CLI::App& program) {
+  program
+      .add_option_function<std::string>(
+          "--manual",
+          [&program](const std::string& name) {
+            const std::string chapter = manual_chapter(program, name);
+            if (chapter.empty())
+              throw CLI::ValidationError(
+                  "--manual", fmt::format("unknown chapter (got {}, allowed options, json)", name));
+            throw CLI::CallForVersion(chapter, 0);
+          },
+          "print a chapter of the manual as Markdown, and exit [options or json]")
+      ->type_name("CHAPTER");
+}
+
 std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   auto program = std::make_unique<CLI::App>(
       "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
@@ -125,9 +142,11 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
       "gnomon plan model.glb      which effects are simulated, and why\n"
       "gnomon scenes              the built-in scenes");
   program->set_help_flag("--help,-h", "print this help and exit");
-  program->set_version_flag("--version", "gnomon " GNOMON_VERSION "\n", "print the version and exit");
+  program->set_version_flag("--version", fmt::format("gnomon {}\n", compare::program_version()),
+                            "print the version and exit");
   add_completion(*program);
   add_man_page(*program);
+  add_manual(*program);
   program->require_subcommand(1);
   add_compare(*program, invocation);
   add_raster(*program, invocation);
@@ -161,7 +180,7 @@ int run_action(const Invocation& invocation) {
   return code_after_stdout(static_cast<int>(*code));
 }
 
-int parse_and_run(int argc, const char* const* argv) {
+int parse_and_run(int argc, const char* const* argv, bool runs) {
   Invocation invocation{command_line_text(argc, argv), {}};
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
@@ -175,6 +194,7 @@ int parse_and_run(int argc, const char* const* argv) {
   try {
     program->parse(argc, argv);
     for (CLI::App* command : program->get_subcommands()) add_lesson_settings(*command);
+    if (!runs) return 0;
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
     print_data(help_text(chosen.empty() ? *program : *chosen.front()));
@@ -190,9 +210,13 @@ int parse_and_run(int argc, const char* const* argv) {
 
 }  // namespace
 
+int check_command_line(int argc, const char* const* argv) {
+  return parse_and_run(argc, argv, false);
+}
+
 int run_command_line(int argc, const char* const* argv) {
   try {
-    return parse_and_run(argc, argv);
+    return parse_and_run(argc, argv, true);
   } catch (const std::bad_alloc&) {
     print_error(Error{ErrorKind::graphics, "out of memory"});
     return static_cast<int>(ErrorKind::graphics);

@@ -225,6 +225,14 @@ void add_min_contribution(CLI::App& command, double& share) {
              "reflected and refracted rays that matter less are not followed");
 }
 
+void add_camera(CLI::App& command, std::string& camera) {
+  command
+      .add_option("--camera", camera,
+                  "of the scene's cameras, the one to look through [a name, or a number from 0; default the "
+                  "first]")
+      ->type_name("NAME");
+}
+
 void add_light(CLI::App& command, std::string& light, const char* what) {
   command.add_option("--light", light, fmt::format("{} [a light's name; default all]", what))
       ->type_name("NAME");

@@ -43,6 +43,8 @@ std::string_view accel_name(raytrace::Accel accel);
 /// --heatmap.
 void add_heatmap(CLI::App& command, std::optional<HeatmapOf>& heatmap);
 void add_min_contribution(CLI::App& command, double& share);
+/// --camera: of the scene's own cameras.
+void add_camera(CLI::App& command, std::string& camera);
 void add_light(CLI::App& command, std::string& light, const char* what);
 void add_threads(CLI::App& command, int& threads, const char* of_what);
 void add_runs(CLI::App& command, std::optional<int>& runs, const char* fallback);

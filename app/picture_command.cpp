@@ -16,6 +16,7 @@ void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size
   add_output(app, "-o,--output", command.image, "IMAGE", output);
   add_size(app, size);
   add_tessellate(app, command.tessellate);
+  add_camera(app, command.camera);
 }
 
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json) {
@@ -41,7 +42,7 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, ImageSize size, 
                                  Console& console) {
   if (const auto fits = check_memory(size, command.wants_records() ? bytes.exr : bytes.png); !fits)
     return fail(fits.error());
-  return load(command.scene, console, command.tessellate);
+  return load(command.scene, console, command.tessellate, command.camera);
 }
 
 Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,

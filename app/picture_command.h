@@ -17,7 +17,7 @@
 namespace gnomon::app {
 
 struct PictureCommand {
-  std::string scene, image, light, json, command_line;
+  std::string scene, image, camera, light, json, command_line;
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   int threads = 0;

@@ -19,10 +19,11 @@
 
 namespace gnomon::app {
 
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate) {
+Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate,
+                           const std::string& camera) {
   const Stopwatch watch;
   console.progress("loading", 0.0);
-  Expected<Scene> scene = load_scene(scene_of_lesson(path_or_name));
+  Expected<Scene> scene = load_scene(scene_of_lesson(path_or_name), {.camera = camera});
   if (!scene) return fail(scene.error());
   if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
   LoadedScene loaded;

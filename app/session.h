@@ -23,8 +23,9 @@ struct LoadedScene {
 };
 
 /// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles
-/// (scene/tessellate.h); 0: they stay exact.
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate = 0);
+/// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera.
+Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate = 0,
+                           const std::string& camera = {});
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);

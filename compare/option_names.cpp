@@ -1,5 +1,11 @@
 #include "compare/option_names.h"
 
+#include <string>
+
+/// The program brings it along (cmake/GnomonCommit.cmake), so that a new commit compiles no library anew;
+/// other programs that use this room have none.
+extern "C" [[gnu::weak]] const char* gnomon_commit();
+
 namespace gnomon::compare {
 
 std::string_view light_type_name(LightType type) {
@@ -75,7 +81,11 @@ std::string_view cull_name(raster::Cull cull) {
 }
 
 std::string_view program_version() {
-  return GNOMON_VERSION;
+  static const std::string version = [] {
+    const std::string commit = gnomon_commit != nullptr ? gnomon_commit() : "";
+    return commit.empty() ? std::string(GNOMON_VERSION) : GNOMON_VERSION "+" + commit;
+  }();
+  return version;
 }
 
 }  // namespace gnomon::compare

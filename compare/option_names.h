@@ -12,6 +12,8 @@ std::string_view light_type_name(LightType type);                ///< "direction
 std::string_view technique_name(raster::Technique technique);    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
+/// "0.1.0", with the commit that the program was built from where that is known: "0.1.0+0123456789ab", and
+/// ".changed" after it where files differed from the commit.
 std::string_view program_version();
 
 /// Whether a stored depth is compared with the receiver's, with a bias; izb and hybrid decide exactly,

@@ -25,8 +25,8 @@ pair() {
 
 pair acne raster difference acne-floor --bias 0 --map-size 64
 pair peter-panning raster difference floating-box --bias 0.6
-pair light-leaks raster difference thin-wall --bias 0.5
-pair aliasing raster difference fence --map-size 256
+pair light-leaks raster difference thin-wall --bias 0.02 --normal-offset 8
+pair aliasing raster difference wires --map-size 128
 pair soft-shadows raster raytrace penumbra --slope-bias 1
 pair filtering difference error fence --technique pcf --filter-radius 2 --map-size 512 --slope-bias 2
 pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --bias 0 --map-size 4096

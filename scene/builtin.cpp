@@ -11,13 +11,14 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 14> scenes{{
+constexpr std::array<BuiltinScene, 15> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
     {"floating-box",
      "Boxes that stand on a floor and boxes that float just above it: bias detaches their shadows."},
     {"thin-wall", "A wall thinner than the bias that cures acne: its shadow starts too far away."},
+    {"wires", "Straight edges and wires thinner than a texel, along the map's rows and slanted."},
     {"sphere-plane",
      "One exact sphere over an exact plane under a point light: the truth has a closed form."},
     {"shapes",

@@ -14,12 +14,14 @@ namespace gnomon {
 
 struct LoadOptions {
   bool confine_paths = false;  ///< refuse files outside the scene's own folder
+  std::string camera{};        ///< of the file's cameras: a name, or a number from 0; empty: the first
 };
 
 /// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one
 /// light and a camera. What the loader had to make up (camera, light, ground) or could not use is in
 /// Scene::notes. Errors are ErrorKind::bad_input with file, line and column, or the path inside the file.
-/// ErrorKind::graphics (resources) when there is not enough memory.
+/// ErrorKind::usage when the file has no such camera. ErrorKind::graphics (resources) when there is not
+/// enough memory.
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options = {});
 
 struct BuiltinScene {

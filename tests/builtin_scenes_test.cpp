@@ -25,7 +25,7 @@ TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   }
   for (const std::string_view name :
        {"acne-floor", "floating-box", "fence", "thin-wall", "whitted", "courtyard", "teapot", "stadium",
-        "field", "penumbra", "studio", "orchard"}) {
+        "field", "penumbra", "studio", "orchard", "wires"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(find_builtin_scene("no-such-scene"));

@@ -10,6 +10,10 @@ add_test(NAME project_tidy_test
 set_tests_properties(project_tidy_test PROPERTIES
   SKIP_RETURN_CODE 77 TIMEOUT 900 ENVIRONMENT "GNOMON_BUILD_DIR=${PROJECT_BINARY_DIR}")
 
+# The commit in the program's version, from git or from an archive.
+add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_commit_test.sh"
+  "${PROJECT_SOURCE_DIR}" "${CMAKE_COMMAND}" "$<TARGET_FILE:gnomon_program>")
+
 # The Debian package that cpack makes of this build.
 add_test(NAME project_package_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_package_test.sh" "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/package")

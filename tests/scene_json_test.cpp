@@ -67,8 +67,9 @@ TEST(JsonScene, Settings) {
   EXPECT_NEAR(s.background.g, linear_from_srgb(128.0f / 255.0f), 1e-6f);
   EXPECT_EQ(s.exposure, 2.5);
   EXPECT_EQ(s.max_depth, 3);
-  ASSERT_EQ(s.notes.size(), 1u);  // glass without an inside: the quad has four open edges
+  ASSERT_EQ(s.notes.size(), 2u);  // glass without an inside: the quad has four open edges; what glows
   EXPECT_NE(s.notes[0].find("not closed"), std::string::npos) << s.notes[0];
+  EXPECT_NE(s.notes[1].find("Emission is seen and casts no shadows"), std::string::npos) << s.notes[1];
 }
 
 TEST(JsonScene, Lights) {
@@ -280,6 +281,49 @@ TEST(JsonScene, EveryBuiltinSceneLoads) {
     ASSERT_TRUE(scene) << scene.error().message();
     EXPECT_EQ(scene->name, builtin.name);
   }
+}
+
+TEST(JsonScene, EmissionThatLightsNothingIsSaid) {
+  const auto notes = [](const std::string& more, const char* material) {
+    const std::string text =
+        R"({"schema": "gnomon/scene/1", "materials": [{"name": "lamp", "emission": [1, 2, 3]}, {"name": "grey"}],
+      "shapes": [{"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 1}, "material": ")" +
+        std::string(material) + R"("}],
+      "camera": {"eye": [0, 0, 9], "target": [0, 0, 0]},
+      "lights": [{"type": "directional", "elevation_degrees": 40, "azimuth_degrees": 20}])" +
+        more + "}";
+    return load_json_scene(text, "test.json", "", {})->notes;
+  };
+  const std::vector<std::string> said{
+      "Emission is seen and casts no shadows: nothing is lit by it (material lamp)."};
+  EXPECT_EQ(notes("", "lamp"), said);
+  EXPECT_TRUE(notes("", "grey").empty());
+  EXPECT_NE(notes(R"(, "indirect": {"samples": 4})", "lamp").front().find("only the indirect light"),
+            std::string::npos);
+}
+
+TEST(JsonScene, NamedCameras) {
+  const auto through = [](const std::string& cameras, const std::string& camera) {
+    const std::string text =
+        R"({"schema": "gnomon/scene/1", "materials": [{"name": "grey"}], "shapes": [{"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 1}, "material": "grey"}],
+      "lights": [{"type": "directional", "elevation_degrees": 40, "azimuth_degrees": 20}], )" +
+        cameras + "}";
+    return load_json_scene(text, "test.json", "", {.camera = camera});
+  };
+  const std::string two = R"("camera": {"eye": [0, 0, 9], "target": [0, 0, 0]},
+    "cameras": [{"name": "side", "eye": [9, 0, 0], "target": [0, 0, 0], "vertical_fov_degrees": 90}])";
+  EXPECT_EQ(through(two, "")->camera.eye, Vec3(0, 0, 9));
+  EXPECT_EQ(through(two, "camera")->camera.eye, Vec3(0, 0, 9));
+  EXPECT_EQ(through(two, "side")->camera.eye, Vec3(9, 0, 0));
+  EXPECT_NEAR(through(two, "1")->camera.vertical_fov, pi / 2.0, 1e-12);
+  EXPECT_EQ(through(two, "2").error().kind, ErrorKind::usage);
+  EXPECT_EQ(through(R"("ambient": [0, 0, 0])", "side").error().reason,
+            "--camera: the scene has no camera of its own (got side)");
+  const std::string nameless = R"("cameras": [{"eye": [9, 0, 0], "target": [0, 0, 0]}])";
+  EXPECT_EQ(through(nameless, "").error().field, "cameras[0]");
+  const std::string twice = R"("cameras": [{"name": "a", "eye": [9, 0, 0], "target": [0, 0, 0]},
+    {"name": "a", "eye": [8, 0, 0], "target": [0, 0, 0]}])";
+  EXPECT_EQ(through(twice, "").error().reason, "another camera has this name (got \"a\")");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/setting.h"
+#include "app/swim_note.h"
 #include "app/technique_options.h"
 #include "compare/outputs.h"
 #include "scene/files/write_file.h"
@@ -26,7 +27,7 @@ namespace gnomon::app {
 namespace {
 
 struct CompareCommand {
-  std::string scene, folder, json, aov;
+  std::string scene, camera, folder, json, aov;
   SettingOptions setting;
   raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;
@@ -63,6 +64,11 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   for (const std::string& note :
        idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
+  const raster::RasterOptions& raster = command.setting.options.raster;
+  if (std::string swims = swim_note(*loaded.world, raster.map, raster.size, *lights); !swims.empty()) {
+    console.note(swims);
+    loaded.scene->notes.push_back(std::move(swims));  // for the page and the JSON
+  }
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
   if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
     return fail(fits.error());
@@ -147,7 +153,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   command.setting.options.raytrace.seed = command.seed;
 
   if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
-  const auto loaded = load(command.scene, console, command.tessellate);
+  const auto loaded = load(command.scene, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   const auto posed =
@@ -170,6 +176,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
 void add_options(CLI::App& app, CompareCommand& command) {
   add_scene(app, command.scene);
   add_tessellate(app, command.tessellate);
+  add_camera(app, command.camera);
   add_output(
       app, "-o,--output", command.folder, "DIR",
       "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");

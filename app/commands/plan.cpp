@@ -19,7 +19,7 @@ namespace gnomon::app {
 namespace {
 
 struct PlanCommand {
-  std::string scene, json;
+  std::string scene, camera, json;
   raytrace::RaytraceOptions options;
   PictureSamples samples;
   int threads = 0;
@@ -121,7 +121,7 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
   const ThreadLimit thread_limit(command.threads);
-  auto loaded = load(command.scene, console);
+  auto loaded = load(command.scene, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
   loaded->plan = plan_effects(*loaded->scene);
@@ -157,6 +157,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
       "gnomon plan model.glb --json - | jq '.effects[] | select(.simulated)'");
   const auto command = std::make_shared<PlanCommand>();
   add_scene(*app, command->scene);
+  add_camera(*app, command->camera);
   add_size(*app, command->options.size);
   add_samples(*app, command->options.shadow_samples);
   add_picture_samples(*app, command->samples);

@@ -145,7 +145,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();
-  auto loaded = load(command.scene, console);
+  auto loaded = load(command.scene, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
@@ -190,6 +190,7 @@ Expected<compare::Shard> parse_shard(const std::string& text) {
 
 void add_options(CLI::App& app, SweepCommand& command) {
   add_scene(app, command.scene);
+  add_camera(app, command.camera);
   add_output(app, "-o,--output", command.folder, "DIR",
              "folder for report.html, sweep.jsonl, sweep.csv and the times; a sweep that was interrupted "
              "there goes on "

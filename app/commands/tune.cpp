@@ -36,7 +36,7 @@ constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 constexpr int usual_runs = 5;
 
 struct TuneCommand {
-  std::string scene, json, folder;
+  std::string scene, camera, json, folder;
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
@@ -102,6 +102,7 @@ struct Answer {
 
   std::string line(std::size_t family) const {
     return "gnomon compare " + shell_quoted(command.scene) +
+           (command.camera.empty() ? "" : " --camera " + shell_quoted(command.camera)) +
            setting_arguments(answer_values(command, families[family], attempt_of(result.families[family])));
   }
   /// The other families: of each technique the best first.
@@ -215,7 +216,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
   if (!command.folder.empty())
     if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
-  auto loaded = load(command.scene, console);
+  auto loaded = load(command.scene, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   const auto parsed = parse_setting(values_read(command.options.fixed()));
   if (!parsed) return fail(parsed.error());
@@ -282,6 +283,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
+  add_camera(*app, command->camera);
   add_goal(
       *app, "--max-error", "SHARE",
       "the largest share of wrong pixels that is good enough [0% to 100%, or 0 to 1; this or --max-time]",

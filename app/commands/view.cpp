@@ -31,6 +31,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
       "gnomon view floating-box --script tour.txt");
   const auto options = std::make_shared<ViewOptions>();
   add_scene(*app, options->scene);
+  add_camera(*app, options->camera);
   add_size(*app, options->compare.raster.size);
   add_tessellate(*app, options->tessellate);
   add_map_options(*app, options->compare.raster.map);

@@ -11,6 +11,10 @@
 namespace gnomon::app {
 namespace {
 
+std::string camera_argument(const SweepCommand& command) {
+  return command.camera.empty() ? std::string() : " --camera " + shell_quoted(command.camera);
+}
+
 std::string exposure_argument(const SweepCommand& command) {
   if (!command.exposure) return {};
   return *command.exposure ? fmt::format(" --exposure {}", **command.exposure) : " --exposure auto";
@@ -31,6 +35,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
   if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
   return Json{{"version", GNOMON_VERSION},
               {"scene", {{"path", command.scene}, {"name", scene.name}, {"sha256", scene.sha256}}},
+              {"camera", command.camera},
               {"axes", axes},
               {"zip", command.zip},
               {"options", fixed},
@@ -43,8 +48,8 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
-  std::string text =
-      "gnomon compare " + shell_quoted(command.scene) + command.options.cell_arguments(plan.grid, cell);
+  std::string text = "gnomon compare " + shell_quoted(command.scene) + camera_argument(command) +
+                     command.options.cell_arguments(plan.grid, cell);
   text += exposure_argument(command);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
@@ -56,7 +61,7 @@ std::string task_arguments(const SweepCommand& command) {
   const bool is_file = fs::path(command.scene).has_extension();
   std::string text =
       fmt::format(" {}", shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene));
-  text += command.options.arguments() + exposure_argument(command);
+  text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())
     text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());

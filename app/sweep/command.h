@@ -16,7 +16,7 @@
 namespace gnomon::app {
 
 struct SweepCommand {
-  std::string scene, folder;
+  std::string scene, camera, folder;
   SweepOptions options;
   raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;

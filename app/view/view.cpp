@@ -57,7 +57,7 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
 Expected<ExitCode> run_view(const ViewOptions& options) {
   Console console(options.quiet);
   const ThreadLimit thread_limit(options.threads);
-  const auto loaded = load(options.scene, console, options.tessellate);
+  const auto loaded = load(options.scene, console, options.tessellate, options.camera);
   if (!loaded) return fail(loaded.error());
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   auto state = first_state(options, *loaded);

@@ -1,8 +1,10 @@
 #include "scene/files/defaults.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 #include "scene/closed_mesh.h"
 #include "scene/solid.h"
@@ -184,6 +186,36 @@ void note_open_glass(Scene& scene) {
 
 namespace {
 
+/// Names of up to three materials, and how many more there are.
+std::string some_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  const std::span<const std::string> shown(names.data(), std::min(most, names.size()));
+  std::string text = fmt::format("{}", fmt::join(shown, ", "));
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+/// Glowing surfaces are seen, and are no lights.
+void note_emission(Scene& scene) {
+  const auto glows = [&](std::uint32_t m) { return scene.materials[m].emission != Vec3f(0.0f); };
+  std::vector<char> used(scene.materials.size(), 0);
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (mesh.triangle_materials.empty()) used[instance.material] = 1;
+    for (const std::uint32_t material : mesh.triangle_materials) used[material] = 1;
+  }
+  for (const Shape& shape : scene.shapes) used[shape.material] = 1;
+  std::vector<std::string> names;
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m)
+    if (used[m] != 0 && glows(m)) names.push_back(scene.materials[m].name);
+  if (names.empty()) return;
+  const char* gathered = scene.indirect_samples > 0
+                             ? "only the indirect light of the ray-traced picture gathers it"
+                             : "nothing is lit by it";
+  scene.notes.push_back(fmt::format("Emission is seen and casts no shadows: {} (material{} {}).", gathered,
+                                    names.size() > 1 ? "s" : "", some_names(names)));
+}
+
 /// The scene's bounds; of planes alone something like a room at the first one.
 Aabb bounds_to_frame(const Scene& scene) {
   Aabb bounds = scene_bounds(scene);
@@ -210,6 +242,7 @@ Scene add_defaults(LoadedFile loaded) {
   if (scene.lights.empty()) add_sun(scene, loaded.is_model);
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);
+  note_emission(scene);
   return std::move(scene);
 }
 

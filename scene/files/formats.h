@@ -10,10 +10,16 @@
 
 namespace gnomon {
 
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
 struct LoadedFile {
   Scene scene;
-  bool has_camera = false;  ///< the scene's camera is the file's
-  bool is_model = false;    ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
+  std::vector<NamedCamera> cameras{};  ///< the file's, in its order
+  bool has_camera = false;             ///< the scene's camera is one of them
+  bool is_model = false;  ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
 };
 
 /// Guards against files that include each other, or too many of them.

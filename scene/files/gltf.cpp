@@ -133,7 +133,6 @@ class SceneBuilder {
 
   void run() {
     for (const int root : roots()) visit_from(root);
-    if (cameras_ > 1) note(fmt::format("The first of {} cameras is used.", cameras_));
     if (orthographic_) note("An orthographic camera was skipped: only perspective is supported.");
     if (flattened_ > 0)
       note(fmt::format("{} node(s) that flatten their mesh to nothing (a scale of 0) were skipped.",
@@ -143,7 +142,8 @@ class SceneBuilder {
     if (skinned_) note("Skins are not applied: meshes are shown as they are stored.");
     if (!model_.animations.empty()) note("Animations are not played.");
     if (instanced_) note("EXT_mesh_gpu_instancing is not supported: those meshes are shown once.");
-    if (loaded_.has_camera) place_camera_target();
+    const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
+    for (NamedCamera& named : loaded_.cameras) place_target(named.camera, bounds);
   }
 
  private:
@@ -179,7 +179,7 @@ class SceneBuilder {
       const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(visit.node)];
       const Mat4 world = visit.world_from_parent * local_matrix(node);
       if (node.mesh >= 0) add_instance(node, visit.node, world);
-      if (node.camera >= 0) add_camera(model_.cameras[static_cast<std::size_t>(node.camera)], world);
+      if (node.camera >= 0) add_camera(node, world);
       add_light(node, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         stack.push_back({*child, world});
@@ -203,31 +203,32 @@ class SceneBuilder {
     scene_.instances.push_back({name, our_mesh_[from], world, 0});
   }
 
-  void add_camera(const tinygltf::Camera& from, const Mat4& world) {
+  void add_camera(const tinygltf::Node& node, const Mat4& world) {
+    const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
     if (from.type != "perspective") {
       orthographic_ = true;
       return;
     }
-    if (++cameras_ > 1) return;
     const Vec3 forward = Vec3(world * Vec4(0.0, 0.0, -1.0, 0.0));
     const Vec3 up = Vec3(world * Vec4(0.0, 1.0, 0.0, 0.0));
-    if (!(glm::length(forward) > 0.0) || !(glm::length(up) > 0.0)) {
-      --cameras_;
+    if (!(glm::length(forward) > 0.0) || !(glm::length(up) > 0.0))
       return note("A camera whose node flattens it was skipped.");
-    }
-    scene_.camera.eye = Vec3(world[3]);
-    scene_.camera.target = scene_.camera.eye + glm::normalize(forward);
-    scene_.camera.up = glm::normalize(up);
-    scene_.camera.vertical_fov = from.perspective.yfov;
-    loaded_.has_camera = true;
+    NamedCamera named;
+    named.name = !node.name.empty()   ? node.name
+                 : !from.name.empty() ? from.name
+                                      : fmt::format("camera-{}", loaded_.cameras.size());
+    named.camera.eye = Vec3(world[3]);
+    named.camera.target = named.camera.eye + glm::normalize(forward);
+    named.camera.up = glm::normalize(up);
+    named.camera.vertical_fov = from.perspective.yfov;
+    loaded_.cameras.push_back(std::move(named));
   }
 
   // Straight ahead, as far away as the middle of the scene is: what a viewer turns around.
-  void place_camera_target() {
-    const Vec3 forward = scene_.camera.target - scene_.camera.eye;
-    const Aabb bounds = scene_bounds(scene_);
-    const double ahead = bounds.empty() ? 0.0 : glm::dot(bounds.center() - scene_.camera.eye, forward);
-    if (ahead > 0.0) scene_.camera.target = scene_.camera.eye + ahead * forward;
+  static void place_target(Camera& camera, const Aabb& bounds) {
+    const Vec3 forward = camera.target - camera.eye;
+    const double ahead = bounds.empty() ? 0.0 : glm::dot(bounds.center() - camera.eye, forward);
+    if (ahead > 0.0) camera.target = camera.eye + ahead * forward;
   }
 
   void add_light(const tinygltf::Node& node, const Mat4& world) {
@@ -278,7 +279,7 @@ class SceneBuilder {
   const tinygltf::Model& model_;
   std::vector<Mesh> meshes_;
   std::vector<std::uint32_t> our_mesh_;  // of a glTF mesh, once an instance uses it
-  int cameras_ = 0, flattened_ = 0;
+  int flattened_ = 0;
   bool orthographic_ = false, ranged_ = false, skinned_ = false, instanced_ = false;
 };
 

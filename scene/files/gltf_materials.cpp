@@ -77,6 +77,7 @@ class MaterialReader {
       if (!material) return fail(material.error());
       scene_.materials.push_back(std::move(*material));
     }
+    note_single_sided();
     for (const auto& [what, names] : unused_)
       scene_.notes.push_back(fmt::format("{} not used (material{} {}).", what, names.size() > 1 ? "s" : "",
                                          fmt::join(names, ", ")));
@@ -84,6 +85,17 @@ class MaterialReader {
   }
 
  private:
+  // Both renderers see surfaces from both sides, and so do the lights.
+  void note_single_sided() {
+    const auto count = std::count_if(model_.materials.begin(), model_.materials.end(),
+                                     [](const tinygltf::Material& m) { return !m.doubleSided; });
+    if (count > 0)
+      scene_.notes.push_back(
+          fmt::format("Single-sided materials are taken as two-sided, seen and casting shadows from behind "
+                      "too: {} of {}.",
+                      count, model_.materials.size()));
+  }
+
   Expected<Material> read(std::size_t index) {
     const tinygltf::Material& from = model_.materials[index];
     const auto& pbr = from.pbrMetallicRoughness;

@@ -59,7 +59,7 @@ struct RepeatedPlace {
 std::vector<RepeatedPlace> read_repeat(const JsonNode& node);
 /// A quadric, torus or implicit surface; `kind` is its key in the shape.
 decltype(Shape::geometry) read_solid(std::string_view kind, const JsonNode& node);
-Camera read_camera(SceneReader& reader, const JsonNode& node);
+NamedCamera read_camera(SceneReader& reader, const JsonNode& node);
 
 /// The material that a string names; 0 and an error when there is none.
 std::uint32_t find_material(SceneReader& reader, const JsonNode& name);

@@ -131,11 +131,21 @@ void note_unused_meshes(SceneReader& reader) {
       reader.scene.notes.push_back(fmt::format("The mesh '{}' is not used by any instance.", name));
 }
 
+NamedCamera read_named_camera(SceneReader& reader, const JsonNode& node,
+                              const std::vector<NamedCamera>& before) {
+  NamedCamera named = read_camera(reader, node);
+  if (named.name.empty()) node.error("a camera of the list needs a name, for --camera");
+  for (const NamedCamera& other : before)
+    if (other.name == named.name)
+      node.error(fmt::format("another camera has this name (got \"{}\")", printable(named.name)));
+  return named;
+}
+
 // The order matters: what is named must be known before it is used.
-bool read_top(SceneReader& reader, const JsonNode& root) {
-  const JsonObject top(root, {"$schema", "schema", "name", "description", "camera", "lights", "materials",
-                              "meshes", "instances", "shapes", "include", "ambient", "background", "exposure",
-                              "max_depth", "glossy", "indirect"});
+std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root) {
+  const JsonObject top(root, {"$schema", "schema", "name", "description", "camera", "cameras", "lights",
+                              "materials", "meshes", "instances", "shapes", "include", "ambient",
+                              "background", "exposure", "max_depth", "glossy", "indirect"});
   check_schema(top);
   read_settings(reader, top);
   if (const auto list = top.find("include"))
@@ -149,9 +159,15 @@ bool read_top(SceneReader& reader, const JsonNode& root) {
   note_unused_meshes(reader);
   if (reader.scene.instances.empty() && reader.scene.shapes.empty())
     root.error("the scene shows nothing (needs instances, shapes or include)");
-  const auto camera = top.find("camera");
-  if (camera) reader.scene.camera = read_camera(reader, *camera);
-  return camera.has_value();
+  std::vector<NamedCamera> cameras;
+  if (const auto camera = top.find("camera")) {
+    cameras.push_back(read_camera(reader, *camera));
+    if (cameras.front().name.empty()) cameras.front().name = "camera";
+  }
+  if (const auto list = top.find("cameras"))
+    for (const JsonNode& node : list->as_array())
+      if (!reader.failed()) cameras.push_back(read_named_camera(reader, node, cameras));
+  return cameras;
 }
 
 }  // namespace
@@ -180,20 +196,21 @@ std::string SceneReader::resolve(const JsonNode& named) {
   return {};
 }
 
-Camera read_camera(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(node, {"eye", "target", "up", "vertical_fov_degrees", "samples_per_pixel"});
-  Camera camera;
+NamedCamera read_camera(SceneReader& reader, const JsonNode& node) {
+  const JsonObject object(node, {"name", "eye", "target", "up", "vertical_fov_degrees", "samples_per_pixel"});
+  NamedCamera named{object.string("name", ""), {}};
+  Camera& camera = named.camera;
   if (const auto eye = object.require("eye")) camera.eye = eye->as_vec3();
   if (const auto target = object.require("target")) camera.target = target->as_vec3();
   if (const auto up = object.find("up")) camera.up = up->as_vec3();
   camera.vertical_fov = object.number("vertical_fov_degrees", 40.0, {0.0, 180.0, true, true}) * pi / 180.0;
   camera.samples_per_pixel = static_cast<int>(object.number("samples_per_pixel", 1.0, sample_range));
-  if (reader.failed()) return camera;
+  if (reader.failed()) return named;
   if (const auto defect = find_camera_defect(camera)) {
     const std::string key = defect->field.substr(defect->field.find('.') + 1);
     reader.errors.add(offset_of(node.value(), key), defect->field, defect->reason);
   }
-  return camera;
+  return named;
 }
 
 Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& file,
@@ -206,7 +223,8 @@ Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& f
   loaded.scene.name = std::filesystem::path(file).stem().string();
   includes.open.push_back(canonical(file));
   SceneReader reader{errors, loaded.scene, folder, options, includes};
-  loaded.has_camera = read_top(reader, JsonNode(errors, document->root, ""));
+  loaded.cameras = read_top(reader, JsonNode(errors, document->root, ""));
+  loaded.has_camera = !loaded.cameras.empty();
   includes.open.pop_back();
   if (errors.first) return fail(std::move(*errors.first));
   return loaded;

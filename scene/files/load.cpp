@@ -2,7 +2,9 @@
 #include "scene/load.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <charconv>
 #include <filesystem>
 #include <future>
 #include <new>
@@ -18,14 +20,49 @@
 namespace gnomon {
 namespace {
 
+std::size_t camera_index(const std::vector<NamedCamera>& cameras, const std::string& wanted) {
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    if (cameras[i].name == wanted) return i;
+  std::size_t index = 0;
+  const char* const last = wanted.data() + wanted.size();
+  const auto [end, status] = std::from_chars(wanted.data(), last, index);
+  return end == last && status == std::errc() ? index : cameras.size();
+}
+
+/// The camera that was asked for, or the first; a note says which of several.
+Expected<void> choose_camera(LoadedFile& loaded, const std::string& wanted) {
+  const std::vector<NamedCamera>& cameras = loaded.cameras;
+  std::vector<std::string_view> names;
+  for (const NamedCamera& camera : cameras) names.push_back(camera.name);
+  if (cameras.empty()) {
+    if (wanted.empty()) return {};
+    return fail(ErrorKind::usage,
+                fmt::format("--camera: the scene has no camera of its own (got {})", printable(wanted)));
+  }
+  const std::size_t index = wanted.empty() ? 0 : camera_index(cameras, wanted);
+  if (index >= cameras.size())
+    return fail(ErrorKind::usage,
+                fmt::format("--camera: the scene has no such camera (got {}, allowed {}, or 0 to {}){}",
+                            printable(wanted), fmt::join(names, ", "), cameras.size() - 1,
+                            suggestion(wanted, names)));
+  loaded.scene.camera = cameras[index].camera;
+  loaded.has_camera = true;
+  if (cameras.size() > 1)
+    loaded.scene.notes.push_back(fmt::format("The camera {} is used; --camera takes {}, or 0 to {}.",
+                                             cameras[index].name, fmt::join(names, ", "),
+                                             cameras.size() - 1));
+  return {};
+}
+
 /// `sha256`: of the file's bytes.
 Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path,
-                         std::future<std::string> sha256) {
+                         std::future<std::string> sha256, const LoadOptions& options) {
   if (!loaded) {
     Error error = loaded.error();
     if (error.file.empty()) error.file = path;
     return fail(std::move(error));
   }
+  if (const auto chosen = choose_camera(*loaded, options.camera); !chosen) return fail(chosen.error());
   // Indices and coordinates are checked before anything follows them; defaults leave meshes as they are.
   if (auto defect = find_geometry_defect(loaded->scene)) {
     defect->file = path;
@@ -70,7 +107,7 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
   if (!bytes) return fail(bytes.error());
   IncludeState includes;
   auto sha256 = hash_beside(*bytes);
-  return complete(read_by_extension(*bytes, path, options, includes), path, std::move(sha256));
+  return complete(read_by_extension(*bytes, path, options, includes), path, std::move(sha256), options);
 }
 
 }  // namespace
@@ -97,7 +134,7 @@ Expected<Scene> load_json_scene(std::string_view text, const std::string& file, 
                                 const LoadOptions& options) {
   IncludeState includes;
   auto sha256 = hash_beside(text);
-  return complete(read_json_scene(text, file, folder, options, includes), file, std::move(sha256));
+  return complete(read_json_scene(text, file, folder, options, includes), file, std::move(sha256), options);
 }
 
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options) try {

@@ -1,0 +1,129 @@
+#include "app/manual.h"
+
+#include <embedded/schemas.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/help.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t page_width = 120;  // columns
+constexpr const char* written_by_the_program =
+    "<!-- Written by the program: docs/make_manual.sh. Edits here are lost. -->\n";
+
+/// "- text", wrapped, further lines below the first.
+std::string list_item(const std::string& text) {
+  return "- " + wrap(text, 2, page_width).substr(2);
+}
+
+std::string option_entry(const CLI::Option& option) {
+  std::string names = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2))
+    names.replace(comma, 1, ", ");
+  const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
+  return list_item(fmt::format("`{}{}`: {}", names, takes_value ? " " + option.get_type_name() : "",
+                               option.get_description()));
+}
+
+std::string command_chapter(const CLI::App& command) {
+  std::string text = fmt::format("\n## gnomon {}\n\n{}\n```sh\n{}\n```\n\n", command.get_name(),
+                                 wrap(command.get_description(), 0, page_width), command.get_footer());
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_name() != "--help") text += option_entry(*option);
+  return text;
+}
+
+std::string options_chapter(const CLI::App& program) {
+  std::string text = fmt::format(
+      "{}# Commands and options\n\nEvery option with its unit, its range and its default, as `gnomon COMMAND "
+      "--help` "
+      "prints them.\n\n",
+      written_by_the_program);
+  for (const CLI::Option* option : program.get_options()) text += option_entry(*option);
+  for (const CLI::App* command : program.get_subcommands({})) text += command_chapter(*command);
+  return text;
+}
+
+/// "number, null", "\"hard\" or \"pcf\"", "array of integer".
+std::string type_text(const Json& schema) {
+  if (schema.contains("const")) return schema["const"].dump();
+  if (schema.contains("enum")) {
+    std::vector<std::string> values;
+    for (const Json& value : schema["enum"]) values.push_back(value.dump());
+    return fmt::format("{}", fmt::join(values, ", "));
+  }
+  if (!schema.contains("type")) return {};
+  if (!schema["type"].is_array()) return schema["type"].get<std::string>();
+  return fmt::format("{}", fmt::join(schema["type"].get<std::vector<std::string>>(), " or "));
+}
+
+class KeyList {
+ public:
+  explicit KeyList(const Json& schema) : schema_(schema) {}
+
+  /// Everything below a schema, under its path: "lights[].map.bias.slope".
+  void add(const Json& given, const std::string& path, const std::string& note = {}) {
+    std::string description = given.value("description", note);
+    const Json& schema = resolve(given);
+    if (description.empty()) description = schema.value("description", std::string());
+    if (schema.contains("anyOf") || schema.contains("oneOf")) {
+      for (const Json& choice : schema.contains("anyOf") ? schema["anyOf"] : schema["oneOf"])
+        add(choice, path, description);
+      return;
+    }
+    if (!path.empty()) entry(path, type_text(schema), description);
+    if (schema.contains("properties"))
+      for (const auto& [key, member] : schema["properties"].items())
+        add(member, path.empty() ? key : path + "." + key);
+    if (schema.contains("items") && schema["items"].is_object()) add(schema["items"], path + "[]");
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  const Json& resolve(const Json& schema) const {
+    if (!schema.contains("$ref")) return schema;
+    return schema_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
+  }
+  // An object or a list without words of its own is told by what is in it.
+  void entry(const std::string& path, const std::string& type, const std::string& description) {
+    const bool is_only_a_holder = description.empty() && (type == "object" || type == "array");
+    if (is_only_a_holder) return;
+    text_ += list_item(fmt::format("`{}`{}{}", path, type.empty() ? "" : " (" + type + ")",
+                                   description.empty() ? "" : ": " + description));
+  }
+
+  const Json& schema_;
+  std::string text_;
+};
+
+std::string json_chapter() {
+  const Json schema = Json::parse(embedded::schemas("result.schema.json"));
+  KeyList keys(schema);
+  keys.add(schema, "");
+  return fmt::format(
+      "{}# The keys of result.json\n\n{}\n`DIR/result.json` of `gnomon compare`, `--json FILE`, and each "
+      "line of "
+      "`DIR/sweep.jsonl`, in the order of\nthe file. `[]` stands for every element of a list. The schema "
+      "itself is "
+      "`compare/report/result.schema.json`;\ninstalled, `share/gnomon/schema/result.schema.json`.\n\n{}",
+      written_by_the_program, wrap(schema.value("description", std::string()), 0, page_width), keys.take());
+}
+
+}  // namespace
+
+std::string manual_chapter(const CLI::App& program, std::string_view chapter) {
+  if (chapter == "options") return options_chapter(program);
+  if (chapter == "json") return json_chapter();
+  return {};
+}
+
+}  // namespace gnomon::app

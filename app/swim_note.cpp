@@ -1,0 +1,71 @@
+#include "app/swim_note.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "compare/option_names.h"
+#include "scene/light_view.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using raster::Technique;
+
+/// The camera a hundredth of its distance to the right.
+Camera moved_aside(Camera camera) {
+  const Vec3 ahead = camera.target - camera.eye;
+  const Vec3 right = glm::cross(ahead, camera.up);
+  const double length = glm::length(right);
+  const Vec3 step = length > 0.0 ? right * (0.01 * glm::length(ahead) / length) : Vec3(0.0);
+  camera.eye += step, camera.target += step;
+  return camera;
+}
+
+/// Where the map puts a point of the world, texels.
+bool single_map_moves(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
+  const Camera& camera = world.scene->camera;
+  const auto here = fit_light_view(world, light, camera, aspect, map.size);
+  const auto there = fit_light_view(world, light, moved_aside(camera), aspect, map.size);
+  if (!here || !there) return false;
+  const Vec3 point = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
+  const TexelCoordinate a = project_to_texel(*here, point), b = project_to_texel(*there, point);
+  constexpr double rounding = 1e-6;  // texels: of the fit's doubles, in maps of up to 2^16
+  return std::abs(a.u - b.u) > rounding || std::abs(a.v - b.v) > rounding;
+}
+
+bool swims(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
+  if (light.type != LightType::directional) return false;  // its map stays with the light
+  switch (map.technique) {
+    case Technique::csm:
+      return !map.cascades.snap || map.cascades.fit_samples;
+    case Technique::lispsm:
+      return true;
+    case Technique::izb:
+    case Technique::hybrid:
+      return false;  // exact
+    default:
+      return single_map_moves(world, light, map, aspect);
+  }
+}
+
+}  // namespace
+
+std::string swim_note(const World& world, const raster::MapOptions& map, ImageSize size,
+                      std::span<const std::uint32_t> lights) {
+  std::vector<std::string> names;
+  for (const std::uint32_t index : lights) {
+    const Light& light = world.scene->lights[index];
+    if (swims(world, light, map, double(size.width) / size.height)) names.push_back(light.name);
+  }
+  if (names.empty()) return {};
+  return fmt::format(
+      "The map of {} follows the camera by parts of a texel ({}): its shadow edges swim when the camera "
+      "moves; "
+      "--technique csm moves by whole texels.",
+      fmt::join(names, ", "), compare::technique_name(map.technique));
+}
+
+}  // namespace gnomon::app
