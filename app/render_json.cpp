@@ -104,10 +104,15 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
   json["accel"] = {
       {"name", accel}, {"bytes", stats.bytes}, {"nodes", stats.nodes}, {"dropped", stats.dropped}};
   const raytrace::RayCounts& rays = frame.rays;
-  json["costs"] = {{"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
-                   {"soft_shadow_rays", rays.soft_shadow}, {"reflection_rays", rays.reflection},
-                   {"refraction_rays", rays.refraction},   {"glossy_rays", rays.glossy},
-                   {"indirect_rays", rays.indirect},       {"antialiasing_rays", rays.antialiasing}};
+  json["costs"] = {{"primary_rays", rays.primary},
+                   {"shadow_rays", rays.shadow},
+                   {"soft_shadow_rays", rays.soft_shadow},
+                   {"soft_shadow_rays_asked", rays.soft_shadow_asked},
+                   {"reflection_rays", rays.reflection},
+                   {"refraction_rays", rays.refraction},
+                   {"glossy_rays", rays.glossy},
+                   {"indirect_rays", rays.indirect},
+                   {"antialiasing_rays", rays.antialiasing}};
   json["times_ms"] = {{"load", one_time(record.loaded.load_ms)},
                       {"accel_build", one_time(stats.build_ms)},
                       {"primary_rays", times(frame.primary_rays)},
@@ -118,6 +123,7 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
     Json entry = light_json(*record.loaded.scene, light.light);
     entry["shadow_rays"] = light.rays;
     entry["soft_shadow_rays"] = light.soft_rays;
+    entry["soft_shadow_rays_asked"] = light.soft_rays_asked;
     entry["times_ms"] = {{"shadow_rays", times(light.shadow_rays)},
                          {"soft_shadow_rays", times(light.soft_shadow_rays)}};
     json["lights"].push_back(std::move(entry));

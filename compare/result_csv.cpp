@@ -91,8 +91,11 @@ void add_costs(Row& row, const Comparison& c, const LightComparison& light) {
   row.emplace_back("map_pass_ms", median(drawn.map_pass));
   row.emplace_back("shade_pass_ms", median(drawn.shade_pass));
   row.emplace_back("shadow_rays_ms", median(truth.shadow_rays));
+  row.emplace_back("exact_shadows_ms", median(truth.exact_times()));
   row.emplace_back("classify_ms", median(light.classify));
   row.emplace_back("shadow_rays", fmt::to_string(truth.rays));
+  row.emplace_back("soft_shadow_rays", fmt::to_string(truth.soft_rays));
+  row.emplace_back("soft_shadow_rays_asked", fmt::to_string(truth.soft_rays_asked));
 }
 
 std::string line(const Row& row, bool names) {

@@ -275,9 +275,10 @@ Json light_block(const Comparison& c, const LightComparison& light) {
                {"classify", times(light.classify)}}}};
   if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
   if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
-  if (!truth.visibility.data.empty()) {
+  if (truth.is_soft()) {
     block["shadow_samples"] = truth.samples;
     block["soft_shadow_rays"] = truth.soft_rays;
+    block["soft_shadow_rays_asked"] = truth.soft_rays_asked;
     block["times_ms"]["soft_shadow_rays"] = times(truth.soft_shadow_rays);
   }
   return block;
@@ -315,9 +316,9 @@ Json costs_json(const Comparison& c) {
   const raytrace::RayCounts& rays = c.raytraced.rays;
   return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
           {"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
-          {"soft_shadow_rays", rays.soft_shadow}, {"reflection_rays", rays.reflection},
-          {"refraction_rays", rays.refraction},   {"glossy_rays", rays.glossy},
-          {"indirect_rays", rays.indirect}};
+          {"soft_shadow_rays", rays.soft_shadow}, {"soft_shadow_rays_asked", rays.soft_shadow_asked},
+          {"reflection_rays", rays.reflection},   {"refraction_rays", rays.refraction},
+          {"glossy_rays", rays.glossy},           {"indirect_rays", rays.indirect}};
 }
 
 Json result_object(const Comparison& c, double report_ms, double total_ms) {
@@ -409,6 +410,7 @@ std::string times_line(const Comparison& c, std::size_t cell, bool derived, doub
                       {"map_pass", times(drawn_record(c, light).map_pass)},
                       {"shade_pass", times(drawn_record(c, light).shade_pass)},
                       {"shadow_rays", times(true_record(c, light).shadow_rays)},
+                      {"exact_shadows", times(true_record(c, light).exact_times())},
                       {"classify", times(light.classify)}});
   return dumped({{"cell", cell},
                  {"derived", derived},

@@ -161,13 +161,22 @@ void add_penumbra(Page& page, const PenumbraStats& p) {
                                   grouped(p.umbra_edges)));
 }
 
+// What the exact shadow took, and of what.
+std::string exact_shadows_line(const raytrace::LightTruth& truth) {
+  std::string text = fmt::format("exact shadows: {} for {} ray{}", median_text(truth.exact_times()),
+                                 grouped(truth.exact_rays()), truth.exact_rays() == 1 ? "" : "s");
+  if (!truth.is_soft()) return text;
+  return text + fmt::format(", of {} samples asked for ({} a receiver); and {} to the light's centre",
+                            grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
+}
+
 // What the time bought: an approximation by the map, or the exact answer by rays.
 void add_times(Page& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
   page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
                                  median_text(drawn.map_pass), median_text(drawn.shade_pass)));
-  page.field("", fmt::format("exact rays: {} for {}", median_text(truth.shadow_rays), grouped(truth.rays)));
+  page.field("", exact_shadows_line(truth));
 }
 
 void add_light(Page& page, const Comparison& c, const LightComparison& light) {

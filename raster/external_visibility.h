@@ -28,7 +28,7 @@ struct ExternalCosts {
   std::uint64_t surely_lit = 0, surely_shadowed = 0;
   std::uint64_t penumbra = 0;    ///< receivers that were sampled, of a light with size
   std::uint64_t rays = 0;        ///< cast
-  std::uint64_t all_rays = 0;    ///< that pure ray tracing casts for the same
+  std::uint64_t all_rays = 0;    ///< that pure ray tracing asks for: every sample of every receiver
   std::uint64_t silhouette = 0;  ///< pixels whose ray misses the primitive that the rasterizer shows there
   std::uint64_t bytes = 0;       ///< held for the light
   Times build;                   ///< ms, of what is kept while light and world stand still

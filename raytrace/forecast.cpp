@@ -27,8 +27,9 @@ Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camer
                     .exact = small.size == options.size};
   const double scale = pixels / static_cast<double>(small.size.pixels());
   RayCounts& rays = forecast.rays;
-  for (std::uint64_t* count : {&rays.primary, &rays.shadow, &rays.soft_shadow, &rays.reflection,
-                               &rays.refraction, &rays.glossy, &rays.indirect, &rays.antialiasing})
+  for (std::uint64_t* count :
+       {&rays.primary, &rays.shadow, &rays.soft_shadow, &rays.soft_shadow_asked, &rays.reflection,
+        &rays.refraction, &rays.glossy, &rays.indirect, &rays.antialiasing})
     *count = static_cast<std::uint64_t>(std::llround(scale * static_cast<double>(*count)));
   return forecast;
 }

@@ -113,27 +113,32 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
   truth.samples = options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
   truth.visibility = Image<float>(options.size, 1.0f);
   const TileGrid grid{options.size};
-  std::vector<std::uint64_t> rays(grid.count());
+  struct Counts {
+    std::uint64_t asked = 0, cast = 0;
+  };
+  std::vector<Counts> rays(grid.count());
   truth.soft_shadow_rays = time_pass(options.runs, [&] {
-    std::fill(rays.begin(), rays.end(), 0);
+    std::fill(rays.begin(), rays.end(), Counts{});
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;
       const std::uint64_t key = pixel_key(options.seed, receivers.index(x, y), truth.light);
-      const Visibility seen = reaches(light, point)
-                                  ? light_visibility(tracer, point, light, truth.samples, key)
-                                  : Visibility{0.0, 0};
+      const bool reached = reaches(light, point);
+      const Visibility seen =
+          reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0};
       truth.visibility.at(x, y) = static_cast<float>(seen.share);
-      rays[tile] += seen.rays;
+      rays[tile].asked += reached ? static_cast<std::uint64_t>(truth.samples) : 0;
+      rays[tile].cast += seen.rays;
     });
   });
-  for (const std::uint64_t n : rays) truth.soft_rays += n;
+  for (const Counts& n : rays) truth.soft_rays += n.cast, truth.soft_rays_asked += n.asked;
 }
 
 }  // namespace
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
   primary += other.primary, shadow += other.shadow, soft_shadow += other.soft_shadow;
+  soft_shadow_asked += other.soft_shadow_asked;
   reflection += other.reflection, refraction += other.refraction, glossy += other.glossy;
   indirect += other.indirect, antialiasing += other.antialiasing, interior += other.interior;
   return *this;
@@ -165,6 +170,7 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
     if (!soft) continue;
     trace_soft_shadows(tracer, options, frame.receiver, truth);
     frame.rays.soft_shadow += truth.soft_rays;
+    frame.rays.soft_shadow_asked += truth.soft_rays_asked;
   }
   if (!at_centres) frame.rays.primary = options.size.pixels();
   if (options.picture) {

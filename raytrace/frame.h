@@ -32,7 +32,10 @@ struct RaytraceOptions {
 struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t shadow = 0;       ///< to lights without size, and to the centres of those with one
-  std::uint64_t soft_shadow = 0;  ///< to samples of lights with size
+  std::uint64_t soft_shadow = 0;  ///< to samples of lights with size, cast
+  /// The samples that were wanted: of them none is cast below a point's own horizon, and none at all where
+  /// nothing surely stands between point and light (raytrace/light_shaft.h).
+  std::uint64_t soft_shadow_asked = 0;
   std::uint64_t reflection = 0, refraction = 0;  ///< sharp ones
   std::uint64_t glossy = 0;                      ///< that leave rough mirrors and rough glass
   std::uint64_t indirect = 0;                    ///< that gather light reflected once
@@ -45,14 +48,20 @@ struct LightTruth {
   std::uint32_t light = 0;  ///< index in Scene::lights
   Image<Verdict> verdict;   ///< lit where no receiver; shadowed where the light cannot reach (facing away)
   Times shadow_rays;        ///< ms for the pixels that the light can reach
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;   ///< cast
 
   /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
   /// light's centre cannot reach it. Empty for a light without size, whose verdict is the whole truth.
   Image<float> visibility{};
-  int samples = 0;           ///< rays per point
-  Times soft_shadow_rays{};  ///< ms
-  std::uint64_t soft_rays = 0;
+  int samples = 0;                                   ///< rays per point
+  Times soft_shadow_rays{};                          ///< ms
+  std::uint64_t soft_rays = 0, soft_rays_asked = 0;  ///< as RayCounts::soft_shadow, soft_shadow_asked
+
+  bool is_soft() const { return !visibility.data.empty(); }
+  /// What the exact shadow took: of a light with size its samples, not the rays to its centre, which say
+  /// where the shadow of a light without size would lie.
+  const Times& exact_times() const { return is_soft() ? soft_shadow_rays : shadow_rays; }
+  std::uint64_t exact_rays() const { return is_soft() ? soft_rays : rays; }
 };
 
 struct RayTracedFrame {

@@ -154,11 +154,10 @@ class Shader {
     const int count =
         shared(options_.shadow_samples > 0 ? options_.shadow_samples : light.shadow_samples, path);
     const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_sampled_);
+    counts_.soft_shadow_asked += static_cast<std::uint64_t>(count);
     if (is_in_vacuum(path) && count >= least_shaft_rays &&
-        surely_sees_whole_light(tracer_.structures(), point, light)) {
-      counts_.soft_shadow += static_cast<std::uint64_t>(count);
+        surely_sees_whole_light(tracer_.structures(), point, light))
       return Vec3f(1.0f);
-    }
     const LightSamples samples(tracer_, point, light, count, key);
     Vec3f sum(0.0f);
     for (int i = 0; i < count; ++i) {

@@ -238,11 +238,11 @@ TEST(SoftShadows, LightsWithoutSizeCastNoSampleAndKeepNoImage) {
   scene.lights[0].extent = DiscLight{R, {0, -1, 0}};
   scene.lights.push_back(test::sun({0.2, -1, 0}));
   const RayTracedFrame both = trace(scene, 16);
-  EXPECT_EQ(both.rays.soft_shadow, 16 * both.lights[0].rays);
+  EXPECT_EQ(both.rays.soft_shadow_asked, 16 * both.lights[0].rays);
   EXPECT_EQ(both.lights[1].visibility.data.capacity(), 0u);
   EXPECT_TRUE(plan_effects(scene).simulates(Effect::hard_shadow));
   scene.lights[0].shadow_samples = 5;
-  EXPECT_EQ(trace(scene).rays.soft_shadow, 5 * both.lights[0].rays);
+  EXPECT_EQ(trace(scene).rays.soft_shadow_asked, 5 * both.lights[0].rays);
 }
 
 // Mirrors and glass, so that soft shadows are asked for behind the first hit too.

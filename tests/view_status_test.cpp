@@ -46,7 +46,7 @@ TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
   readings.compared = Readings::Compared{true, false, 0.041, 1.0, 2.0, 30.0};
   line = status_line(state, readings, "fence");
   EXPECT_NE(line.find("wrong 4.1 %"), std::string::npos) << line;
-  EXPECT_NE(line.find("shadow rays 30 ms"), std::string::npos) << line;
+  EXPECT_NE(line.find("exact shadows 30 ms"), std::string::npos) << line;
   readings.compared->preview = true;
   EXPECT_NE(status_line(state, readings, "fence").find("(preview)"), std::string::npos);
   readings.compared->current = false;

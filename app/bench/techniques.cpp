@@ -53,8 +53,7 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
 
 double ray_ms(const compare::Comparison& comparison) {
   double sum = 0.0;
-  for (const raytrace::LightTruth& light : comparison.raytraced.lights)
-    sum += light.shadow_rays.median() + (light.soft_rays > 0 ? light.soft_shadow_rays.median() : 0.0);
+  for (const raytrace::LightTruth& light : comparison.raytraced.lights) sum += light.exact_times().median();
   return sum;
 }
 

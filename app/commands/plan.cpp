@@ -26,7 +26,7 @@ struct PlanCommand {
   bool quiet = false;
 };
 
-/// Effects that decide a ray's colour, not whether there is one, cost none.
+/// Cast. Effects that decide a ray's colour, not whether there is one, cost none.
 std::uint64_t rays_of(Effect effect, const raytrace::RayCounts& rays) {
   switch (effect) {
     case Effect::hard_shadow:
@@ -71,6 +71,7 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
                        {"called_for", entry.called_for},
                        {"reason", entry.reason},
                        {"rays", rays_of(entry.effect, forecast.rays)}});
+    if (entry.effect == Effect::soft_shadow) effects.back()["samples"] = forecast.rays.soft_shadow_asked;
   }
   const nlohmann::ordered_json rays{{"size", size_json(size)},
                                     {"grid", size_json(forecast.grid)},
@@ -105,8 +106,10 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
   std::string text = plan_row("effect", "", "rays", "why");
   for (const EffectEntry& entry : plan.entries) {
     const std::uint64_t rays = rays_of(entry.effect, forecast.rays);
-    text += plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-",
-                     one_line(entry.reason));
+    std::string why = one_line(entry.reason);
+    if (entry.effect == Effect::soft_shadow && forecast.rays.soft_shadow_asked > 0)
+      why += fmt::format("; {} samples asked for", short_count(forecast.rays.soft_shadow_asked));
+    text += plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-", why);
   }
   text += plan_row("all", "", short_count(total_rays(forecast.rays)),
                    fmt::format("with {} from the eye; gnomon raytrace at {}x{}, {}",

@@ -30,9 +30,10 @@ std::string compared_words(const std::optional<Readings::Compared>& compared) {
   if (!compared) return "comparing…";
   std::string text = "wrong " + compare::percent(compared->wrong_fraction);
   if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
-  return text + fmt::format(" | map {}, shading {}, shadow rays {}", compare::milliseconds(compared->map_ms),
+  return text + fmt::format(" | map {}, shading {}, exact shadows {}",
+                            compare::milliseconds(compared->map_ms),
                             compare::milliseconds(compared->shade_ms),
-                            compare::milliseconds(compared->shadow_rays_ms));
+                            compare::milliseconds(compared->exact_shadows_ms));
 }
 
 /// A value that begins with a dash is joined to its option, so as not to look like one.

@@ -24,7 +24,7 @@ struct Readings {
     bool preview = false;
     double wrong_fraction = 0.0;
     double map_ms = 0.0, shade_ms = 0.0;  ///< full size only; 0 in a preview
-    double shadow_rays_ms = 0.0;
+    double exact_shadows_ms = 0.0;
   };
   std::optional<Compared> compared;
 };

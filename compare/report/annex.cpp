@@ -31,12 +31,24 @@ std::vector<TimeRow> light_rows(const Comparison& c, std::size_t i) {
   const std::uint64_t texels = static_cast<std::uint64_t>(drawn.map.view.face_count) *
                                static_cast<std::uint64_t>(drawn.map.view.size) *
                                static_cast<std::uint64_t>(drawn.map.view.size);
-  return {{light_key(i, "times_ms.map_pass"), (drawn.external ? "sheets" : "depth map") + suffix,
-           drawn.map_pass, grouped(texels) + " texels"},
-          {light_key(i, "times_ms.shade_pass"), "shading" + suffix, drawn.shade_pass,
-           "the picture with its shadow lookups"},
-          {light_key(i, "times_ms.shadow_rays"), "shadow rays" + suffix, truth.shadow_rays,
-           keyed_count(light_key(i, "shadow_rays"), truth.rays) + " exact rays", true}};
+  std::vector<TimeRow> rows{
+      {light_key(i, "times_ms.map_pass"), (drawn.external ? "sheets" : "depth map") + suffix, drawn.map_pass,
+       grouped(texels) + " texels"},
+      {light_key(i, "times_ms.shade_pass"), "shading" + suffix, drawn.shade_pass,
+       "the picture with its shadow lookups"}};
+  if (truth.is_soft())
+    rows.push_back(
+        {light_key(i, "times_ms.soft_shadow_rays"), "exact shadows" + suffix, truth.soft_shadow_rays,
+         fmt::format("{} rays, of {} samples asked for ({} a receiver)",
+                     keyed_count(light_key(i, "soft_shadow_rays"), truth.soft_rays),
+                     keyed_count(light_key(i, "soft_shadow_rays_asked"), truth.soft_rays_asked),
+                     keyed_count(light_key(i, "shadow_samples"), static_cast<std::uint64_t>(truth.samples))),
+         true});
+  const std::string where = truth.is_soft() ? " to the light's centre" : " exact rays";
+  rows.push_back({light_key(i, "times_ms.shadow_rays"),
+                  (truth.is_soft() ? "the light as a point" : "exact shadows") + suffix, truth.shadow_rays,
+                  keyed_count(light_key(i, "shadow_rays"), truth.rays) + where, true});
+  return rows;
 }
 
 std::string time_row(const TimeRow& row, double longest) {
@@ -91,6 +103,11 @@ std::string work_table(const Comparison& c) {
                                               byte_count(c.raster.map_bytes)));
   rows += plain_row("primary rays", keyed_count("costs.primary_rays", rays.primary));
   rows += plain_row("shadow rays", keyed_count("costs.shadow_rays", rays.shadow));
+  if (rays.soft_shadow_asked > 0) {
+    rows += plain_row("rays to lights with size", keyed_count("costs.soft_shadow_rays", rays.soft_shadow));
+    rows +=
+        plain_row("samples asked for", keyed_count("costs.soft_shadow_rays_asked", rays.soft_shadow_asked));
+  }
   rows += plain_row("reflection rays", keyed_count("costs.reflection_rays", rays.reflection));
   rows += plain_row("refraction rays", keyed_count("costs.refraction_rays", rays.refraction));
   if (rays.glossy > 0) rows += plain_row("glossy rays", keyed_count("costs.glossy_rays", rays.glossy));

@@ -45,7 +45,7 @@ std::string costs(const LightBlock& b, const raster::ExternalCosts& e) {
                  milliseconds(times.median()));
   };
   return fmt::format(
-      "<p>{} rays were cast where pure ray tracing casts {}: {}. The sheets took {} to build and hold {} "
+      "<p>{} rays were cast where pure ray tracing asks for {}: {}. The sheets took {} to build and hold {} "
       "while light and scene stand still; each frame took {} to find the receivers and {} to decide and "
       "trace.</p>\n",
       keyed_count(b.key("map.hybrid.rays"), e.rays), keyed_count(b.key("map.hybrid.all_rays"), e.all_rays),

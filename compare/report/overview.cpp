@@ -31,7 +31,7 @@ const Times& map_times(const Comparison& c, const LightComparison& light) {
   return drawn_record(c, light).map_pass;
 }
 const Times& ray_times(const Comparison& c, const LightComparison& light) {
-  return true_record(c, light).shadow_rays;
+  return true_record(c, light).exact_times();
 }
 
 // One light's time under its key, or the sum of several.
@@ -56,8 +56,9 @@ std::string raster_caption(const Comparison& c) {
 
 std::string raytraced_caption(const Comparison& c) {
   if (c.lights.empty()) return "<b>Ray tracer</b>, exact shadows";
+  const bool soft = true_record(c, c.lights.front()).is_soft();
   return fmt::format("<b>Ray tracer</b>, exact shadows: {} for shadow rays, {} for primary rays",
-                     shadow_time(c, "shadow_rays", ray_times),
+                     shadow_time(c, soft ? "soft_shadow_rays" : "shadow_rays", ray_times),
                      timed("times_ms.primary_rays", c.raytraced.primary_rays));
 }
 

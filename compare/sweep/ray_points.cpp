@@ -59,12 +59,12 @@ class Measurer {
     RayPoint out;
     out.name = std::move(name);
     out.times = frame.primary_rays;
-    out.rays = frame.rays.primary + frame.rays.shadow + frame.rays.soft_shadow;
+    out.rays = frame.rays.primary;
     out.bytes = tracer.stats().bytes;
     double absolute = 0.0;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      add_times(frame.lights[i].shadow_rays, out.times);
-      add_times(frame.lights[i].soft_shadow_rays, out.times);
+      add_times(frame.lights[i].exact_times(), out.times);
+      out.rays += frame.lights[i].exact_rays();
       absolute += compare_light(frame, i, out);
     }
     out.mean_absolute = absolute / static_cast<double>(std::max<std::uint64_t>(out.compared, 1));

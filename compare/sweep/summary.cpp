@@ -61,7 +61,7 @@ void add_times(const Json& times, CellSummary& sum) {
   sum.rays_ms = number(times.at("primary_rays").at("median"));
   double fastest = 0.0, slowest = 0.0;
   for (const Json& light : times.at("lights")) {
-    sum.rays_ms += number(light.at("shadow_rays").at("median"));
+    sum.rays_ms += number(light.at("exact_shadows").at("median"));
     for (const char* pass : {"map_pass", "shade_pass"}) {
       sum.raster_ms += number(light.at(pass).at("median"));
       const auto runs = light.at(pass).at("runs").get<std::vector<double>>();
