@@ -42,45 +42,61 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
   return (slope(0.5, 0.0) + slope(0.0, 0.5)) * scale;
 }
 
-double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
-                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                          const Vec3& to_light, const raytrace::SurfacePoint& receiver,
+                                          std::size_t pixel) {
   const LightView& view = record.map.view;
-  const Vec3& normal = receiver.normal;
-  const int own_face = record.face.data[pixel];
-  TexelCoordinate at = project_to_face(view, own_face, receiver.position);
-  Vec3 position = receiver.position;
-  raytrace::TexelKey key;
+  BiasedLookup out;
+  out.position = receiver.position;
+  out.at = project_to_face(view, record.face.data[pixel], receiver.position);
   if (bias.normal_offset_texels > 0.0) {
-    const double sine = glm::length(glm::cross(normal, to_light));
-    position += normal * (bias.normal_offset_texels * texel_world_size(view, at) * sine);
-    at = project_to_texel(view, position);
-    if (!at.inside) return -infinity;
-    key = raytrace::TexelKey::pack(at.face, at.column(), at.row());
-  } else if (!texel_of_pixel(record, pixel, key)) {
-    return -infinity;
+    const double sine = glm::length(glm::cross(receiver.normal, to_light));
+    out.position += receiver.normal * (bias.normal_offset_texels * texel_world_size(view, out.at) * sine);
+    out.at = project_to_texel(view, out.position);
+    if (!out.at.inside) return std::nullopt;
+    out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
+  } else if (!texel_of_pixel(record, pixel, out.key)) {
+    return std::nullopt;
   }
-  texel = record.map.texel_index(key.face(), key.column(), key.row());
-  const double stored = record.map.depth[texel];
-  if (!holds_caster(view, stored)) return -infinity;
+  return out;
+}
 
-  const double centre_v = key.row() + 0.5;
+double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                  const BiasedLookup& lookup, double caster_depth) {
+  const LightView& view = record.map.view;
+  const TexelCoordinate& at = lookup.at;
+  const int face = lookup.key.face();
+  const double centre_v = lookup.key.row() + 0.5;
   const auto plane = [&] {
-    return plane_depth(view, key.face(), key.column() + 0.5, centre_v, position, normal);
+    return plane_depth(view, face, lookup.key.column() + 0.5, centre_v, lookup.position, normal);
   };
-  const double stored_depth = depth_from_stored(view, key.face(), centre_v, stored);
   double receiver_depth = at.depth;
   if (bias.receiver_plane) {
-    const double next = depth_from_stored(view, key.face(), centre_v, stored + record.rounding.stored_step);
-    receiver_depth = plane() - record.rounding.float_world - std::abs(next - stored_depth);
+    const double stored = stored_from_depth(view, face, centre_v, caster_depth);
+    const double next = depth_from_stored(view, face, centre_v, stored + record.rounding.stored_step);
+    receiver_depth = plane() - record.rounding.float_world - std::abs(next - caster_depth);
   }
   if (bias.adaptive)
     receiver_depth -= std::max(0.0, at.depth - plane()) + record.rounding.adaptive_epsilon_world;
   const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
-  double gap = (receiver_depth - stored_depth) * along_ray;
+  double gap = (receiver_depth - caster_depth) * along_ray;
   if (const double base = record.rounding.constant_texel_world; base > 0.0)
     gap -= record.bias_constant_world * (texel_world_size(view, at) / base - 1.0);
-  if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, position, normal);
+  if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, lookup.position, normal);
   return gap;
+}
+
+double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+  const LightView& view = record.map.view;
+  const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
+  if (!lookup) return -infinity;
+  const raytrace::TexelKey key = lookup->key;
+  texel = record.map.texel_index(key.face(), key.column(), key.row());
+  const double stored = record.map.depth[texel];
+  if (!holds_caster(view, stored)) return -infinity;
+  return gap_before(record, bias, receiver.normal, *lookup,
+                    depth_from_stored(view, key.face(), key.row() + 0.5, stored));
 }
 
 }  // namespace gnomon::compare

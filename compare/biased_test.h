@@ -2,7 +2,10 @@
 // shaders/gap.glsl; a test holds the two together. Gaps are world units along the receiver's own light ray.
 #pragma once
 
+#include <optional>
+
 #include "raster/frame.h"
+#include "raytrace/sheets.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::compare {
@@ -17,6 +20,20 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
 /// where it does not meet it from the front.
 double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
                    const Vec3& normal);
+
+/// Where the biased test looks: the receiver's own place, or that of its normal offset.
+struct BiasedLookup {
+  raytrace::TexelKey key;
+  TexelCoordinate at;
+  Vec3 position;
+};
+/// None where the lookup is outside the map.
+std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                          const Vec3& to_light, const raytrace::SurfacePoint& receiver,
+                                          std::size_t pixel);
+/// The gap to a caster at a depth along forward on the light ray through the looked-up texel's centre.
+double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                  const BiasedLookup& lookup, double caster_depth);
 
 /// The gap of rung V5 less slope and plane terms: the receiver is shadowed iff it exceeds the constant bias.
 /// -infinity where the lookup is outside the map or nothing is stored. `texel` receives the texel looked up.

@@ -6,10 +6,6 @@
 
 namespace gnomon::compare {
 
-/// Whether the receiver's tangent plane sees the light's centre anywhere in the square of texels that the
-/// filter reads, half `reach_texels` wide: probed at 5 x 5 points of it.
-bool lit_within_reach(const LadderInput& input, std::size_t pixel, double reach_texels);
-
 /// Of the pixels that are shadowed at V0 ... V5, with nothing lit within the filter's reach, and lighter at
 /// V6 by half a step of an 8-bit picture or more. Zero but for vsm, esm, evsm and msm.
 BleedingStats measure_bleeding(const LadderInput& input, const std::array<Image<float>, rung_count>& rungs,

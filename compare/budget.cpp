@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "compare/labelling.h"
+
 namespace gnomon::compare {
 namespace {
 
@@ -97,19 +99,48 @@ std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_co
   return means;
 }
 
+namespace {
+
+std::array<float, rung_count> rungs_of(const std::array<Image<float>, rung_count>& rungs, std::size_t pixel) {
+  std::array<float, rung_count> v{};
+  for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
+  return v;
+}
+
+}  // namespace
+
+bool is_accident(const std::array<float, rung_count>& v) {
+  return std::abs(v[2] - v[0]) > 0.5f && !(std::abs(v[1] - v[0]) > 0.5f) && !(std::abs(v[6] - v[0]) > 0.5f);
+}
+
+RightByAccident count_accidents(const std::array<Image<float>, rung_count>& rungs,
+                                const Image<Label>& labels) {
+  const auto [shadowed, lit] = sum_compared<2>(labels, [&](auto& sums, std::size_t i) {
+    const std::array<float, rung_count> v = rungs_of(rungs, i);
+    if (is_accident(v)) sums[v[2] > v[0] ? 0 : 1] += 1.0;
+  });
+  return {static_cast<std::uint64_t>(shadowed), static_cast<std::uint64_t>(lit)};
+}
+
 std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
                                                   const Image<Label>& labels) {
-  const auto sums = sum_compared<2 * cause_count + 1>(labels, [&](auto& sum, std::size_t i) {
+  const auto sums = sum_compared<4 * cause_count + 1>(labels, [&](auto& sum, std::size_t i) {
+    const std::array<float, rung_count> v = rungs_of(rungs, i);
     for (std::size_t k = 0; k < cause_count; ++k) {
-      const double step = double(rungs[k + 1].data[i]) - double(rungs[k].data[i]);
-      sum[2 * k] += step, sum[2 * k + 1] += std::abs(step);
+      const double step = double(v[k + 1]) - double(v[k]);
+      sum[4 * k] += step, sum[4 * k + 1] += std::abs(step);
     }
-    sum[2 * cause_count] += 1.0;
+    if (is_wrong(labels.data[i])) {
+      const auto step = static_cast<std::size_t>(step_of_label(labels.data[i], v));
+      sum[4 * step + (v[6] < v[0] ? 2 : 3)] += 1.0;
+    }
+    sum[4 * cause_count] += 1.0;
   });
   std::array<BudgetStep, cause_count> budget{};
-  const double count = sums[2 * cause_count];
+  const double count = sums[4 * cause_count];
   for (std::size_t k = 0; k < cause_count && count > 0.0; ++k)
-    budget[k].signed_mean = sums[2 * k] / count, budget[k].absolute_mean = sums[2 * k + 1] / count;
+    budget[k] = {sums[4 * k] / count, sums[4 * k + 1] / count, static_cast<std::uint64_t>(sums[4 * k + 2]),
+                 static_cast<std::uint64_t>(sums[4 * k + 3])};
   return budget;
 }
 

@@ -16,7 +16,12 @@ ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, cons
 std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
                                           const Image<Label>& labels);
 
-/// Means of the six steps over compared pixels.
+/// A pixel that the sampling step made wrong and that is drawn right.
+bool is_accident(const std::array<float, rung_count>& rungs);
+RightByAccident count_accidents(const std::array<Image<float>, rung_count>& rungs,
+                                const Image<Label>& labels);
+
+/// Means of the six steps over compared pixels, and the wrong pixels that each is to blame for.
 std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
                                                   const Image<Label>& labels);
 

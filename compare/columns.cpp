@@ -92,7 +92,11 @@ bool Column::same_sheet(std::uint32_t a, std::uint32_t b) const {
 
 ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
                      const std::vector<TexelCentre>& centres)
-    : input_(in), groups_(groups), batch_of_group_(groups.keys.size(), no_id), kept_(groups.keys.size()) {
+    : input_(in),
+      groups_(groups),
+      batch_of_group_(groups.keys.size(), no_id),
+      kept_(groups.keys.size()),
+      surfaces_(in.world, in.topology) {
   std::vector<char> needed(groups.keys.size(), 0);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     for (const std::uint32_t pixel : groups[g])
@@ -122,13 +126,13 @@ Column::Sheets ColumnSet::find(std::size_t group) const {
 Column ColumnSet::column(std::size_t group) const {
   if (batch_of_group_[group] == no_id) return Column();
   const Column::Sheets& kept = kept_[group];
-  return Column(input_, groups_.keys[group], kept ? kept : find(group));
+  return Column(input_, groups_.keys[group], kept ? kept : find(group), surfaces_);
 }
 
 Column ColumnSet::kept_column(std::size_t group) {
   if (batch_of_group_[group] == no_id) return Column();
   if (!kept_[group]) kept_[group] = find(group);
-  return Column(input_, groups_.keys[group], kept_[group]);
+  return Column(input_, groups_.keys[group], kept_[group], surfaces_);
 }
 
 }  // namespace gnomon::compare

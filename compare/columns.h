@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/ladder.h"
+#include "compare/surfaces.h"
 
 namespace gnomon::compare {
 
@@ -21,6 +22,21 @@ struct TexelCentre {
 /// texel_ray(), but that of an orthographic map starts well before the near depth, which lies before all
 /// casters and is where its interval begins: no t is negative then, as single rays are traced fastest.
 Ray caster_ray(const LightView& view, int face, double u, double v);
+/// The first hit along a ray, before t_end, that `wanted` holds of.
+template <class Wanted>
+std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, Ray ray, double t_end,
+                                          const Wanted& wanted) {
+  // Deeper chains are not walked: what is looked for is among the first few or not at all.
+  constexpr int max_chain = 64;
+  for (int depth = 0; depth < max_chain; ++depth) {
+    const auto hit = tracer.closest_hit(ray);
+    if (!hit || !(hit->t < t_end)) return std::nullopt;
+    if (wanted(*hit)) return hit;
+    ray.t.min = std::nextafter(hit->t, infinity);
+  }
+  return std::nullopt;
+}
+
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);
 std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vector<raytrace::TexelKey>& keys);
 
@@ -36,18 +52,21 @@ class Column {
  public:
   Column() = default;
   using Sheets = std::shared_ptr<const std::vector<raytrace::Sheet>>;
-  Column(const LadderInput& input, raytrace::TexelKey key, Sheets sheets)
-      : input_(&input), key_(key), sheets_(std::move(sheets)) {}
+  Column(const LadderInput& input, raytrace::TexelKey key, Sheets sheets, const Surfaces& surfaces)
+      : input_(&input), key_(key), sheets_(std::move(sheets)), surfaces_(&surfaces) {}
   raytrace::TexelKey key() const { return key_; }
   /// Whether two primitives, both met by light rays on the side that faces the light, hang together in this
   /// column.
   bool same_sheet(std::uint32_t a, std::uint32_t b) const;
+  /// Which primitives hang together at all, in any column.
+  const Surfaces& surfaces() const { return *surfaces_; }
 
  private:
   bool faces_light(std::uint32_t primitive) const;
   const LadderInput* input_ = nullptr;
   raytrace::TexelKey key_;
   Sheets sheets_;
+  const Surfaces* surfaces_ = nullptr;
 };
 
 /// Triangle lists for the groups that need sheets; the sheets themselves are found on demand, per column.
@@ -69,6 +88,7 @@ class ColumnSet {
   std::vector<raytrace::TexelLists> lists_;
   std::vector<std::uint32_t> batch_of_group_;  ///< index in lists_, or no_id
   std::vector<Column::Sheets> kept_;           ///< by group; null: not asked for yet
+  Surfaces surfaces_;
 };
 
 }  // namespace gnomon::compare

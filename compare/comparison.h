@@ -44,9 +44,10 @@ enum class Label : std::int8_t {
   false_feature,
   blur,
   light_size,
-  outside_map
+  outside_map,
+  custom_shader
 };
-inline constexpr std::size_t class_count = 10;  ///< the wrong ones, acne … outside_map
+inline constexpr std::size_t class_count = 11;  ///< the wrong ones, acne … custom_shader
 std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
 inline bool is_wrong(Label label) {
   return static_cast<int>(label) > 0;
@@ -70,6 +71,18 @@ struct ErrorStats {
 struct BudgetStep {
   double signed_mean = 0.0;    ///< mean of V[k+1] - V[k] over compared pixels; the six sum to mean(V6 - V0)
   double absolute_mean = 0.0;  ///< mean of |V[k+1] - V[k]|
+  /// The wrong pixels whose label stands for this step (step_of_label); over the steps they sum to
+  /// ErrorStats::false_shadow and missed_shadow.
+  std::uint64_t false_shadow = 0, missed_shadow = 0;
+  /// What the step takes and what it adds: lightened() - darkened() is signed_mean, their sum absolute_mean.
+  double darkened() const { return 0.5 * (absolute_mean - signed_mean); }
+  double lightened() const { return 0.5 * (absolute_mean + signed_mean); }
+};
+
+/// Pixels drawn right though the sampling step had made them wrong: a later error undid the first.
+struct RightByAccident {
+  std::uint64_t shadowed = 0;  ///< truly shadowed, and dark only because the surface shadows itself
+  std::uint64_t lit = 0;       ///< truly lit, and lit only because the test let light past the stored caster
 };
 
 struct EdgeStats {
@@ -149,7 +162,8 @@ struct LightComparison {
   PixelCounts pixels;
   ErrorStats error;
   std::array<BudgetStep, cause_count> budget{};
-  std::array<std::uint64_t, class_count> classes{};  ///< acne … outside_map; they sum to error.wrong
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … custom_shader; they sum to error.wrong
+  RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
   BleedingStats bleeding;

@@ -63,11 +63,12 @@ std::string_view filter_kind(const raster::MapOptions& map) {
   return raster::uses_moments(map.technique) ? "moments" : "none";
 }
 
-double filter_reach_texels(const raster::MapOptions& map) {
+double filter_reach_texels(const raster::MapOptions& map, double level) {
   if (map.technique == Technique::pcf) return pcf_reach(map.filter);
   if (map.technique == Technique::pcss) return map.filter.search_radius_texels + 1.0;
-  if (raster::uses_moments(map.technique)) return map.filter.blur_radius_texels + 1.0;
-  return 0.0;
+  if (!raster::uses_moments(map.technique)) return 0.0;
+  const double side = std::exp2(std::ceil(level));
+  return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);
 }
 
 Parameters filter_parameters(const raster::MapOptions& map) {

@@ -15,8 +15,9 @@ namespace gnomon::compare {
 std::string_view filter_kind(const raster::MapOptions& map);
 
 /// How far from the receiver's place the filter can read, texels: half the width of its square; 0 for none.
-/// Of pcss, the most; mipmaps are not counted.
-double filter_reach_texels(const raster::MapOptions& map);
+/// Of pcss, the most. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
+/// texels on a side, and its neighbours are read too.
+double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
 
 /// The other parameters that the technique reads, by their names in result.json.
 std::vector<std::pair<std::string, double>> filter_parameters(const raster::MapOptions& map);

@@ -1,7 +1,8 @@
 #include "compare/labelling.h"
 
-#include "compare/bleeding.h"
+#include "compare/features.h"
 #include "compare/filter_parameters.h"
+#include "compare/filter_probe.h"
 
 namespace gnomon::compare {
 
@@ -9,57 +10,21 @@ using raytrace::SurfacePoint;
 
 namespace {
 
-// Deeper chains of occluders than this are not walked: the stored one is among the first few or not at all.
-constexpr int max_chain = 64;
-
-// Whether x's own surface is met by the light ray through (u, v), and lit there: -1 not met, 0 shadowed, 1
-// lit.
-int own_surface_on_ray(const LadderInput& in, const Column& column, std::uint32_t receiver, double u,
-                       double v) {
-  const LightView& view = in.record.map.view;
-  Ray ray = caster_ray(view, column.key().face(), u, v);
-  for (int depth = 0; depth < max_chain; ++depth) {
-    const auto hit = in.tracer.closest_hit(ray);
-    if (!hit) return -1;
-    if (column.same_sheet(receiver, hit->primitive)) return depth == 0 ? 1 : 0;
-    ray.t.min = std::nextafter(hit->t, infinity);
-  }
-  return -1;
-}
-
-// The receiver's surface changes between lit and shadowed inside the texel's footprint: probed at its
-// corners, the middles of its sides, and its centre.
-bool edge_in_footprint(const LadderInput& in, const Column& column, const SurfacePoint& receiver,
-                       bool truly_lit) {
-  for (int j = 0; j <= 2; ++j) {
-    for (int i = 0; i <= 2; ++i) {
-      const int there = own_surface_on_ray(in, column, receiver.primitive, column.key().column() + 0.5 * i,
-                                           column.key().row() + 0.5 * j);
-      if (there >= 0 && (there == 1) != truly_lit) return true;
-    }
-  }
-  return false;
-}
-
 Label sampling_label(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
-  const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
-  if (edge_in_footprint(in, column, receiver, wrong.false_shadow)) return Label::aliasing;
-  return wrong.false_shadow ? Label::false_feature : Label::missed_feature;
+  if (wrong.false_shadow)
+    return false_caster_goes_on(in, column, wrong) ? Label::aliasing : Label::false_feature;
+  return missed_caster_is_known(in, column, wrong) ? Label::aliasing : Label::missed_feature;
 }
 
 // The stored primitive, or one that hangs together with it in this column, lies between x and the light.
 bool stored_is_true_occluder(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
   const std::uint32_t stored = in.record.map.primitive[wrong.lookup];
   const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
-  Ray ray = in.tracer.shadow_ray(receiver, in.light);
-  for (int depth = 0; depth < max_chain; ++depth) {
-    const auto hit = in.tracer.closest_hit(ray);
-    if (!hit) return false;
-    if (hit->primitive == stored || (stored != no_id && column.same_sheet(hit->primitive, stored)))
-      return true;
-    ray.t.min = std::nextafter(hit->t, infinity);
-  }
-  return false;
+  const auto met = first_on_ray(
+      in.tracer, in.tracer.shadow_ray(receiver, in.light), infinity, [&](const raytrace::Hit& hit) {
+        return hit.primitive == stored || (stored != no_id && column.same_sheet(hit.primitive, stored));
+      });
+  return met.has_value();
 }
 
 Label bias_label(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
@@ -70,16 +35,28 @@ Label bias_label(const LadderInput& in, const Column& column, const WrongPixel& 
   return stored != no_id && column.same_sheet(receiver, stored) ? Label::acne : Label::false_feature;
 }
 
+// A filter that averages comparisons draws what they say: where true comparisons, averaged alike, are right,
+// those with the map are at fault, and what they find dark is the surface itself. Of moments the least is
+// known: only where nothing within reach is shadowed is the surface itself the caster.
+bool filters_own_surface(const LadderInput& in, const WrongPixel& wrong) {
+  if (in.drawn.options.map.technique != raster::Technique::pcf)
+    return !shadowed_within_reach(in, wrong.pixel);
+  return !(std::abs(true_average(in, wrong.pixel) - double{wrong.truth}) > 0.5);
+}
+
 // Light where nothing within the filter's reach is lit has leaked; near an edge it is the edge's blur.
 Label filter_label(const LadderInput& in, const WrongPixel& wrong) {
-  if (wrong.false_shadow) return Label::blur;
-  const double reach = filter_reach_texels(in.drawn.options.map);
-  return lit_within_reach(in, wrong.pixel, reach) ? Label::blur : Label::light_leak;
+  if (in.drawn.custom_shader) return Label::custom_shader;
+  if (filter_kind(in.drawn.options.map) == "none") return Label::precision;
+  if (wrong.false_shadow) return filters_own_surface(in, wrong) ? Label::acne : Label::blur;
+  return lit_within_reach(in, wrong.pixel) ? Label::blur : Label::light_leak;
 }
 
 }  // namespace
 
 Label label_wrong_pixel(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+  if (in.drawn.custom_shader && !in.drawn.custom_shader->reads_bias) return Label::custom_shader;
+  if (wrong.exact_is_right) return Label::precision;
   switch (wrong.step) {
     case Cause::light_size:
       return Label::light_size;
@@ -95,6 +72,29 @@ Label label_wrong_pixel(const LadderInput& in, const Column& column, const Wrong
       return filter_label(in, wrong);
   }
   return Label::blur;
+}
+
+Cause step_of_label(Label label, const std::array<float, rung_count>& rungs) {
+  switch (label) {
+    case Label::acne:
+      return Cause::slope;
+    case Label::precision:
+      return Cause::precision;
+    case Label::peter_panning:
+      return Cause::bias;
+    case Label::aliasing:
+    case Label::missed_feature:
+    case Label::false_feature:
+    case Label::outside_map:
+      return Cause::sampling;
+    case Label::blur:
+    case Label::custom_shader:
+      return Cause::filter;
+    case Label::light_size:
+      return Cause::light_size;
+    default:
+      return deciding_step(rungs);
+  }
 }
 
 }  // namespace gnomon::compare

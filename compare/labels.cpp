@@ -45,6 +45,8 @@ std::string_view label_name(Label label) {
       return "light_size";
     case Label::outside_map:
       return "outside_map";
+    case Label::custom_shader:
+      return "custom_shader";
   }
   return "unknown";
 }
@@ -81,6 +83,8 @@ glm::u8vec3 label_colour(Label label) {
       return {0x33, 0x22, 0x88};  // indigo (Tol)
     case Label::outside_map:
       return {0x88, 0x22, 0x55};  // wine (Tol)
+    case Label::custom_shader:
+      return {0x66, 0x33, 0x33};  // dark red (Tol, "dark")
   }
   return {0, 0, 0};
 }

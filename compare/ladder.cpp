@@ -7,8 +7,8 @@
 
 #include <optional>
 
-#include "compare/biased_test.h"
 #include "compare/columns.h"
+#include "compare/exact_depth.h"
 #include "compare/labelling.h"
 #include "compare/pixel_list.h"
 #include "raytrace/shape_sheets.h"
@@ -36,12 +36,13 @@ Image<Label> sort_pixels(const LadderInput& in) {
 }
 
 Cause deciding_step(const std::array<float, rung_count>& v) {
-  std::size_t step = 0;
-  for (std::size_t k = 1; k < rung_count; ++k) {
-    const bool wrong_now = std::abs(v[k] - v[0]) > 0.5f;
-    const bool wrong_before = std::abs(v[k - 1] - v[0]) > 0.5f;
-    if (wrong_now && !wrong_before) step = k - 1;
-  }
+  const auto wrong = [&](std::size_t k) { return std::abs(v[k] - v[0]) > 0.5f; };
+  if (!wrong(5)) return Cause::filter;
+  std::size_t step = 4;
+  if (v[6] > v[0])
+    for (step = 0; !wrong(step + 1);) ++step;
+  else
+    while (wrong(step)) --step;
   return static_cast<Cause>(step);
 }
 
@@ -92,7 +93,7 @@ float flat_rung(const SurfacePoint& receiver, const TexelCentre& centre, double 
 
 // V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
-// does where the map stores the midpoint between two surfaces.
+// does where the map stores the midpoint between two surfaces, and where the stored depth is the exact one.
 float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, double own,
                   float flat) {
   const raster::ShadowMap& map = in.record.map;
@@ -104,7 +105,8 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
   const double stored = map.depth[texel];
   const double row = key.row();
   if (!holds_caster(map.view, stored)) return 1.0f;
-  return lit(!(own > depth_from_stored(map.view, centre.face, row + 0.5, stored)));
+  const double before = depth_from_stored(map.view, centre.face, row + 0.5, stored);
+  return is_exact(in, before, centre.depth) ? flat : lit(!(own > before));
 }
 
 // V0: the share of the light that the receiver sees; of a light without size, all or nothing.
@@ -141,8 +143,21 @@ void climb_lower(const Column& column, const TexelCentre& centre, raytrace::Texe
   out.rungs[4].data[pixel] = stored_rung(in, centre, key, own, flat);
 }
 
+// A shader of the user's own that names neither bias nor gap draws without a bias.
+bool tests_bias(const LadderInput& in) {
+  return !in.drawn.custom_shader || in.drawn.custom_shader->reads_bias;
+}
+
 bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
   return std::abs(in.record.visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
+}
+
+// The exact depth in place of the stored one would have made the biased test right.
+bool right_with_exact_depth(const LowerClimb& lower, const LadderInput& in, std::size_t group,
+                            std::size_t pixel, const std::array<float, rung_count>& v) {
+  if (!(std::abs(v[5] - v[0]) > 0.5f)) return false;
+  const auto gap = exact_gap(lower, in, group, pixel);
+  return gap && !(std::abs(lit(!(*gap > in.record.bias_constant_world)) - v[0]) > 0.5f);
 }
 
 // V5 and V6 of one texel's pixels. The column is looked at only where some pixel is wrong.
@@ -150,14 +165,17 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
   std::optional<Column> column;
   for (const std::uint32_t pixel : lower.groups[group]) {
     std::size_t lookup = texel_of_group(lower, group);
-    const double gap = gap_with_bias(in, pixel, lookup);
-    out.rungs[5].data[pixel] = lit(!(gap > in.record.bias_constant_world));
+    const double gap = gap_with_bias(lower, in, group, pixel, lookup);
+    out.rungs[5].data[pixel] =
+        tests_bias(in) ? lit(!(gap > in.record.bias_constant_world)) : out.rungs[4].data[pixel];
     out.rungs[6].data[pixel] = in.record.visibility.data[pixel];
     if (!drawn_wrong(in, out, pixel)) continue;
     std::array<float, rung_count> v{};
     for (std::size_t k = 0; k < rung_count; ++k) v[k] = out.rungs[k].data[pixel];
     if (!column) column = lower.columns->kept_column(group);
-    out.labels.data[pixel] = label_wrong_pixel(in, *column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
+    const bool exact = right_with_exact_depth(lower, in, group, pixel, v);
+    out.labels.data[pixel] =
+        label_wrong_pixel(in, *column, {pixel, lookup, deciding_step(v), v[6] < v[0], exact, v[0]});
   }
 }
 
@@ -184,12 +202,6 @@ std::size_t texel_of_group(const LowerClimb& lower, std::size_t group) {
   return lower.input.record.map.texel_index(key.face(), key.column(), key.row());
 }
 
-double gap_with_bias(const LadderInput& in, std::size_t pixel, std::size_t& lookup) {
-  const SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const Vec3 to_light = light_at(in.light, receiver.position).to_light;
-  return biased_gap(in.record, in.drawn.options.map.bias, to_light, receiver, pixel, lookup);
-}
-
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
   tbb::parallel_for(std::size_t{0}, rungs.size(),
@@ -199,11 +211,13 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     rungs[0].data[outside[i]] = truth_rung(in, outside[i]);
     rungs[1].data[outside[i]] = point_rung(in, outside[i]);
   });
-  const std::vector<TexelCentre> centres = trace_centres(in, groups.keys);
-  columns = std::make_unique<ColumnSet>(input, groups, centres);
+  const std::vector<TexelCentre> rays = trace_centres(in, groups.keys);
+  centres.reserve(rays.size());
+  for (const TexelCentre& ray : rays) centres.push_back({ray.depth, ray.hit ? ray.hit->primitive : no_id});
+  columns = std::make_unique<ColumnSet>(input, groups, rays);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     const Column column = columns->column(g);
-    for (const std::uint32_t pixel : groups[g]) climb_lower(column, centres[g], groups.keys[g], pixel, *this);
+    for (const std::uint32_t pixel : groups[g]) climb_lower(column, rays[g], groups.keys[g], pixel, *this);
   });
 }
 

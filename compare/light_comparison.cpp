@@ -47,6 +47,7 @@ void measure_pixels(LightComparison& light) {
   light.classes = count_classes(light.labels);
   light.error = measure_error(light.rungs, light.labels);
   light.budget = add_up_budget(light.rungs, light.labels);
+  light.accidents = count_accidents(light.rungs, light.labels);
   light.rung_mean = mean_rungs(light.rungs, light.labels);
 }
 
@@ -85,6 +86,7 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   const MapMeasures map = options.map != nullptr ? *options.map : measure_map(in, out.labels);
   out.texel_world = map.texel_world;
   out.theory = map.theory;
+  if (in.drawn.custom_shader) return out;  // what it draws does not follow from the gaps
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);
   out.bias_curve = draw_bias_curve(gaps, out.texel_world[1], in.record.bias_constant_world,

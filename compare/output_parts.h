@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
+#include "compare/option_names.h"
 
 namespace gnomon::compare {
 
@@ -17,6 +18,12 @@ inline const raytrace::LightTruth& true_record(const Comparison& c, const LightC
 }
 inline const Light& light_of(const Comparison& c, const LightComparison& light) {
   return c.world->scene->lights[light.light];
+}
+/// Whether a depth is compared with a bias: not by izb and hybrid, nor by a shader of the user's own that
+/// reads none.
+inline bool draws_bias(const Comparison& c) {
+  const auto& custom = c.raster.custom_shader;
+  return compares_depths(c.raster.options.map.technique) && (!custom || custom->reads_bias);
 }
 
 /// A light's name as a part of a file name, unique among the lights compared.

@@ -65,10 +65,16 @@ void add_errors(Row& row, const LightComparison& light) {
   row.emplace_back("ssim", number(light.error.ssim));
   for (std::size_t k = 0; k < class_count; ++k)
     count(fmt::format("{}_pixels", label_name(static_cast<Label>(k + 1))), light.classes[k]);
+  count("right_by_accident_shadowed_pixels", light.accidents.shadowed);
+  count("right_by_accident_lit_pixels", light.accidents.lit);
   for (std::size_t k = 0; k < cause_count; ++k) {
     const auto cause = cause_name(static_cast<Cause>(k));
     row.emplace_back(fmt::format("budget_{}_signed", cause), number(light.budget[k].signed_mean));
     row.emplace_back(fmt::format("budget_{}_absolute", cause), number(light.budget[k].absolute_mean));
+    row.emplace_back(fmt::format("budget_{}_darkened", cause), number(light.budget[k].darkened()));
+    row.emplace_back(fmt::format("budget_{}_lightened", cause), number(light.budget[k].lightened()));
+    count(fmt::format("budget_{}_false_shadow_pixels", cause), light.budget[k].false_shadow);
+    count(fmt::format("budget_{}_missed_shadow_pixels", cause), light.budget[k].missed_shadow);
   }
   row.emplace_back("edge_mean_texels", number(light.edges.mean_texels));
   row.emplace_back("edge_rms_texels", number(light.edges.rms_texels));

@@ -105,24 +105,39 @@ Json cascades_json(const raster::MapOptions& map, const LightView& view) {
           {"faces", std::move(faces)}};
 }
 
+// A shader of the user's own that reads no bias draws without: null, and nothing but zeros.
+Json bias_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const bool drawn = draws_bias(c) || !compares_depths(c.raster.options.map.technique);
+  const raster::Bias bias = drawn ? c.raster.options.map.bias : raster::Bias{};
+  const double texel = light.texel_world[1];
+  return {
+      {"constant_world", drawn ? number(record.bias_constant_world) : Json(nullptr)},
+      {"constant_texels", drawn && texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
+      {"slope", number(bias.slope)},
+      {"normal_offset_texels", number(bias.normal_offset_texels)},
+      {"receiver_plane", bias.receiver_plane},
+      {"adaptive", bias.adaptive},
+      {"adaptive_epsilon_world",
+       bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}};
+}
+
+// null where the program's own shaders drew.
+Json custom_shader_json(const raster::RasterFrame& drawn) {
+  if (!drawn.custom_shader) return nullptr;
+  return {{"files", drawn.custom_shader->files}, {"reads_bias", drawn.custom_shader->reads_bias}};
+}
+
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  const double texel = light.texel_world[1];
   Json json{{"technique", technique_name(map.technique)},
             {"size", record.map.view.size},
             {"faces", record.map.view.face_count},
             {"depth_format", depth_format_name(record.map.format)},
             {"cull", cull_name(map.cull)},
-            {"bias",
-             {{"constant_world", number(record.bias_constant_world)},
-              {"constant_texels", texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
-              {"slope", number(map.bias.slope)},
-              {"normal_offset_texels", number(map.bias.normal_offset_texels)},
-              {"receiver_plane", map.bias.receiver_plane},
-              {"adaptive", map.bias.adaptive},
-              {"adaptive_epsilon_world",
-               map.bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}}},
+            {"bias", bias_json(c, light)},
+            {"custom_shader", custom_shader_json(c.raster)},
             {"cascades", cascades_json(map, record.map.view)},
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(map)},
@@ -155,7 +170,11 @@ Json budget_json(const LightComparison& light) {
   for (std::size_t k = 0; k < cause_count; ++k)
     json.push_back({{"cause", cause_name(static_cast<Cause>(k))},
                     {"signed", number(light.budget[k].signed_mean)},
-                    {"absolute", number(light.budget[k].absolute_mean)}});
+                    {"absolute", number(light.budget[k].absolute_mean)},
+                    {"darkened", number(light.budget[k].darkened())},
+                    {"lightened", number(light.budget[k].lightened())},
+                    {"false_shadow", light.budget[k].false_shadow},
+                    {"missed_shadow", light.budget[k].missed_shadow}});
   return json;
 }
 
@@ -248,6 +267,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"budget", budget_json(light)},
              {"ladder", ladder_json(light)},
              {"classes", classes_json(light)},
+             {"right_by_accident", {{"shadowed", light.accidents.shadowed}, {"lit", light.accidents.lit}}},
              {"edges",
               {{"count", light.edges.edges},
                {"mean_texels", number(light.edges.mean_texels)},

@@ -66,8 +66,9 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
       "{}, {} x {}{} texels", technique_name(map.technique), record.map.view.size, record.map.view.size,
       record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
   if (!compares_depths(map.technique)) return text;
-  text += fmt::format(", {}, bias {}", depth_format_name(record.map.format),
-                      plain_number(record.bias_constant_world));
+  text += fmt::format(", {}", depth_format_name(record.map.format));
+  if (!draws_bias(c)) return text + ", shader of --shader-dir";
+  text += fmt::format(", bias {}", plain_number(record.bias_constant_world));
   if (texel > 0.0)
     text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
                         plain_number(texel));
@@ -114,14 +115,23 @@ std::string labels_line(const LightComparison& light) {
   return text.empty() ? "none" : text;
 }
 
+std::string accidents_line(const RightByAccident& a) {
+  return fmt::format("{} dark only because the surface shadows itself, {} lit only past a stored caster",
+                     grouped(a.shadowed), grouped(a.lit));
+}
+
+// What each step took and what it added.
 std::string budget_line(const LightComparison& light) {
   std::string text;
   double sum = 0.0;
   for (std::size_t k = 0; k < cause_count; ++k) {
-    const double step = light.budget[k].signed_mean;
-    sum += step;
-    if (light.budget[k].absolute_mean > 0.0)
-      text += fmt::format("{} {}, ", spoken(cause_name(static_cast<Cause>(k))), signed_number(step));
+    const BudgetStep& step = light.budget[k];
+    sum += step.signed_mean;
+    if (!(step.absolute_mean > 0.0)) continue;
+    text += spoken(cause_name(static_cast<Cause>(k)));
+    if (step.darkened() > 0.0) text += ' ' + signed_number(-step.darkened());
+    if (step.lightened() > 0.0) text += ' ' + signed_number(step.lightened());
+    text += ", ";
   }
   return text + "sum " + signed_number(sum);
 }
@@ -193,6 +203,8 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
+    if (light.accidents.shadowed + light.accidents.lit > 0)
+      page.field("by chance", accidents_line(light.accidents));
     page.field("budget", budget_line(light));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra);

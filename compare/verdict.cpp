@@ -100,7 +100,7 @@ std::string nothing_compared(const PixelCounts& p) {
 // What other biases would do follows from the gaps of a hard test alone.
 std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  return wrong_part(light) + (biases_follow_from_gaps(c.raster.options.map) ? bias_part(light) : "");
+  return wrong_part(light) + (biases_follow_from_gaps(c.raster) ? bias_part(light) : "");
 }
 
 }  // namespace gnomon::compare

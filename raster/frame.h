@@ -83,6 +83,13 @@ struct ReplacedShader {
   bool operator==(const ReplacedShader&) const = default;
 };
 
+/// Files of a shader folder that stand in for those which turn the map into visibility.
+struct CustomShader {
+  std::vector<std::string> files;  ///< as named in shaders/, such as "technique/hard.glsl"
+  /// Its text names the bias or the biased gap: then the bias is a part of what it draws.
+  bool reads_bias = false;
+};
+
 struct RasterFrame {
   ContextInfo context;
   std::vector<ReplacedShader> replaced_shaders;  ///< those that drew this frame
@@ -90,6 +97,7 @@ struct RasterFrame {
   ColorImage color;                 ///< linear radiance, all lights
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id
   std::vector<LightRecord> lights;  ///< in the order asked for
+  std::optional<CustomShader> custom_shader;
   std::uint64_t map_texels = 0;     ///< texels rendered, all lights, blur and the like included
   std::uint64_t map_bytes = 0;      ///< device memory of maps at one time: the lights take turns in it
 };

@@ -9,6 +9,7 @@
 #include <functional>
 #include <new>
 
+#include "raster/custom_shader.h"
 #include "raster/depth_map_pass.h"
 #include "raster/external_pass.h"
 #include "raster/light_block.h"
@@ -252,6 +253,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->rounding = rounding;
     record->map.view = *view;
     record->map.format = map.depth_format;
+    if (!job.frame.custom_shader) job.frame.custom_shader = custom_shader(gl_->shader_folder(), map, light);
   }
   const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
   const VisibilityRequest request{

@@ -4,6 +4,10 @@ gnomon_test(compare_closed_form_gl_test TIMEOUT 900
   SOURCES compare_closed_form_gl_test.cpp compare_filter_gl_test.cpp compare_units_test.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::compare nlohmann_json::nlohmann_json)
 target_include_directories(compare_closed_form_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+gnomon_test(compare_confusion_gl_test TIMEOUT 900
+  SOURCES compare_confusion_gl_test.cpp support/compare_support.cpp support/small_scenes.cpp
+  LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
+target_include_directories(compare_confusion_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 gnomon_test(compare_models_gl_test TIMEOUT 1200
   SOURCES compare_models_gl_test.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::compare embree TBB::tbb nlohmann_json::nlohmann_json)

@@ -9,12 +9,35 @@
 namespace gnomon::compare {
 namespace {
 
-TEST(DecidingStep, IsTheLastRise) {
+TEST(DecidingStep, OfAFalseShadowIsTheLastRise) {
   EXPECT_EQ(deciding_step({1, 1, 1, 0, 0, 0, 0}), Cause::slope);
   EXPECT_EQ(deciding_step({1, 1, 1, 0, 0, 1, 0}), Cause::filter);
+  EXPECT_EQ(deciding_step({1, 1, 0, 1, 0, 0, 0}), Cause::precision);
+  EXPECT_EQ(deciding_step({0.75f, 0, 0, 1, 0.25f, 0, 0}), Cause::bias) << "half is not wrong";
+}
+
+// Between V2 and V5 the surface shadows itself, and the bias takes that away again.
+TEST(DecidingStep, OfAMissedShadowIsTheFirstRise) {
   EXPECT_EQ(deciding_step({0, 0, 1, 1, 1, 1, 1}), Cause::sampling);
-  EXPECT_EQ(deciding_step({0, 0, 1, 0, 0, 1, 1}), Cause::bias);
-  EXPECT_EQ(deciding_step({0.5f, 1, 1, 1, 1, 0, 0}), Cause::light_size) << "half is not wrong";
+  EXPECT_EQ(deciding_step({0, 0, 1, 0, 0, 1, 1}), Cause::sampling);
+  EXPECT_EQ(deciding_step({0, 0, 0, 1, 0, 1, 1}), Cause::slope);
+  EXPECT_EQ(deciding_step({0, 0, 0, 0, 0, 1, 1}), Cause::bias);
+  EXPECT_EQ(deciding_step({0.4f, 1, 0, 0, 0, 1, 1}), Cause::light_size);
+  EXPECT_EQ(deciding_step({0, 0, 1, 0, 0, 0, 1}), Cause::filter) << "V5 is dark: only the filter lights it";
+}
+
+TEST(Budget, TellsWhatAStepDarkenedFromWhatItLightened) {
+  const BudgetStep step{-0.25, 0.75};
+  EXPECT_EQ(step.darkened(), 0.5);
+  EXPECT_EQ(step.lightened(), 0.25);
+}
+
+TEST(Accident, IsASamplingErrorThatALaterErrorHides) {
+  EXPECT_TRUE(is_accident({0, 0, 1, 0, 0, 0, 0})) << "dark by shadowing itself";
+  EXPECT_TRUE(is_accident({1, 1, 0, 0, 0, 1, 1})) << "lit by the bias";
+  EXPECT_FALSE(is_accident({0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(is_accident({0, 0, 1, 1, 1, 1, 1})) << "wrong";
+  EXPECT_FALSE(is_accident({1, 1, 1, 0, 0, 1, 1})) << "the bias is there to cure acne";
 }
 
 TEST(BestBias, LiesBetweenTheLastLitAndTheFirstShadowedGap) {

@@ -66,7 +66,20 @@ TEST(ResultJson, CountsAndBudgetAddUp) {
     pixels += light["pixels"][name].get<std::uint64_t>();
   EXPECT_EQ(pixels, light["pixels"]["total"]);
   double sum = 0.0;
-  for (const Json& step : light["budget"]) sum += step["signed"].get<double>();
+  std::uint64_t false_shadow = 0, missed_shadow = 0;
+  for (const Json& step : light["budget"]) {
+    sum += step["signed"].get<double>();
+    EXPECT_NEAR(step["lightened"].get<double>() - step["darkened"].get<double>(),
+                step["signed"].get<double>(), 1e-15);
+    EXPECT_NEAR(step["lightened"].get<double>() + step["darkened"].get<double>(),
+                step["absolute"].get<double>(), 1e-15);
+    EXPECT_GE(step["darkened"].get<double>(), 0.0);
+    EXPECT_GE(step["lightened"].get<double>(), 0.0);
+    false_shadow += step["false_shadow"].get<std::uint64_t>();
+    missed_shadow += step["missed_shadow"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(false_shadow, light["error"]["false_shadow"]);
+  EXPECT_EQ(missed_shadow, light["error"]["missed_shadow"]);
   EXPECT_NEAR(sum, light["ladder"][6]["mean"].get<double>() - light["ladder"][0]["mean"].get<double>(),
               1e-12);
 }
@@ -79,7 +92,7 @@ TEST(ResultJson, KeepsTheOrderAndNamesOfTheContract) {
   for (const auto& step : json["lights"][0]["budget"]) causes.push_back(step["cause"]);
   EXPECT_EQ(classes, (std::vector<std::string>{"acne", "precision", "peter_panning", "light_leak", "aliasing",
                                                "missed_feature", "false_feature", "blur", "light_size",
-                                               "outside_map"}));
+                                               "outside_map", "custom_shader"}));
   EXPECT_EQ(causes,
             (std::vector<std::string>{"light_size", "sampling", "slope", "precision", "bias", "filter"}));
 }

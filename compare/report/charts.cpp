@@ -131,15 +131,19 @@ std::vector<double> nice_ticks(double min, double max, int wanted) {
   return ticks;
 }
 
-std::string waterfall_bar(double from, double to, double min, double max, std::string_view kind) {
-  const auto x = [&](double v) { return max > min ? 1000.0 * (v - min) / (max - min) : 500.0; };
-  const double a = std::min(x(from), x(to)), b = std::max(x(from), x(to));
+std::string two_sided_bar(const TwoSides& done, const TwoSides& left, double scale) {
+  const auto width = [&](double v) { return v > 0.0 ? std::max(490.0 * v / scale, 1.5) : 0.0; };
+  const auto bar = [&](double v, std::string_view kind, double opacity) {
+    const double w = width(v);
+    return fmt::format(R"(<rect class="{}" x="{:.1f}" y="5" width="{:.1f}" height="14" opacity="{}"/>)", kind,
+                       kind == "minus" ? 500.0 - w : 500.0, w, opacity);
+  };
+  constexpr double pale = 0.35;
   return fmt::format(
       R"(<svg class="bar" viewBox="0 0 1000 24" preserveAspectRatio="none" aria-hidden="true"
-focusable="false"><line class="zero" x1="{:.1f}" x2="{:.1f}" y1="0" y2="24"/><line class="link"
-x1="{:.1f}" x2="{:.1f}" y1="0" y2="5"/><line class="link" x1="{:.1f}" x2="{:.1f}" y1="19"
-y2="24"/><rect class="{}" x="{:.1f}" y="5" width="{:.1f}" height="14"/></svg>)",
-      x(0.0), x(0.0), x(from), x(from), x(to), x(to), kind, a, std::max(b - a, 1.5));
+focusable="false">{}{}{}{}<line class="zero" x1="500" x2="500" y1="0" y2="24"/></svg>)",
+      bar(done.darker, "minus", pale), bar(done.lighter, "plus", pale), bar(left.darker, "minus", 1.0),
+      bar(left.lighter, "plus", 1.0));
 }
 
 std::string share_bar(double share, std::string_view kind) {

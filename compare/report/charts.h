@@ -12,9 +12,13 @@ namespace gnomon::compare {
 /// Ticks at 1, 2 or 5 times a power of ten inside [min, max], about `wanted` of them; exact multiples.
 std::vector<double> nice_ticks(double min, double max, int wanted);
 
-/// One row of the budget's waterfall: a bar from `from` to `to` on the scale [min, max], with the zero line.
-/// Stretches to the width of its table cell. `kind` is "minus", "plus" or "sum".
-std::string waterfall_bar(double from, double to, double min, double max, std::string_view kind);
+/// What a step of the budget took away (to the left of zero) and what it added (to the right).
+struct TwoSides {
+  double darker = 0.0, lighter = 0.0;
+};
+/// One row of the budget, stretched to the width of its table cell: pale what the step did, in full colour
+/// what is left of it in wrong pixels. `scale`: what reaches the cell's end.
+std::string two_sided_bar(const TwoSides& done, const TwoSides& left, double scale);
 
 /// A plain bar of `share` in [0, 1].
 std::string share_bar(double share, std::string_view kind);

@@ -20,7 +20,7 @@ constexpr std::array<LabelText, 5 + class_count> labels{{
     {"precision", "P", "the stored depth is not the depth the light sees",
      "The depth was rounded to the map's format or interpolated across the triangle, or the fill rule gave "
      "the texel to "
-     "a neighbour.",
+     "a neighbour: with the exact depth the same test, with the same bias, would be right.",
      "A format with more bits (d32f), a depth range fitted closer to the scene, or a slightly larger bias."},
     {"peter-panning", "D", "the shadow has come loose from its caster",
      "The bias reaches past a true occluder that lies close to the surface, so the shadow starts too late "
@@ -28,22 +28,25 @@ constexpr std::array<LabelText, 5 + class_count> labels{{
      "object seems to float.",
      "Less bias. A finer map, or a bias that grows only with the slope, makes less of it enough."},
     {"light leak", "L", "light gets through where the bias or the filter looked past the occluder",
-     "The test let light through although something stands in its way: typical behind thin walls and in "
-     "corners.",
+     "The map knows that something stands in the light's way, and the test let light through all the same: "
+     "typical "
+     "behind thin walls and in corners.",
      "Less bias, a narrower filter, or walls that are thicker than the bias."},
     {"aliasing", "S", "the shadow's edge follows the texels",
      "Beside a true shadow edge the texel's centre falls on the other side of the edge than the pixel does, "
      "so the edge "
-     "turns into stairs of about a texel.",
+     "turns into stairs of about a texel. No bias mends that: where the map misses an occluder, a surface "
+     "that shadows "
+     "itself may hide the gap until a bias cures its acne.",
      "Smaller texels where the camera looks: a larger map or one fitted closer. A filter hides the stairs, "
      "but blurs."},
     {"missed feature", "M", "the shadow of something thinner than a texel is missing",
-     "No texel's centre meets the occluder, so the map does not know it.",
+     "None of the four texel centres around the pixel meets the occluder, so the map does not know it there.",
      "A larger map, or exact rays where texels hold more than one surface."},
     {"false feature", "F", "a thin occluder darkens a whole texel",
-     "The texel's centre happens to meet an occluder that covers little of the texel; every pixel that looks "
-     "the texel "
-     "up is dark.",
+     "The texel's centre happens to meet an occluder that ends before the next texels' centres; every pixel "
+     "that looks "
+     "the texel up is dark.",
      "A larger map, or exact rays where texels hold more than one surface."},
     {"blur", "B", "the filter's penumbra is not the light's",
      "The technique averages over neighbouring texels, which softens edges that are sharp.",
@@ -54,6 +57,11 @@ constexpr std::array<LabelText, 5 + class_count> labels{{
     {"outside the map", "X", "the depth map does not reach this far",
      "The surface lies outside the part of the scene that the map covers.",
      "A map fitted to the whole scene."},
+    {"custom shader", "C", "a shader of your own drew other than the map's test says",
+     "With --shader-dir a file of yours stands in for the program's own; up to its last step the ladder is "
+     "that of the "
+     "hard test with the map, and the rest is the shader's.",
+     "Whatever the shader is meant to show."},
 }};
 
 constexpr std::array<StepText, cause_count> steps{{

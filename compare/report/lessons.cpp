@@ -91,6 +91,8 @@ const Lesson& lesson_of(Label label) {
       return lesson("soft-shadows");
     case Label::outside_map:
       return lesson("cascades");
+    case Label::custom_shader:
+      return lesson("filtering");
     default:
       return lesson("error-budget");
   }

@@ -19,7 +19,10 @@ namespace {
 std::string ladder_step(const LightBlock& b, std::size_t k) {
   const BudgetStep& step = b.light.budget[k];
   return fmt::format(
-      R"(<td>{}</td><td class="n">{}</td><td class="n">{}</td>)", step_text(static_cast<Cause>(k)).name,
+      R"(<td>{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)",
+      step_text(static_cast<Cause>(k)).name,
+      keyed(b.key(fmt::format("budget.{}.darkened", k)), step.darkened(), signed_number(-step.darkened())),
+      keyed(b.key(fmt::format("budget.{}.lightened", k)), step.lightened(), signed_number(step.lightened())),
       keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean, signed_number(step.signed_mean)),
       keyed(b.key(fmt::format("budget.{}.absolute", k)), step.absolute_mean,
             unsigned_number(step.absolute_mean)));
@@ -165,13 +168,14 @@ std::string ladder_block(const LightBlock& b) {
 )",
         k, rung.name, rung.what,
         keyed(b.key(fmt::format("ladder.{}.mean", k)), means[k], fmt::format("{:.4f}", means[k])),
-        k == 0 ? "<td></td><td></td><td></td>" : ladder_step(b, k - 1));
+        k == 0 ? "<td></td><td></td><td></td><td></td><td></td>" : ladder_step(b, k - 1));
   }
   const std::string table = fmt::format(
       R"(<table class="ladder"><thead><tr><th scope="col">visibility</th><th scope="col" class="n">mean</th>
-<th scope="col">charged to</th><th scope="col" class="n">signed step</th>
+<th scope="col">charged to</th><th scope="col" class="n">darker</th><th scope="col"
+class="n">lighter</th><th scope="col" class="n">signed step</th>
 <th scope="col" class="n">absolute</th></tr></thead><tbody>
-{}<tr class="sum"><th scope="row">sum of the steps</th><td></td><td></td><td class="n">{}</td><td></td></tr>
+{}<tr class="sum"><th scope="row">sum of the steps</th><td></td><td></td><td></td><td></td><td class="n">{}</td><td></td></tr>
 </tbody></table>)",
       rows, signed_number(means.back() - means.front()));
   return R"(<h3>The ladder, from the truth to what was drawn</h3>
@@ -183,8 +187,7 @@ picture.</p>
 }
 
 std::string bias_block(const LightBlock& b) {
-  const raster::Technique technique = b.in.comparison.raster.options.map.technique;
-  const bool has_bias = compares_depths(technique);
+  const bool has_bias = draws_bias(b.in.comparison);
   const double used = has_bias ? drawn_record(b.in.comparison, b.light).bias_constant_world : std::nan("");
   const std::string chart = bias_chart(b.light, used, fmt::format("bias-{}", b.index));
   if (chart.empty()) return "";

@@ -38,7 +38,7 @@ in every picture.)",
 }
 
 std::string bias_text(const Comparison& c, const LightComparison& light) {
-  if (!compares_depths(c.raster.options.map.technique)) return "";
+  if (!draws_bias(c)) return "";
   return fmt::format(", bias {} world units", plain_number(drawn_record(c, light).bias_constant_world));
 }
 

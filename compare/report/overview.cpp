@@ -74,6 +74,7 @@ std::string map_text(const Comparison& c) {
                                  map.size, map.size);
   if (!compares_depths(map.technique)) return text;
   text += fmt::format(" {}", depth_format_name(map.depth_format));
+  if (!draws_bias(c)) return text + ", shader of --shader-dir";
   if (c.lights.size() == 1) {
     const double bias = drawn_record(c, c.lights[0]).bias_constant_world, texel = c.lights[0].texel_world[1];
     text += fmt::format(", bias {}", plain_number(bias));
@@ -117,8 +118,9 @@ std::string card(const PageInput& in, std::size_t i) {
       light.pixels.compared == 0
           ? std::string()
           : fmt::format(
-                R"(<div class="card-budget"><p class="eyebrow">Where the error comes from: mean visibility, drawn
-minus true. Left is darker, right lighter.</p>
+                R"(<div class="card-budget"><p class="eyebrow">Where the error comes from: how far each step
+darkens the picture and lightens it, as mean visibility. Pale: what later steps undo. Full colour: the wrong
+pixels that are left.</p>
 {}</div>
 )",
                 budget_table(light, i));
@@ -129,32 +131,42 @@ minus true. Left is darker, right lighter.</p>
 
 }  // namespace
 
-std::string budget_table(const LightComparison& light, std::size_t index) {
-  const auto means = light.rung_mean;
-  // The scale spans every running sum, so that each bar starts where the last one ended.
-  std::array<double, cause_count + 1> running{};
-  for (std::size_t k = 0; k < cause_count; ++k) running[k + 1] = running[k] + light.budget[k].signed_mean;
-  const auto [min, max] = std::minmax_element(running.begin(), running.end());
-  const double margin = 0.02 * (*max - *min), low = *min - margin, high = *max + margin;
-  std::string rows;
-  for (std::size_t k = 0; k < cause_count; ++k) {
-    if (light.budget[k].absolute_mean == 0.0) continue;
-    const double step = light.budget[k].signed_mean;
-    rows +=
-        fmt::format(R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td></tr>
-)",
-                    step_text(static_cast<Cause>(k)).name,
-                    waterfall_bar(running[k], running[k + 1], low, high, step < 0.0 ? "minus" : "plus"),
-                    keyed(light_key(index, fmt::format("budget.{}.signed", k)), step, signed_number(step)));
-  }
+namespace {
+
+std::string budget_row(const BudgetStep& step, std::size_t k, std::size_t index, double compared,
+                       double scale) {
+  const auto key = [&](std::string_view name) {
+    return light_key(index, fmt::format("budget.{}.{}", k, name));
+  };
+  const TwoSides left{static_cast<double>(step.false_shadow) / compared,
+                      static_cast<double>(step.missed_shadow) / compared};
   return fmt::format(
-      R"(<table class="budget"><thead class="quiet"><tr><th scope="col">step</th><th
-scope="col">adds</th><th scope="col">mean</th></tr></thead><tbody>
-{}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td
-class="n">{}</td></tr></tbody></table>
+      R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td><td class="n">{}</td></tr>
 )",
-      rows, waterfall_bar(0.0, running.back(), low, high, "sum"),
-      signed_number(means.back() - means.front()));
+      step_text(static_cast<Cause>(k)).name, two_sided_bar({step.darkened(), step.lightened()}, left, scale),
+      keyed(key("darkened"), step.darkened(), signed_number(-step.darkened())),
+      keyed(key("lightened"), step.lightened(), signed_number(step.lightened())));
+}
+
+}  // namespace
+
+std::string budget_table(const LightComparison& light, std::size_t index) {
+  const auto compared = static_cast<double>(light.pixels.compared);
+  const TwoSides left{static_cast<double>(light.error.false_shadow) / compared,
+                      static_cast<double>(light.error.missed_shadow) / compared};
+  double scale = std::max({left.darker, left.lighter, 1e-9});
+  for (const BudgetStep& step : light.budget) scale = std::max({scale, step.darkened(), step.lightened()});
+  std::string rows;
+  for (std::size_t k = 0; k < cause_count; ++k)
+    if (light.budget[k].absolute_mean > 0.0 ||
+        light.budget[k].false_shadow + light.budget[k].missed_shadow > 0)
+      rows += budget_row(light.budget[k], k, index, compared, scale);
+  return fmt::format(
+      R"(<table class="budget"><thead><tr><th scope="col">step</th><th scope="col"></th><th
+scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>
+{}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td class="n" colspan="2">{}</td></tr></tbody></table>
+)",
+      rows, two_sided_bar({}, left, scale), signed_number(light.rung_mean.back() - light.rung_mean.front()));
 }
 
 std::string overview_section(const PageInput& in) {

@@ -9,7 +9,9 @@
 #include <optional>
 
 #include "compare/bias_curve.h"
+#include "compare/budget.h"
 #include "compare/edges.h"
+#include "compare/exact_depth.h"
 #include "compare/labelling.h"
 
 namespace gnomon::compare {
@@ -21,6 +23,8 @@ struct Counts {
   std::array<std::int64_t, class_count> classes{};
   std::array<std::int64_t, cause_count> signed_steps{}, absolute_steps{};
   std::array<std::int64_t, rung_count> rungs{};
+  std::array<std::int64_t, cause_count> blamed_false{}, blamed_missed{};
+  std::int64_t accidents_shadowed = 0, accidents_lit = 0;
 
   void add(const Counts& other, std::int64_t sign) {
     false_shadow += sign * other.false_shadow;
@@ -29,7 +33,11 @@ struct Counts {
     for (std::size_t k = 0; k < cause_count; ++k) {
       signed_steps[k] += sign * other.signed_steps[k];
       absolute_steps[k] += sign * other.absolute_steps[k];
+      blamed_false[k] += sign * other.blamed_false[k];
+      blamed_missed[k] += sign * other.blamed_missed[k];
     }
+    accidents_shadowed += sign * other.accidents_shadowed;
+    accidents_lit += sign * other.accidents_lit;
     for (std::size_t k = 0; k < rung_count; ++k) rungs[k] += sign * other.rungs[k];
   }
 };
@@ -129,7 +137,13 @@ class BiasAxis {
     Counts counts;
     counts.false_shadow = v[6] < v[0];
     counts.missed_shadow = v[6] > v[0];
-    if (is_wrong(label)) counts.classes[static_cast<std::size_t>(label) - 1] = 1;
+    if (is_wrong(label)) {
+      const auto step = static_cast<std::size_t>(step_of_label(label, v));
+      counts.classes[static_cast<std::size_t>(label) - 1] = 1;
+      (counts.false_shadow != 0 ? counts.blamed_false : counts.blamed_missed)[step] = 1;
+    }
+    counts.accidents_shadowed = is_accident(v) && v[0] < 0.5f ? 1 : 0;
+    counts.accidents_lit = is_accident(v) && v[0] > 0.5f ? 1 : 0;
     for (std::size_t k = 0; k < rung_count; ++k) counts.rungs[k] = v[k] > 0.5f;
     for (std::size_t k = 0; k < cause_count; ++k) {
       counts.signed_steps[k] = counts.rungs[k + 1] - counts.rungs[k];
@@ -158,21 +172,25 @@ class BiasAxis {
     std::optional<Column> column;
     for (const std::uint32_t pixel : lower_.groups[group]) {
       std::size_t lookup = texel_of_group(lower_, group);
-      const double gap = gap_with_bias(in_, pixel, lookup);
+      const double gap = gap_with_bias(lower_, in_, group, pixel, lookup);
       const std::uint32_t biased_from = Biases::first_lit(biases_.ascending, gap);
       const std::uint32_t drawn_from = first_drawn_lit(pixel);
-      const std::array<std::uint32_t, 4> ends{0, std::min(biased_from, drawn_from),
-                                              std::max(biased_from, drawn_from), biases_.count()};
+      const auto exact = ever_wrong(pixel) ? exact_gap(lower_, in_, group, pixel) : std::nullopt;
+      const std::uint32_t exact_from = exact ? Biases::first_lit(biases_.ascending, *exact) : biased_from;
+      std::array<std::uint32_t, 5> ends{0, biased_from, drawn_from, exact_from, biases_.count()};
+      std::sort(ends.begin(), ends.end());
       std::array<float, rung_count> v{};
       for (std::size_t k = 0; k < 5; ++k) v[k] = lower_.rungs[k].data[pixel];
-      for (std::size_t s = 0; s < 3; ++s) {
+      for (std::size_t s = 0; s + 1 < ends.size(); ++s) {
         if (ends[s] == ends[s + 1]) continue;
         v[5] = ends[s] >= biased_from ? 1.0f : 0.0f;
         v[6] = ends[s] >= drawn_from ? 1.0f : 0.0f;
         Label label = Label::right;
         if (v[6] != v[0]) {
           if (!column) column = lower_.columns->column(group);
-          label = label_wrong_pixel(in_, *column, {pixel, lookup, deciding_step(v), v[6] < v[0]});
+          const bool exact_is_right = exact && v[5] != v[0] && (ends[s] >= exact_from ? 1.0f : 0.0f) == v[0];
+          label = label_wrong_pixel(in_, *column,
+                                    {pixel, lookup, deciding_step(v), v[6] < v[0], exact_is_right, v[0]});
         }
         add_state(pixel, v, label, ends[s], ends[s + 1]);
         if (label == Label::peter_panning) add_gap(pixel, ends[s], ends[s + 1]);
@@ -200,6 +218,8 @@ void fill_counts(const Counts& counts, LightComparison& out) {
   out.classes = {};
   for (std::size_t k = 0; k < class_count; ++k)
     out.classes[k] = static_cast<std::uint64_t>(counts.classes[k]);
+  out.accidents = {static_cast<std::uint64_t>(counts.accidents_shadowed),
+                   static_cast<std::uint64_t>(counts.accidents_lit)};
   out.error = {};
   out.budget = {};
   out.rung_mean = {};
@@ -212,7 +232,9 @@ void fill_counts(const Counts& counts, LightComparison& out) {
   out.error.mean_absolute = double(out.error.wrong) / count;
   out.error.rms = std::sqrt(double(out.error.wrong) / count);
   for (std::size_t k = 0; k < cause_count; ++k)
-    out.budget[k] = {double(counts.signed_steps[k]) / count, double(counts.absolute_steps[k]) / count};
+    out.budget[k] = {double(counts.signed_steps[k]) / count, double(counts.absolute_steps[k]) / count,
+                     static_cast<std::uint64_t>(counts.blamed_false[k]),
+                     static_cast<std::uint64_t>(counts.blamed_missed[k])};
   for (std::size_t k = 0; k < rung_count; ++k) out.rung_mean[k] = double(counts.rungs[k]) / count;
 }
 

@@ -98,6 +98,10 @@ inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than 
 /// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
 /// constant bias follows from it.
 bool biases_follow_from_gaps(const raster::MapOptions& map);
+/// And no shader of the user's own decided otherwise.
+inline bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {
+  return !drawn.custom_shader && biases_follow_from_gaps(drawn.options.map);
+}
 
 /// The constant bias in world units: `bias` itself, or its texels at the width that the rasterizer takes.
 double bias_in_world_units(const raster::Bias& bias, const LightView& view, const World& world);

@@ -2,7 +2,8 @@
 
 namespace gnomon::test {
 
-Compared run_comparison(Scene scene, const compare::CompareOptions& options) {
+Compared run_comparison(Scene scene, const compare::CompareOptions& options,
+                        const std::string& shader_folder) {
   Compared out;
   out.scene = std::make_unique<Scene>(std::move(scene));
   out.world = std::make_unique<World>(make_world(*out.scene));
@@ -11,7 +12,8 @@ Compared run_comparison(Scene scene, const compare::CompareOptions& options) {
     ADD_FAILURE() << context.error().message();
     return out;
   }
-  auto renderer = raster::Renderer::create(std::move(*context), *out.world, plan_effects(*out.scene));
+  auto renderer =
+      raster::Renderer::create(std::move(*context), *out.world, plan_effects(*out.scene), shader_folder);
   if (!renderer) {
     ADD_FAILURE() << renderer.error().message();
     return out;

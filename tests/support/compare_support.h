@@ -20,7 +20,8 @@ struct Compared {
 };
 
 /// Renders both ways and compares; fails the test (and returns an empty result) on an error.
-Compared run_comparison(Scene scene, const compare::CompareOptions& options);
+Compared run_comparison(Scene scene, const compare::CompareOptions& options,
+                        const std::string& shader_folder = {});
 
 /// Options for a test: untimed, one map, the given image size.
 compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);

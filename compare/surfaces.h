@@ -1,0 +1,26 @@
+// Which primitives belong to one connected surface: the triangles that share a corner (vertices welded by
+// position), through any number of others; a shape is a surface of its own.
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "raytrace/sheets.h"
+
+namespace gnomon::compare {
+
+class Surfaces {
+ public:
+  /// Both must outlive this. Nothing is worked out before the first question.
+  Surfaces(const World& world, const raytrace::Topology& topology) : world_(world), topology_(topology) {}
+  bool same(std::uint32_t a, std::uint32_t b) const;
+
+ private:
+  void connect() const;
+  const World& world_;
+  const raytrace::Topology& topology_;
+  mutable std::once_flag once_;
+  mutable std::vector<std::uint32_t> parent_;  ///< by welded vertex; its own where it stands for its surface
+};
+
+}  // namespace gnomon::compare

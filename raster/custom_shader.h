@@ -1,0 +1,16 @@
+// Whether files of a shader folder decide the visibility that is drawn. Private to raster.
+#pragma once
+
+#include <optional>
+
+#include "raster/frame.h"
+#include "raster/shader_folder.h"
+
+namespace gnomon::raster {
+
+/// The files of the folder that stand in for the technique's own, for the test of depths (gap.glsl), or for
+/// what fills the maps of moments; none where all of these are the program's.
+std::optional<CustomShader> custom_shader(const ShaderFolder& folder, const MapOptions& map,
+                                          const Light& light);
+
+}  // namespace gnomon::raster
