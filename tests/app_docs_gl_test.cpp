@@ -141,6 +141,15 @@ TEST(Documents, ChaptersOfTheProgramAreCurrent) {
   expect_one_line(run_gnomon({"--manual", "labels"}), 2, "(got labels, allowed options, json)");
 }
 
+TEST(Documents, LinksLeadSomewhere) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  for (const fs::path& file : documents()) {
+    const std::string text = read_file(file.string());
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
+      EXPECT_TRUE(fs::exists(file.parent_path() / (*found)[1].str())) << file << ": " << (*found)[1];
+  }
+}
+
 TEST(Documents, ChannelsOfTheManualAreThoseOfTheFile) {
   const std::string manual = read_file(test::source_dir() + "/docs/manual/aov.md");
   const std::string source = read_file(test::source_dir() + "/compare/aov.cpp");

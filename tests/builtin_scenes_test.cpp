@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 14u);
+  ASSERT_EQ(scenes.size(), 15u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
