@@ -126,7 +126,7 @@ TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
   for (std::size_t end; (end = plain.find('\n', start)) != std::string::npos; start = end + 1)
     EXPECT_LE(text_width(plain.substr(start, end - start)), 80u) << plain.substr(start, end - start);
   for (const char* part :
-       {"the map: 12 ms", "exact rays: 95 ms for 41,234", "acne", "budget", "peak memory 188 MB"})
+       {"the map: 12 ms", "exact shadows: 95 ms for 41,234 rays", "acne", "budget", "peak memory 188 MB"})
     EXPECT_NE(plain.find(part), std::string::npos) << part << "\n" << plain;
 }
 
