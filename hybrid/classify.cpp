@@ -290,11 +290,11 @@ class Classifier {
   }
 
   static float in_texel(float from_middle) { return from_middle + 0.5f; }
-  static void set(LaneBits& bits, std::size_t lane) {
+  static void set(LaneMask& bits, std::size_t lane) {
     bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
   }
   /// A vector's bits.
-  void add(LaneBits& bits, unsigned more) const {
+  void add(LaneMask& bits, unsigned more) const {
     bits[lane_ / packet_rays] |= static_cast<std::uint16_t>(more << (lane_ % packet_rays));
   }
 
@@ -313,7 +313,7 @@ class Classifier {
   V local_[3];            // of the vector at work
   std::size_t lane_ = 0;  // where it starts
   TileClasses* out_ = nullptr;
-  LaneBits asked_;                                      // those on the map
+  LaneMask asked_;                                      // those on the map
   std::array<std::uint8_t, raytrace::tile_rays> left_;  // lanes to be judged in parts
   std::size_t left_count_ = 0;
   alignas(64) float nearness_[raytrace::tile_rays];  // less the origin's

@@ -8,14 +8,14 @@
 
 namespace gnomon::hybrid {
 
-using LaneBits = std::array<std::uint16_t, raytrace::tile_packets>;
+using raytrace::LaneMask;
 
 /// Of the receivers that are there: bits per packet, each receiver in one of them.
 struct TileClasses {
-  LaneBits unreached;  ///< facing away from the light
-  LaneBits lit, shadowed;
-  LaneBits unsure;  ///< facing it, and the sheets cannot tell
-  LaneBits open;    ///< to be asked in double: whether it faces the light, or what the sheets say
+  LaneMask unreached;  ///< facing away from the light
+  LaneMask lit, shadowed;
+  LaneMask unsure;  ///< facing it, and the sheets cannot tell
+  LaneMask open;    ///< to be asked in double: whether it faces the light, or what the sheets say
 };
 
 /// No spot lights: a cone is not looked at.

@@ -20,7 +20,7 @@ using raytrace::Verdict;
 
 /// lane(x, y, lane) for every set bit.
 template <class Lane>
-void for_each_lane(const TileRect& rect, const LaneBits& bits, const Lane& each) {
+void for_each_lane(const TileRect& rect, const LaneMask& bits, const Lane& each) {
   for (std::size_t p = 0; p < tile_packets; ++p)
     for (unsigned left = bits[p]; left != 0; left &= left - 1) {
       const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
@@ -29,7 +29,7 @@ void for_each_lane(const TileRect& rect, const LaneBits& bits, const Lane& each)
     }
 }
 
-void put(LaneBits& bits, std::size_t lane) {
+void put(LaneMask& bits, std::size_t lane) {
   bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
 }
 
@@ -58,7 +58,7 @@ class Tile {
     return counts();
   }
 
-  const LaneBits& unsure() const { return all_.unsure; }
+  const LaneMask& unsure() const { return all_.unsure; }
 
  private:
   /// The next tile comes from memory while this one is classified. Beyond the last one nothing is read.
@@ -79,7 +79,7 @@ class Tile {
     }
     return Decision::traced;
   }
-  LaneBits& bits_of(Decision decision) {
+  LaneMask& bits_of(Decision decision) {
     switch (decision) {
       case Decision::shadowed:
         return all_.shadowed;
@@ -100,14 +100,14 @@ class Tile {
 
   // Lit where there is no receiver; what is to be traced counts as lit until it is.
   void store(Image<Verdict>& verdicts) const {
-    LaneBits dark;
+    LaneMask dark;
     for (std::size_t p = 0; p < tile_packets; ++p)
       dark[p] = static_cast<std::uint16_t>(all_.shadowed[p] | all_.unreached[p]);
     raytrace::store_verdicts(rect_, dark, verdicts);
   }
   void store_decisions(Image<Decision>& decisions) const {
     fill(decisions, Decision::not_asked);
-    const auto set = [&](const LaneBits& bits, Decision decision) {
+    const auto set = [&](const LaneMask& bits, Decision decision) {
       for_each_lane(rect_, bits, [&](int x, int y, std::size_t) { decisions.at(x, y) = decision; });
     };
     set(all_.lit, Decision::lit), set(all_.shadowed, Decision::shadowed);
@@ -115,7 +115,7 @@ class Tile {
   }
   ShadowCounts counts() const {
     ShadowCounts counts;
-    const auto add = [](const LaneBits& bits, std::uint64_t& count) {
+    const auto add = [](const LaneMask& bits, std::uint64_t& count) {
       std::array<std::uint64_t, sizeof bits / sizeof(std::uint64_t)> words;
       std::memcpy(words.data(), bits.data(), sizeof words);
       for (const std::uint64_t word : words) count += static_cast<std::uint64_t>(std::popcount(word));
@@ -143,7 +143,7 @@ ShadowCounts sum_of(const std::vector<ShadowCounts>& tiles) {
 
 /// The parts of texels that receivers without an answer look up.
 std::vector<std::uint64_t> parts_in_doubt(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
-                                          const std::vector<LaneBits>& unsure) {
+                                          const std::vector<LaneMask>& unsure) {
   tbb::enumerable_thread_specific<std::vector<std::uint64_t>> found;
   for_each_tile(raytrace::TileGrid{receivers.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
     for_each_lane({x0, y0, x1, y1}, unsure[i], [&](int x, int y, std::size_t) {
@@ -157,10 +157,10 @@ std::vector<std::uint64_t> parts_in_doubt(const LightSheets& sheets, const Image
 }
 
 /// Fowler, Noll and Vo's, by words.
-std::uint64_t hash_of(const std::vector<LaneBits>& tiles) {
+std::uint64_t hash_of(const std::vector<LaneMask>& tiles) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const LaneBits& tile : tiles) {
-    std::array<std::uint64_t, sizeof(LaneBits) / sizeof(std::uint64_t)> words;
+  for (const LaneMask& tile : tiles) {
+    std::array<std::uint64_t, sizeof(LaneMask) / sizeof(std::uint64_t)> words;
     std::memcpy(words.data(), tile.data(), sizeof tile);
     for (const std::uint64_t word : words) hash = (hash ^ word) * 0x100000001b3u;
   }
@@ -256,7 +256,7 @@ class Pass {
   Image<Decision>* decisions_;
   raytrace::TileGrid grid_;
   std::vector<ShadowCounts> tiles_;
-  std::vector<LaneBits> unsure_;
+  std::vector<LaneMask> unsure_;
   std::vector<std::uint8_t> wanted_;
 };
 

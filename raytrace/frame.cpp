@@ -23,10 +23,11 @@ using CompactTiles = HugeArray<CompactTile>;
 
 /// Whether a frame's receivers need not be stored: nobody reads them but passes that find them again quickly,
 /// which spot lights' do not, and only triangles and planes are surely seen by floats.
-bool receivers_unstored(const Tracer& tracer, std::span<const std::uint32_t> lights,
+bool receivers_unstored(const Tracer& tracer, const View& view, std::span<const std::uint32_t> lights,
                         const RaytraceOptions& options) {
   const Structures& s = tracer.structures();
-  if (options.records || !options.picture || !packets_apply(s) || s.has_masks || s.has_shapes) return false;
+  if (options.records || !options.picture || !blocks_apply(s, view) || s.has_masks || s.has_shapes)
+    return false;
   return std::none_of(lights.begin(), lights.end(), [&](std::uint32_t i) {
     const Light& light = s.world->scene->lights[i];
     return has_size(light) || light.type == LightType::spot;
@@ -38,26 +39,20 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
                   RayTracedFrame& frame, UnstoredReceivers& unstored, CompactTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
   frame.primary_rays = time_pass(options.runs, [&] {
-    unstored.eye = sight_of_eye(tracer.structures(), view);
-    for_each_tile({options.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      TileHits& hits = unstored.hits[i];
-      if (tiles.size() > 0)
-        primary_tile(tracer, view, unstored.eye, {x0, y0, x1, y1}, hits, nullptr, &tiles[i]);
-      else
-        find_hits(tracer, view, unstored.eye, {x0, y0, x1, y1}, hits);
-    });
+    primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
+                 {.hits = {unstored.hits.data(), unstored.hits.size()},
+                  .receivers = nullptr,
+                  .compact = {tiles.data(), tiles.size()}});
   });
   frame.rays.primary = options.size.pixels();
-  unstored.eye = {};  // the lights' passes use its memory again; what they ask anew goes to the hierarchy
 }
 
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                    RayTracedFrame& frame, CompactTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(options.runs, [&] {
-    if (packets_apply(tracer.structures())) {
-      const Sight eye = sight_of_eye(tracer.structures(), view);
-      primary_pass(tracer, view, eye,
+    if (blocks_apply(tracer.structures(), view)) {
+      primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
                    {.hits = {}, .receivers = &frame.receiver, .compact = {tiles.data(), tiles.size()}});
       return;
     }
@@ -90,7 +85,8 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
         const ReceiverSource source = unstored.apply()
                                           ? unstored.source(tracer, view, tile)
                                           : ReceiverSource{.tracer = tracer, .stored = &receivers};
-        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, &tiles[tile], truth.verdict);
+        const CompactTile* compact = tiles.size() > 0 ? &tiles[tile] : nullptr;
+        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, compact, truth.verdict);
       });
       return;
     }
@@ -150,10 +146,10 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   RayTracedFrame frame;
   const bool at_centres = options.records || options.samples_per_pixel == 1;
   CompactTiles tiles;
-  if (at_centres && !lights.empty() && packets_apply(tracer.structures()))
+  if (at_centres && !lights.empty() && blocks_apply(tracer.structures(), view))
     tiles = CompactTiles(TileGrid{options.size}.count());
   UnstoredReceivers unstored;
-  if (at_centres && receivers_unstored(tracer, lights, options))
+  if (at_centres && receivers_unstored(tracer, view, lights, options))
     find_primary(tracer, view, options, frame, unstored, tiles);
   else if (at_centres)
     trace_primary(tracer, view, options, frame, tiles);

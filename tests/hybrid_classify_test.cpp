@@ -19,7 +19,7 @@ struct Agreement {
   std::uint64_t receivers = 0, contradicted = 0, withheld = 0;
 };
 
-bool has(const hybrid::LaneBits& bits, std::size_t lane) {
+bool has(const raytrace::LaneMask& bits, std::size_t lane) {
   return (bits[lane / raytrace::packet_rays] >> (lane % raytrace::packet_rays) & 1) != 0;
 }
 

@@ -11,6 +11,7 @@
 #include "raytrace/bvh.h"
 #include "raytrace/packet/cell_cover.h"
 #include "raytrace/packet/passes.h"
+#include "raytrace/tiles.h"
 #include "raytrace_support.h"
 
 namespace gnomon {
@@ -52,9 +53,15 @@ TEST(Cells, ListsAreInOrderOnAnyNumberOfThreads) {
   const TestWorld w(scene);
   const Tracer tracer(w.world(), Accel::bvh);
   const View view = make_view(scene.camera, {160, 120});
+  raytrace::HugeArray<raytrace::CompactTile> tiles(raytrace::TileGrid{view.size}.count());
+  primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
+               {.hits = {}, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
+  const Light light = test::point_light(scene.camera.eye);
   const auto cells_on = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return sight_of_eye(tracer.structures(), view, raytrace::EyeUse::kept); });
+    return arena.execute([&] {
+      return sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
+    });
   };
   const raytrace::Sight one = cells_on(1), three = cells_on(3);
   ASSERT_TRUE(one.by_cells && three.by_cells);

@@ -85,13 +85,12 @@ void expect_same(const Scene& scene, const Tracer& tracer, const Reference& refe
   }
 }
 
-/// The same verdicts where a tile's receivers are kept as floats alone, and the same receivers in double,
-/// seen through an eye that is kept and through one that is not.
+/// The same verdicts where a tile's receivers are kept as floats alone, and the same receivers in double.
 void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
-                           ImageSize size, raytrace::EyeUse use) {
-  if (!packets_apply(tracer.structures())) return;
+                           ImageSize size) {
   const View view = make_view(scene.camera, size);
-  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view, use);
+  if (!blocks_apply(tracer.structures(), view)) return;
+  const raytrace::Seen eye = seen_by_eye(tracer.structures(), view);
   const raytrace::TileGrid grid{size};
   std::vector<raytrace::TileHits> hits(grid.count());
   raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
@@ -109,7 +108,7 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
     Image<Verdict> verdicts(size, Verdict::lit);
     for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       const raytrace::ReceiverSource source{
-          .tracer = tracer, .stored = nullptr, .view = &view, .eye = &eye, .hits = &hits[i]};
+          .tracer = tracer, .stored = nullptr, .view = &view, .hits = &hits[i]};
       shadow_tile(source, scene.lights[l], sight, {x0, y0, x1, y1}, &tiles[i], verdicts);
     });
     std::size_t wrong = 0;
@@ -125,8 +124,7 @@ void check(const Scene& scene, ImageSize size) {
   const Reference reference = reference_of(tracer, w.scene(), size);
   for_each_target([&] {
     expect_same(w.scene(), tracer, reference, size);
-    for (const raytrace::EyeUse use : {raytrace::EyeUse::once, raytrace::EyeUse::kept})
-      expect_same_by_floats(w.scene(), tracer, reference, size, use);
+    expect_same_by_floats(w.scene(), tracer, reference, size);
   });
 }
 
@@ -229,13 +227,9 @@ TEST(Packets, ReceiversFarBeyondAllThatIsFinite) {
 raytrace::HugeArray<raytrace::CompactTile> tiles_of(const Tracer& tracer, const Camera& camera,
                                                     ImageSize size) {
   const View view = make_view(camera, size);
-  const raytrace::Sight eye = sight_of_eye(tracer.structures(), view);
-  const raytrace::TileGrid grid{size};
-  raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
-  for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    raytrace::TileHits hits;
-    primary_tile(tracer, view, eye, {x0, y0, x1, y1}, hits, nullptr, &tiles[i]);
-  });
+  raytrace::HugeArray<raytrace::CompactTile> tiles(raytrace::TileGrid{size}.count());
+  primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
+               {.hits = {}, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
   return tiles;
 }
 

@@ -55,7 +55,6 @@ class alignas(64) BlockPlane {
       : packets{rect.x0 / 4, rect.y0 / 4, (rect.x1 - 1) / 4, (rect.y1 - 1) / 4},
         seen_(seen),
         origin_(seen.origin - s.bvh.center) {
-    // The numbers that prepare_framed() gives.
     const auto at = [](int pixel, int size, double tan_half) {
       return static_cast<float>((2.0 * (pixel + 0.5) / size - 1.0) * tan_half);
     };
@@ -68,8 +67,11 @@ class alignas(64) BlockPlane {
       }
     u_min = u[0][0], u_max = at(rect.x1 - 1, view.size.width, view.tan_half_x);
     v_min = v[0][0], v_max = at(rect.y1 - 1, view.size.height, view.tan_half_y);
-    const auto axes = axes_of_view(view);
-    columns = axes[0], rows = axes[1];
+    const auto axis = [](double tan_half, int pixels) {
+      const double width = 2.0 * tan_half / pixels, first = 0.5 * width - tan_half;
+      return CellAxis{first, first, width, pixels, 4, 0.0f, 0.0f};
+    };
+    columns = axis(view.tan_half_x, view.size.width), rows = axis(view.tan_half_y, view.size.height);
   }
 
   /// Conservative. A box that is not clear of the eye may cover everything.

@@ -122,7 +122,7 @@ class CellTile {
   CellTile(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out)
       : cells_(cells), seen_(seen), rays_(rays), out_(out), columns_(cells.columns()) {}
 
-  void run(std::array<std::uint16_t, tile_packets>& outside) {
+  void run(LaneMask& outside) {
     out_.doubt_count = 0;
     out_.shadowed.fill(0), out_.unsure.fill(0);
     for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -281,7 +281,7 @@ class CellTile {
 };
 
 void shadows_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out,
-                    std::array<std::uint16_t, tile_packets>& outside) {
+                    LaneMask& outside) {
   CellTile(cells, seen, rays, out).run(outside);
 }
 
@@ -294,7 +294,7 @@ namespace gnomon::raytrace {
 HWY_EXPORT(shadows_kernel);
 
 void shadows_in_cells(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& shadows,
-                      std::array<std::uint16_t, tile_packets>& outside) {
+                      LaneMask& outside) {
   HWY_DYNAMIC_DISPATCH(shadows_kernel)(cells, seen, rays, shadows, outside);
 }
 

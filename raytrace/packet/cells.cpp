@@ -241,14 +241,6 @@ class Filler {
 
 }  // namespace
 
-std::array<CellAxis, 2> axes_of_view(const View& view) {
-  const auto axis = [](double tan_half, int pixels) {
-    const double width = 2.0 * tan_half / pixels, first = 0.5 * width - tan_half;
-    return CellAxis{first, first, width, pixels, 4, 0.0f, 0.0f};
-  };
-  return {axis(view.tan_half_x, view.size.width), axis(view.tan_half_y, view.size.height)};
-}
-
 bool cells_pay(const Structures& s, std::size_t rays) {
   return rays >= s.bvh.primitives.size() / 4;
 }

@@ -4,12 +4,10 @@
 // Cells cost one look at every primitive; where rays are few, the hierarchy is cheaper (cells_pay).
 #pragma once
 
-#include <array>
 #include <limits>
 #include <vector>
 
 #include "raytrace/packet/seen.h"
-#include "scene/camera.h"
 
 namespace gnomon::raytrace {
 
@@ -21,9 +19,6 @@ struct CellAxis {
   float origin = 0.0f, per_width = 1.0f;  ///< a ray's step is (u - origin) * per_width, rounded down
   int cells() const { return (count + per_cell - 1) / per_cell; }
 };
-
-/// A framed view's pixels: packets of 4 x 4 to a cell.
-std::array<CellAxis, 2> axes_of_view(const View& view);
 
 /// Beyond these values of u or v there is nothing finite: rays there meet planes alone.
 struct PlaneLimits {

@@ -15,8 +15,8 @@ struct alignas(64) CompactDraft {
 };
 
 struct alignas(64) CompactTile {
-  std::array<std::uint16_t, tile_packets> present;  ///< bit i of a packet: there is a receiver
-  bool any = false;                                 ///< else only `present` has been written
+  LaneMask present;  ///< bit i of a packet: there is a receiver
+  bool any = false;  ///< else only `present` has been written
   Vec3 origin;
   Aabb bounds;          ///< of the positions, world
   double extent = 0.0;  ///< no component of `position` is above this, and each is right to 1.13 * 2^-24 of it
@@ -33,7 +33,7 @@ struct alignas(64) CompactTile {
 /// Bits per packet of the hits that are not on triangles, and of those whose triangle's plane is too ill to
 /// say where the receiver lies.
 struct DraftLeft {
-  std::array<std::uint16_t, tile_packets> others, ill;
+  LaneMask others, ill;
 };
 
 /// Writes a tile's receivers from the planes of their triangles alone: right to 2^-38 of their distance.

@@ -1,30 +1,10 @@
 // Receivers of pixels whose primitive is known: raytrace/packet/passes.h.
+#include "raytrace/packet/known_hit.h"
 #include "raytrace/packet/passes.h"
 #include "raytrace/packet/places.h"
 #include "raytrace/packet/receivers.h"
 
 namespace gnomon::raytrace {
-namespace {
-
-int longest_axis(const Vec3& v) {
-  const Vec3 size = glm::abs(v);
-  return size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-}
-
-/// Where the ray meets the one primitive at this leaf position, if its mask is not a hole there.
-std::optional<Hit> known_hit(const Structures& s, const Ray& ray, std::uint32_t leaf) {
-  const std::optional<RayFrame> frame = make_ray_frame(ray);
-  if (!frame || leaf == nothing_hit) return std::nullopt;
-  Hit hit;
-  const bool met = leaf >= first_plane ? intersect_plane(s, *frame, s.planes[leaf - first_plane], hit)
-                                       : intersect_leaf(s, *frame, leaf, hit);
-  if (!met || (s.has_masks && !solid(s, *frame, hit))) return std::nullopt;
-  hit.t /= frame->kernel_t_from_t;
-  return hit;
-}
-
-}  // namespace
-
 std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
                          const TileRect& rect, const Image<std::uint32_t>& primitives,
                          Image<SurfacePoint>& receivers, CompactTile& compact) {
@@ -39,8 +19,7 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
       const std::uint32_t id = primitives.at(x, y);
       known.leaf[lane] = id == no_id || !tracer.world().is_triangle(id) ? nothing_hit : leaf_of[id];
     });
-    const Vec3 middle = pixel_ray(view, 0.5 * (rect.x0 + rect.x1), 0.5 * (rect.y0 + rect.y1)).direction;
-    left = store_receivers(s.bvh, view, rect.x0, rect.y0, longest_axis(middle), known,
+    left = store_receivers(s.bvh, view, rect.x0, rect.y0, axis_of(view, rect), known,
                            {.points = &receivers.at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(receivers.size.width),
                             .compact = &compact,
@@ -53,7 +32,7 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
     out = SurfacePoint{};
     if (id == no_id) return;
     const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-    std::optional<Hit> hit = known_hit(s, ray, leaf_of[id]);
+    std::optional<Hit> hit = hit_at(s, ray, leaf_of[id]);
     if (!hit) ++missed, hit = tracer.closest_hit(ray);
     if (!hit) return;
     out = tracer.surface_point(ray, *hit);

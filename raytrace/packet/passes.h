@@ -17,52 +17,32 @@ struct TileRect {
   int x0, y0, x1, y1;
 };
 
-/// Which primitive each pixel of the tile sees, where floats can tell (unsure_hit where not, and outside the
-/// picture).
-void find_hits(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
-               TileHits& hits);
-
-/// The receiver of a pixel for which find_hits() gave this leaf.
-SurfacePoint receiver_of(const Tracer& tracer, const View& view, const Sight& eye, int x, int y,
-                         std::uint32_t leaf);
-
-/// Fills the tile's receivers: in double, compact, or both (nullptr: not asked for); `hits` besides, those
-/// that only the double kernels could tell included where they are on triangles.
-void primary_tile(const Tracer& tracer, const View& view, const Sight& eye, const TileRect& rect,
-                  TileHits& hits, Image<SurfacePoint>* receivers, CompactTile* compact);
-
 /// Where a whole picture's pass goes; what is empty is not asked for.
 struct PrimarySinks {
-  std::span<TileHits> hits;  ///< by tile, as primary_tile() gives them
+  std::span<TileHits>
+      hits;  ///< by tile; unsure where floats cannot tell, but on triangles that doubles found
   Image<SurfacePoint>* receivers = nullptr;
   std::span<CompactTile> compact;  ///< by tile
 };
 
-/// find_hits() and primary_tile() for a whole picture, over all threads: an eye by blocks finds many tiles at
-/// once.
-void find_all_hits(const Tracer& tracer, const View& view, const Sight& eye, std::span<TileHits> hits);
-void primary_pass(const Tracer& tracer, const View& view, const Sight& eye, const PrimarySinks& sinks);
+/// The whole picture by blocks, over all threads. `eye`: seen_by_eye().
+void primary_pass(const Tracer& tracer, const View& view, const Seen& eye, const PrimarySinks& sinks);
 
 /// Where a tile's receivers are to be had in double: stored, or by tracing the pixel again.
 struct ReceiverSource {
   const Tracer& tracer;
   const Image<SurfacePoint>* stored = nullptr;
-  const View* view = nullptr;  ///< these three when none are stored
-  const Sight* eye = nullptr;
+  const View* view = nullptr;  ///< these two when none are stored
   const TileHits* hits = nullptr;
   SurfacePoint at(const TileRect& rect, std::size_t lane) const;
   /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
-  void fill(const TileRect& rect, const std::array<std::uint16_t, tile_packets>& asked,
-            SurfacePoint* points) const;
+  void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
 };
 
 /// Fills the verdicts of the tile's receivers as Tracer::light_verdict does, `shadowed` where the light
 /// cannot reach, and returns the number of rays. Without a compact tile the receivers must be stored.
 std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
                           const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts);
-
-/// Bits of a tile's packets.
-using LaneMask = std::array<std::uint16_t, tile_packets>;
 
 /// The whole tile: lit, or shadowed where the bit is set.
 void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts);
@@ -75,7 +55,7 @@ void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sig
                   Image<Verdict>& verdicts);
 
 /// Fills the tile's receivers from the primitives that its pixels are known to show (no_id: none), as
-/// primary_tile does where it finds the same ones. `leaf_of`: by primitive, as in TileHits. Returns the
+/// primary_pass does where it finds the same ones. `leaf_of`: by primitive, as in TileHits. Returns the
 /// number of pixels whose ray misses their primitive; these get the nearest hit.
 std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
                          const TileRect& rect, const Image<std::uint32_t>& primitives,

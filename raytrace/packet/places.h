@@ -7,8 +7,6 @@
 
 namespace gnomon::raytrace {
 
-using PacketBits = std::array<std::uint16_t, tile_packets>;
-
 /// pixel(x, y, lane) for every pixel of the rectangle.
 template <class Pixel>
 void for_each_place(const TileRect& rect, const Pixel& pixel) {
@@ -18,7 +16,7 @@ void for_each_place(const TileRect& rect, const Pixel& pixel) {
 
 /// The same for those whose bit is set.
 template <class Pixel>
-void for_each_place(const TileRect& rect, const PacketBits& bits, const Pixel& pixel) {
+void for_each_place(const TileRect& rect, const LaneMask& bits, const Pixel& pixel) {
   for (std::size_t p = 0; p < tile_packets; ++p)
     for (unsigned left = bits[p]; left != 0; left &= left - 1) {
       const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
@@ -37,7 +35,7 @@ inline std::uint16_t bit_of(std::size_t lane) {
 }
 
 /// Clears the bits of places outside the rectangle.
-inline void keep_within(const TileRect& rect, PacketBits& bits) {
+inline void keep_within(const TileRect& rect, LaneMask& bits) {
   if (is_whole(rect)) return;
   for (std::size_t lane = 0; lane < tile_rays; ++lane) {
     const TilePlace place = tile_place(lane);

@@ -50,46 +50,6 @@ inline void store(V v, float* at) {
   hn::Store(hn::DemoteTo(half, v), half, at);
 }
 
-void primary_kernel(const View& view, int x0, int y0, TileRays& rays) {
-  alignas(64) double sx[16], sy[16];
-  for (int i = 0; i < 16; ++i) {
-    sx[i] = (2.0 * (x0 + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
-    sy[i] = (1.0 - 2.0 * (y0 + i + 0.5) / view.size.height) * view.tan_half_y;
-  }
-  alignas(64) double px[packet_rays], py[packet_rays];
-  for (std::size_t p = 0; p < tile_packets; ++p) {
-    for (std::size_t i = 0; i < packet_rays; ++i)
-      px[i] = sx[4 * (p % 4) + i % 4], py[i] = sy[4 * (p / 4) + i / 4];
-    unsigned alive = 0;
-    for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
-      const V x = hn::Load(d, px + i), y = hn::Load(d, py + i);
-      V direction[3], out[3];
-      for (int a = 0; a < 3; ++a)
-        direction[a] =
-            hn::MulAdd(y, all(view.up[a]), hn::MulAdd(x, all(view.right[a]), all(view.forward[a])));
-      alive |= bits_of(project(direction, rays, 0.0, out)) << i;
-      store(out[0], rays.u + p * packet_rays + i), store(out[1], rays.v + p * packet_rays + i);
-    }
-    rays.alive[p] = static_cast<std::uint16_t>(alive);
-  }
-}
-
-void framed_kernel(const View& view, int x0, int y0, TileRays& rays) {
-  float u[16], v[16];
-  for (int i = 0; i < 16; ++i) {
-    u[i] = static_cast<float>((2.0 * (x0 + i + 0.5) / view.size.width - 1.0) * view.tan_half_x);
-    v[i] = static_cast<float>((2.0 * (y0 + i + 0.5) / view.size.height - 1.0) * view.tan_half_y);
-  }
-  for (std::size_t lane = 0; lane < tile_rays; lane += 4) {
-    const TilePlace at = tile_place(lane);
-    std::memcpy(rays.u + lane, u + at.x, 4 * sizeof(float));
-    const float row[4] = {v[at.y], v[at.y], v[at.y], v[at.y]};
-    std::memcpy(rays.v + lane, row, sizeof row);
-  }
-  rays.axis = 2, rays.sign = 1.0f;
-  rays.alive.fill(0xffff);
-}
-
 /// Fields of eight receivers, gathered.
 class Receivers {
  public:
@@ -231,9 +191,8 @@ class CompactRays {
   V offset_[3], normal_[3];
 };
 
-void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile,
-                    const std::array<std::uint16_t, tile_packets>& asked, TileRays& rays,
-                    ShadowLanes& lanes) {
+void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile, const LaneMask& asked,
+                    TileRays& rays, ShadowLanes& lanes) {
   CompactRays some(light, seen, tile, rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     unsigned reached = 0, perhaps = 0, usable = 0;
@@ -260,20 +219,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace gnomon::raytrace {
-HWY_EXPORT(primary_kernel);
-HWY_EXPORT(framed_kernel);
 HWY_EXPORT(shadow_kernel);
 HWY_EXPORT(compact_kernel);
 
-void prepare_primary(const View& view, int x0, int y0, TileRays& rays) {
-  HWY_DYNAMIC_DISPATCH(primary_kernel)(view, x0, y0, rays);
-}
-void prepare_framed(const View& view, int x0, int y0, TileRays& rays) {
-  HWY_DYNAMIC_DISPATCH(framed_kernel)(view, x0, y0, rays);
-}
-void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile,
-                     const std::array<std::uint16_t, tile_packets>& asked, TileRays& rays,
-                     ShadowLanes& lanes) {
+void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, const LaneMask& asked,
+                     TileRays& rays, ShadowLanes& lanes) {
   HWY_DYNAMIC_DISPATCH(compact_kernel)(light, seen, tile, asked, rays, lanes);
 }
 void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,

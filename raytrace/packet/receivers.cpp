@@ -174,15 +174,14 @@ inline void place_packet(const View& view, int x0, int y0, std::size_t packet, d
   }
 }
 
-std::array<std::uint16_t, tile_packets> receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0,
-                                                         int axis, const TileHits& hits,
-                                                         const ReceiverSinks& sinks) {
+LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
+                          const ReceiverSinks& sinks) {
   alignas(64) double sx[packet_rays], sy[packet_rays];
   alignas(64) std::int64_t at[packet_rays];
   const V3 origin{{all(view.eye.x), all(view.eye.y), all(view.eye.z)}};
   const double* corners = bvh.primitives.front().v.data();
   const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
-  std::array<std::uint16_t, tile_packets> left{};
+  LaneMask left{};
   Rows rows;
   Reach reach;
   for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -228,9 +227,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace {
 HWY_EXPORT(receivers_kernel);
 
-std::array<std::uint16_t, tile_packets> store_receivers(const Bvh& bvh, const View& view, int x0, int y0,
-                                                        int axis, const TileHits& hits,
-                                                        const ReceiverSinks& sinks) {
+LaneMask store_receivers(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
+                         const ReceiverSinks& sinks) {
   return HWY_DYNAMIC_DISPATCH(receivers_kernel)(bvh, view, x0, y0, axis, hits, sinks);
 }
 

@@ -22,8 +22,7 @@ struct ReceiverSinks {
 /// Writes the receivers of a tile that lie on triangles. `axis`: the world axis along which the rays are
 /// longest, for most of them. Returns per packet the bits of those that it left alone: no triangle hit for
 /// sure, an edge function of zero, a ray whose largest component is not that axis or has exponent 1.
-std::array<std::uint16_t, tile_packets> store_receivers(const Bvh& bvh, const View& view, int x0, int y0,
-                                                        int axis, const TileHits& hits,
-                                                        const ReceiverSinks& sinks);
+LaneMask store_receivers(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
+                         const ReceiverSinks& sinks);
 
 }  // namespace gnomon::raytrace

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "raytrace/packet/cell_tile.h"
+#include "raytrace/packet/known_hit.h"
 #include "raytrace/packet/passes.h"
 #include "raytrace/packet/places.h"
 #include "raytrace/packet/prepare.h"
@@ -34,8 +35,8 @@ bool start(const Seen& seen, const SurfacePoint& point, TileRays& rays, std::siz
 void choose_axis(const Seen& seen, const Vec3& receiver, TileRays& rays) {
   rays.axis = 2, rays.sign = 1.0f;
   if (seen.directional || seen.framed) return;
-  const Vec3 offset = receiver - seen.origin, size = glm::abs(offset);
-  rays.axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+  const Vec3 offset = receiver - seen.origin;
+  rays.axis = longest_axis(offset);
   rays.sign = offset[rays.axis] < 0.0 ? -1.0f : 1.0f;
 }
 
@@ -58,8 +59,8 @@ constexpr auto four_verdicts = [] {
 /// Below this many rays a tile's walk through the hierarchy costs more than single rays.
 constexpr int few_rays = 6;
 
-std::uint64_t number_of(const PacketBits& bits) {
-  std::array<std::uint64_t, sizeof(PacketBits) / sizeof(std::uint64_t)> words;
+std::uint64_t number_of(const LaneMask& bits) {
+  std::array<std::uint64_t, sizeof(LaneMask) / sizeof(std::uint64_t)> words;
   std::memcpy(words.data(), bits.data(), sizeof bits);
   std::uint64_t sum = 0;
   for (const std::uint64_t word : words) sum += static_cast<std::uint64_t>(std::popcount(word));
@@ -77,7 +78,7 @@ class ShadowTile {
     prepare(compact, every_lane, false);
     if (compact != nullptr) prefetch(compact + 1);
     trace();
-    PacketBits dark, traced;
+    LaneMask dark, traced;
     for (std::size_t p = 0; p < tile_packets; ++p) {
       dark[p] = shadows_.shadowed[p] | lanes_.unreached[p];
       traced[p] = rays_.alive[p] | lanes_.apart[p];
@@ -177,9 +178,9 @@ class ShadowTile {
   }
 
   void decide_rest(Image<Verdict>& verdicts) {
-    PacketBits asked;
+    LaneMask asked;
     for (std::size_t p = 0; p < tile_packets; ++p) asked[p] = shadows_.unsure[p] | lanes_.apart[p];
-    if (asked == PacketBits{}) return;
+    if (asked == LaneMask{}) return;
     HugeArray<SurfacePoint> points(tile_rays);
     receivers_.fill(rect_, asked, points.data());
     const bool listed = shadows_.doubt_count <= TileShadows::most_doubts;
@@ -212,12 +213,12 @@ class ShadowTile {
   TileRays rays_;
   ShadowLanes lanes_;
   TileShadows shadows_;
-  PacketBits outside_{};
+  LaneMask outside_{};
 };
 
 }  // namespace
 
-void store_verdicts(const TileRect& rect, const PacketBits& dark, Image<Verdict>& verdicts) {
+void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts) {
   if (is_whole(rect)) {
     const auto stride = static_cast<std::size_t>(verdicts.size.width);
     for (std::size_t p = 0; p < tile_packets; ++p) {

@@ -153,22 +153,14 @@ Seen seen_from(const Structures& s, const Light& light) {
                                               : seen_from(s, light.position, true);
 }
 
-Sight sight_of_eye(const Structures& s, const View& view, EyeUse use) {
-  Sight sight;
-  if (view.tan_half_x < widest_frame && view.tan_half_y < widest_frame) {
-    sight.seen = open_seen_from(s, view.eye, false);
-    frame_seen(s, view.right, view.forward, sight.seen);
-    sight.by_blocks = true;
-    if (use == EyeUse::once || !cells_pay(s, view.size.pixels())) return sight;
-    const auto [u, v] = axes_of_view(view);
-    sight.cells.u = u, sight.cells.v = v;
-    sight.by_cells = fill_cells(s, sight.seen, sight.cells);
-    sight.by_blocks = !sight.by_cells;
-    if (sight.by_blocks) sight.cells = {};
-    return sight;
-  }
-  sight.seen = seen_from(s, view.eye, false);
-  return sight;
+bool blocks_apply(const Structures& s, const View& view) {
+  return packets_apply(s) && view.tan_half_x < widest_frame && view.tan_half_y < widest_frame;
+}
+
+Seen seen_by_eye(const Structures& s, const View& view) {
+  Seen seen = open_seen_from(s, view.eye, false);
+  frame_seen(s, view.right, view.forward, seen);
+  return seen;
 }
 
 Sight sight_of_light(const Structures& s, const Light& light, std::span<const CompactTile> all_tiles,

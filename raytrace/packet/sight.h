@@ -1,5 +1,5 @@
-// The world from an eye or a light, made ready for tiles of rays: the primitives seen from there, and cells
-// where they pay; or, for an eye that is looked through once, nothing but its frame.
+// The world from an eye or a light, made ready for tiles of rays: of an eye nothing but its frame, of a light
+// cells where they pay, else the primitives seen from there.
 #pragma once
 
 #include <span>
@@ -14,10 +14,9 @@ namespace gnomon::raytrace {
 inline constexpr double widest_slope = 1.5;
 
 struct Sight {
-  Seen seen;
+  Seen seen;  ///< its primitives are filled where the rays do not go by cells
   Cells cells;
   bool by_cells = false;
-  bool by_blocks = false;  ///< an eye's: raytrace/packet/view_block.h. Neither: Seen::primitives are filled
 };
 
 /// Whether the world has a tree to walk and lengths that floats can hold.
@@ -26,11 +25,12 @@ bool packets_apply(const Structures& structures);
 /// The light as a common origin or direction, for the hierarchy.
 Seen seen_from(const Structures& structures, const Light& light);
 
-/// How often an eye's picture will be traced: a sight that is kept may cost more to make.
-enum class EyeUse { once, kept };
+/// Whether the eye's rays go by blocks (raytrace/packet/view_block.h): packets apply, and one frame holds the
+/// whole field of view.
+bool blocks_apply(const Structures& structures, const View& view);
 
-/// Cells, where there are any, are packets of 4 x 4 pixels.
-Sight sight_of_eye(const Structures& structures, const View& view, EyeUse use = EyeUse::once);
+/// The eye's frame, for such a view.
+Seen seen_by_eye(const Structures& structures, const View& view);
 
 /// Cells cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without
 /// are left out; empty: all are wanted.

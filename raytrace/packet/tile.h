@@ -28,12 +28,15 @@ constexpr TilePlace tile_place(std::size_t lane) {
   return {4 * (packet % 4) + i % 4, 4 * (packet / 4) + i / 4};
 }
 
+/// Bit i of a packet's number: ray i of it.
+using LaneMask = std::array<std::uint16_t, tile_packets>;
+
 struct alignas(64) TileRays {
   float u[tile_rays], v[tile_rays];
   /// Shadow rays: the receiver's nearness. Primary rays: unused.
   float far[tile_rays];
-  std::uint32_t own[tile_rays];                   ///< shadow rays: the primitive that they leave
-  std::array<std::uint16_t, tile_packets> alive;  ///< bit i: ray i of the packet is asked for
+  std::uint32_t own[tile_rays];  ///< shadow rays: the primitive that they leave
+  LaneMask alive;                ///< bit i: ray i of the packet is asked for
   int axis = 2;  ///< a point's: the world axis of depth, and the sign that makes depth positive
   float sign = 1.0f;
 };
@@ -53,7 +56,7 @@ struct TileDoubt {
 
 /// Bits per packet; neither: surely lit. Both never.
 struct TileShadows {
-  std::array<std::uint16_t, tile_packets> shadowed, unsure;
+  LaneMask shadowed, unsure;
   /// Of the unsure rays every primitive but planes that they may meet; of others some. When doubt_count is
   /// above most_doubts there were more.
   static constexpr std::size_t most_doubts = 512;
@@ -68,7 +71,6 @@ struct TileShadows {
 };
 
 /// The world's tree must have nodes.
-void closest_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileHits& hits);
 void shadows_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileShadows& shadows);
 
 }  // namespace gnomon::raytrace

@@ -9,12 +9,11 @@
 namespace gnomon::raytrace {
 
 struct UnstoredReceivers {
-  Sight eye;
   HugeArray<TileHits> hits;  ///< by tile; empty: the receivers are stored
 
   bool apply() const { return hits.size() > 0; }
   ReceiverSource source(const Tracer& tracer, const View& view, std::size_t tile) const {
-    return {.tracer = tracer, .stored = nullptr, .view = &view, .eye = &eye, .hits = &hits[tile]};
+    return {.tracer = tracer, .stored = nullptr, .view = &view, .hits = &hits[tile]};
   }
 };
 

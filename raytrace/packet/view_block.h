@@ -1,7 +1,6 @@
 // A square of up to 4 x 4 tiles of a picture in one walk through the hierarchy: a primitive's numbers
 // (raytrace/packet/seen.h) are found when the walk comes to it, tried on the packets that its bounds touch,
-// and forgotten. For a view that is seen once: nothing is sorted, nothing but hits is written to memory.
-// Cells (raytrace/packet/cells.h) are the better way where one view is traced again and again.
+// and forgotten: nothing is sorted, nothing but hits is written to memory.
 #pragma once
 
 #include <span>

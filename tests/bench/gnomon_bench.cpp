@@ -120,21 +120,22 @@ class Bench {
 
   const raytrace::Structures& structures() const { return tracer_.structures(); }
 
-  void our_hits(const Sight& eye) { find_all_hits(tracer_, view_, eye, hits_); }
-  void our_receivers(const Sight& eye, bool in_double) {
-    primary_pass(tracer_, view_, eye,
-                 {.hits = hits_,
-                  .receivers = in_double ? &frame_.receiver : nullptr,
-                  .compact = {tiles_.data(), tiles_.size()}});
+  /// Which primitive each pixel sees, as far as floats can tell.
+  void our_hits() {
+    primary_pass(tracer_, view_, seen_by_eye(structures(), view_),
+                 {.hits = hits_, .receivers = nullptr, .compact = {}});
   }
-  Sight kept_eye() const { return sight_of_eye(structures(), view_, raytrace::EyeUse::kept); }
+  /// The product's pass: a fresh eye, receivers in double and compact.
+  void our_receivers() {
+    primary_pass(tracer_, view_, seen_by_eye(structures(), view_),
+                 {.hits = {}, .receivers = &frame_.receiver, .compact = {tiles_.data(), tiles_.size()}});
+  }
   Sight sight_of(std::size_t light) const {
     return sight_of_light(structures(), scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
   }
-  void our_shadows(std::size_t light, const Sight& eye, const Sight& sight) {
+  void our_shadows(std::size_t light, const Sight& sight) {
+    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &frame_.receiver};
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      const raytrace::ReceiverSource source{
-          .tracer = tracer_, .stored = nullptr, .view = &view_, .eye = &eye, .hits = &hits_[i]};
       shadow_tile(source, scene_.scene.lights[light], sight, {x0, y0, x1, y1}, &tiles_[i],
                   frame_.lights[light].verdict);
     });
@@ -146,37 +147,29 @@ class Bench {
                              std::optional<double> goal) {
       add(name, threads, rays, in_turn(settings_.runs, threads, ours, theirs), peer, goal);
     };
-    const Sight ready = kept_eye();
     const auto packets = [&] { embree_.closest_packets(primary_, peer_); };
     against(
-        "primary", [&] { our_hits(ready); }, packets, "Embree 16 coherent", std::nullopt);
-    against(
-        "primary, made anew", [&] { our_hits(sight_of_eye(structures(), view_)); }, packets,
-        "Embree 16 coherent", std::nullopt);
+        "primary, hits alone", [&] { our_hits(); }, packets, "Embree 16 coherent", std::nullopt);
     if (threads > 1) return;
     against(
-        "primary", [&] { our_hits(ready); }, [&] { embree_.closest_single(primary_, peer_); },
+        "primary, hits alone", [&] { our_hits(); }, [&] { embree_.closest_single(primary_, peer_); },
         "Embree single", std::nullopt);
     // Like for like: the rows above say which primitive alone, Embree says where on it as well.
     against(
-        "primary, float receivers", [&] { our_receivers(ready, false); }, packets, "Embree 16 coherent", 1.5);
-    against(
-        "primary, double receivers", [&] { our_receivers(ready, true); }, packets, "Embree 16 coherent",
-        std::nullopt);
+        "primary, stored receivers", [&] { our_receivers(); }, packets, "Embree 16 coherent", 1.5);
   }
 
   void shadows(std::size_t light, int threads) {
     const std::string name = light == 0 ? "point shadow" : "sun shadow";
     const auto rays = static_cast<double>(shadow_[light].count);
-    const Sight eye = sight_of_eye(structures(), view_);
-    our_receivers(eye, false);
-    const Sight ready = sight_of(light);
+    our_receivers();
     const auto packets = [&] { embree_.occluded_packets(shadow_[light], occluded_); };
-    const auto ours = [&] { our_shadows(light, eye, ready); };
+    const auto ours = [&] { our_shadows(light, sight_of(light)); };
     add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 2.0);
-    add(name + ", cells made anew", threads, rays,
+    const Sight kept = sight_of(light);
+    add(name + ", cells kept over frames", threads, rays,
         in_turn(
-            settings_.runs, threads, [&] { our_shadows(light, eye, sight_of(light)); }, packets),
+            settings_.runs, threads, [&] { our_shadows(light, kept); }, packets),
         "Embree 16 coherent", std::nullopt);
     if (threads == 1)
       add(name, threads, rays,
@@ -186,9 +179,7 @@ class Bench {
 
   /// The same pass on one thread and on two; wall clock both.
   void two_threads() {
-    const Sight eye = sight_of_eye(structures(), view_);
-    our_receivers(eye, false);
-    const Sight light = sight_of(0);
+    our_receivers();
     const auto row = [&](const std::string& name, double rays, const auto& pass) {
       const auto on = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -198,8 +189,8 @@ class Bench {
           settings_.runs, 2, [&] { on(2); }, [&] { on(1); });
       add(name, 2, rays, ms, "one thread", 1.8);
     };
-    row("primary, float receivers", static_cast<double>(primary_.count), [&] { our_receivers(eye, false); });
-    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0, eye, light); });
+    row("primary, stored receivers", static_cast<double>(primary_.count), [&] { our_receivers(); });
+    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0, sight_of(0)); });
   }
 
   /// One ray at a time, here and there.
@@ -263,8 +254,7 @@ class Bench {
           const Stopwatch watch;
           tracer_ = Tracer(world_, Accel::bvh);
           build = watch.elapsed_ms();
-          const Sight eye = sight_of_eye(structures(), view_);
-          our_receivers(eye, false), our_shadows(0, eye, sight_of(0));
+          our_receivers(), our_shadows(0, sight_of(0));
         },
         [&] {
           const Stopwatch watch;
@@ -289,16 +279,15 @@ class Bench {
 
   // Receivers against Embree's hits; how many pixels the floats left to double.
   void check_hits() {
-    const Sight eye = sight_of_eye(structures(), view_);
     std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
-    our_hits(eye);
+    our_hits();
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
         const std::size_t at = place(x, y);
         unsure +=
             hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::unsure_hit ? 1 : 0;
       }
-    our_receivers(eye, true), embree_.closest_packets(primary_, peer_);
+    our_receivers(), embree_.closest_packets(primary_, peer_);
     const double doubt = 1e-4 * world_.finite_bounds.diagonal();
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
