@@ -35,7 +35,7 @@ pair error-budget raytrace labels courtyard --map-size 512
 
 # One map and four cascades of one scene.
 for technique in hard csm; do
-  "$program" compare courtyard --map-size 512 --slope-bias 1 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
+  "$program" compare courtyard --map-size 512 --slope-bias 1 --bias 0.01 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
 done
 oiiotool "$work/map-hard/difference.png" "$work/map-csm/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-cascades.png"
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "app/command_line.h"
+#include "compare/comparison.h"
 #include "compare/report/lessons.h"
 #include "scene/builtin.h"
 #include "tests/app_process.h"
@@ -159,6 +160,11 @@ TEST(Documents, ChannelsOfTheManualAreThoseOfTheFile) {
     EXPECT_NE(manual.find(std::string("`").append((*found)[1].str()).append("`")), std::string::npos)
         << (*found)[1];
   EXPECT_GE(count, 14);
+  for (std::size_t k = 0; k <= compare::class_count; ++k) {
+    const std::string label =
+        std::to_string(k).append(" ").append(compare::label_name(static_cast<compare::Label>(k)));
+    EXPECT_NE(manual.find(label), std::string::npos) << label;
+  }
 }
 
 // Each block says in its first line which file it is.
