@@ -291,11 +291,10 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
   add_value(command, name, type, text, store);
 }
 
-void add_fail_above(CLI::App& command, std::optional<double>& share) {
-  add_value(command, "--fail-above", "SHARE",
-            describe("exit with 1 when more than this share of any light's compared pixels is wrong",
-                     "0% to 100%, or 0 to 1", "never"),
-            [&share](const std::string& value) { return assign(share, parse_share(value)); });
+void add_threshold(CLI::App& command, const std::string& name, std::optional<compare::Threshold>& threshold,
+                   std::string_view what, std::string_view fallback) {
+  add_value(command, name, "LIMIT", describe(what, threshold_range, fallback),
+            [&threshold](const std::string& value) { return assign(threshold, parse_threshold(value)); });
 }
 
 void add_report_max_mb(CLI::App& command, double& megabytes) {

@@ -99,6 +99,33 @@ Expected<double> parse_share(std::string_view text) {
   return share;
 }
 
+Expected<compare::Threshold> parse_threshold(std::string_view text) {
+  using compare::ErrorMeasure;
+  compare::Threshold out;
+  std::string_view number = text;
+  if (const std::size_t colon = text.find(':'); colon != std::string_view::npos) {
+    const std::string_view name = text.substr(0, colon);
+    number.remove_prefix(colon + 1);
+    for (const ErrorMeasure m :
+         {ErrorMeasure::wrong, ErrorMeasure::mean, ErrorMeasure::flip, ErrorMeasure::edge})
+      if (name == measure_name(m)) out.measure = m;
+    if (out.measure == ErrorMeasure::wrong_and_mean) return wrong("not a limit", text, threshold_range);
+  }
+  if (out.measure == ErrorMeasure::edge) {
+    constexpr NumberRange texels{0.0, 1e6};
+    for (const std::string_view suffix : {std::string_view("texels"), std::string_view("texel")})
+      if (number.ends_with(suffix)) number.remove_suffix(suffix.size());
+    const std::optional<double> value = whole_number<double>(number);
+    if (!value || !contains(texels, *value)) return wrong("not a limit", text, "edge: and texels, 0 to 1e6");
+    out.limit = *value;
+    return out;
+  }
+  const Expected<double> share = parse_share(number);
+  if (!share) return wrong("not a limit", text, threshold_range);
+  out.limit = *share;
+  return out;
+}
+
 Expected<std::optional<double>> parse_exposure(std::string_view text) {
   if (text == "auto") return std::optional<double>{};
   const std::optional<double> value = whole_number<double>(text);

@@ -69,19 +69,25 @@ std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels)
 }
 
 ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels) {
-  const auto [count, false_shadow, missed_shadow, absolute, squared] =
-      sum_compared<5>(labels, [&](auto& sums, std::size_t i) {
-        const double difference = double(rungs[6].data[i]) - double(rungs[0].data[i]);
+  const auto between = [](float v) { return v > 0.0f && v < 1.0f; };
+  const auto [count, false_shadow, missed_shadow, ties, fractional, absolute, squared] =
+      sum_compared<7>(labels, [&](auto& sums, std::size_t i) {
+        const float drawn = rungs[6].data[i], truth = rungs[0].data[i];
+        const double difference = double(drawn) - double(truth);
         sums[0] += 1.0;
         sums[1] += difference < -0.5 ? 1.0 : 0.0, sums[2] += difference > 0.5 ? 1.0 : 0.0;
-        sums[3] += std::abs(difference), sums[4] += difference * difference;
+        sums[3] += std::abs(difference) == 0.5 ? 1.0 : 0.0;
+        sums[4] += between(drawn) || between(truth) ? 1.0 : 0.0;
+        sums[5] += std::abs(difference), sums[6] += difference * difference;
       });
   ErrorStats error;
   error.false_shadow = static_cast<std::uint64_t>(false_shadow);
   error.missed_shadow = static_cast<std::uint64_t>(missed_shadow);
   error.wrong = error.false_shadow + error.missed_shadow;
+  error.ties = static_cast<std::uint64_t>(ties);
+  error.fractional = static_cast<std::uint64_t>(fractional);
   if (!(count > 0.0)) return error;
-  error.wrong_fraction = double(error.wrong) / count;
+  error.wrong_fraction = (double(error.wrong) + 0.5 * double(error.ties)) / count;
   error.mean_absolute = absolute / count;
   error.rms = std::sqrt(squared / count);
   return error;

@@ -9,7 +9,8 @@ namespace gnomon::compare {
 PixelCounts count_pixels(const Image<Label>& labels);
 std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels);
 
-/// wrong, false and missed shadow, mean |V6 - V0| and RMS over compared pixels (flip and ssim are left NaN).
+/// wrong, false and missed shadow, ties, fractional, mean |V6 - V0| and RMS over compared pixels (FLIP and
+/// SSIM are left NaN). Two pixels that are off by exactly one half count as one wrong pixel in the fraction.
 ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
 
 /// Mean visibility of each rung over compared pixels; 0 where none is compared.

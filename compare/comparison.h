@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compare/threshold.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
 #include "scene/effects.h"
@@ -58,14 +59,23 @@ inline bool is_compared(Label label) {
 
 struct PixelCounts {
   std::uint64_t total = 0, background = 0, facing_away = 0, silhouette = 0, uncertain = 0, compared = 0;
+  /// Of the uncertain ones those that only the samples of a light with size leave in doubt (ladder.h).
+  std::uint64_t uncertain_by_samples = 0;
 };
 
+/// Of V6 - V0 over compared pixels.
 struct ErrorStats {
-  std::uint64_t wrong = 0, false_shadow = 0, missed_shadow = 0;
-  double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0;  ///< of V6 - V0 over compared pixels
-  /// Of the drawn against the true visibility picture; NaN where not computed.
+  std::uint64_t wrong = 0, false_shadow = 0, missed_shadow = 0;  ///< |V6 - V0| > 1/2, and which way
+  std::uint64_t ties = 0;        ///< |V6 - V0| = 1/2 exactly: as near to right as to wrong
+  std::uint64_t fractional = 0;  ///< V0 or V6 between 0 and 1: for 0 the mean is the share of wrong pixels
+  double wrong_fraction = 0.0;   ///< (wrong + ties / 2) / compared
+  double mean_absolute = 0.0, rms = 0.0;
+  /// Of the drawn against the true visibility picture; NaN where not computed. The last two over the compared
+  /// pixels alone, of SSIM the windows around them.
   double flip = std::numeric_limits<double>::quiet_NaN();  ///< mean FLIP (Andersson et al. 2020)
   double ssim = std::numeric_limits<double>::quiet_NaN();  ///< mean SSIM (Wang et al. 2004)
+  double flip_compared = std::numeric_limits<double>::quiet_NaN();
+  double ssim_compared = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct BudgetStep {
@@ -154,6 +164,8 @@ struct PenumbraStats {
   double true_umbra_world = 0.0, drawn_umbra_world = 0.0;
   std::uint64_t true_umbra_pixels = 0, true_penumbra_pixels = 0;
   std::uint64_t drawn_umbra_pixels = 0, drawn_penumbra_pixels = 0;
+  /// Of the truth's samples, over compared pixels whose truth lies between 0 and 1.
+  double standard_error_mean = 0.0, standard_error_max = 0.0;
 };
 
 struct LightComparison {
@@ -176,7 +188,7 @@ struct LightComparison {
   Times classify;
 
   std::array<Image<float>, rung_count>
-      rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not compared and no receiver
+      rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not climbed (ladder.h)
   Image<Label> labels;
   /// Displacement of shadow edges in texels, and detachment in world units (edges.h); NaN where there is
   /// none, empty where not made.
@@ -202,7 +214,8 @@ struct Comparison {
   raster::RasterFrame raster;
   raytrace::RayTracedFrame raytraced;
   std::vector<LightComparison> lights;
-  double exposure = 1.0;  ///< linear factor applied to both pictures before sRGB encoding
+  std::optional<Threshold> fail_above;  ///< what the errors were held against
+  double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding
   double load_ms = 0.0, accel_build_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 };

@@ -19,6 +19,21 @@ namespace gnomon::compare {
 using raytrace::SurfacePoint;
 using raytrace::Verdict;
 
+namespace {
+
+// The share of the light that is seen may as well lie on the other side of one half.
+bool samples_leave_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
+  if (truth.standard_error.data.empty()) return false;
+  const float error = truth.standard_error.data[pixel];
+  return error > 0.0f && std::abs(truth.visibility.data[pixel] - 0.5f) <= error;
+}
+
+bool ray_leaves_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
+  return truth.verdict.data[pixel] == Verdict::uncertain;
+}
+
+}  // namespace
+
 Image<Label> sort_pixels(const LadderInput& in) {
   Image<Label> labels(in.drawn.primitive.size, Label::background);
   tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
@@ -29,10 +44,25 @@ Image<Label> sort_pixels(const LadderInput& in) {
       if (light_cannot_reach(in.light, receiver.position, receiver.normal))
         labels.data[i] = Label::facing_away;
       else
-        labels.data[i] = in.truth.verdict.data[i] == Verdict::uncertain ? Label::uncertain : Label::right;
+        labels.data[i] = ray_leaves_doubt(in.truth, i) || samples_leave_doubt(in.truth, i) ? Label::uncertain
+                                                                                           : Label::right;
     }
   });
   return labels;
+}
+
+Image<Label> labels_climbed(const LadderInput& in, const Image<Label>& labels) {
+  Image<Label> climbed = labels;
+  if (in.truth.standard_error.data.empty()) return climbed;
+  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+    if (labels.data[i] == Label::uncertain && !ray_leaves_doubt(in.truth, i)) climbed.data[i] = Label::right;
+  });
+  return climbed;
+}
+
+float true_visibility(const LadderInput& in, std::size_t pixel) {
+  if (!in.truth.visibility.data.empty()) return in.truth.visibility.data[pixel];
+  return in.truth.verdict.data[pixel] == Verdict::lit ? 1.0f : 0.0f;
 }
 
 Cause deciding_step(const std::array<float, rung_count>& v) {
@@ -109,12 +139,6 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
   return is_exact(in, before, centre.depth) ? flat : lit(!(own > before));
 }
 
-// V0: the share of the light that the receiver sees; of a light without size, all or nothing.
-float truth_rung(const LadderInput& in, std::size_t pixel) {
-  if (!in.truth.visibility.data.empty()) return in.truth.visibility.data[pixel];
-  return lit(in.truth.verdict.data[pixel] == Verdict::lit);
-}
-
 // V1: the light shrunk to its centre.
 float point_rung(const LadderInput& in, std::size_t pixel) {
   return lit(in.truth.verdict.data[pixel] == Verdict::lit);
@@ -125,7 +149,8 @@ void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float drawn = in.record.visibility.data[pixel];
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
-  if (std::abs(drawn - truth) > 0.5f) out.labels.data[pixel] = Label::outside_map;
+  if (is_compared(out.labels.data[pixel]) && std::abs(drawn - truth) > 0.5f)
+    out.labels.data[pixel] = Label::outside_map;
 }
 
 void climb_lower(const Column& column, const TexelCentre& centre, raytrace::TexelKey key, std::size_t pixel,
@@ -136,7 +161,7 @@ void climb_lower(const Column& column, const TexelCentre& centre, raytrace::Texe
   // The depth that project_to_face gives.
   const double own = glm::dot(receiver.position - view.origin, view.face(centre.face).forward);
   const float flat = flat_rung(receiver, centre, own);
-  out.rungs[0].data[pixel] = truth_rung(in, pixel);
+  out.rungs[0].data[pixel] = true_visibility(in, pixel);
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
   out.rungs[3].data[pixel] = flat;
@@ -149,7 +174,8 @@ bool tests_bias(const LadderInput& in) {
 }
 
 bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
-  return std::abs(in.record.visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
+  return is_compared(climbed.labels.data[pixel]) &&
+         std::abs(in.record.visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
 }
 
 // The exact depth in place of the stored one would have made the biased test right.
@@ -182,8 +208,9 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
 // A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: all of
 // its rungs are what it drew.
 Climb climb_without_map(const LadderInput& in, Climb out) {
+  const Image<Label> climbed = labels_climbed(in, out.labels);
   for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
-    if (!is_compared(out.labels.data[i])) continue;
+    if (!is_compared(climbed.data[i])) continue;
     const float drawn = in.record.visibility.data[i];
     for (std::size_t k = 1; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
     if (drawn_wrong(in, out, i)) out.labels.data[i] = Label::light_size;  // the only step left
@@ -206,9 +233,9 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
   tbb::parallel_for(std::size_t{0}, rungs.size(),
                     [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
-  groups = group_by_texel(in.record, compared_pixels(sorted), outside);
+  groups = group_by_texel(in.record, compared_pixels(labels_climbed(in, sorted)), outside);
   tbb::parallel_for(std::size_t{0}, outside.size(), [&](std::size_t i) {
-    rungs[0].data[outside[i]] = truth_rung(in, outside[i]);
+    rungs[0].data[outside[i]] = true_visibility(in, outside[i]);
     rungs[1].data[outside[i]] = point_rung(in, outside[i]);
   });
   const std::vector<TexelCentre> rays = trace_centres(in, groups.keys);

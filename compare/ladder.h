@@ -23,12 +23,21 @@ struct LadderInput {
   const raytrace::LightTruth& truth;
 };
 
-/// Marks each pixel background, silhouette, facing_away, uncertain, or right (= to be compared).
+/// Marks each pixel background, silhouette, facing_away, uncertain, or right (= to be compared). Uncertain: a
+/// ray that cannot be decided, or a share of a light with size that lies within its standard error of one
+/// half.
 Image<Label> sort_pixels(const LadderInput& input);
+
+/// The labels with `right` where only the samples of a light with size leave the truth in doubt: these pixels
+/// are not compared, but climbed, so that pictures and widths have no holes there.
+Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels);
+
+/// V0: the share of the light that the pixel's receiver sees; of a light without size, all or nothing.
+float true_visibility(const LadderInput& input, std::size_t pixel);
 
 /// Why a wrong pixel is wrong needs more than its rungs: the step, and what was found on the way.
 struct Climb {
-  std::array<Image<float>, rung_count> rungs;  ///< V0 … V6; 1 where not compared
+  std::array<Image<float>, rung_count> rungs;  ///< V0 … V6; 1 where not climbed
   Image<Label> labels;
 };
 

@@ -12,12 +12,41 @@
 namespace gnomon::compare {
 namespace {
 
-// White lit, black shadowed, white where nothing is compared.
+// Of the compared pixels that have a value; NaN of none.
+double mean_compared(const Image<float>& map, const Image<Label>& labels) {
+  double sum = 0.0;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < map.data.size(); ++i) {
+    if (!is_compared(labels.data[i]) || std::isnan(map.data[i])) continue;
+    sum += double{map.data[i]};
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+// White lit, black shadowed, white where nothing is compared. Where the truth is uncertain the rungs have
+// what is known of it, or are white both.
 Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels) {
   Image<float> picture(visibility.size, 1.0f);
   for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (is_compared(labels.data[i])) picture.data[i] = visibility.data[i];
+    if (is_compared(labels.data[i]) || labels.data[i] == Label::uncertain)
+      picture.data[i] = visibility.data[i];
   return picture;
+}
+
+// Of the samples of partly lit compared pixels.
+void add_standard_error(const raytrace::LightTruth& truth, const Image<Label>& labels, PenumbraStats& out) {
+  std::uint64_t count = 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    const float share = truth.visibility.data[i];
+    if (!is_compared(labels.data[i]) || share <= 0.0f || share >= 1.0f) continue;
+    const double error = double{truth.standard_error.data[i]};
+    sum += error;
+    out.standard_error_max = std::max(out.standard_error_max, error);
+    ++count;
+  }
+  if (count > 0) out.standard_error_mean = sum / static_cast<double>(count);
 }
 
 bool has_one_texel_size(const LightView& view) {
@@ -59,6 +88,29 @@ void measure_perceptual(LightComparison& light) {
   const Image<float> windows = ssim_map(truth, drawn);
   light.error.ssim = mean_ssim(windows);
   light.ssim_map = ssim_by_pixel(windows, truth.size);
+  light.error.flip_compared = mean_compared(light.flip_map, light.labels);
+  light.error.ssim_compared = mean_compared(light.ssim_map, light.labels);
+}
+
+ErrorFigures measure_figures(const LadderInput& in, ErrorMeasure measure) {
+  LightComparison light;
+  light.labels = sort_pixels(in);
+  const Image<Label> climbed = labels_climbed(in, light.labels);
+  Image<float>&truth = light.rungs.front(), &drawn = light.rungs.back();
+  truth = drawn = Image<float>(light.labels.size, 1.0f);
+  for (std::size_t i = 0; i < climbed.data.size(); ++i) {
+    if (!is_compared(climbed.data[i])) continue;
+    truth.data[i] = true_visibility(in, i);
+    drawn.data[i] = in.record.visibility.data[i];
+  }
+  light.pixels = count_pixels(light.labels);
+  light.pixels.uncertain_by_samples = count_pixels(climbed).compared - light.pixels.compared;
+  light.error = measure_error(light.rungs, light.labels);
+  if (measure == ErrorMeasure::flip) measure_perceptual(light);
+  light.edges.rms_texels = std::numeric_limits<double>::quiet_NaN();
+  if (measure == ErrorMeasure::edge)
+    light.edges = measure_edges({in.drawn, in.record, in.traced.receiver, truth, climbed, in.world});
+  return figures_of(light);
 }
 
 MapMeasures measure_map(const LadderInput& in, const Image<Label>& labels) {
@@ -75,14 +127,19 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   measure_pixels(out);
   if (options.perceptual) measure_perceptual(out);
   const Image<float>& truth = out.rungs[0];
-  const EdgeInput edges{in.drawn, in.record, in.traced.receiver, truth, out.labels, in.world};
+  const Image<Label> climbed_labels = labels_climbed(in, out.labels);
+  const EdgeInput edges{in.drawn, in.record, in.traced.receiver, truth, climbed_labels, in.world};
   out.edges = measure_edges(edges);
   if (options.perceptual) out.edge_map = edge_displacement_map(edges);
   Image<float> detached = detachment_map(in.tracer, in.light, in.traced.receiver, out.labels);
   out.detachment = measure_detachment(detached);
   if (options.perceptual) out.detachment_map = std::move(detached);
   out.bleeding = measure_bleeding(in, out.rungs, out.labels);
-  if (!in.truth.visibility.data.empty()) out.penumbra = measure_penumbra(in, truth, out.labels);
+  if (!in.truth.visibility.data.empty()) {
+    out.pixels.uncertain_by_samples = count_pixels(climbed_labels).compared - out.pixels.compared;
+    out.penumbra = measure_penumbra(in, truth, climbed_labels);
+    add_standard_error(in.truth, out.labels, *out.penumbra);
+  }
   const MapMeasures map = options.map != nullptr ? *options.map : measure_map(in, out.labels);
   out.texel_world = map.texel_world;
   out.theory = map.theory;

@@ -25,6 +25,8 @@ LightComparison measure_light(const LadderInput& input, std::size_t record, Clim
 
 /// Counts, errors, budget and rung means from `rungs` and `labels` alone.
 void measure_pixels(LightComparison& light);
+/// The figures of a drawing without climbing it: what `measure` needs, the others that cost more left NaN.
+ErrorFigures measure_figures(const LadderInput& input, ErrorMeasure measure);
 /// FLIP and SSIM of the visibility pictures: white lit, black shadowed, white where nothing is compared.
 void measure_perceptual(LightComparison& light);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,9 @@ std::string aov_path(const Comparison& comparison, const LightComparison& light,
 /// The text of result.json with these times in place of the comparison's own (the writer knows how long
 /// writing took).
 std::string result_json(const Comparison& comparison, double report_ms, double total_ms);
+
+/// The table of a result.json's text (result_table.h).
+std::string result_csv(std::string_view result);
 
 /// Names and values of a sweep's axes.
 using AxisValues = std::vector<std::pair<std::string, std::string>>;

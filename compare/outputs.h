@@ -13,7 +13,7 @@ struct PageIntroduction;  // report/page.h
 
 /// The result file (compare/report/result.schema.json), schema "gnomon/result/1".
 std::string result_json(const Comparison& comparison);
-/// One row per light: the numbers of result.json as a table; first row names the columns with units.
+/// One row per light: the numbers and times of result.json as a table (result_table.h).
 std::string result_csv(const Comparison& comparison);
 /// The summary for stdout, at most 80 columns wide; colour only when asked for.
 std::string summary_table(const Comparison& comparison, bool colour);

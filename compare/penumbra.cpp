@@ -10,7 +10,7 @@ namespace {
 constexpr int window = 3;        // half-width of the gradient's window, pixels
 constexpr double step = 0.5;     // of a walk, pixels
 constexpr double reach = 256.0;  // of a walk, pixels
-constexpr float dark = 0.1f, bright = 0.9f;
+constexpr double dark = 0.1, bright = 0.9;
 
 struct Width {
   std::optional<double> penumbra, umbra;  // world units; none where a walk left the object or the picture
@@ -18,6 +18,12 @@ struct Width {
 
 struct Sample {
   Width truth, drawn;
+};
+
+// Where a walk came to a level of visibility: pixels, and world units on the receiver.
+struct Crossing {
+  Vec2 pixel;
+  Vec3 world;
 };
 
 class Walker {
@@ -32,51 +38,84 @@ class Walker {
   }
   std::uint32_t object(std::size_t i) const { return in_.world.object_of(in_.drawn.primitive.data[i]); }
 
-  /// From shadow to light, unit length; zero where the window is balanced.
+  /// The way on the picture that runs straight across the edge on the receiver, from shadow to light, unit
+  /// length; zero where the window is balanced or its surroundings are another object's.
   Vec2 towards_light(int x, int y) const {
     const std::uint32_t own = object(labels_.index(x, y));
-    Vec2 sum(0.0);
+    Vec2 slope(0.0);
     for (int dy = -window; dy <= window; ++dy)
       for (int dx = -window; dx <= window; ++dx)
-        if (same_object(x + dx, y + dy, own)) sum += Vec2(dx, dy) * (2.0 * truth_.at(x + dx, y + dy) - 1.0);
-    const double length = glm::length(sum);
-    return length > 0.0 ? sum / length : Vec2(0.0);
+        if (same_object(x + dx, y + dy, own))
+          slope += Vec2(dx, dy) * (2.0 * double{truth_.at(x + dx, y + dy)} - 1.0);
+    for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+      if (!same_object(x + dx, y + dy, own)) return Vec2(0.0);
+    // The steepest way on the surface: its metric in pixels, inverted, times the slope in the picture.
+    const Vec3 u = receiver(x + 1, y) - receiver(x - 1, y), v = receiver(x, y + 1) - receiver(x, y - 1);
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+    const Vec2 across(vv * slope.x - uv * slope.y, uu * slope.y - uv * slope.x);
+    const double length = glm::length(across);
+    return length > 0.0 ? across / length : Vec2(0.0);
   }
 
-  /// Walks until stop(visibility); the pixel's place, or none.
-  template <class Stop>
-  std::optional<Vec2> walk(const Image<float>& v, Vec2 from, Vec2 direction, std::uint32_t own,
-                           const Stop& stop) const {
+  struct Place {
+    double visibility;
+    Vec3 world;
+  };
+
+  /// Between pixel centres, bilinearly; none where one of the four is not of the object.
+  std::optional<Place> place(const Image<float>& v, Vec2 p, std::uint32_t own) const {
+    const int x = static_cast<int>(std::floor(p.x - 0.5)), y = static_cast<int>(std::floor(p.y - 0.5));
+    const double fx = p.x - 0.5 - x, fy = p.y - 0.5 - y;
+    Place sum{0.0, Vec3(0.0)};
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) {
+        const double weight = (i == 0 ? 1.0 - fx : fx) * (j == 0 ? 1.0 - fy : fy);
+        if (weight == 0.0) continue;
+        if (!same_object(x + i, y + j, own)) return std::nullopt;
+        sum.visibility += weight * double{v.at(x + i, y + j)};
+        sum.world += weight * receiver(x + i, y + j);
+      }
+    return sum;
+  }
+
+  /// Walks until the visibility has come to a level, from below when it rises to it.
+  std::optional<Crossing> walk(const Image<float>& v, Vec2 from, Vec2 direction, std::uint32_t own,
+                               double level, bool rising) const {
+    std::optional<Place> before;
     for (double s = 0.0; s <= reach; s += step) {
       const Vec2 p = from + s * direction;
-      const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
-      if (!same_object(x, y, own)) return std::nullopt;
-      if (stop(v.at(x, y))) return p;
+      const auto here = place(v, p, own);
+      if (!here) return std::nullopt;
+      if (rising ? here->visibility >= level : here->visibility <= level) {
+        if (!before) return Crossing{p, here->world};
+        const double back = (here->visibility - level) / (here->visibility - before->visibility);
+        return Crossing{p - back * step * direction, glm::mix(here->world, before->world, back)};
+      }
+      before = here;
     }
     return std::nullopt;
   }
 
-  double world_distance(Vec2 a, Vec2 b) const { return glm::length(receiver(a) - receiver(b)); }
-
   /// From the place where the visibility crosses one half.
   Width width(const Image<float>& v, Vec2 half, Vec2 normal, std::uint32_t own) const {
     Width out;
-    const auto lit = walk(v, half, normal, own, [](float x) { return x >= bright; });
-    const auto shadow = walk(v, half, -normal, own, [](float x) { return x <= dark; });
-    if (lit && shadow) out.penumbra = world_distance(*lit, *shadow);
+    const auto lit = walk(v, half, normal, own, bright, true);
+    const auto shadow = walk(v, half, -normal, own, dark, false);
+    if (lit && shadow) out.penumbra = glm::length(lit->world - shadow->world);
     if (!shadow) return out;
-    const auto end = walk(v, *shadow, -normal, own, [](float x) { return x > dark; });
-    if (end) out.umbra = world_distance(*shadow, *end);
+    const auto end = walk(v, shadow->pixel - step * normal, -normal, own, dark, true);
+    if (end) out.umbra = glm::length(shadow->world - end->world);
     return out;
   }
 
-  /// Of the drawn shadow, the crossing nearest to a place.
+  /// Of the drawn shadow, the crossing of one half nearest to a place.
   std::optional<Vec2> nearest_crossing(const Image<float>& v, Vec2 from, Vec2 normal,
                                        std::uint32_t own) const {
-    const auto lit = walk(v, from, normal, own, [](float x) { return x > 0.5f; });
-    const auto shadow = walk(v, from, -normal, own, [](float x) { return x <= 0.5f; });
-    if (!lit || !shadow) return lit ? lit : shadow;
-    return glm::length(*lit - from) > glm::length(*shadow - from) ? lit : shadow;
+    const auto lit = walk(v, from, normal, own, 0.5, true);
+    const auto shadow = walk(v, from, -normal, own, 0.5, false);
+    if (!lit && !shadow) return std::nullopt;
+    if (!lit || !shadow) return lit ? lit->pixel : shadow->pixel;
+    return glm::length(lit->pixel - from) > glm::length(shadow->pixel - from) ? lit->pixel : shadow->pixel;
   }
 
   void measure(int px, int py, int qx, int qy, std::vector<Sample>& out) const {
@@ -94,10 +133,7 @@ class Walker {
   }
 
  private:
-  Vec3 receiver(Vec2 p) const {
-    return in_.traced.receiver.at(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))
-        .position;
-  }
+  const Vec3& receiver(int x, int y) const { return in_.traced.receiver.at(x, y).position; }
   const LadderInput& in_;
   const Image<float>& truth_;
   const Image<Label>& labels_;

@@ -2,6 +2,7 @@
 // (compare/report/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
 // not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
 // which the schema allows only where it has a meaning.
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -150,8 +151,13 @@ Json map_json(const Comparison& c, const LightComparison& light) {
 }
 
 Json pixels_json(const PixelCounts& p) {
-  return {{"total", p.total},           {"background", p.background}, {"facing_away", p.facing_away},
-          {"silhouette", p.silhouette}, {"uncertain", p.uncertain},   {"compared", p.compared}};
+  return {{"total", p.total},
+          {"background", p.background},
+          {"facing_away", p.facing_away},
+          {"silhouette", p.silhouette},
+          {"uncertain", p.uncertain},
+          {"uncertain_by_samples", p.uncertain_by_samples},
+          {"compared", p.compared}};
 }
 
 Json error_json(const ErrorStats& e) {
@@ -159,10 +165,14 @@ Json error_json(const ErrorStats& e) {
           {"wrong_fraction", number(e.wrong_fraction)},
           {"false_shadow", e.false_shadow},
           {"missed_shadow", e.missed_shadow},
+          {"ties", e.ties},
+          {"fractional", e.fractional},
           {"mean_absolute", number(e.mean_absolute)},
           {"rms", number(e.rms)},
           {"flip", number(e.flip)},
-          {"ssim", number(e.ssim)}};
+          {"ssim", number(e.ssim)},
+          {"flip_compared", number(e.flip_compared)},
+          {"ssim_compared", number(e.ssim_compared)}};
 }
 
 Json budget_json(const LightComparison& light) {
@@ -214,7 +224,9 @@ Json penumbra_json(const PenumbraStats& p) {
           {"true_umbra_pixels", p.true_umbra_pixels},
           {"true_penumbra_pixels", p.true_penumbra_pixels},
           {"drawn_umbra_pixels", p.drawn_umbra_pixels},
-          {"drawn_penumbra_pixels", p.drawn_penumbra_pixels}};
+          {"drawn_penumbra_pixels", p.drawn_penumbra_pixels},
+          {"standard_error_mean", number(p.standard_error_mean)},
+          {"standard_error_max", number(p.standard_error_max)}};
 }
 
 Json bias_curve_json(const LightComparison& light) {
@@ -341,6 +353,19 @@ Json costs_json(const Comparison& c) {
           {"glossy_rays", rays.glossy},           {"indirect_rays", rays.indirect}};
 }
 
+// What --fail-above was held against; absent where nothing was asked for.
+void add_threshold(const Comparison& c, Json& json) {
+  if (!c.fail_above) return;
+  const auto fails = [&c](const LightComparison& light) {
+    const ErrorFigures figures = figures_of(light);
+    return exceeds(*c.fail_above, figures) || too_uncertain(*c.fail_above, figures);
+  };
+  json["fail_above"] = {{"threshold", threshold_text(*c.fail_above)},
+                        {"measure", measure_name(c.fail_above->measure)},
+                        {"limit", number(c.fail_above->limit)},
+                        {"failed", std::any_of(c.lights.begin(), c.lights.end(), fails)}};
+}
+
 Json result_object(const Comparison& c, double report_ms, double total_ms) {
   Json lights = Json::array();
   for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
@@ -407,7 +432,9 @@ std::string dumped(const Json& json, int indent) {
 }  // namespace
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
-  return dumped(result_object(c, report_ms, total_ms), 2);
+  Json json = result_object(c, report_ms, total_ms);
+  add_threshold(c, json);
+  return dumped(json, 2);
 }
 
 std::string result_line(const Comparison& c, const AxisValues& axes,

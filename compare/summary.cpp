@@ -101,9 +101,16 @@ std::string pixels_line(const PixelCounts& p) {
 }
 
 std::string wrong_line(const ErrorStats& e) {
-  return fmt::format("{} ({}); false shadow {}, missed shadow {}; FLIP {}", grouped(e.wrong),
-                     percent(e.wrong_fraction), grouped(e.false_shadow), grouped(e.missed_shadow),
-                     plain_number(e.flip));
+  const std::string ties =
+      e.ties > 0 ? fmt::format(", {} off by exactly one half count half", grouped(e.ties)) : "";
+  return fmt::format("{} ({}{}); false shadow {}, missed shadow {}", grouped(e.wrong),
+                     percent(e.wrong_fraction), ties, grouped(e.false_shadow), grouped(e.missed_shadow));
+}
+
+std::string error_line(const ErrorStats& e) {
+  const auto flip = [](double value) { return std::isfinite(value) ? plain_number(value) : "none"; };
+  return fmt::format("mean {}, RMS {}; FLIP {}, over compared pixels alone {}", plain_number(e.mean_absolute),
+                     plain_number(e.rms), flip(e.flip), flip(e.flip_compared));
 }
 
 std::string labels_line(const LightComparison& light) {
@@ -159,16 +166,22 @@ void add_bleeding(Page& page, const Comparison& c, const LightComparison& light)
                          grouped(b.pixels), b.pixels == 1 ? "" : "s", percent(b.max)));
 }
 
-// Median widths across shadow edges.
-void add_penumbra(Page& page, const PenumbraStats& p) {
+// What the truth of a light with size is known by, and median widths across shadow edges.
+void add_penumbra(Page& page, const PenumbraStats& p, int samples) {
+  page.field("truth", fmt::format("{} of the light; where a part of it is seen its standard error is {}, at "
+                                  "most {}",
+                                  counted(static_cast<std::uint64_t>(samples), "sample"),
+                                  plain_number(p.standard_error_mean), plain_number(p.standard_error_max)));
   if (p.edges == 0) return;
-  page.field("penumbra", fmt::format("{} wide in truth, {} as drawn (medians of {} edges)",
-                                     plain_number(p.true_penumbra_world),
-                                     plain_number(p.drawn_penumbra_world), grouped(p.edges)));
+  page.field("penumbra",
+             fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_penumbra_world),
+                         plain_number(p.drawn_penumbra_world), p.edges == 1 ? "the width" : "medians",
+                         counted(p.edges, "edge")));
   if (p.umbra_edges == 0) return;
-  page.field("umbra", fmt::format("{} wide in truth, {} as drawn (medians of {} edges)",
-                                  plain_number(p.true_umbra_world), plain_number(p.drawn_umbra_world),
-                                  grouped(p.umbra_edges)));
+  page.field("umbra",
+             fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_umbra_world),
+                         plain_number(p.drawn_umbra_world), p.umbra_edges == 1 ? "the width" : "medians",
+                         counted(p.umbra_edges, "edge")));
 }
 
 // What the exact shadow took, and of what.
@@ -202,12 +215,13 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.field("pixels", pixels_line(light.pixels));
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
+    page.field("error", error_line(light.error));
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by chance", accidents_line(light.accidents));
     page.field("budget", budget_line(light));
     add_bleeding(page, c, light);
-    if (light.penumbra) add_penumbra(page, *light.penumbra);
+    if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
     add_theory(page, light.theory);
   }
   add_times(page, c, light);

@@ -1,5 +1,5 @@
-// The verdict in plain words: how many pixels are wrong, mostly why, and what the best constant bias would
-// leave.
+// The verdict in plain words: how many pixels are wrong, or how far off partly lit ones are, mostly why, and
+// what the best constant bias would leave.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,14 +36,44 @@ std::string main_reasons(const LightComparison& light) {
   return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
 }
 
-std::string wrong_part(const LightComparison& light) {
+// "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), mostly acne."
+std::string yes_or_no_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
-  if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
+  const std::string mean = percent(light.error.mean_absolute);
+  if (wrong == 0)
+    return fmt::format("None of the {} lit-or-shadowed pixels is wrong (mean error {}).", grouped(compared),
+                       mean);
   const bool few = light.error.wrong_fraction < few_fraction;
   const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
                                 : fmt::format("{} of the", percent(light.error.wrong_fraction));
-  return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
-                     main_reasons(light));
+  return fmt::format("{} lit-or-shadowed pixels {} wrong (mean error {}), {}.", share,
+                     few && wrong == 1 ? "is" : "are", mean, main_reasons(light));
+}
+
+// Where something is partly lit, in truth or as drawn, counts of what is more than one half off say little.
+std::string fractional_part(const LightComparison& light) {
+  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  const std::string lead =
+      fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}; ",
+                  percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s");
+  if (wrong == 0) return lead + "none of them is wrong by more than one half.";
+  const bool few = light.error.wrong_fraction < few_fraction;
+  return lead + fmt::format("{} of them {} wrong by more than one half, {}.",
+                            few ? grouped(wrong) : percent(light.error.wrong_fraction),
+                            few && wrong == 1 ? "is" : "are", main_reasons(light));
+}
+
+std::string uncertain_part(const PixelCounts& p) {
+  if (p.uncertain == 0) return {};
+  return fmt::format(
+      " {} more ({}) {} uncertain: the truth there lies within its own error bound.", grouped(p.uncertain),
+      percent(static_cast<double>(p.uncertain) / static_cast<double>(p.compared + p.uncertain)),
+      p.uncertain == 1 ? "is" : "are");
+}
+
+std::string error_part(const LightComparison& light) {
+  return (light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light)) +
+         uncertain_part(light.pixels);
 }
 
 std::string bias_text(const LightComparison& light, double bias) {
@@ -79,7 +109,9 @@ std::string bias_part(const LightComparison& light) {
     const std::string rest = best.wrong_fraction == 0.0 ? "none"
                              : few                      ? fmt::format("{:.0f} of them", left)
                                                         : percent(best.wrong_fraction);
-    text = fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world), rest);
+    const char* wrong = light.error.fractional > 0 ? " wrong" : "";
+    text = fmt::format(" A constant bias of {} would leave {}{}.", bias_text(light, best.constant_world),
+                       rest, wrong);
   } else if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction) {
     text = " No other constant bias does better.";
   }
@@ -88,11 +120,12 @@ std::string bias_part(const LightComparison& light) {
 
 std::string nothing_compared(const PixelCounts& p) {
   return fmt::format(
-      "No pixel could be compared: of {}, {} show no surface, {} face away from the light, {} are "
-      "silhouettes and {} "
-      "uncertain.",
-      grouped(p.total), grouped(p.background), grouped(p.facing_away), grouped(p.silhouette),
-      grouped(p.uncertain));
+      "No pixel could be compared: of {}, {} show{} no surface, {} face{} away from the light, {} {} and {} "
+      "{} uncertain.",
+      grouped(p.total), grouped(p.background), p.background == 1 ? "s" : "", grouped(p.facing_away),
+      p.facing_away == 1 ? "s" : "", grouped(p.silhouette),
+      p.silhouette == 1 ? "is a silhouette" : "are silhouettes", grouped(p.uncertain),
+      p.uncertain == 1 ? "is" : "are");
 }
 
 }  // namespace
@@ -100,7 +133,7 @@ std::string nothing_compared(const PixelCounts& p) {
 // What other biases would do follows from the gaps of a hard test alone.
 std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  return wrong_part(light) + (biases_follow_from_gaps(c.raster) ? bias_part(light) : "");
+  return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_part(light) : "");
 }
 
 }  // namespace gnomon::compare

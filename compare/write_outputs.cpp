@@ -77,7 +77,7 @@ Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
   const double total_ms = comparison.total_ms + watch.elapsed_ms();
   const std::string json = result_json(comparison, report_ms, total_ms);
-  const std::string csv = result_csv(comparison);
+  const std::string csv = result_csv(json);
   const BuiltPage page =
       report_page({comparison, *pictures, json, csv, total_ms, introduction}, report_max_mb);
 

@@ -108,6 +108,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
   const Light& light = tracer.world().scene->lights[truth.light];
   truth.samples = options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
   truth.visibility = Image<float>(options.size, 1.0f);
+  truth.standard_error = Image<float>(options.size, 0.0f);
   const TileGrid grid{options.size};
   struct Counts {
     std::uint64_t asked = 0, cast = 0;
@@ -121,8 +122,9 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
       const std::uint64_t key = pixel_key(options.seed, receivers.index(x, y), truth.light);
       const bool reached = reaches(light, point);
       const Visibility seen =
-          reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0};
+          reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0.0, 0};
       truth.visibility.at(x, y) = static_cast<float>(seen.share);
+      truth.standard_error.at(x, y) = static_cast<float>(seen.standard_error);
       rays[tile].asked += reached ? static_cast<std::uint64_t>(truth.samples) : 0;
       rays[tile].cast += seen.rays;
     });

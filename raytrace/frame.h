@@ -53,6 +53,7 @@ struct LightTruth {
   /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
   /// light's centre cannot reach it. Empty for a light without size, whose verdict is the whole truth.
   Image<float> visibility{};
+  Image<float> standard_error{};                     ///< of `visibility`, estimated from its samples
   int samples = 0;                                   ///< rays per point
   Times soft_shadow_rays{};                          ///< ms
   std::uint64_t soft_rays = 0, soft_rays_asked = 0;  ///< as RayCounts::soft_shadow, soft_shadow_asked

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "raytrace/sampling.h"
 #include "raytrace/tracer.h"
@@ -40,9 +41,15 @@ class LightSamples {
 
 /// What one point sees of a light.
 struct Visibility {
-  double share = 1.0;      ///< in [0, 1]
-  std::uint64_t rays = 0;  ///< cast for it
+  double share = 1.0;           ///< in [0, 1]
+  double standard_error = 0.0;  ///< of `share` as an estimate by its samples; 0 where all agree
+  std::uint64_t rays = 0;       ///< cast for it
 };
+
+/// The standard error of the mean of stratified samples that are 0 or 1, in the order of StratifiedSquare:
+/// the points of four neighbouring strata (two by two) differ from the mean's trend by what one stratum's
+/// choice changes. Of one sample nothing can be told: 0.
+double stratified_standard_error(std::span<const std::uint8_t> samples);
 
 /// Any unmasked surface occludes, glass too.
 Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,

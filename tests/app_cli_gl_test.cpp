@@ -257,6 +257,68 @@ TEST(ExitCodes, ThresholdExceeded) {
   EXPECT_EQ(run_gnomon(acne + Words{"--fail-above", "100%"}, here).exit_code, 0);
 }
 
+// A floor under slats narrower than the filter: grey all over, where it is striped in truth.
+constexpr const char* striped_floor = R"({"schema": "gnomon/scene/1", "name": "stripes",
+  "camera": {"eye": [0, 3, 0.01], "target": [0, 0, 0], "up": [0, 0, -1], "vertical_fov_degrees": 30},
+  "lights": [{"name": "sun", "type": "directional", "direction": [0, -1, 0]}],
+  "materials": [{"name": "m", "diffuse": [0.6, 0.6, 0.6]}],
+  "meshes": [{"name": "box", "generate": {"kind": "box"}}],
+  "instances": [{"name": "slat", "mesh": "box", "material": "m", "translate": [0, 5, 0],
+                 "scale": [0.05, 0.02, 8], "repeat": {"count": [64, 1], "spacing": [0.1, 1]}}],
+  "shapes": [{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}, "material": "m"}]})";
+
+TEST(ExitCodes, AStripedFloorThatIsDrawnGreyIsNotRight) {
+  const TemporaryFolder folder;
+  const ProcessOptions here{.folder = folder.path()};
+  write_text(folder / "stripes.json", striped_floor);
+  const Words grey{"compare",
+                   "stripes.json",
+                   "--size",
+                   "160x90",
+                   "--map-size",
+                   "512",
+                   "--technique",
+                   "pcf",
+                   "--filter-radius",
+                   "6",
+                   "--bias",
+                   "0.05",
+                   "--fail-above",
+                   "1%",
+                   "-o",
+                   "out"};
+  const ProcessResult result = run_gnomon(grey, here);
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_NE(result.out.find("The mean error is"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("that is more than --fail-above 1%"), std::string::npos) << result.err;
+  const json document = json::parse(read_file(folder / "out/result.json"));
+  EXPECT_GT(document["lights"][0]["error"]["mean_absolute"], 0.3);
+  EXPECT_LT(document["lights"][0]["error"]["wrong_fraction"], 0.05);
+  EXPECT_EQ(document["fail_above"]["threshold"], "1%");
+  EXPECT_EQ(document["fail_above"]["failed"], true);
+  Words only_wrong = grey;
+  only_wrong[only_wrong.size() - 3] = "wrong:10%";
+  EXPECT_EQ(run_gnomon(only_wrong, here).exit_code, 0);
+}
+
+// A light at a box's corner: for more than half of the pixels no ray to it can be decided.
+TEST(ExitCodes, UncertainPixelsAreHeldAgainstTheThreshold) {
+  const TemporaryFolder folder;
+  write_text(folder / "corner.json", R"({"schema": "gnomon/scene/1", "name": "corner",
+    "camera": {"eye": [3, 3, 5], "target": [0, 0.5, 0], "up": [0, 1, 0], "vertical_fov_degrees": 40},
+    "lights": [{"name": "L", "type": "point", "position": [0.5, 1.0, 0.5], "intensity": [20, 20, 20]}],
+    "materials": [{"name": "m", "diffuse": [0.6, 0.6, 0.6]}],
+    "meshes": [{"name": "box", "generate": {"kind": "box"}}],
+    "instances": [{"name": "b", "mesh": "box", "material": "m", "translate": [0, 0.5, 0]}],
+    "shapes": [{"name": "g", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}, "material": "m"}]})");
+  const Words words{"compare", "corner.json", "--size", "160x90",       "--map-size",
+                    "256",     "--technique", "hybrid", "--fail-above", "1%"};
+  const ProcessResult result = run_gnomon(words, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_NE(result.err.find("are uncertain, more than --fail-above 1%"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("uncertain: the truth there"), std::string::npos) << result.out;
+}
+
 TEST(ExitCodes, AMapBeyondTheContextsLimit) {
   const TemporaryFolder folder;
   const ProcessResult result = run_gnomon(

@@ -42,6 +42,29 @@ TEST(Values, IntegersDoNotWrap) {
   EXPECT_FALSE(parse_seed("-1"));
 }
 
+TEST(Values, Thresholds) {
+  using compare::ErrorMeasure;
+  using compare::Threshold;
+  for (const auto& [text, wanted] :
+       std::vector<std::pair<const char*, Threshold>>{{"1%", {ErrorMeasure::wrong_and_mean, 0.01}},
+                                                      {"0.25", {ErrorMeasure::wrong_and_mean, 0.25}},
+                                                      {"wrong:1%", {ErrorMeasure::wrong, 0.01}},
+                                                      {"mean:0.5%", {ErrorMeasure::mean, 0.005}},
+                                                      {"flip:0.05", {ErrorMeasure::flip, 0.05}},
+                                                      {"edge:0.5texel", {ErrorMeasure::edge, 0.5}},
+                                                      {"edge:2texels", {ErrorMeasure::edge, 2.0}}}) {
+    const auto parsed = parse_threshold(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(*parsed, wanted) << text;
+    const auto again = parse_threshold(compare::threshold_text(*parsed));
+    ASSERT_TRUE(again) << compare::threshold_text(*parsed);
+    EXPECT_EQ(*again, wanted) << text;
+  }
+  for (const char* text : {"", "101%", "-1%", "median:1%", ":1%", "wrong:", "wrong:2", "flip:1.5",
+                           "edge:-1texel", "edge:1px", "mean:1%x", "wrong and mean:1%"})
+    EXPECT_FALSE(parse_threshold(text)) << text;
+}
+
 TEST(Values, Sizes) {
   EXPECT_EQ(parse_size("1280x720").value(), (ImageSize{1280, 720}));
   EXPECT_EQ(parse_size("16384x1").value(), (ImageSize{16384, 1}));

@@ -107,6 +107,50 @@ TEST(SoftFilter, PcssPenumbraHasTheClosedFormsWidth) {
   EXPECT_LT(run.light().error.mean_absolute, 0.01);
 }
 
+// Area that two circles share, their centres d apart.
+double lens_area(double r1, double r2, double d) {
+  if (d >= r1 + r2) return 0.0;
+  const double r = std::min(r1, r2);
+  if (d <= std::abs(r1 - r2)) return pi * r * r;
+  const double x1 = (d * d + r1 * r1 - r2 * r2) / (2.0 * d), x2 = d - x1;
+  const auto segment = [](double radius, double x) {
+    return radius * radius * std::acos(x / radius) - x * std::sqrt(radius * radius - x * x);
+  };
+  return segment(r1, x1) + segment(r2, x2);
+}
+
+// What a floor point at some distance from the axis sees of the light: seen from there, the blocker covers a
+// disc of the light's plane.
+double disc_visibility(double radius) {
+  const double away = radius * (light_height - blocker_height) / blocker_height;
+  const double covered = blocker_radius * light_height / blocker_height;
+  return 1.0 - lens_area(light_radius, covered, away) / (pi * light_radius * light_radius);
+}
+
+double radius_of_visibility(double share) {
+  double low = 0.0, high = 5.0;
+  for (int i = 0; i < 60; ++i)
+    (disc_visibility(0.5 * (low + high)) < share ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+// From a tenth to nine tenths visible, in pixels of about 0.02: 1.5 % of the width is a quarter of a pixel.
+TEST(SoftFilter, MeasuredPenumbraIsTheClosedFormsAtAnyPictureSize) {
+  const double width = radius_of_visibility(0.9) - radius_of_visibility(0.1);
+  for (const ImageSize size : {ImageSize{240, 144}, ImageSize{400, 240}}) {
+    const Compared run = run_comparison(coaxial_discs(), technique_options(Technique::hard, size, 512));
+    const compare::PenumbraStats& p = *run.light().penumbra;
+    std::printf("  %d wide: closed form %.4f, measured %.4f (%+.1f %%), standard error %.4f\n", size.width,
+                width, p.true_penumbra_world, 100.0 * (p.true_penumbra_world / width - 1.0),
+                p.standard_error_mean);
+    EXPECT_GT(p.edges, 100u);
+    EXPECT_NEAR(p.true_penumbra_world, width, 0.015 * width) << size.width;
+    EXPECT_GT(p.standard_error_mean, 0.0);
+    EXPECT_LT(p.standard_error_mean, 0.03);
+    EXPECT_GT(run.light().pixels.uncertain_by_samples, 0u);
+  }
+}
+
 // A hard test draws no penumbra, and the light's size is then what is wrong.
 TEST(SoftFilter, HardShadowsHaveNoPenumbra) {
   const Compared run = run_comparison(coaxial_discs(), technique_options(Technique::hard, {240, 144}, 512));

@@ -40,6 +40,21 @@ TEST(Accident, IsASamplingErrorThatALaterErrorHides) {
   EXPECT_FALSE(is_accident({1, 1, 1, 0, 0, 1, 1})) << "the bias is there to cure acne";
 }
 
+// A pixel drawn half lit is as near to right as to wrong: two of them count as one wrong pixel, and the
+// counts stay whole numbers that add up.
+TEST(ErrorStats, ExactHalvesCountHalf) {
+  std::array<Image<float>, rung_count> rungs;
+  for (Image<float>& rung : rungs) rung = Image<float>({4, 1}, 1.0f);
+  rungs[6].data = {1.0f, 0.5f, 0.5f, 0.25f};
+  const ErrorStats error = measure_error(rungs, Image<Label>({4, 1}, Label::right));
+  EXPECT_EQ(error.wrong, 1u);
+  EXPECT_EQ(error.false_shadow + error.missed_shadow, error.wrong);
+  EXPECT_EQ(error.ties, 2u);
+  EXPECT_EQ(error.fractional, 3u);
+  EXPECT_EQ(error.wrong_fraction, 0.5);
+  EXPECT_EQ(error.mean_absolute, 1.75 / 4.0);
+}
+
 TEST(BestBias, LiesBetweenTheLastLitAndTheFirstShadowedGap) {
   const BestBias best = find_best_bias({{-1.0f, 0.25f, 0.5f}, {1.0f, 2.0f}});
   EXPECT_TRUE(best.feasible);

@@ -52,7 +52,9 @@ struct Case {
     light.classes = classes;
     light.error.wrong = 0;
     for (const std::uint64_t n : classes) light.error.wrong += n;
+    light.error.ties = light.error.fractional = 0;
     light.error.wrong_fraction = static_cast<double>(light.error.wrong) / static_cast<double>(compared);
+    light.error.mean_absolute = light.error.wrong_fraction;
     light.texel_world = {0.01, 0.0125, 0.02};
   }
   std::string verdict() const { return verdict_sentence(made->comparison, light); }
@@ -75,17 +77,20 @@ TEST(Csv, NamesAreNoFormulas) {
 TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
-  EXPECT_EQ(c.verdict(),
-            "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne. A constant bias of 0.01 world units "
-            "(0.8 texel) "
-            "would leave 0.6 %.");
+  EXPECT_EQ(
+      c.verdict(),
+      "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), mostly acne. A constant bias of "
+      "0.01 world units "
+      "(0.8 texel) "
+      "would leave 0.6 %.");
 }
 
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
   EXPECT_EQ(c.verdict(),
-            "4.1 % of the lit-or-shadowed pixels are wrong, all of them acne. No other constant bias does "
+            "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), all of them acne. No other "
+            "constant bias does "
             "better. No constant "
             "bias can be right everywhere: 213 lit pixels need 0.031 or more, 97 shadowed pixels need less "
             "than 0.012.");
@@ -96,13 +101,13 @@ TEST(Verdict, SaysWhenNoBiasCanBeRight) {
 TEST(Verdict, HandlesNoneFewAndNothing) {
   Case none(5000, {});
   none.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
-  EXPECT_EQ(none.verdict(), "None of the 5,000 lit-or-shadowed pixels is wrong.");
+  EXPECT_EQ(none.verdict(), "None of the 5,000 lit-or-shadowed pixels is wrong (mean error 0 %).");
   Case one(1000000, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
   one.light.best_bias = {0.02, 0.0, true, 0.01, 0.03, 0, 0};
   EXPECT_EQ(
       one.verdict(),
-      "1 of 1,000,000 lit-or-shadowed pixels is wrong, aliasing. A constant bias of 0.02 world units (1.6 "
-      "texels) would leave none.");
+      "1 of 1,000,000 lit-or-shadowed pixels is wrong (mean error less than 0.001 %), aliasing. A constant "
+      "bias of 0.02 world units (1.6 texels) would leave none.");
   Case split(1000, {10, 0, 12, 0, 5, 5, 0, 0, 0, 0});
   split.light.best_bias = {0.01, 0.032, true, 0, 1, 0, 0};
   EXPECT_NE(split.verdict().find("mainly peter-panning and acne."), std::string::npos) << split.verdict();
@@ -110,7 +115,55 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
   nothing.light.pixels = {100, 60, 30, 8, 2, 0};
   EXPECT_EQ(nothing.verdict(),
             "No pixel could be compared: of 100, 60 show no surface, 30 face away from the light, 8 are "
-            "silhouettes and 2 uncertain.");
+            "silhouettes and 2 are uncertain.");
+}
+
+// A filter as wide as a shadow's stripes leaves grey: nothing is wrong by more than one half, and nothing
+// right.
+TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
+  Case grey(5000, {});
+  grey.light.error.fractional = 4000;
+  grey.light.error.mean_absolute = 0.35;
+  grey.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(grey.verdict(),
+            "The mean error is 35.0 % over 5,000 lit-or-shadowed pixels; none of them is wrong by more than "
+            "one half.");
+  Case soft(5000, {0, 0, 0, 0, 100, 0, 0, 0, 0, 0});
+  soft.light.error.fractional = 900;
+  soft.light.error.mean_absolute = 0.03;
+  soft.light.best_bias = {0.01, 0.02, true, 0, 1, 0, 0};
+  EXPECT_EQ(soft.verdict(),
+            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
+            "one half, all of them aliasing. No other constant bias does better.");
+}
+
+TEST(Verdict, CountsWhatIsUncertain) {
+  Case c(5000, {});
+  c.light.pixels.uncertain = 15000;
+  c.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(c.verdict(),
+            "None of the 5,000 lit-or-shadowed pixels is wrong (mean error 0 %). 15,000 more (75.0 %) are "
+            "uncertain: the truth there lies within its own error bound.");
+}
+
+TEST(Threshold, IsHeldAgainstItsOwnFigure) {
+  ErrorFigures grey{0.0, 0.35, 0.2, 1.5, 5000, 0, 0};
+  const auto fails = [&grey](ErrorMeasure measure, double limit) {
+    return exceeds({measure, limit}, grey) || too_uncertain({measure, limit}, grey);
+  };
+  EXPECT_FALSE(fails(ErrorMeasure::wrong, 0.0));
+  EXPECT_TRUE(fails(ErrorMeasure::wrong_and_mean, 0.34));
+  EXPECT_FALSE(fails(ErrorMeasure::wrong_and_mean, 0.35));
+  EXPECT_TRUE(fails(ErrorMeasure::mean, 0.1));
+  EXPECT_TRUE(fails(ErrorMeasure::flip, 0.1));
+  EXPECT_FALSE(fails(ErrorMeasure::edge, 1.5));
+  EXPECT_TRUE(fails(ErrorMeasure::edge, 1.4));
+  grey.uncertain = 5000, grey.uncertain_by_samples = 4000;
+  EXPECT_TRUE(fails(ErrorMeasure::wrong, 0.4)) << "half of the pixels may be wrong";
+  EXPECT_FALSE(fails(ErrorMeasure::mean, 0.4)) << "the visibility of all but a tenth is known";
+  EXPECT_TRUE(fails(ErrorMeasure::mean, 0.09));
+  grey.flip = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(fails(ErrorMeasure::flip, 1.0)) << "not computed is not passed";
 }
 
 TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
@@ -143,11 +196,13 @@ TEST(Csv, HasOneRowPerLightAndQuotesNames) {
   made->scene.name = "a \"b\", c";
   const std::string csv = result_csv(made->comparison);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-  EXPECT_NE(csv.find("\r\n\"a \"\"b\"\", c\",sun,directional,320,180,hard,none,64,d32f,0.052,"),
-            std::string::npos)
-      << csv;
+  EXPECT_NE(csv.find("\r\n\"a \"\"b\"\", c\",sun,directional,320,180,hard,64,"), std::string::npos) << csv;
   const std::string header = csv.substr(0, csv.find('\r'));
-  EXPECT_EQ(header.rfind("scene,light,light_type,", 0), 0u);
+  EXPECT_EQ(header.rfind("scene_name,light,light_type,size_width,size_height,map_technique,map_size,", 0),
+            0u);
+  for (const char* column : {"error_wrong_fraction", "error_mean_absolute", "edges_rms_texels",
+                             "times_ms_map_pass_median", "times_ms_primary_rays_median"})
+    EXPECT_NE(("," + header + ",").find("," + std::string(column) + ","), std::string::npos) << column;
   const std::string row =
       csv.substr(csv.find(",sun,"), csv.find('\r', csv.find(",sun,")) - csv.find(",sun,"));
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));

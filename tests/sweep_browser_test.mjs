@@ -104,12 +104,12 @@ async function checkTable(page) {
 }
 
 async function checkCharts(page) {
-  for (const chart of ["Wrong pixels against time", "Least share of wrong pixels"]) {
+  for (const chart of ["Error against time", "Least error"]) {
     const point = page.locator(`svg[aria-label^='${chart}'] a`).first(), cell = Number((await point.getAttribute("href")).slice(6));
     await point.locator("circle").click();
     await opened(page, cell);
   }
-  const [line] = await page.locator("svg[aria-label^='Least share'] line.used").evaluateAll((all) =>
+  const [line] = await page.locator("svg[aria-label^='Least error'] line.used").evaluateAll((all) =>
     all.map((e) => ["x1", "y1", "x2", "y2"].map((name) => Number(e.getAttribute(name)))));
   assert.ok(line[2] > line[0] && line[3] >= line[1], "the line of slope -1 does not fall");
 }

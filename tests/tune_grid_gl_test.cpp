@@ -60,7 +60,7 @@ GridCheck check(const std::string& scene_name, double max_error) {
   compare::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
-  options.goal.max_error = max_error;
+  options.goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, max_error};
   options.sizes = {32, 64, 128, 256, 512};
   options.families = {family("constant", Technique::hard), family("slope", Technique::hard, 1.0),
                       family("pcf", Technique::pcf), family("izb", Technique::izb)};
@@ -115,7 +115,8 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
   compare::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
-  options.goal.max_error = 0.02;  // hard shadows reach it at the largest size
+  options.goal.max_error =
+      compare::Threshold{compare::ErrorMeasure::wrong, 0.02};  // hard shadows reach it at the largest size
   options.sizes = {64, 128, 256, 512, 1024, 2048, 4096};
   options.families = {family("hard", Technique::hard), family("hard, front faces", Technique::hard),
                       family("vsm", Technique::vsm)};

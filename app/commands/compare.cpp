@@ -18,6 +18,7 @@
 #include "app/setting.h"
 #include "app/swim_note.h"
 #include "app/technique_options.h"
+#include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
@@ -33,7 +34,7 @@ struct CompareCommand {
   std::string shader_folder;
   std::optional<int> runs;
   std::optional<std::optional<double>> exposure;
-  std::optional<double> fail_above;
+  std::optional<compare::Threshold> fail_above;
   double report_max_mb = compare::default_report_max_mb;
   std::uint64_t seed = 0;
   int threads = 0;
@@ -83,6 +84,7 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   comparison->command = command.command_line;
   comparison->seed = command.seed;
   comparison->machine = machine_info();
+  comparison->fail_above = command.fail_above;
   comparison->load_ms = loaded.load_ms;
   comparison->peak_memory_bytes = peak_memory_bytes();
   return comparison;
@@ -122,17 +124,33 @@ Expected<void> write_all(const CompareCommand& command, const compare::Compariso
   return write_json(command);
 }
 
+/// Holds one light against --fail-above; the words say what is too much.
+bool passes(const compare::Threshold& threshold, const std::string& light,
+            const compare::ErrorFigures& figures, Console& console) {
+  const std::string limit = compare::threshold_text(threshold);
+  if (compare::exceeds(threshold, figures)) {
+    console.message(fmt::format("light {}: {}; that is more than --fail-above {}", light,
+                                compare::figure_words(figures, threshold.measure), limit));
+    return false;
+  }
+  if (!compare::too_uncertain(threshold, figures)) return true;
+  console.message(fmt::format(
+      "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
+      "{} "
+      "allows to be wrong: the truth there lies within its own error bound (--precision exact decides rays, "
+      "more --samples decide lights with size)",
+      light, compare::grouped(figures.uncertain), compare::grouped(figures.compared + figures.uncertain),
+      limit));
+  return false;
+}
+
 ExitCode judge(const CompareCommand& command, const compare::Comparison& comparison, Console& console) {
   ExitCode code = ExitCode::done;
   if (!command.fail_above) return code;
-  for (const compare::LightComparison& light : comparison.lights) {
-    if (light.error.wrong_fraction <= *command.fail_above) continue;
-    console.message(
-        fmt::format("light {}: {:.4g} % of the compared pixels are wrong, more than --fail-above {:g} %",
-                    comparison.world->scene->lights[light.light].name, 100.0 * light.error.wrong_fraction,
-                    100.0 * *command.fail_above));
-    code = ExitCode::threshold_exceeded;
-  }
+  for (const compare::LightComparison& light : comparison.lights)
+    if (!passes(*command.fail_above, comparison.world->scene->lights[light.light].name,
+                compare::figures_of(light), console))
+      code = ExitCode::threshold_exceeded;
   return code;
 }
 
@@ -192,7 +210,9 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_exposure(app, command.exposure);
   add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
   add_report_max_mb(app, command.report_max_mb);
-  add_fail_above(app, command.fail_above);
+  add_threshold(app, "--fail-above", command.fail_above,
+                "exit with 1 when the error of any light is more than this, or so many pixels are uncertain",
+                "never");
   add_output(app, "--aov", command.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");
   add_json(app, command.json, "the result");

@@ -32,6 +32,8 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
   console.message(fmt::format("sweep: {}/report.html, {} cells from {} shards", command.folder, merged->cells,
                               command.shards.size()));
+  if (!command.quiet)
+    for (const std::string& line : merged->page.headline.lines) print_data(line + "\n");
   return ExitCode::done;
 }
 

@@ -99,6 +99,12 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   return {};
 }
 
+ExitCode announce(const SweepCommand& command, const compare::Headline& headline) {
+  if (!command.quiet)
+    for (const std::string& line : headline.lines) print_data(line + "\n");
+  return headline.limit_met ? ExitCode::done : ExitCode::threshold_exceeded;
+}
+
 Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   Console console(command.quiet);
   if (command.shard.of != 1)
@@ -122,11 +128,12 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (command.restart) {
     if (auto gone = discard(folder); !gone) return fail(gone.error());
   }
-  const auto merged = compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb);
+  const auto merged =
+      compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb, command.max_error);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
   console.message(fmt::format("sweep: {}/report.html, {} cells", command.folder, merged->cells));
-  return ExitCode::done;
+  return announce(command, merged->page.headline);
 }
 
 Expected<ExitCode> run_sweep(SweepCommand& command) {
@@ -164,15 +171,15 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (journal->lines().size() < plan->cells.size()) {
     if (auto filled = fill(command, *plan, *loaded, *journal, console); !filled) return fail(filled.error());
   }
-  {
+  const auto written = [&command] {
     const OutputGuard whole_page;
-    const auto written = compare::write_sweep_page(command.folder, command.report_max_mb);
-    if (!written) return fail(written.error());
-    if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  }
+    return compare::write_sweep_page(command.folder, command.report_max_mb, command.max_error);
+  }();
+  if (!written) return fail(written.error());
+  if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   console.message(fmt::format("sweep: {}/report.html, {} cells, {:.1f} s", command.folder, plan->cells.size(),
                               total.elapsed_ms() / 1000.0));
-  return ExitCode::done;
+  return announce(command, written->headline);
 }
 
 Expected<compare::Shard> parse_shard(const std::string& text) {
@@ -228,6 +235,10 @@ void add_options(CLI::App& app, SweepCommand& command) {
       "also time the ray tracer's precisions, and its samples of lights with size, at the first cell's "
       "camera and lights, as points of the report's chart; ray_tracer.json has them [default off]");
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
+  add_threshold(app, "--max-error", command.max_error,
+                "name the cheapest cell whose every light has at most this error, and exit with 1 when there "
+                "is none; flip includes --perceptual",
+                "none");
   add_report_max_mb(app, command.report_max_mb);
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);
@@ -248,11 +259,16 @@ void add_sweep(CLI::App& program, Invocation& invocation) {
   app->footer(
       "gnomon sweep fence --bias 0:0.1:64                   64 biases from one drawing\n"
       "gnomon sweep courtyard --map-size 128:8192:x2 --slope-bias 0,1,2 -o sizes\n"
+      "gnomon sweep fence --map-size 256:4096:x2 --technique hard,pcf --max-error mean:0.5%\n"
       "gnomon sweep model.glb --camera-orbit 0,30:330,30:12    a path around it\n"
       "gnomon sweep model.glb --map-size 256,512 --bias 0.5texel,1texel --zip");
   const auto command = std::make_shared<SweepCommand>();
   add_options(*app, *command);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_sweep(*command); }; });
+  app->callback([command, &invocation] {
+    if (command->max_error && command->max_error->measure == compare::ErrorMeasure::flip)
+      command->perceptual = true;
+    invocation.action = [command] { return run_sweep(*command); };
+  });
 }
 
 }  // namespace gnomon::app

@@ -75,7 +75,7 @@ Expected<void> check_lists(const TuneCommand& command) {
   if (is_given(command.options.fixed(), *grid, "bias"))
     return fail(ErrorKind::usage, "--bias: the tuner finds the constant bias itself");
   if (command.goal.max_error.has_value() == command.goal.max_time_ms.has_value())
-    return fail(ErrorKind::usage, "one goal is needed: --max-error SHARE or --max-time MS");
+    return fail(ErrorKind::usage, "one goal is needed: --max-error LIMIT or --max-time MS");
   return {};
 }
 
@@ -126,7 +126,8 @@ std::string text_answer(const Answer& answer) {
   std::string text = answer.line(answer.result.winner) + "\n\n" +
                      (answer.result.feasible ? "" : "The goal cannot be met. ") +
                      fmt::format("{}: {}\n", winner.family.name, winner.why);
-  text += fmt::format("{} drawings were made.\n", answer.result.renders);
+  text += fmt::format("{} drawing{} made; the command's own comparison gave the error.\n",
+                      answer.result.renders, answer.result.renders == 1 ? " was" : "s were");
   const std::vector<std::size_t> others = answer.others();
   if (!others.empty()) text += "\nThe others:\n";
   for (const std::size_t i : others)
@@ -147,6 +148,8 @@ std::string json_answer(const Answer& answer) {
         {"technique", options.value("technique", std::string("hard"))},
         {"options", options},
         {"error", attempt.error},
+        {"wrong_fraction", attempt.figures.wrong_fraction},
+        {"mean_absolute", attempt.figures.mean_absolute},
         {"time_ms", attempt.time_ms},
         {"runs_ms", attempt.times.runs},
         {"costs",
@@ -156,21 +159,36 @@ std::string json_answer(const Answer& answer) {
   };
   Json json = block(answer.result.winner);
   json["feasible"] = answer.result.feasible;
+  const compare::TuneGoal& goal = answer.command.goal;
+  if (goal.max_error)
+    json["goal"] = {{"threshold", compare::threshold_text(*goal.max_error)},
+                    {"measure", compare::measure_name(goal.max_error->measure)},
+                    {"limit", goal.max_error->limit}};
+  else
+    json["goal"] = {{"max_time_ms", *goal.max_time_ms}};
+  json["as_fast"] = answer.result.families[answer.result.winner].as_fast;
   json["renders"] = answer.result.renders;
   json["others"] = Json::array();
   for (const std::size_t i : answer.others()) json["others"].push_back(block(i));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// The setting that an answer's command asks for, read as compare reads it.
+Expected<compare::Setting> setting_as_given(const TuneCommand& command, const OptionFamily& family,
+                                            const compare::Attempt& attempt, const Scene& scene,
+                                            const World& world, const compare::Setting& base) {
+  const auto parsed = parse_setting(answer_values(command, family, attempt));
+  if (!parsed) return fail(parsed.error());
+  auto setting = resolve_setting(*parsed, scene, world);
+  if (!setting) return setting;
+  setting->raster.runs = base.raster.runs;
+  setting->raytrace.picture = base.raytrace.picture;
+  return setting;
+}
+
 /// The comparison at the answer: what the page shows.
 Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const Answer& answer,
-                                                 compare::Setting setting) {
-  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
-  const compare::Attempt& attempt = attempt_of(winner);
-  setting.raster.map = winner.family.map;
-  setting.raster.map.size = attempt.size;
-  setting.raster.map.bias.constant = attempt.bias_world;
-  setting.raster.map.bias.unit = raster::BiasUnit::world;
+                                                 const compare::Setting& setting) {
   auto compared = engine.compare(setting);
   if (!compared) return compared;
   (*compared)->command = answer.line(answer.result.winner);
@@ -206,6 +224,67 @@ Expected<void> hand_out(const TuneCommand& command, const Answer& answer) {
   return write_file(command.json, json_answer(answer));
 }
 
+/// What is tuned, ready to be drawn.
+struct Bench {
+  LoadedScene& loaded;
+  std::unique_ptr<raster::Renderer> renderer;
+  Scene given;  ///< the engine changes the scene's camera and lights
+  std::vector<OptionFamily> families;
+  compare::Setting setting;
+  compare::TuneOptions options;
+};
+
+Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
+                           const std::vector<OptionFamily>& families) {
+  const auto parsed = parse_setting(values_read(command.options.fixed()));
+  if (!parsed) return fail(parsed.error());
+  auto setting = resolve_setting(*parsed, *loaded.scene, *loaded.world);
+  if (!setting) return fail(setting.error());
+  setting->raster.runs = command.runs.value_or(usual_runs);
+  setting->raytrace.picture = !command.folder.empty();
+  auto renderer = make_renderer(command.backend, loaded);
+  if (!renderer) return fail(renderer.error());
+  const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
+  if (!sizes) return fail(sizes.error());
+  auto fitting = fitting_families(families, *loaded.scene, setting->compared);
+  if (!fitting) return fail(fitting.error());
+  Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
+  bench.options.goal = command.goal;
+  bench.options.sizes = *sizes;
+  for (const OptionFamily& family : bench.families) bench.options.families.push_back(family.tuned);
+  return bench;
+}
+
+Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, const Stopwatch& total,
+                                   Console& console) {
+  const bool with_page = !command.folder.empty();
+  bench.options.as_given = [&](std::size_t family, const compare::Attempt& attempt) {
+    return setting_as_given(command, bench.families[family], attempt, bench.given, *bench.loaded.world,
+                            bench.setting);
+  };
+  const bool perceptual = with_page || command.goal.measure() == compare::ErrorMeasure::flip;
+  compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
+  const auto result =
+      compare::tune(engine, bench.setting, bench.options,
+                    [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
+                      const double share = double(renders) / double(3 * bench.families.size() + 1);
+                      console.progress(fmt::format("{}, {} texels", family.name, size), share);
+                    });
+  if (!result) return fail(result.error());
+  const Answer answer{command, bench.families, *result};
+  if (with_page) {
+    const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
+    if (!setting) return fail(setting.error());
+    const auto compared = compare_at_answer(engine, answer, *setting);
+    if (!compared) return fail(compared.error());
+    (*compared)->load_ms = bench.loaded.load_ms;
+    (*compared)->total_ms = total.elapsed_ms();
+    if (const auto page = write_page(command, answer, **compared, console); !page) return fail(page.error());
+  }
+  if (const auto out = hand_out(command, answer); !out) return fail(out.error());
+  return result->feasible ? ExitCode::done : ExitCode::threshold_exceeded;
+}
+
 Expected<ExitCode> run_tune(TuneCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
@@ -218,54 +297,9 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
     if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   auto loaded = load(command.scene, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
-  const auto parsed = parse_setting(values_read(command.options.fixed()));
-  if (!parsed) return fail(parsed.error());
-  auto setting = resolve_setting(*parsed, *loaded->scene, *loaded->world);
-  if (!setting) return fail(setting.error());
-  setting->raster.runs = command.runs.value_or(usual_runs);
-  const bool with_page = !command.folder.empty();
-  setting->raytrace.picture = with_page;
-  const auto renderer = make_renderer(command.backend, *loaded);
-  if (!renderer) return fail(renderer.error());
-  const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
-  if (!sizes) return fail(sizes.error());
-  const auto fitting = fitting_families(*families, *loaded->scene, setting->compared);
-  if (!fitting) return fail(fitting.error());
-  compare::TuneOptions options;
-  options.goal = command.goal;
-  options.sizes = *sizes;
-  for (const OptionFamily& family : *fitting) options.families.push_back(family.tuned);
-  compare::Engine engine(*loaded->scene, *loaded->world, **renderer, with_page);
-  const auto result = compare::tune(
-      engine, *setting, options, [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
-        const double share = double(renders) / double(3 * options.families.size() + 1);
-        console.progress(fmt::format("{}, {} texels", family.name, size), share);
-      });
-  if (!result) return fail(result.error());
-  const Answer answer{command, *fitting, *result};
-  if (with_page) {
-    const auto compared = compare_at_answer(engine, answer, *setting);
-    if (!compared) return fail(compared.error());
-    (*compared)->load_ms = loaded->load_ms;
-    (*compared)->total_ms = total.elapsed_ms();
-    if (const auto page = write_page(command, answer, **compared, console); !page) return fail(page.error());
-  }
-  if (const auto out = hand_out(command, answer); !out) return fail(out.error());
-  return result->feasible ? ExitCode::done : ExitCode::threshold_exceeded;
-}
-
-template <class Value, class Parse>
-void add_goal(CLI::App& app, const std::string& name, const char* type, const std::string& text,
-              std::optional<Value>& goal, const Parse& parse) {
-  app.add_option_function<std::string>(
-         name,
-         [&goal, name, parse](const std::string& value) {
-           const Expected<Value> parsed = parse(value);
-           if (!parsed) throw CLI::ValidationError(name, parsed.error().reason);
-           goal = *parsed;
-         },
-         text)
-      ->type_name(type);
+  auto bench = make_bench(command, *loaded, *families);
+  if (!bench) return fail(bench.error());
+  return tune_and_answer(command, *bench, total, console);
 }
 
 }  // namespace
@@ -279,19 +313,23 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                                          "goal cannot be met.");
   app->footer(
       "gnomon tune fence --max-error 0.5%\n"
+      "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"
       "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
   add_camera(*app, command->camera);
-  add_goal(
-      *app, "--max-error", "SHARE",
-      "the largest share of wrong pixels that is good enough [0% to 100%, or 0 to 1; this or --max-time]",
-      command->goal.max_error, [](const std::string& text) { return parse_share(text); });
-  add_goal(*app, "--max-time", "MS",
-           fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",
-                       range_text(time_range)),
-           command->goal.max_time_ms, [](const std::string& text) { return parse_number(text, time_range); });
+  add_threshold(*app, "--max-error", command->goal.max_error,
+                "the largest error that is good enough, of the worst light; this or --max-time", "none");
+  add_checked(*app, "--max-time", "MS",
+              fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",
+                          range_text(time_range)),
+              [goal = &command->goal](const std::string& text) -> Expected<void> {
+                const auto ms = parse_number(text, time_range);
+                if (!ms) return fail(ms.error());
+                goal->max_time_ms = *ms;
+                return {};
+              });
   command->options.add_to(*app);
   command->options.mean_techniques(tuned_techniques());
   add_output(

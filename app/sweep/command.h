@@ -27,6 +27,7 @@ struct SweepCommand {
   int threads = 0;
   compare::Shard shard;
   std::optional<int> slurm_tasks;
+  std::optional<compare::Threshold> max_error;
   double report_max_mb = compare::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };

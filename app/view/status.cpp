@@ -28,7 +28,8 @@ std::string bias_words(const raster::Bias& bias, const Readings& readings) {
 
 std::string compared_words(const std::optional<Readings::Compared>& compared) {
   if (!compared) return "comparing…";
-  std::string text = "wrong " + compare::percent(compared->wrong_fraction);
+  std::string text = "wrong " + compare::percent(compared->wrong_fraction) + ", mean error " +
+                     compare::percent(compared->mean_absolute);
   if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
   return text + fmt::format(" | map {}, shading {}, exact shadows {}",
                             compare::milliseconds(compared->map_ms),

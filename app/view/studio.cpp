@@ -138,7 +138,8 @@ Readings Studio::readings(const ViewState& state) const {
                                     outcome_->comparison.lights.front().error.wrong_fraction,
                                     drawn.map_pass.median(),
                                     drawn.shade_pass.median(),
-                                    outcome_->comparison.raytraced.lights.front().exact_times().median()};
+                                    outcome_->comparison.raytraced.lights.front().exact_times().median(),
+                                    outcome_->comparison.lights.front().error.mean_absolute};
   return out;
 }
 

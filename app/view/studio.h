@@ -25,6 +25,7 @@ struct Readings {
     double wrong_fraction = 0.0;
     double map_ms = 0.0, shade_ms = 0.0;  ///< full size only; 0 in a preview
     double exact_shadows_ms = 0.0;
+    double mean_absolute = 0.0;  ///< mean error of visibility
   };
   std::optional<Compared> compared;
 };

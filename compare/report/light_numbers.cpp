@@ -95,7 +95,7 @@ std::string penumbra_facts(const LightBlock& b) {
   const PenumbraStats& p = *b.light.penumbra;
   const auto both = [&](std::string_view what, double truth, double drawn, std::uint64_t edges,
                         std::string_view edge_key) {
-    return fmt::format("world units wide as drawn, {} in truth; medians of {} edges",
+    return fmt::format("world units wide as drawn, {} in truth; medians over edges: {}",
                        fact_value(b, fmt::format("penumbra.true_{}_world", what), truth),
                        keyed_count(b.key(fmt::format("penumbra.{}", edge_key)), edges)) +
            (drawn == 0.0 ? "; the technique draws none" : "");
@@ -105,7 +105,11 @@ std::string penumbra_facts(const LightBlock& b) {
   if (p.umbra_edges > 0)
     text += fact("Umbra", fact_value(b, "penumbra.drawn_umbra_world", p.drawn_umbra_world),
                  both("umbra", p.true_umbra_world, p.drawn_umbra_world, p.umbra_edges, "umbra_edges"));
-  return text;
+  return text +
+         fact("Standard error of the truth",
+              fact_value(b, "penumbra.standard_error_mean", p.standard_error_mean),
+              fmt::format("mean over pixels that see a part of the light, from its samples; {} at most",
+                          fact_value(b, "penumbra.standard_error_max", p.standard_error_max)));
 }
 
 // The closed forms beside what was found.
@@ -201,16 +205,22 @@ std::string bias_block(const LightBlock& b) {
 
 std::string facts_block(const LightBlock& b) {
   const ErrorStats& error = b.light.error;
+  const auto alone = [&b](const char* key, double value) {
+    return std::isfinite(value) ? fmt::format("; over compared pixels alone {}", fact_value(b, key, value))
+                                : std::string();
+  };
   return R"(<h3>How far, how visible</h3>
 <dl class="facts">
 )" + edge_facts(b) +
          detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) + texel_fact(b) + theory_facts(b) +
          fact("FLIP", fact_value(b, "error.flip", error.flip),
               "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
-              "entirely") +
+              "entirely" +
+                  alone("error.flip_compared", error.flip_compared)) +
          (std::isfinite(error.ssim)
               ? fact("SSIM", fact_value(b, "error.ssim", error.ssim),
-                     "how alike the structure of the two visibility pictures is: 1 the same")
+                     "how alike the structure of the two visibility pictures is: 1 the same" +
+                         alone("error.ssim_compared", error.ssim_compared))
               : std::string()) +
          fact("Mean error", fact_value(b, "error.mean_absolute", error.mean_absolute),
               fmt::format("mean |<i>V</i><sub>6</sub> \u2212 <i>V</i><sub>0</sub>|; root mean square {}",

@@ -99,7 +99,14 @@ std::string label_table(const LightBlock& b) {
       keyed_count(b.key("error.wrong"), b.light.error.wrong),
       keyed(b.key("error.wrong_fraction"), b.light.error.wrong_fraction,
             percent(b.light.error.wrong_fraction)));
-  const std::uint64_t right = p.compared - b.light.error.wrong;
+  const std::uint64_t ties = b.light.error.ties;
+  if (ties > 0)
+    rows += fmt::format(
+        R"(<tr><td></td><th scope="row">off by exactly one half (two count as one wrong)</th><td
+class="n">{}</td><td class="n">{}</td></tr>
+)",
+        keyed_count(b.key("error.ties"), ties), b.share(ties));
+  const std::uint64_t right = p.compared - b.light.error.wrong - ties;
   rows += label_row(b, Label::right, grouped(right), right, true);
   rows += fmt::format(
       R"(<tr class="sum"><td></td><th scope="row">compared</th><td class="n">{}</td><td

@@ -85,7 +85,8 @@ std::string chart_frame(const LogPlot& plot, const std::vector<double>& ticks_x,
   for (const double v : log_ticks(plot.min_y * 1.6, plot.max_y)) {  // above the word at the bottom
     out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
                        right, plot.y(v), plot.y(v));
-    out += chart_text(left - 8, plot.y(v) + 4, "tick end", fmt::format("{:.3g} %", 100.0 * v));
+    out += chart_text(left - 8, plot.y(v) + 4, "tick end",
+                      plot.shares ? fmt::format("{:.3g} %", 100.0 * v) : fmt::format("{:.3g}", v));
   }
   out += chart_text(left - 8, plot.y(plot.min_y) + 4, "tick end", "none");
   for (const double v : ticks_x) {

@@ -13,6 +13,7 @@ struct LogPlot {
   static constexpr double width = 760.0, height = 380.0;
   static constexpr double left = 84.0, right = 24.0, top = 24.0, bottom = 52.0;
   double min_x, max_x, min_y, max_y;
+  bool shares = true;  ///< values along y are shares, written in per cent; else plain numbers
 
   double x(double v) const;
   /// Values below min_y stand on it.

@@ -26,7 +26,7 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
       "<tr id=\"cell-{0}\"{1}><th scope=\"row\" class=\"n\" data-sort=\"{0}\"><a "
       "href=\"#cell-{0}\">{0}</a>{2}</th>",
       cell.cell, on_front ? " class=\"front-row\"" : "",
-      on_front ? " <abbr title=\"on the Pareto front\">\u2605</abbr>" : "");
+      on_front ? " <abbr title=\"worth having\">\u2605</abbr>" : "");
   for (const auto& [name, value] : cell.axes) {
     const bool idle = std::find(cell.no_effect.begin(), cell.no_effect.end(), name) != cell.no_effect.end();
     out += fmt::format("<td class=\"n\" data-sort=\"{0}\">{0}{1}</td>", escaped(value),
@@ -36,6 +36,7 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
   out += number_cell(double(cell.false_shadow), grouped(cell.false_shadow));
   out += number_cell(double(cell.missed_shadow), grouped(cell.missed_shadow));
   out += fmt::format("<td>{}</td>", escaped(cell.main_label));
+  out += number_cell(cell.mean_absolute, percent(cell.mean_absolute));
   out += number_cell(cell.rms, shown(cell.rms));
   if (perceptual) out += number_cell(cell.flip, shown(cell.flip)) + number_cell(cell.ssim, shown(cell.ssim));
   out += number_cell(cell.edge_rms_texels, shown(cell.edge_rms_texels));
@@ -51,7 +52,7 @@ std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<
   const bool perceptual = std::isfinite(cells.front().flip);
   std::vector<std::string> columns{"cell"};
   for (const auto& [name, value] : cells.front().axes) columns.push_back(name);
-  for (const char* name : {"wrong", "false shadow", "missed shadow", "mostly", "RMS"})
+  for (const char* name : {"wrong", "false shadow", "missed shadow", "mostly", "mean error", "RMS"})
     columns.emplace_back(name);
   if (perceptual) columns.emplace_back("FLIP"), columns.emplace_back("SSIM");
   for (const char* name : {"edge RMS, texels", "time", "texels", "map", "command"})

@@ -9,6 +9,7 @@
 #include "compare/number_text.h"
 #include "compare/report/html.h"
 #include "compare/report/log_chart.h"
+#include "compare/sweep/headline.h"
 
 namespace gnomon::compare {
 namespace {
@@ -31,27 +32,22 @@ std::string front_names(const LogPlot& plot, const std::vector<CellSummary>& cel
   std::string out;
   for (const std::size_t i : front)
     if (const std::string name = short_name(cells[i], techniques, sizes); !name.empty())
-      out += labels.place(plot.x(cells[i].raster_ms), plot.y(cells[i].wrong_fraction), name);
+      out += labels.place(plot.x(cells[i].raster_ms), plot.y(cells[i].error()), name);
   return out;
 }
 
-std::string axes_text(const CellSummary& cell) {
-  std::string out;
-  for (const auto& [name, value] : cell.axes)
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
-  return out.empty() ? "the only cell" : out;
-}
-
-double wrong_share(const RayPoint& tracer) {
-  return double(tracer.wrong) / double(std::max<std::uint64_t>(tracer.compared, 1));
+// As CellSummary::error().
+double error_of(const RayPoint& tracer) {
+  const double wrong = double(tracer.wrong) / double(std::max<std::uint64_t>(tracer.compared, 1));
+  return std::max(wrong, tracer.mean_absolute);
 }
 
 std::string diamond(const LogPlot& plot, const RayPoint& tracer, ChartLabels& labels) {
-  const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
+  const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer));
   return fmt::format(
              "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} wrong, "
              "{4}</title></path>",
-             x, y - 7, escaped(tracer.name), tracer.wrong == 0 ? "none" : percent(wrong_share(tracer)),
+             x, y - 7, escaped(tracer.name), error_of(tracer) == 0.0 ? "none" : percent(error_of(tracer)),
              milliseconds(tracer.times.median())) +
          labels.place(x, y, tracer.name);
 }
@@ -82,8 +78,8 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
     if (std::isfinite(cell.raster_ms))
       low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
   std::vector<double> shares;
-  for (const CellSummary& cell : cells) shares.push_back(cell.wrong_fraction);
-  for (const RayPoint& tracer : tracers) shares.push_back(wrong_share(tracer));
+  for (const CellSummary& cell : cells) shares.push_back(cell.error());
+  for (const RayPoint& tracer : tracers) shares.push_back(error_of(tracer));
   const double least = least_error(shares);
   const LogPlot plot{low / 1.15, high * 1.15, least,
                      std::max(4.0 * least, 1.3 * *std::max_element(shares.begin(), shares.end()))};
@@ -91,29 +87,29 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
   std::string line;
   for (const std::size_t i : front)
     fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(cells[i].raster_ms),
-                   plot.y(cells[i].wrong_fraction));
+                   plot.y(cells[i].error()));
   out += fmt::format("<polyline class=\"curve front\" points=\"{}\"/>", line);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const CellSummary& cell = cells[i];
     if (!std::isfinite(cell.raster_ms)) continue;
     const bool best = std::find(front.begin(), front.end(), i) != front.end();
-    out += cell_point(cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms),
-                      plot.y(cell.wrong_fraction), best ? 5.0 : 3.5,
-                      fmt::format("{}: {} wrong, {}", axes_text(cell), percent(cell.wrong_fraction),
-                                  milliseconds(cell.raster_ms)));
+    out += cell_point(
+        cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.error()), best ? 5.0 : 3.5,
+        fmt::format("{}: {} wrong, mean error {}, {}", axes_words(cell), percent(cell.wrong_fraction),
+                    percent(cell.mean_absolute), milliseconds(cell.raster_ms)));
   }
   ChartLabels labels;
   for (const RayPoint& tracer : tracers) {
-    const double x = plot.x(tracer.times.median()), y = plot.y(wrong_share(tracer));
+    const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer));
     labels.keep_free(x - 7, y - 7, x + 7, y + 7);
   }
   for (const std::size_t i : front) {
-    const double x = plot.x(cells[i].raster_ms), y = plot.y(cells[i].wrong_fraction);
+    const double x = plot.x(cells[i].raster_ms), y = plot.y(cells[i].error());
     labels.keep_free(x - 6, y - 6, x + 6, y + 6);
   }
   for (const RayPoint& tracer : tracers) out += diamond(plot, tracer, labels);
   out += front_names(plot, cells, front, labels);
-  return chart_svg("Wrong pixels against time, each cell a point, the best of them joined", out);
+  return chart_svg("Error against time, each cell a point, the best of them joined", out);
 }
 
 }  // namespace gnomon::compare

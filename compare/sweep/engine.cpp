@@ -41,16 +41,12 @@ bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::s
          x.face.data == y.face.data && a.primitive.data == b.primitive.data;
 }
 
-// Errors and, where asked for, gaps of one light's compared pixels.
-void count(const LadderInput& in, bool with_gaps, Probe& probe) {
+// Of one light's compared pixels.
+void add_gaps(const LadderInput& in, GapLists& gaps) {
   const Image<Label> labels = sort_pixels(in);
-  for (std::size_t i = 0; i < labels.data.size(); ++i) {
-    if (!is_compared(labels.data[i])) continue;
-    const bool lit = in.truth.verdict.data[i] == raytrace::Verdict::lit;
-    ++probe.compared;
-    probe.wrong += std::abs(in.record.visibility.data[i] - (lit ? 1.0f : 0.0f)) > 0.5f;
-    if (with_gaps) (lit ? probe.gaps.lit : probe.gaps.shadowed).push_back(in.record.gap.data[i]);
-  }
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    if (is_compared(labels.data[i]))
+      (true_visibility(in, i) > 0.5f ? gaps.lit : gaps.shadowed).push_back(in.record.gap.data[i]);
 }
 
 double raster_ms(const raster::RasterFrame& frame) {
@@ -252,17 +248,36 @@ Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
   return raster_ms(comparison.raster);
 }
 
-Expected<Probe> Engine::Impl::probe(const Setting& setting) {
+std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
+  std::vector<ErrorFigures> out;
+  for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
+    out.push_back(measure_figures(input(comparison.raster, i), measure));
+  return out;
+}
+
+// What the drawing would be wrong by with the bias that its gaps say is best.
+void Engine::Impl::probe_best_bias(ErrorMeasure measure, Probe& probe) {
+  raster::RasterFrame& frame = comparison.raster;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) add_gaps(input(frame, i), probe.gaps);
+  sort_numbers(std::span(probe.gaps.lit));
+  sort_numbers(std::span(probe.gaps.shadowed));
+  probe.best = find_best_bias(probe.gaps);
+  for (raster::LightRecord& record : frame.lights)
+    rebias(frame.primitive, probe.best->constant_world, record);
+  probe.lights_at_best = figures(measure);
+}
+
+Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure) {
   trace(setting);
   Setting without_map = setting;
   without_map.raster.map_contents = false;
   if (auto drawn = draw_alone(without_map); !drawn) return fail(drawn.error());
   Probe probe;
   const raster::RasterFrame& frame = comparison.raster;
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-    count(input(frame, i), biases_follow_from_gaps(setting.raster.map), probe);
-    if (frame.lights[i].external) probe.rays += frame.lights[i].external->rays;
-  }
+  for (const raster::LightRecord& light : frame.lights)
+    if (light.external) probe.rays += light.external->rays;
+  probe.lights = figures(measure);
+  for (const ErrorFigures& light : probe.lights) probe.compared += light.compared;
   probe.raster_ms = raster_ms(frame);
   probe.map_texels = frame.map_texels;
   probe.map_bytes = frame.map_bytes;
@@ -270,8 +285,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting) {
     probe.bias_world = frame.lights.front().bias_constant_world;
     probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
   }
-  sort_numbers(std::span(probe.gaps.lit));
-  sort_numbers(std::span(probe.gaps.shadowed));
+  if (biases_follow_from_gaps(setting.raster.map)) probe_best_bias(measure, probe);
   return probe;
 }
 
@@ -284,8 +298,8 @@ Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, boo
 
 Engine::~Engine() = default;
 
-Expected<Probe> Engine::probe(const Setting& setting) {
-  return impl_->probe(setting);
+Expected<Probe> Engine::probe(const Setting& setting, ErrorMeasure measure) {
+  return impl_->probe(setting, measure);
 }
 
 Expected<double> Engine::time_drawing(const Setting& setting) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "compare/bias_curve.h"
 #include "compare/compare.h"
@@ -33,8 +34,13 @@ struct EngineWork {
 
 /// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
 struct Probe {
-  std::uint64_t compared = 0, wrong = 0;  ///< pixels, all lights together
-  GapLists gaps;             ///< of all lights together; empty where biases do not follow from gaps
+  std::uint64_t compared = 0;        ///< pixels, all lights together
+  std::vector<ErrorFigures> lights;  ///< of each light, as drawn
+  GapLists gaps;                     ///< of all lights together; empty where biases do not follow from gaps
+  /// The constant bias with the fewest wrong pixels, and each light's figures with it; none where biases do
+  /// not follow from gaps.
+  std::optional<BestBias> best;
+  std::vector<ErrorFigures> lights_at_best;
   double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
   double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
   double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
@@ -62,8 +68,9 @@ class Engine {
   /// such a frame (visibility, rungs, labels) may be left out.
   Expected<Comparison*> compare(const Setting& setting, Detail detail = Detail::images);
 
-  /// Draws at a setting and counts. A comparison that stood before is no longer valid.
-  Expected<Probe> probe(const Setting& setting);
+  /// Draws at a setting and measures what `measure` needs (FLIP and edges are left NaN otherwise). A
+  /// comparison that stood before is no longer valid.
+  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure = ErrorMeasure::wrong_and_mean);
 
   /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
   Expected<double> time_drawing(const Setting& setting);

@@ -36,7 +36,7 @@ struct Engine::Impl {
       : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
 
   Expected<void> compare(const Setting& setting, Detail detail);
-  Expected<Probe> probe(const Setting& setting);
+  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure);
   Expected<double> time_drawing(const Setting& setting);
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
@@ -49,6 +49,9 @@ struct Engine::Impl {
  private:
   Image<std::uint8_t> codes_of_images() const;
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
+  /// Of every light of the last drawing.
+  std::vector<ErrorFigures> figures(ErrorMeasure measure) const;
+  void probe_best_bias(ErrorMeasure measure, Probe& probe);
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);
   Expected<void> draw_alone(const Setting& setting);

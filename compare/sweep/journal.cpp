@@ -221,7 +221,8 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   journal.time_file_ = std::move(*times);
   journal.table_file_ = std::move(*table);
   journal.cells_ = std::move(cells);
-  for (std::size_t i = 0; i < keep; ++i) journal.table_.add(journal.cells_[i], journal.lines_[i]);
+  for (std::size_t i = 0; i < keep; ++i)
+    journal.table_.add(journal.cells_[i], journal.lines_[i], journal.times_[i]);
   if (auto written = journal.write_table(); !written) return fail(written.error());
   return journal;
 }
@@ -235,7 +236,7 @@ Expected<void> Journal::write_table() {
 Expected<void> Journal::append(const std::string& line, const std::string& times) {
   if (auto written = time_file_->append(times); !written) return written;
   if (auto written = line_file_->append(line); !written) return written;
-  const std::string rows = table_.add(cells_[lines_.size()], line);
+  const std::string rows = table_.add(cells_[lines_.size()], line, times);
   lines_.push_back(line);
   times_.push_back(times);
   return rows.empty() ? write_table() : table_file_->append(rows);

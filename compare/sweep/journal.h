@@ -4,7 +4,7 @@
 //   sweep.jsonl        one result per line (result.schema.json with `axes`), without times: the same sweep
 //   gives the
 //                      same bytes, however often it was interrupted
-//   sweep.csv          the same numbers as a table (table.h)
+//   sweep.csv          the same numbers and the times as a table (result_table.h)
 //   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
 // A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
 // of a torn last line is cut off when the folder is opened again, and its cell is made anew.
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/sweep/table.h"
+#include "compare/result_table.h"
 #include "scene/expected.h"
 
 namespace gnomon::compare {
@@ -66,7 +66,7 @@ class Journal {
   struct File;
   Expected<void> write_table();
   std::unique_ptr<File> line_file_, time_file_, table_file_;
-  SweepTable table_;
+  ResultTable table_;
   std::vector<std::size_t> cells_;
   std::vector<std::string> lines_, times_;
   bool torn_ = false;

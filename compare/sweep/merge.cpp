@@ -87,7 +87,7 @@ Expected<void> write_whole(const Cells& cells, const SweepHeader& header, const 
 }  // namespace
 
 Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
-                                   double report_max_mb) {
+                                   double report_max_mb, const std::optional<Threshold>& limit) {
   Cells cells;
   std::optional<SweepHeader> header;
   for (const std::string& folder : folders) {
@@ -108,7 +108,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
     if (auto copied = copy_existing(ray_points_path(folder), ray_points_path(target)); !copied)
       return fail(copied.error());
   }
-  const auto page = write_sweep_page(target, report_max_mb);
+  const auto page = write_sweep_page(target, report_max_mb, limit);
   if (!page) return fail(page.error());
   return MergedSweep{cells.size(), *page};
 }

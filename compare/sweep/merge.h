@@ -19,6 +19,7 @@ struct MergedSweep {
 /// usage for shards that do not belong together, are missing or are not finished; those of reading and
 /// writing.
 Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
-                                   double report_max_mb = default_report_max_mb);
+                                   double report_max_mb = default_report_max_mb,
+                                   const std::optional<Threshold>& limit = {});
 
 }  // namespace gnomon::compare

@@ -23,18 +23,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "The 24 cells leave between 0.1 % and 12 % wrong; …"
+// "24 cells have errors between 0.1 % and 12 %; …"
 std::string sentence(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
-  double least = 1.0, most = 0.0;
-  for (const CellSummary& cell : cells)
-    least = std::min(least, cell.wrong_fraction), most = std::max(most, cell.wrong_fraction);
-  std::string text = cells.size() == 1 ? fmt::format("The one cell leaves {} wrong.", percent(least))
-                                       : fmt::format("{} cells leave between {} and {} of the pixels wrong.",
-                                                     grouped(cells.size()), percent(least), percent(most));
+  const auto [least, most] = std::minmax_element(
+      cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.error() < b.error(); });
+  if (cells.size() == 1)
+    return fmt::format("The one cell leaves {} wrong, with a mean error of {}.",
+                       percent(cells[0].wrong_fraction), percent(cells[0].mean_absolute));
+  std::string text = fmt::format("{} cells have errors between {} and {}.", grouped(cells.size()),
+                                 percent(least->error()), percent(most->error()));
   if (!front.empty())
-    text += fmt::format(" For accuracy against time, {} of them {} worth having.", front.size(),
-                        front.size() == 1 ? "is" : "are");
+    text += fmt::format(
+        " {} of them {} worth having: no cell with a smaller error is as fast, as far as the "
+        "times can tell.",
+        front.size(), front.size() == 1 ? "is" : "are");
   return text;
+}
+
+std::string headline_list(const Headline& headline) {
+  if (headline.lines.empty()) return {};
+  std::string items;
+  for (const std::string& line : headline.lines) items += "<li>" + escaped(line) + "</li>\n";
+  return "<ul class=\"headline\">\n" + items + "</ul>\n";
 }
 
 // What the ray tracer's points cost, on this machine and on any.
@@ -70,11 +80,10 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
   std::string out =
       "<section id=\"cost\" aria-labelledby=\"cost-title\"><h2 id=\"cost-title\">What accuracy costs</h2>\n";
   if (const std::string chart = pareto_chart(cells, front, rays); !chart.empty()) {
-    out += "<h3>Wrong pixels against time</h3>\n<figure>" +
-           scroll_region("Wrong pixels against time", chart) +
-           "<figcaption>Each cell is a point and opens its pictures; the line joins those "
-           "that no "
-           "other beats in both. ";
+    out += "<h3>Error against time</h3>\n<figure>" + scroll_region("Error against time", chart) +
+           "<figcaption>Each cell is a point and opens its pictures; the error is the share of wrong pixels "
+           "or the mean error, whichever is more. The line joins those that are faster than every cell with "
+           "a smaller error, by more than the times' spread. ";
     out += rays.empty() ? "The diamond is the ray tracer, whose verdicts are the truth here."
                         : "The diamonds are the ray tracer itself.";
     if (std::any_of(cells.begin(), cells.end(), [](const CellSummary& c) { return c.derived; }))
@@ -82,8 +91,7 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
     out += "</figcaption></figure>\n";
   }
   if (const std::string chart = size_chart(cells); !chart.empty())
-    out += "<h3>Wrong pixels against map size</h3>\n<figure>" +
-           scroll_region("Wrong pixels against map size", chart) +
+    out += "<h3>Error against map size</h3>\n<figure>" + scroll_region("Error against map size", chart) +
            "<figcaption>The best cell of each technique and size. An error that is all sampling falls along "
            "the dotted "
            "line.</figcaption></figure>\n";
@@ -196,8 +204,9 @@ std::string sweep_page(const SweepPageInput& in) {
 href="#provenance">Provenance</a></li>)";
   shell.main = fmt::format(
       "<section id=\"overview\" aria-labelledby=\"title\"><h1 id=\"title\">Sweep of {}</h1>\n{}<p "
-      "class=\"verdict\">{}</p></section>\n",
-      escaped(scene), beside_line(in), escaped(sentence(in.cells, front)));
+      "class=\"verdict\">{}</p>\n{}</section>\n",
+      escaped(scene), beside_line(in), escaped(sentence(in.cells, front)),
+      headline_list(sweep_headline(in.cells, front, in.limit)));
   shell.main += grid_section(in) + cell_section() + cost_charts(in.cells, front, in.rays) +
                 cell_table(in.cells, front) + provenance(in.header);
   shell.data = sweep_page_data(in, front);
@@ -216,7 +225,8 @@ href="#provenance">Provenance</a></li>)";
   return build_page(shell).html;
 }
 
-Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb) {
+Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb,
+                                       const std::optional<Threshold>& limit) {
   const auto sweep = read_sweep(folder);
   if (!sweep) return fail(sweep.error());
   const auto cells = summarise(*sweep);
@@ -227,7 +237,8 @@ Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_
   const std::map<std::string, std::string> truths = read_truths(folder);
   const auto rays = read_ray_points(folder);
   if (!rays) return fail(rays.error());
-  SweepPageInput input{sweep->header, *cells, pictures, truths, *rays};
+  SweepPageInput input{sweep->header, *cells, pictures, truths, *rays, false, limit};
+  written.headline = sweep_headline(*cells, pareto_front(*cells), limit);
   std::string page = sweep_page(input);
   written.page_mb = static_cast<double>(page.size()) / 1e6;
   written.beside = input.beside = written.page_mb > report_max_mb;

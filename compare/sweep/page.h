@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/outputs.h"
+#include "compare/sweep/headline.h"
 #include "compare/sweep/ray_points.h"
 #include "compare/sweep/summary.h"
 
@@ -27,6 +28,7 @@ struct SweepPageInput {
   const std::map<std::string, std::string>& truths;     ///< PNG by name
   const std::vector<RayPoint>& rays;                    ///< the ray tracer's own points; may be none
   bool beside = false;                                  ///< the pictures are files beside the page
+  std::optional<Threshold> limit;  ///< of the error; its cheapest cell is named in the headline
 };
 
 /// The page as one file, or with the folder's files beside it.
@@ -42,9 +44,11 @@ std::string sweep_page_data(const SweepPageInput& input, const std::vector<std::
 struct WrittenPage {
   double page_mb = 0.0;  ///< what it weighs as one file
   bool beside = false;   ///< it was more than allowed
+  Headline headline;
 };
 /// Writes DIR/report.html from what the folder holds. Errors are those of reading and writing.
 Expected<WrittenPage> write_sweep_page(const std::string& folder,
-                                       double report_max_mb = default_report_max_mb);
+                                       double report_max_mb = default_report_max_mb,
+                                       const std::optional<Threshold>& limit = {});
 
 }  // namespace gnomon::compare

@@ -12,10 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "4.1 % wrong (false shadow 12, missed shadow 3), mostly acne; 12 ms"
+// "4.1 % wrong, mean error 4.1 %: false shadow 12, missed shadow 3, mostly acne; 12 ms …"
 std::string cell_line(const CellSummary& cell) {
-  std::string text = percent(cell.wrong_fraction) + " wrong: false shadow " + grouped(cell.false_shadow) +
-                     ", missed shadow " + grouped(cell.missed_shadow);
+  std::string text = percent(cell.wrong_fraction) + " wrong, mean error " + percent(cell.mean_absolute) +
+                     ": false shadow " + grouped(cell.false_shadow) + ", missed shadow " +
+                     grouped(cell.missed_shadow);
   if (!cell.main_label.empty()) text += ", mostly " + cell.main_label;
   if (std::isfinite(cell.raster_ms)) text += "; " + milliseconds(cell.raster_ms) + " for map and shading";
   return text;

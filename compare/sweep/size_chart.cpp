@@ -20,7 +20,7 @@ std::map<std::string, Line> lines_of(const std::vector<CellSummary>& cells) {
   std::map<std::string, Line> lines;
   for (const CellSummary& cell : cells) {
     const auto [entry, first] = lines[cell.technique].emplace(cell.map_size, &cell);
-    if (!first && cell.wrong_fraction < entry->second->wrong_fraction) entry->second = &cell;
+    if (!first && cell.error() < entry->second->error()) entry->second = &cell;
   }
   return lines;
 }
@@ -28,11 +28,11 @@ std::map<std::string, Line> lines_of(const std::vector<CellSummary>& cells) {
 std::string drawing(const LogPlot& plot, const Line& line, std::string_view stroke, std::string_view fill) {
   std::string points, dots;
   for (const auto& [size, cell] : line) {
-    const double x = plot.x(size), y = plot.y(cell->wrong_fraction);
+    const double x = plot.x(size), y = plot.y(cell->error());
     fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", x, y);
-    dots += cell_point(
-        *cell, fill, x, y, 4.0,
-        fmt::format("{}, {:g} texels: {} wrong", cell->technique, size, percent(cell->wrong_fraction)));
+    dots +=
+        cell_point(*cell, fill, x, y, 4.0,
+                   fmt::format("{}, {:g} texels: {} wrong", cell->technique, size, percent(cell->error())));
   }
   return fmt::format("<polyline class=\"curve {}\" points=\"{}\"/>", stroke, points) + dots;
 }
@@ -42,8 +42,7 @@ std::string sampling_slope(const LogPlot& plot, const std::map<std::string, Line
                            double last, ChartLabels& labels) {
   double start = 0.0;
   for (const auto& [name, line] : lines)
-    if (const auto at = line.find(first); at != line.end())
-      start = std::max(start, at->second->wrong_fraction);
+    if (const auto at = line.find(first); at != line.end()) start = std::max(start, at->second->error());
   if (!(start > 0.0)) return {};
   const double end = start * first / last, lowest = std::max(end, plot.min_y);
   const double end_size = start * first / lowest;
@@ -58,7 +57,7 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   const std::map<std::string, Line> lines = lines_of(cells);
   std::vector<double> sizes, shares;
   for (const auto& [name, line] : lines)
-    for (const auto& [size, cell] : line) sizes.push_back(size), shares.push_back(cell->wrong_fraction);
+    for (const auto& [size, cell] : line) sizes.push_back(size), shares.push_back(cell->error());
   std::sort(sizes.begin(), sizes.end());
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   if (sizes.size() < 3) return {};
@@ -68,20 +67,19 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   ChartLabels labels;
   for (const auto& [name, line] : lines)
     for (const auto& [size, cell] : line) {
-      const double x = plot.x(size), y = plot.y(cell->wrong_fraction);
+      const double x = plot.x(size), y = plot.y(cell->error());
       labels.keep_free(x - 5, y - 5, x + 5, y + 5);
     }
   if (lines.size() > 1)
     for (const auto& [name, line] : lines)
-      names +=
-          labels.place(plot.x(line.rbegin()->first), plot.y(line.rbegin()->second->wrong_fraction), name);
+      names += labels.place(plot.x(line.rbegin()->first), plot.y(line.rbegin()->second->error()), name);
   out += sampling_slope(plot, lines, sizes.front(), sizes.back(), labels);
   std::size_t i = 0;
   for (const auto& [name, line] : lines) {
     const std::string own = fmt::format("line-{}", i++ % styles);
     out += lines.size() > 1 ? drawing(plot, line, own, own) : drawing(plot, line, "front", "dot best-dot");
   }
-  return chart_svg("Least share of wrong pixels against map size, a line for each technique", out + names);
+  return chart_svg("Least error against map size, a line for each technique", out + names);
 }
 
 }  // namespace gnomon::compare

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace gnomon::compare {
 namespace {
@@ -30,6 +29,7 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
   const auto weight = static_cast<double>(compared);
   sum.compared += compared;
   sum.wrong += error.at("wrong").get<std::uint64_t>();
+  sum.ties += error.at("ties").get<std::uint64_t>();
   sum.false_shadow += error.at("false_shadow").get<std::uint64_t>();
   sum.missed_shadow += error.at("missed_shadow").get<std::uint64_t>();
   sum.mean_absolute += weight * number(error.at("mean_absolute"));
@@ -37,6 +37,11 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
   sum.flip += weight * number(error.at("flip"));
   sum.ssim += weight * number(error.at("ssim"));
   sum.edge_rms_texels += weight * number(light.at("edges").at("rms_texels"));
+  const Json& pixels = light.at("pixels");
+  sum.lights.push_back({number(error.at("wrong_fraction")), number(error.at("mean_absolute")),
+                        number(error.at("flip")), number(light.at("edges").at("rms_texels")), compared,
+                        pixels.at("uncertain").get<std::uint64_t>(),
+                        pixels.at("uncertain_by_samples").get<std::uint64_t>()});
   sum.shadow_rays += light.at("shadow_rays").get<std::uint64_t>();
   for (const auto& [name, count] : light.at("classes").items())
     classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
@@ -44,7 +49,7 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
 
 void finish_means(CellSummary& sum, const Json& classes) {
   const auto weight = static_cast<double>(std::max<std::uint64_t>(sum.compared, 1));
-  sum.wrong_fraction = static_cast<double>(sum.wrong) / weight;
+  sum.wrong_fraction = (static_cast<double>(sum.wrong) + 0.5 * static_cast<double>(sum.ties)) / weight;
   sum.mean_absolute /= weight;
   sum.rms = std::sqrt(sum.rms / weight);
   sum.flip /= weight;
@@ -66,6 +71,7 @@ void add_times(const Json& times, CellSummary& sum) {
       sum.raster_ms += number(light.at(pass).at("median"));
       const auto runs = light.at(pass).at("runs").get<std::vector<double>>();
       if (runs.empty()) continue;
+      sum.runs = static_cast<int>(runs.size());
       const auto [low, high] = std::minmax_element(runs.begin(), runs.end());
       fastest += *low;
       slowest += *high;
@@ -111,17 +117,45 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
   return cells;
 }
 
+bool clearly_faster(const CellSummary& a, const CellSummary& b) {
+  constexpr double single_run = 0.25;  // of its time: what runs of one setting differ by on a busy machine
+  const auto off = [](const CellSummary& c) { return c.runs > 1 ? c.spread_ms : single_run * c.raster_ms; };
+  return a.raster_ms + std::max(off(a), off(b)) < b.raster_ms;
+}
+
+namespace {
+
+// Of cells with equal errors, from `first` to `last` (excluded).
+template <class Iterator>
+std::size_t least_cost(const std::vector<CellSummary>& cells, Iterator first, Iterator last) {
+  const auto fastest = *std::min_element(
+      first, last, [&](std::size_t a, std::size_t b) { return cells[a].raster_ms < cells[b].raster_ms; });
+  std::size_t best = fastest;
+  for (; first != last; ++first) {
+    const CellSummary &c = cells[*first], &b = cells[best];
+    if (clearly_faster(cells[fastest], c)) continue;
+    if (std::pair(c.map_texels, c.map_bytes) < std::pair(b.map_texels, b.map_bytes)) best = *first;
+  }
+  return best;
+}
+
+}  // namespace
+
 std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (std::isfinite(cells[i].raster_ms)) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const CellSummary &x = cells[a], &y = cells[b];
-    return x.raster_ms != y.raster_ms ? x.raster_ms < y.raster_ms : x.wrong_fraction < y.wrong_fraction;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cells[a].error() < cells[b].error(); });
   std::vector<std::size_t> front;
-  for (const std::size_t i : order)
-    if (front.empty() || cells[i].wrong_fraction < cells[front.back()].wrong_fraction) front.push_back(i);
+  for (auto first = order.begin(); first != order.end();) {
+    const auto last = std::find_if(first, order.end(),
+                                   [&](std::size_t i) { return cells[i].error() > cells[*first].error(); });
+    const std::size_t best = least_cost(cells, first, last);
+    if (front.empty() || clearly_faster(cells[best], cells[front.back()])) front.push_back(best);
+    first = last;
+  }
+  std::reverse(front.begin(), front.end());
   return front;
 }
 

@@ -1,6 +1,7 @@
 // What the page and the tuner say of one cell: its errors over all lights together, and what it cost.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,26 +18,35 @@ struct CellSummary {
   std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
   std::string command, technique;
   // Errors over the compared pixels of all lights; NaN where not computed.
-  std::uint64_t compared = 0, wrong = 0, false_shadow = 0, missed_shadow = 0;
+  std::uint64_t compared = 0, wrong = 0, ties = 0, false_shadow = 0, missed_shadow = 0;
   double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
   double edge_rms_texels = 0.0;
-  std::string main_label;  ///< of most wrong pixels; empty when none is wrong
-  double map_size = 0.0;   ///< texels on a side
+  std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
+  std::string main_label;            ///< of most wrong pixels; empty when none is wrong
+  double map_size = 0.0;             ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0, shadow_rays = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
   double spread_ms = 0.0;  ///< largest less smallest sum of runs
+  int runs = 0;            ///< of each pass
   bool derived = false;    ///< the times are those of the drawing that it was made from
+  /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal.
+  double error() const { return std::max(wrong_fraction, mean_absolute); }
 };
+
+/// a takes less time than b by more than both may be off: the spread of their runs, or a quarter of a single
+/// run's time.
+bool clearly_faster(const CellSummary& a, const CellSummary& b);
 
 /// From a line of sweep.jsonl and its line of sweep_times.jsonl. Errors are ErrorKind::bad_input.
 Expected<CellSummary> summarise(std::string_view line, std::string_view times);
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep);
 
-/// Indices of the cells that no other beats in both wrong fraction and time, cheapest first; of cells that
-/// are equal in both, the first. Untimed cells are on no front.
+/// Indices of the cells worth having for error against time, cheapest first: those that are clearly faster
+/// than every cell with a smaller error. Of cells with equal errors, the one with the fewest texels and then
+/// the fewest bytes among those that none of them is clearly faster than. Untimed cells are on no front.
 std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells);
 
 }  // namespace gnomon::compare

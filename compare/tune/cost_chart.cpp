@@ -1,5 +1,5 @@
-// What accuracy costs: every map that the search drew as a point, wrong pixels against milliseconds, the goal
-// as a line, and those that no other beats in both joined and named.
+// What accuracy costs: every map that the search drew as a point, the error wanted small against
+// milliseconds, the goal as a line, and those that no other beats in both joined and named.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@ struct Point {
   const FamilyResult* family;
   int size;
   double error, time_ms;
+  ErrorFigures figures;
   bool answer;
 };
 
@@ -29,7 +30,7 @@ std::vector<Point> points_of(const TuneResult& result) {
     const Attempt& chosen = family.answer ? *family.answer : family.closest;
     for (const Attempt& tried : family.tried) {
       const Attempt& a = tried.size == chosen.size ? chosen : tried;
-      points.push_back({&family, a.size, a.error, a.time_ms, i == result.winner && &a == &chosen});
+      points.push_back({&family, a.size, a.error, a.time_ms, a.figures, i == result.winner && &a == &chosen});
     }
   }
   std::erase_if(points, [](const Point& p) { return !(p.time_ms > 0.0); });
@@ -55,10 +56,11 @@ LogPlot plot_of(const std::vector<Point>& points, const TuneGoal& goal) {
     shares.push_back(p.error);
   }
   if (goal.max_time_ms) low = std::min(low, *goal.max_time_ms), high = std::max(high, *goal.max_time_ms);
-  if (goal.max_error && *goal.max_error > 0.0)
-    shares.push_back(*goal.max_error), most = std::max(most, *goal.max_error);
+  if (goal.max_error && goal.max_error->limit > 0.0)
+    shares.push_back(goal.max_error->limit), most = std::max(most, goal.max_error->limit);
   const double least = least_error(shares);
-  return {low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * most)};
+  return {low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * most),
+          goal.measure() != ErrorMeasure::edge && goal.measure() != ErrorMeasure::flip};
 }
 
 std::string goal_line(const LogPlot& plot, const TuneGoal& goal) {
@@ -72,18 +74,18 @@ std::string goal_line(const LogPlot& plot, const TuneGoal& goal) {
     return line(x, LogPlot::top, x, LogPlot::height - LogPlot::bottom) +
            chart_text(x - 6, LogPlot::top + 10, "note end", "wanted");
   }
-  const double y = plot.y(*goal.max_error);
+  const double y = plot.y(goal.max_error->limit);
   return line(left, y, right, y) + chart_text(right, y - 5, "note end", "wanted");
 }
 
-std::string dot(const LogPlot& plot, const Point& p, bool best) {
+std::string dot(const LogPlot& plot, const Point& p, ErrorMeasure measure, bool best) {
   return fmt::format(
-      R"(<circle class="dot{}" cx="{:.1f}" cy="{:.1f}" r="{}"><title>{}, {} texels: {} wrong, {}</title></circle>)",
+      R"(<circle class="dot{}" cx="{:.1f}" cy="{:.1f}" r="{}"><title>{}, {} texels: {}; {}</title></circle>)",
       best ? " best-dot" : "", plot.x(p.time_ms), plot.y(p.error),
       p.answer ? 8.0
       : best   ? 5.0
                : 3.5,
-      escaped(p.family->family.name), p.size, percent(p.error), milliseconds(p.time_ms));
+      escaped(p.family->family.name), p.size, figure_words(p.figures, measure), milliseconds(p.time_ms));
 }
 
 }  // namespace
@@ -103,12 +105,12 @@ std::string tune_cost_chart(const TuneGoal& goal, const TuneResult& result) {
     labels.keep_free(x - 8, y - 8, x + 8, y + 8);
   }
   out += fmt::format(R"(<polyline class="curve front" points="{}"/>)", line);
-  for (const Point& p : points) out += dot(plot, p, false);
-  for (const Point& p : front) out += dot(plot, p, true);
+  for (const Point& p : points) out += dot(plot, p, goal.measure(), false);
+  for (const Point& p : front) out += dot(plot, p, goal.measure(), true);
   for (const Point& p : front)
     out += labels.place(plot.x(p.time_ms), plot.y(p.error),
                         fmt::format("{} {}", technique_name(p.family->family.map.technique), p.size));
-  return chart_svg("Wrong pixels against time, each map tried a point, the best of them joined", out);
+  return chart_svg("Error against time, each map tried a point, the best of them joined", out);
 }
 
 }  // namespace gnomon::compare

@@ -1,35 +1,83 @@
 // Why each family won or lost, in words.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compare/number_text.h"
 #include "compare/tune/tuner.h"
 
 namespace gnomon::compare {
 namespace {
 
-std::string setting_text(const Attempt& a) {
-  return fmt::format("{} wrong in {} with {} texels", percent(a.error), milliseconds(a.time_ms), a.size);
+std::string setting_text(const Attempt& a, ErrorMeasure measure) {
+  return fmt::format("{} in {} with {} texels", figure_words(a.figures, measure), milliseconds(a.time_ms),
+                     a.size);
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
 std::string proof(const BestBias& best) {
   if (best.feasible || best.lit_pixels_above == 0) return {};
+  return fmt::format("; no constant bias is right everywhere: {} need{} {} or more, {} less than {}",
+                     counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
+                     plain_number(best.needs_more_than),
+                     counted(best.shadowed_pixels_below, "shadowed pixel"),
+                     plain_number(best.needs_less_than));
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string close_race(const FamilyResult& winner) {
+  if (winner.as_fast.empty()) return {};
+  const std::string others = joined(winner.as_fast);
+  if (winner.by_cost)
+    return fmt::format(
+        "; {} took as long within the spread of the times, and this one costs less on any "
+        "machine (texels, bytes, rays)",
+        others);
+  return fmt::format("; {} took as long within the spread of the times", others);
+}
+
+std::string floor_text(double floor, ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::flip:
+      return "a mean FLIP of " + plain_number(floor);
+    case ErrorMeasure::edge:
+      return texels_text(floor) + " of displacement";
+    case ErrorMeasure::mean:
+      return "a mean error of " + percent(floor);
+    default:
+      return percent(floor) + " wrong";
+  }
+}
+
+// Pixels that no setting can be judged by.
+std::string doubt(const std::optional<Threshold>& goal, const ErrorFigures& figures) {
+  if (!goal || !too_uncertain(*goal, figures)) return {};
   return fmt::format(
-      "; no constant bias is right everywhere: {} lit pixels need {} or more, {} shadowed ones less "
-      "than {}",
-      grouped(best.lit_pixels_above), plain_number(best.needs_more_than), grouped(best.shadowed_pixels_below),
-      plain_number(best.needs_less_than));
+      "; {} of {} pixels are uncertain, more than the goal allows to be wrong (more --samples "
+      "of lights with size, or a goal for the mean error, such as mean:1%)",
+      grouped(unknown_pixels(figures, goal->measure)), grouped(figures.compared + figures.uncertain));
 }
 
 }  // namespace
 
 std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner) const {
   const bool by_error = options_.goal.max_error.has_value();
+  const ErrorMeasure measure = options_.goal.measure();
   if (!loser.answer) {
-    const std::string nearest = setting_text(loser.closest);
+    const std::string nearest = setting_text(loser.closest, measure);
     if (loser.stop == TuneStop::too_dear)
       return "slower before it is good enough: " + nearest + proof(loser.closest.best);
     if (loser.stop == TuneStop::levels_off)
-      return fmt::format("levels off near {} wrong: {}{}", percent(loser.floor), nearest,
+      return fmt::format("levels off near {}: {}{}", floor_text(loser.floor, measure), nearest,
                          proof(loser.closest.best));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
@@ -38,12 +86,16 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
            proof(loser.closest.best);
   }
   const Attempt& a = *loser.answer;
-  if (!winner.answer) return setting_text(a);
+  const std::string text = setting_text(a, measure);
+  if (!winner.answer) return text;
+  const bool close =
+      std::find(winner.as_fast.begin(), winner.as_fast.end(), loser.family.name) != winner.as_fast.end();
+  if (close) return "as fast within the spread of the times: " + text;
   if (by_error)
     return (a.times.runs.empty() ? "slower, measured once: " : "slower, measured in turn with the best: ") +
-           setting_text(a);
-  if (price(a) == price(*winner.answer)) return "as good, and slower: " + setting_text(a);
-  return "less accurate: " + setting_text(a) + proof(a.best);
+           text;
+  if (price(a) == price(*winner.answer)) return "as good, and slower: " + text;
+  return "less accurate: " + text + proof(a.best);
 }
 
 void Tuner::explain(TuneResult& result) const {
@@ -55,9 +107,10 @@ void Tuner::explain(TuneResult& result) const {
     else if (result.feasible)
       family.why = (options_.goal.max_error ? "the cheapest that is good enough: "
                                             : "the best that is cheap enough: ") +
-                   setting_text(*family.answer);
+                   setting_text(*family.answer, options_.goal.measure()) + close_race(family);
     else
-      family.why = "comes nearest: " + setting_text(family.closest) + proof(family.closest.best);
+      family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
+                   doubt(options_.goal.max_error, family.closest.figures) + proof(family.closest.best);
   }
 }
 

@@ -42,20 +42,18 @@ Setting FullGrid::setting_of(std::size_t family, int size, const raster::Bias& b
 Expected<void> FullGrid::draw(std::size_t family, int size, const raster::Bias& bias, GridCheck& check) {
   if (progress_) progress_(options_.families[family], size, check.grid_drawings);
   const Setting setting = setting_of(family, size, bias);
-  const auto probe = engine_.probe(setting);
+  const auto probe = engine_.probe(setting, options_.goal.measure());
   if (!probe) return fail(probe.error());
   ++check.grid_drawings;
   ++check.cells;
   Attempt attempt;
   attempt.size = size;
-  const bool tells_all = biases_follow_from_gaps(setting.raster.map);
-  const BestBias best = tells_all ? find_best_bias(probe->gaps) : BestBias{};
-  attempt.bias_world = tells_all ? best.constant_world : probe->bias_world;
-  attempt.error = tells_all ? best.wrong_fraction
-                            : double(probe->wrong) / double(std::max<std::uint64_t>(probe->compared, 1));
+  attempt.bias_world = probe->best ? probe->best->constant_world : probe->bias_world;
+  for (const ErrorFigures& light : probe->best ? probe->lights_at_best : probe->lights)
+    attempt.error = std::max(attempt.error, figure(light, options_.goal.measure()));
   attempt.time_ms = probe->raster_ms;
   attempt.cost = options_.cost ? options_.cost(setting, *probe) : probe->raster_ms;
-  if (attempt.error <= options_.goal.max_error) good_.push_back({family, attempt});
+  if (attempt.error <= options_.goal.max_error->limit) good_.push_back({family, attempt});
   return {};
 }
 

@@ -45,6 +45,7 @@ Expected<void> Tuner::confirm(FamilyResult& result) {
   auto drawn = draw(result.family, answer.size, bias, nullptr);
   if (!drawn) return fail(drawn.error());
   answer.error = drawn->error;
+  answer.figures = drawn->figures;
   answer.times.runs = {drawn->time_ms};
   if (options_.cost) answer.cost = drawn->cost;
   return {};

@@ -16,7 +16,7 @@ const Attempt& attempt_of(const FamilyResult& family) {
 }
 
 std::string goal_text(const TuneGoal& goal) {
-  return goal.max_error ? "at most " + percent(*goal.max_error) + " wrong"
+  return goal.max_error ? limit_words(*goal.max_error)
                         : "at most " + milliseconds(*goal.max_time_ms) + " for map and shading";
 }
 
@@ -24,9 +24,9 @@ std::string verdict(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = attempt_of(winner);
   const std::string answer = fmt::format(
-      "{}, {} \u00d7 {} texels{}. It leaves {} wrong and takes {}.", winner.family.name, a.size, a.size,
+      "{}, {} \u00d7 {} texels{}. Compared as below it gives {}, in {}.", winner.family.name, a.size, a.size,
       is_exact(winner.family.map.technique) ? std::string() : ", bias " + plain_number(a.bias_world),
-      percent(a.error), milliseconds(a.time_ms));
+      figure_words(a.figures, in.goal.measure()), milliseconds(a.time_ms));
   const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
   if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
   return wanted + (in.goal.max_error ? "The cheapest map that gives it: " : "The best map within it: ") +
@@ -38,13 +38,29 @@ std::string proof(const TunePageInput& in) {
   const BestBias& best = attempt_of(in.result.families[in.result.winner]).best;
   if (in.result.feasible || best.feasible || best.lit_pixels_above == 0) return {};
   return fmt::format(
-      R"(<p class="lead">No constant bias is right everywhere with this map: {} lit pixels need {} or more,
-{} shadowed pixels need less than {}. In the picture of differences below the first are those that turn
+      R"(<p class="lead">No constant bias is right everywhere with this map: {} lit pixel{} {} or more,
+{} shadowed pixel{} less than {}. In the picture of differences below the first are those that turn
 <b class="false-text">orange</b> when the bias is dragged to the left of that, the second those that turn
 <b class="missed-text">blue</b> to the right of it.</p>
 )",
-      grouped(best.lit_pixels_above), plain_number(best.needs_more_than), grouped(best.shadowed_pixels_below),
-      plain_number(best.needs_less_than));
+      grouped(best.lit_pixels_above), best.lit_pixels_above == 1 ? " needs" : "s need",
+      plain_number(best.needs_more_than), grouped(best.shadowed_pixels_below),
+      best.shadowed_pixels_below == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
+}
+
+// Wrong pixels, mean error, and what the goal is about besides.
+std::string figure_cells(ErrorMeasure measure, const ErrorFigures& f) {
+  std::string cells = fmt::format(R"(<td class="n">{}</td><td class="n">{}</td>)", percent(f.wrong_fraction),
+                                  percent(f.mean_absolute));
+  if (measure == ErrorMeasure::flip || measure == ErrorMeasure::edge)
+    cells += fmt::format(R"(<td class="n">{}</td>)", plain_number(figure(f, measure)));
+  return cells;
+}
+std::string figure_heads(ErrorMeasure measure) {
+  std::string heads = R"(<th scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th>)";
+  if (measure == ErrorMeasure::flip) heads += R"(<th scope="col" class="n">FLIP</th>)";
+  if (measure == ErrorMeasure::edge) heads += R"(<th scope="col" class="n">edge RMS, texels</th>)";
+  return heads;
 }
 
 std::string family_row(const TunePageInput& in, std::size_t i) {
@@ -52,13 +68,13 @@ std::string family_row(const TunePageInput& in, std::size_t i) {
   const Attempt& a = attempt_of(family);
   const bool winner = i == in.result.winner;
   return fmt::format(
-      R"(<tr{}><th scope="row">{}{}<small>{}</small></th><td class="n">{}</td><td class="n">{}</td><td
-class="n">{}</td><td class="n">{}</td><td class="run"><code>{}</code></td></tr>
+      R"(<tr{}><th scope="row">{}{}<small>{}</small></th><td class="n">{}</td><td
+class="n">{}</td>{}<td class="n">{}</td><td class="run"><code>{}</code></td></tr>
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
-      a.size, is_exact(family.family.map.technique) ? "\u2013" : plain_number(a.bias_world), percent(a.error),
-      milliseconds(a.time_ms), escaped(in.commands[i]));
+      a.size, is_exact(family.family.map.technique) ? "\u2013" : plain_number(a.bias_world),
+      figure_cells(in.goal.measure(), a.figures), milliseconds(a.time_ms), escaped(in.commands[i]));
 }
 
 std::string family_table(const TunePageInput& in) {
@@ -66,8 +82,10 @@ std::string family_table(const TunePageInput& in) {
   for (const std::size_t i : in.order) rows += family_row(in, i);
   return scroll_region("What was tried",
                        R"(<table class="families"><thead><tr><th scope="col">technique and bias</th><th
-scope="col" class="n">texels</th><th scope="col" class="n">bias</th><th scope="col" class="n">wrong</th><th
-scope="col" class="n">time</th><th scope="col" class="run">command</th></tr></thead><tbody>
+scope="col" class="n">texels</th><th scope="col" class="n">bias</th>)" +
+                           figure_heads(in.goal.measure()) +
+                           R"(<th scope="col" class="n">time</th><th
+scope="col" class="run">command</th></tr></thead><tbody>
 )" + rows + "</tbody></table>");
 }
 
@@ -86,7 +104,7 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
   out.html += proof(in);
   if (const std::string chart = tune_cost_chart(in.goal, in.result); !chart.empty())
     out.html +=
-        "<h2>What accuracy costs</h2>\n<figure>" + scroll_region("Wrong pixels against time", chart) +
+        "<h2>What accuracy costs</h2>\n<figure>" + scroll_region("Error against time", chart) +
         "<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins "
         "those that no other beats in both, the large point is the answer.</figcaption></figure>\n";
   out.html += fmt::format(R"(<h2>What was tried</h2>
@@ -95,7 +113,7 @@ constant bias. The star is the answer; beside each of the others stands why it i
 {})",
                           in.result.renders, family_table(in));
   if (const std::string chart = tune_chart(in.result); !chart.empty())
-    out.html += "<h3>How the error hangs on the bias</h3>\n<figure>" +
+    out.html += "<h3>How the error depends on the bias</h3>\n<figure>" +
                 scroll_region("Wrong pixels against the bias of each kind", chart) +
                 "<figcaption>Each kind at the map size of its row above; a dot marks the best constant bias. "
                 "Texels of the one map are not as wide as those of another.</figcaption></figure>\n";

@@ -21,8 +21,8 @@ struct TunePageInput {
 
 PageIntroduction tune_introduction(const TunePageInput& input);
 
-/// Wrong pixels against milliseconds, both on logarithmic scales: every map tried, and the goal. Empty where
-/// nothing was timed.
+/// The error that the goal is about against milliseconds, both on logarithmic scales: every map tried, and
+/// the goal. Empty where nothing was timed.
 std::string tune_cost_chart(const TuneGoal& goal, const TuneResult& result);
 
 /// Wrong pixels against the constant bias, in texels, of every family whose gaps tell it.

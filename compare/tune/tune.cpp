@@ -59,12 +59,12 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   Setting setting = setting_of(family, size, bias);
   if (!timed) setting.raster.runs = 0;
   ++renders_;
-  auto probe = engine_.probe(setting);
+  auto probe = engine_.probe(setting, options_.goal.measure());
   if (!probe) return fail(probe.error());
   Attempt attempt;
   attempt.size = size;
   attempt.bias_world = probe->bias_world;
-  attempt.error = double(probe->wrong) / double(std::max<std::uint64_t>(probe->compared, 1));
+  set_figures(probe->lights, attempt);
   attempt.time_ms = probe->raster_ms;
   attempt.cost = options_.cost ? options_.cost(setting, *probe) : probe->raster_ms;
   attempt.compared = probe->compared;
@@ -72,8 +72,21 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   attempt.map_texels = probe->map_texels;
   attempt.map_bytes = probe->map_bytes;
   attempt.rays = probe->rays;
-  if (gaps != nullptr) *gaps = std::move(probe->gaps);
+  if (gaps == nullptr || !probe->best) return attempt;
+  *gaps = std::move(probe->gaps);
+  attempt.best = *probe->best;
+  set_figures(probe->lights_at_best, attempt);
   return attempt;
+}
+
+// The worst light is what a threshold is held against.
+void Tuner::set_figures(const std::vector<ErrorFigures>& lights, Attempt& attempt) const {
+  const ErrorMeasure measure = options_.goal.measure();
+  attempt.error = 0.0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const double error = figure(lights[i], measure);
+    if (i == 0 || !(error <= attempt.error)) attempt.error = error, attempt.figures = lights[i];
+  }
 }
 
 // One drawing tells the error of every constant bias.
@@ -82,9 +95,7 @@ Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
   auto attempt = draw(family, size, family.map.bias, &gaps);
   if (!attempt) return attempt;
   const double drawn_with = attempt->bias_world;
-  attempt->best = find_best_bias(gaps);
   attempt->bias_world = attempt->best.constant_world;
-  attempt->error = attempt->best.wrong_fraction;
   attempt->curve = draw_bias_curve(gaps, attempt->texel_world, drawn_with, attempt->bias_world, curve_points);
   if (family.map.bias.slope == 0.0) hard_bias_.emplace(size, attempt->bias_world);
   return attempt;
@@ -124,7 +135,8 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
     if (!best || attempt->error < best->error) best = std::move(*attempt), best_trial_ = i;
     tried_before_ = true;
     if (!options_.goal.max_error) continue;
-    if (good(*best) || hopeless(*best) || (known && best->error > clearly * *options_.goal.max_error)) break;
+    if (good(*best) || hopeless(*best) || (known && best->error > clearly * options_.goal.max_error->limit))
+      break;
   }
   return *best;
 }
@@ -162,7 +174,7 @@ void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
   const Attempt &first = result.tried[n - 3], &second = result.tried[n - 2];
   if (!(first.size < second.size && second.size < attempt.size)) return;
   const double left = error_left(second, attempt), before = error_left(first, second);
-  if (left > clearly * *options_.goal.max_error && left > agreed * before)
+  if (left > clearly * options_.goal.max_error->limit && left > agreed * before)
     result.stop = TuneStop::levels_off, result.floor = left;
 }
 
@@ -246,9 +258,7 @@ Expected<void> Tuner::search_all(TuneResult& result) {
 Expected<TuneResult> Tuner::run() {
   TuneResult result;
   if (auto searched = search_all(result); !searched) return fail(searched.error());
-  if (auto measured = measure_best(result); !measured) return fail(measured.error());
-  result.winner = best_of(result);
-  result.feasible = result.families[result.winner].answer.has_value();
+  if (auto chosen = choose(result); !chosen) return fail(chosen.error());
   result.renders = renders_;
   explain(result);
   return result;

@@ -10,8 +10,9 @@
 // so that two sizes tell what is left without it; three have to agree), and at the size where a family like
 // it is good enough: biases change no cost. Exact techniques (izb, hybrid) are right at any size, and their
 // cost has a least size of its own: it is walked down to. The families that come close to the best are then
-// drawn at their own biases, in turn and several times over, and the least times decide: what is printed was
-// measured side by side.
+// drawn at their own biases, in turn and several times over, and the least times decide, but for those that
+// lie within the spread: of them one that costs less whatever the machine is preferred. The winner is then
+// compared as its command would; where it is not good enough there, the next one takes its place.
 #pragma once
 
 #include <array>
@@ -25,8 +26,10 @@
 namespace gnomon::compare {
 
 struct TuneGoal {
-  std::optional<double> max_error;    ///< share of wrong pixels
+  std::optional<Threshold> max_error;
   std::optional<double> max_time_ms;  ///< map and shading; exactly one of the two is given
+  /// What errors are counted in.
+  ErrorMeasure measure() const { return max_error ? max_error->measure : ErrorMeasure::wrong_and_mean; }
 };
 
 /// A technique with everything but map size and constant bias.
@@ -44,18 +47,23 @@ struct TuneOptions {
   std::vector<TuneFamily> families;
   std::vector<int> sizes;  ///< ascending, texels
   TuneCost cost;           ///< empty: milliseconds
+  /// The setting that a family's answer is given as; empty: the one that it was drawn with. The answer's
+  /// error is measured by the comparison at this setting.
+  std::function<Expected<Setting>(std::size_t family, const struct Attempt& answer)> as_given;
 };
 
 /// One drawing, at its best constant bias.
 struct Attempt {
   int size = 0;
-  double bias_world = 0.0, error = 0.0;
+  double bias_world = 0.0;
+  double error = 0.0;    ///< what TuneGoal::measure() says, of the worst light
+  ErrorFigures figures;  ///< of that light
   double time_ms = 0.0;  ///< least of `times`, or of the search's one drawing
   double cost = 0.0;     ///< by TuneOptions::cost
   Times times;           ///< measured in turn with the others; empty: not among the best
   std::uint64_t map_texels = 0, map_bytes = 0, rays = 0;
-  BestBias best;                      ///< with the proof, where no constant bias is right everywhere
-  std::uint64_t compared = 0;         ///< pixels, all lights
+  BestBias best;               ///< of all lights; with the proof, where no constant bias is right everywhere
+  std::uint64_t compared = 0;  ///< pixels, all lights
   std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
   double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
 };
@@ -76,7 +84,11 @@ struct FamilyResult {
   double floor = 0.0;  ///< levels_off: the share of wrong pixels that no map size lessens, as estimated
   std::string like;    ///< no_smaller: that family's name
   std::vector<Attempt> tried;  ///< each size drawn, at its best bias, without curves
-  std::string why;             ///< why it lost, or won
+  /// Of the winner: families whose times lie within the spread of its own, and whether it was preferred to
+  /// the fastest of them for rendering fewer texels, taking fewer bytes or casting fewer rays.
+  std::vector<std::string> as_fast;
+  bool by_cost = false;
+  std::string why;  ///< why it lost, or won
 };
 
 struct TuneResult {

@@ -17,8 +17,8 @@ class Tuner {
 
  private:
   bool good(const Attempt& a) const {
-    return options_.goal.max_error ? a.error <= *options_.goal.max_error
-                                   : a.cost <= *options_.goal.max_time_ms;
+    if (!options_.goal.max_error) return a.cost <= *options_.goal.max_time_ms;
+    return a.error <= options_.goal.max_error->limit && !too_uncertain(*options_.goal.max_error, a.figures);
   }
   /// What is to be small among those that are good.
   double price(const Attempt& a) const { return options_.goal.max_error ? a.cost : a.error; }
@@ -49,6 +49,10 @@ class Tuner {
   Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
   Expected<void> confirm(FamilyResult& result);
   Expected<void> draw_again(FamilyResult& result);
+  void set_figures(const std::vector<ErrorFigures>& lights, Attempt& attempt) const;
+  std::size_t prefer_by_cost(TuneResult& result, std::size_t fastest) const;
+  Expected<void> choose(TuneResult& result);
+  Expected<void> verify(TuneResult& result);
 
   void explain(TuneResult& result) const;
   std::string reason(const FamilyResult& loser, const FamilyResult& winner) const;

@@ -1,4 +1,4 @@
-#include "compare/sweep/table.h"
+#include "compare/result_table.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/csv_field.h"
+#include "compare/output_parts.h"
+#include "compare/outputs.h"
 
 namespace gnomon::compare {
 namespace {
@@ -46,9 +48,28 @@ void add_named(Row& row, const std::string& name, const Json& list, const char* 
   }
 }
 
+// What stands in both tables of one light: its setting and its numbers.
+template <class Row>
+void add_light(Row& row, const Json& json, const Json& light) {
+  if (json.contains("scene"))
+    row.emplace_back("scene_name", csv_name(json.at("scene").value("name", std::string())));
+  row.emplace_back("light", csv_name(light.at("light").at("name").get<std::string>()));
+  row.emplace_back("light_type", light.at("light").at("type").get<std::string>());
+  add_flat(row, "size", json.at("size"));
+  for (const auto& [key, member] : light.items()) {
+    if (key == "budget")
+      add_named(row, "budget", member, "cause");
+    else if (key == "ladder")
+      add_named(row, "ladder", member, "rung");
+    else if (key != "light" && key != "times_ms")
+      add_flat(row, key, member);
+  }
+  add_flat(row, "costs", json.at("costs"));
+}
+
 }  // namespace
 
-std::string SweepTable::row_text(const Row& row) const {
+std::string ResultTable::row_text(const Row& row) const {
   std::string text;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) text += ',';
@@ -59,7 +80,7 @@ std::string SweepTable::row_text(const Row& row) const {
   return text + "\r\n";
 }
 
-bool SweepTable::add_columns(const Row& row) {
+bool ResultTable::add_columns(const Row& row) {
   bool grew = false;
   for (const auto& [column, value] : row) {
     if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) continue;
@@ -69,35 +90,47 @@ bool SweepTable::add_columns(const Row& row) {
   return grew;
 }
 
-std::string SweepTable::add(std::size_t cell, std::string_view line) {
-  const Json json = Json::parse(line, nullptr, false);
+void ResultTable::add(std::string_view result) {
+  const Json json = Json::parse(result);
+  for (const Json& light : json.at("lights")) {
+    Row row;
+    add_light(row, json, light);
+    add_flat(row, "times_ms", light.at("times_ms"));
+    add_flat(row, "times_ms", json.at("times_ms"));
+    add_columns(row);
+    rows_.push_back(std::move(row));
+  }
+}
+
+std::string ResultTable::add(std::size_t cell, std::string_view line, std::string_view times) {
+  const Json json = Json::parse(line, nullptr, false), timed = Json::parse(times, nullptr, false);
   if (!json.is_object() || !json.contains("lights")) return {};
   std::string added;
   bool grew = false;
+  std::size_t index = 0;
   for (const Json& light : json.at("lights")) {
     Row row{{"cell", std::to_string(cell)}};
     add_flat(row, "axes", json.value("axes", Json::object()));
     if (json.contains("no_effect")) row.emplace_back("no_effect", joined(json.at("no_effect")));
-    row.emplace_back("light", csv_name(light.at("light").at("name").get<std::string>()));
-    row.emplace_back("light_type", light.at("light").at("type").get<std::string>());
-    add_flat(row, "size", json.at("size"));
-    for (const auto& [key, member] : light.items()) {
-      if (key == "budget")
-        add_named(row, "budget", member, "cause");
-      else if (key == "ladder")
-        add_named(row, "ladder", member, "rung");
-      else if (key != "light" && key != "times_ms")
-        add_flat(row, key, member);
+    for (const char* key : {"derived", "cell_ms"})
+      if (timed.is_object() && timed.contains(key)) row.emplace_back(key, scalar_text(timed.at(key)));
+    add_light(row, json, light);
+    if (timed.is_object() && timed.contains("lights")) {
+      Json own = timed.at("lights").at(index), all = timed;
+      own.erase("light");
+      for (const char* key : {"cell", "derived", "cell_ms", "lights"}) all.erase(key);
+      add_flat(row, "times_ms", own);
+      add_flat(row, "times_ms", all);
     }
-    add_flat(row, "costs", json.at("costs"));
     grew = add_columns(row) || grew;
-    rows_.push_back(row);
     added += row_text(row);
+    rows_.push_back(std::move(row));
+    ++index;
   }
   return grew ? std::string() : added;
 }
 
-std::string SweepTable::text() const {
+std::string ResultTable::text() const {
   std::string text;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) text += ',';
@@ -106,6 +139,16 @@ std::string SweepTable::text() const {
   if (!columns_.empty()) text += "\r\n";
   for (const Row& row : rows_) text += row_text(row);
   return text;
+}
+
+std::string result_csv(std::string_view result) {
+  ResultTable table;
+  table.add(result);
+  return table.text();
+}
+
+std::string result_csv(const Comparison& comparison) {
+  return result_csv(result_json(comparison));
 }
 
 }  // namespace gnomon::compare

@@ -1,0 +1,97 @@
+#include "compare/sweep/headline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/number_text.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string time_words(const CellSummary& cell) {
+  return std::isfinite(cell.raster_ms) ? " in " + milliseconds(cell.raster_ms) : std::string();
+}
+
+std::string cell_words(const CellSummary& cell, ErrorMeasure measure) {
+  ErrorFigures pooled;
+  pooled.wrong_fraction = cell.wrong_fraction, pooled.mean_absolute = cell.mean_absolute;
+  pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
+  return fmt::format("cell {} ({}) with {}{}", cell.cell, axes_words(cell), figure_words(pooled, measure),
+                     time_words(cell));
+}
+
+// Of what lies on the front the least product of error and time: a step along it that halves the one and
+// doubles the other is neither gain nor loss. Half a pixel stands for no error.
+std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
+  const auto product = [&](std::size_t i) {
+    const double least = 0.5 / static_cast<double>(std::max<std::uint64_t>(cells[i].compared, 1));
+    return std::max(cells[i].error(), least) * cells[i].raster_ms;
+  };
+  return *std::min_element(front.begin(), front.end(),
+                           [&](std::size_t a, std::size_t b) { return product(a) < product(b); });
+}
+
+bool within(const CellSummary& cell, const Threshold& limit) {
+  return std::all_of(cell.lights.begin(), cell.lights.end(), [&limit](const ErrorFigures& light) {
+    return !exceeds(limit, light) && !too_uncertain(limit, light);
+  });
+}
+
+// Least time of those within the limit; of untimed cells the fewest texels.
+const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const Threshold& limit) {
+  const CellSummary* best = nullptr;
+  for (const CellSummary& cell : cells) {
+    if (!within(cell, limit)) continue;
+    if (best == nullptr || clearly_faster(cell, *best) ||
+        (!clearly_faster(*best, cell) && cell.map_texels < best->map_texels))
+      best = &cell;
+  }
+  return best;
+}
+
+void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, Headline& out) {
+  const CellSummary* best = cheapest_within(cells, limit);
+  out.limit_met = best != nullptr;
+  if (best != nullptr)
+    out.lines.push_back(
+        fmt::format("Cheapest with {}: {}.", limit_words(limit), cell_words(*best, limit.measure)));
+  else
+    out.lines.push_back(fmt::format("No cell has {}.", limit_words(limit)));
+}
+
+}  // namespace
+
+std::string axes_words(const CellSummary& cell) {
+  std::string out;
+  for (const auto& [name, value] : cell.axes)
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
+  return out.empty() ? "the only cell" : out;
+}
+
+Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
+                        const std::optional<Threshold>& limit) {
+  Headline out;
+  if (limit) add_limit(cells, *limit, out);
+  if (cells.size() < 2) return out;
+  constexpr ErrorMeasure measure = ErrorMeasure::wrong_and_mean;
+  if (front.empty()) {
+    const auto least = std::min_element(cells.begin(), cells.end(),
+                                        [](const auto& a, const auto& b) { return a.error() < b.error(); });
+    out.lines.push_back(fmt::format("Least error: {}.", cell_words(*least, measure)));
+    return out;
+  }
+  const std::size_t fastest = front.front(), best = front.back();
+  if (fastest == best) {
+    out.lines.push_back(fmt::format("Best for error and for time: {}.", cell_words(cells[best], measure)));
+    return out;
+  }
+  out.lines.push_back(fmt::format("Best for error: {}.", cell_words(cells[best], measure)));
+  out.lines.push_back(fmt::format("Best for time: {}.", cell_words(cells[fastest], measure)));
+  out.lines.push_back(fmt::format("Best for both (least product of error and time): {}.",
+                                  cell_words(cells[balanced(cells, front)], measure)));
+  return out;
+}
+
+}  // namespace gnomon::compare

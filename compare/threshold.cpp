@@ -1,0 +1,103 @@
+#include "compare/threshold.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/comparison.h"
+#include "compare/number_text.h"
+
+namespace gnomon::compare {
+
+std::string_view measure_name(ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::wrong_and_mean:
+      return "wrong and mean";
+    case ErrorMeasure::wrong:
+      return "wrong";
+    case ErrorMeasure::mean:
+      return "mean";
+    case ErrorMeasure::flip:
+      return "flip";
+    case ErrorMeasure::edge:
+      return "edge";
+  }
+  return "";
+}
+
+std::string threshold_text(const Threshold& t) {
+  switch (t.measure) {
+    case ErrorMeasure::wrong_and_mean:
+      return fmt::format("{:.6g}%", 100.0 * t.limit);
+    case ErrorMeasure::flip:
+      return fmt::format("flip:{:.6g}", t.limit);
+    case ErrorMeasure::edge:
+      return fmt::format("edge:{:.6g}texel", t.limit);
+    default:
+      return fmt::format("{}:{:.6g}%", measure_name(t.measure), 100.0 * t.limit);
+  }
+}
+
+std::string limit_words(const Threshold& t) {
+  switch (t.measure) {
+    case ErrorMeasure::wrong_and_mean:
+      return fmt::format("at most {} wrong, and a mean error of at most as much", percent(t.limit));
+    case ErrorMeasure::wrong:
+      return fmt::format("at most {} wrong", percent(t.limit));
+    case ErrorMeasure::mean:
+      return fmt::format("a mean error of at most {}", percent(t.limit));
+    case ErrorMeasure::flip:
+      return fmt::format("a mean FLIP of at most {}", plain_number(t.limit));
+    case ErrorMeasure::edge:
+      return fmt::format("shadow edges displaced by at most {} (RMS)", texels_text(t.limit));
+  }
+  return {};
+}
+
+ErrorFigures figures_of(const LightComparison& light) {
+  return {light.error.wrong_fraction,       light.error.mean_absolute, light.error.flip,
+          light.edges.rms_texels,           light.pixels.compared,     light.pixels.uncertain,
+          light.pixels.uncertain_by_samples};
+}
+
+double figure(const ErrorFigures& f, ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::wrong_and_mean:
+      return std::max(f.wrong_fraction, f.mean_absolute);
+    case ErrorMeasure::wrong:
+      return f.wrong_fraction;
+    case ErrorMeasure::mean:
+      return f.mean_absolute;
+    case ErrorMeasure::flip:
+      return f.flip;
+    case ErrorMeasure::edge:
+      return f.edge_rms_texels;
+  }
+  return 0.0;
+}
+
+std::string figure_words(const ErrorFigures& f, ErrorMeasure measure) {
+  std::string text =
+      fmt::format("{} wrong, mean error {}", percent(f.wrong_fraction), percent(f.mean_absolute));
+  if (measure == ErrorMeasure::flip) text += ", mean FLIP " + plain_number(f.flip);
+  if (measure == ErrorMeasure::edge) text += ", edges off by " + texels_text(f.edge_rms_texels) + " (RMS)";
+  return text;
+}
+
+std::uint64_t unknown_pixels(const ErrorFigures& f, ErrorMeasure measure) {
+  const bool by_halves = measure == ErrorMeasure::wrong || measure == ErrorMeasure::wrong_and_mean;
+  return by_halves ? f.uncertain : f.uncertain - f.uncertain_by_samples;
+}
+
+bool too_uncertain(const Threshold& t, const ErrorFigures& f) {
+  const std::uint64_t unknown = unknown_pixels(f, t.measure);
+  if (t.measure == ErrorMeasure::edge) return f.compared == 0 && unknown > 0;
+  return static_cast<double>(unknown) > t.limit * static_cast<double>(f.compared + f.uncertain);
+}
+
+bool exceeds(const Threshold& t, const ErrorFigures& f) {
+  return !(figure(f, t.measure) <= t.limit);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,65 @@
+// Which cells of a sweep are worth having, and what is said of the best.
+#include <gtest/gtest.h>
+
+#include "compare/sweep/headline.h"
+
+namespace gnomon::compare {
+namespace {
+
+CellSummary cell(std::size_t index, double error, double ms, double spread, std::uint64_t texels) {
+  CellSummary out;
+  out.cell = index;
+  out.axes = {{"map_size", std::to_string(texels)}};
+  out.compared = 1000;
+  out.wrong_fraction = out.mean_absolute = error;
+  out.lights = {{error, error, 0.0, 0.0, 1000, 0, 0}};
+  out.raster_ms = ms, out.spread_ms = spread, out.runs = 3;
+  out.map_texels = texels;
+  return out;
+}
+
+using Indices = std::vector<std::size_t>;
+
+TEST(ParetoFront, ATimeInsideTheNoiseIsNotWorthHaving) {
+  const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.05, 10.5, 1.0, 128),
+                                       cell(2, 0.01, 20.0, 1.0, 256), cell(3, 0.02, 25.0, 1.0, 512)};
+  // 0 is faster than 1 by half of what either is off by, 3 is beaten by 2.
+  EXPECT_EQ(pareto_front(cells), (Indices{1, 2}));
+}
+
+TEST(ParetoFront, OneRunMayBeOffByAQuarter) {
+  std::vector<CellSummary> cells{cell(0, 0.10, 9.0, 0.0, 64), cell(1, 0.05, 10.0, 0.0, 128)};
+  EXPECT_EQ(pareto_front(cells), (Indices{0, 1})) << "three runs without any spread";
+  cells[0].runs = cells[1].runs = 1;
+  EXPECT_EQ(pareto_front(cells), (Indices{1}));
+  cells[0].raster_ms = 7.0;
+  EXPECT_EQ(pareto_front(cells), (Indices{0, 1}));
+}
+
+TEST(ParetoFront, OfEqualErrorsTheLeastCostCountsAndNotTheNoise) {
+  EXPECT_EQ(pareto_front({cell(0, 0.01, 10.0, 1.0, 4096), cell(1, 0.01, 10.4, 1.0, 64)}), (Indices{1}));
+  EXPECT_EQ(pareto_front({cell(0, 0.01, 10.0, 1.0, 4096), cell(1, 0.01, 14.0, 1.0, 64)}), (Indices{0}));
+}
+
+TEST(ParetoFront, UntimedCellsAreOnNone) {
+  EXPECT_TRUE(pareto_front({cell(0, 0.1, std::numeric_limits<double>::quiet_NaN(), 0.0, 64)}).empty());
+}
+
+TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
+  const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128),
+                                       cell(2, 0.01, 90.0, 1.0, 256)};
+  const Headline said = sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::wrong, 0.05});
+  ASSERT_EQ(said.lines.size(), 4u);
+  EXPECT_EQ(said.lines[0],
+            "Cheapest with at most 5.0 % wrong: cell 1 (map_size 128) with 2.0 % wrong, mean error 2.0 % in "
+            "12 ms.");
+  EXPECT_TRUE(said.lines[1].starts_with("Best for error: cell 2 ")) << said.lines[1];
+  EXPECT_TRUE(said.lines[2].starts_with("Best for time: cell 0 ")) << said.lines[2];
+  EXPECT_TRUE(said.lines[3].starts_with("Best for both (least product of error and time): cell 1 "))
+      << said.lines[3];
+  EXPECT_TRUE(said.limit_met);
+  EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::mean, 0.005}).limit_met);
+}
+
+}  // namespace
+}  // namespace gnomon::compare
