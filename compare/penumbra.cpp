@@ -103,7 +103,10 @@ class Walker {
     const auto shadow = walk(v, half, -normal, own, dark, false);
     if (lit && shadow) out.penumbra = glm::length(lit->world - shadow->world);
     if (!shadow) return out;
-    const auto end = walk(v, shadow->pixel - step * normal, -normal, own, dark, true);
+    // From where samples no longer make it lighter than that again by chance.
+    const auto deep = walk(v, shadow->pixel, -normal, own, 0.5 * dark, false);
+    if (!deep) return out;
+    const auto end = walk(v, deep->pixel, -normal, own, dark, true);
     if (end) out.umbra = glm::length(shadow->world - end->world);
     return out;
   }

@@ -136,11 +136,10 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
   if (!compare::too_uncertain(threshold, figures)) return true;
   console.message(fmt::format(
       "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
-      "{} "
-      "allows to be wrong: the truth there lies within its own error bound (--precision exact decides rays, "
-      "more --samples decide lights with size)",
-      light, compare::grouped(figures.uncertain), compare::grouped(figures.compared + figures.uncertain),
-      limit));
+      "{} allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
+      "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
+      light, compare::grouped(compare::unknown_pixels(figures, threshold.measure)),
+      compare::grouped(figures.compared + figures.uncertain), limit));
   return false;
 }
 

@@ -30,8 +30,9 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
   const auto merged = compare::merge_sweeps(command.shards, command.folder, command.report_max_mb);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
-  console.message(fmt::format("sweep: {}/report.html, {} cells from {} shards", command.folder, merged->cells,
-                              command.shards.size()));
+  console.message(fmt::format("sweep: {}/report.html, {} cell{} from {} shard{}", command.folder,
+                              merged->cells, merged->cells == 1 ? "" : "s", command.shards.size(),
+                              command.shards.size() == 1 ? "" : "s"));
   if (!command.quiet)
     for (const std::string& line : merged->page.headline.lines) print_data(line + "\n");
   return ExitCode::done;

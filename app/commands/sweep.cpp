@@ -122,7 +122,7 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (const auto written = write_file(script, slurm_script(program, task_arguments(command), folder, tasks));
       !written)
     return fail(written.error());
-  console.message(fmt::format("submitting {} tasks, then waiting for them", tasks));
+  console.message(fmt::format("submitting {} task{}, then waiting", tasks, tasks == 1 ? "" : "s"));
   if (const auto done = run_slurm_array(script, folder, tasks); !done) return fail(done.error());
   const OutputGuard whole_outputs;
   if (command.restart) {
@@ -132,7 +132,8 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
       compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb, command.max_error);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
-  console.message(fmt::format("sweep: {}/report.html, {} cells", command.folder, merged->cells));
+  console.message(fmt::format("sweep: {}/report.html, {} cell{}", command.folder, merged->cells,
+                              merged->cells == 1 ? "" : "s"));
   return announce(command, merged->page.headline);
 }
 
@@ -164,8 +165,8 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (!journal) return fail(journal.error());
   if (journal->was_torn()) console.note("the last line was torn; its cell is made anew");
   if (!journal->lines().empty())
-    console.message(
-        fmt::format("{} of {} cells are there already", journal->lines().size(), plan->cells.size()));
+    console.message(fmt::format("{} of {} cell{} there already", journal->lines().size(), plan->cells.size(),
+                                plan->cells.size() == 1 ? " is" : "s are"));
   if (auto measured = measure_ray_tracer(command, *plan, *loaded, console); !measured)
     return fail(measured.error());
   if (journal->lines().size() < plan->cells.size()) {
@@ -177,7 +178,8 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   }();
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  console.message(fmt::format("sweep: {}/report.html, {} cells, {:.1f} s", command.folder, plan->cells.size(),
+  console.message(fmt::format("sweep: {}/report.html, {} cell{}, {:.1f} s", command.folder,
+                              plan->cells.size(), plan->cells.size() == 1 ? "" : "s",
                               total.elapsed_ms() / 1000.0));
   return announce(command, written->headline);
 }

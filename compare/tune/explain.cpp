@@ -53,8 +53,10 @@ std::string floor_text(double floor, ErrorMeasure measure) {
       return texels_text(floor) + " of displacement";
     case ErrorMeasure::mean:
       return "a mean error of " + percent(floor);
-    default:
+    case ErrorMeasure::wrong:
       return percent(floor) + " wrong";
+    default:
+      return "an error of " + percent(floor);
   }
 }
 
