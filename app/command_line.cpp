@@ -21,11 +21,15 @@
 #include "app/lesson_scene.h"
 #include "app/man_page.h"
 #include "app/manual.h"
+#include "app/options.h"
+#include "app/output_path.h"
 #include "app/shell.h"
 #include "app/suggest.h"
 #include "compare/option_names.h"
+#include "scene/files/write_file.h"
 #include "scene/load.h"
 #include "scene/one_line.h"
+#include "scene/stages.h"
 
 namespace gnomon::app {
 
@@ -160,6 +164,8 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_verify(*program, invocation);
   add_bench(*program, invocation);
   add_view(*program, invocation);
+  for (const char* command : {"compare", "raster", "raytrace", "sweep", "tune"})
+    add_trace(*program->get_subcommand(command), invocation.trace);
   return program;
 }
 
@@ -170,8 +176,26 @@ int code_after_stdout(int code) {
   return static_cast<int>(ErrorKind::cannot_write);
 }
 
+/// When all else is done, so that every stage is in it.
+Expected<void> write_trace(const std::string& path) {
+  const StageLog* log = StageLog::current();
+  if (path.empty() || log == nullptr) return {};
+  const OutputGuard whole_file;
+  if (const auto made = make_folder_for(path); !made) return made;
+  return write_file(path, log->trace("gnomon"));
+}
+
+Expected<ExitCode> act_and_trace(const Invocation& invocation) {
+  if (const auto writable = check_output_file(invocation.trace); !writable) return fail(writable.error());
+  if (StageLog* log = StageLog::current()) log->keep_runs(!invocation.trace.empty());
+  Expected<ExitCode> code = invocation.action();
+  if (!code) return code;
+  if (const auto written = write_trace(invocation.trace); !written) return fail(written.error());
+  return code;
+}
+
 int run_action(const Invocation& invocation) {
-  const Expected<ExitCode> code = invocation.action();
+  const Expected<ExitCode> code = act_and_trace(invocation);
   if (!code) {
     print_error(code.error());
     return static_cast<int>(code.error().kind);
@@ -181,7 +205,7 @@ int run_action(const Invocation& invocation) {
 }
 
 int parse_and_run(int argc, const char* const* argv, bool runs) {
-  Invocation invocation{command_line_text(argc, argv), {}};
+  Invocation invocation{command_line_text(argc, argv), {}, {}};
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
     print_error(help_text(*program));

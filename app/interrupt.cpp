@@ -1,4 +1,5 @@
-// Signals are process-wide, and so is this file's state; it is the only such state of the program.
+// Signals are process-wide, and so is this file's state; with each thread's StageLog (scene/stages.h)
+// it is the only such state of the program.
 #include "app/interrupt.h"
 
 #include <signal.h>

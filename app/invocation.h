@@ -18,6 +18,7 @@ enum class ExitCode : int { done = 0, threshold_exceeded = 1 };
 struct Invocation {
   std::string command_line;  ///< as the user could type it again
   std::function<Expected<ExitCode>()> action;
+  std::string trace;  ///< file for the stages of the run; empty: none
 };
 
 void add_compare(CLI::App& program, Invocation& invocation);

@@ -1,8 +1,10 @@
 // The program `gnomon`.
 #include "app/command_line.h"
 #include "app/interrupt.h"
+#include "scene/stages.h"
 
 int main(int argc, char** argv) {
+  const gnomon::StageLog stages;  // first of all, so that the account begins with the process
   gnomon::app::watch_for_interrupts();
   return gnomon::app::run_command_line(argc, argv);
 }

@@ -321,6 +321,12 @@ void add_json(CLI::App& command, std::string& path, const char* what) {
       ->type_name("FILE|-");
 }
 
+void add_trace(CLI::App& command, std::string& path) {
+  add_output(
+      command, "--trace", path, "FILE.json",
+      "also write the stages of the run in the Trace Event Format, which Perfetto opens [default off]");
+}
+
 void add_quiet(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet,-q", quiet, "print nothing but errors and what --json - asks for [default off]");
 }

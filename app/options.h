@@ -68,6 +68,8 @@ std::string beside_note(double page_mb, double max_mb);
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
                 const std::string& what);
 void add_json(CLI::App& command, std::string& path, const char* what);
+/// --trace.
+void add_trace(CLI::App& command, std::string& path);
 void add_quiet(CLI::App& command, bool& quiet);
 
 }  // namespace gnomon::app

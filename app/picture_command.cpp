@@ -8,6 +8,8 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_file.h"
+#include "compare/time_budget.h"
+#include "scene/stages.h"
 
 namespace gnomon::app {
 
@@ -50,11 +52,14 @@ Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& lo
   const OutputGuard whole_outputs;
   if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
   const double exposure = choose_exposure(command.exposure, *loaded.scene, color);
+  TimedStage writing("write");
   if (const auto written = writer.picture(exposure); !written) return fail(written.error());
+  writing.end();
   console.message(fmt::format("picture: {}", command.image));
   const RenderRecord record{command.command_line, command.image, loaded, exposure, watch.elapsed_ms()};
   if (command.json.empty()) return ExitCode::done;
-  if (const auto out = hand_out_json(command.json, writer.json(record)); !out) return fail(out.error());
+  if (const auto out = hand_out_json(command.json, compare::with_time_budget(writer.json(record))); !out)
+    return fail(out.error());
   return ExitCode::done;
 }
 

@@ -14,6 +14,7 @@
 #include "hybrid/visibility.h"
 #include "raster/shader_folder.h"
 #include "scene/load.h"
+#include "scene/stages.h"
 #include "scene/tessellate.h"
 #include "scene/timing.h"
 
@@ -21,6 +22,7 @@ namespace gnomon::app {
 
 Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate,
                            const std::string& camera) {
+  const TimedStage stage("load");
   const Stopwatch watch;
   console.progress("loading", 0.0);
   Expected<Scene> scene = load_scene(scene_of_lesson(path_or_name), {.camera = camera});
@@ -50,7 +52,9 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
 
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
                                                           const std::string& shader_folder) {
+  TimedStage stage("context");
   Expected<std::unique_ptr<raster::Context>> context = raster::create_context(backend);
+  stage.end();
   if (!context) return fail(context.error());
   return make_renderer(std::move(*context), loaded, shader_folder);
 }

@@ -13,6 +13,7 @@
 #include "compare/pixel_list.h"
 #include "raytrace/shape_sheets.h"
 #include "scene/solid.h"
+#include "scene/stages.h"
 
 namespace gnomon::compare {
 
@@ -35,6 +36,7 @@ bool ray_leaves_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
 }  // namespace
 
 Image<Label> sort_pixels(const LadderInput& in) {
+  const TimedStage stage("labels");
   Image<Label> labels(in.drawn.primitive.size, Label::background);
   tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
     const SurfacePoint& receiver = in.traced.receiver.data[i];
@@ -231,6 +233,7 @@ std::size_t texel_of_group(const LowerClimb& lower, std::size_t group) {
 
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
+  const TimedStage stage("columns and sheets");
   tbb::parallel_for(std::size_t{0}, rungs.size(),
                     [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
   groups = group_by_texel(in.record, compared_pixels(labels_climbed(in, sorted)), outside);
@@ -254,6 +257,7 @@ namespace {
 
 /// `out`: the lower rungs and what is to be compared.
 Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
+  const TimedStage stage("labels");
   const raster::Technique technique = in.drawn.options.map.technique;
   if (technique == raster::Technique::hybrid || technique == raster::Technique::izb)
     return climb_without_map(in, std::move(out));

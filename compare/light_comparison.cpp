@@ -8,6 +8,7 @@
 #include "compare/penumbra.h"
 #include "compare/ssim.h"
 #include "compare/theory.h"
+#include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {
@@ -119,6 +120,7 @@ MapMeasures measure_map(const LadderInput& in, const Image<Label>& labels) {
 
 LightComparison measure_light(const LadderInput& in, std::size_t record, Climb climbed,
                               const MeasureOptions& options) {
+  const TimedStage stage("metrics");
   LightComparison out;
   out.light = in.record.light;
   out.record = record;
@@ -144,6 +146,7 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   out.texel_world = map.texel_world;
   out.theory = map.theory;
   if (in.drawn.custom_shader) return out;  // what it draws does not follow from the gaps
+  const TimedStage curve("curve");
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);
   out.bias_curve = draw_bias_curve(gaps, out.texel_world[1], in.record.bias_constant_world,

@@ -61,6 +61,7 @@ inline constexpr double default_report_max_mb = 40.0;  ///< megabytes, of a page
 
 struct WrittenOutputs {
   std::vector<std::string> paths;
+  std::string result;   ///< the text of result.json, until it is written without its time budget
   bool beside = false;  ///< the page's pictures and pixels are files beside it: it would have grown too large
   double page_mb = 0.0;  ///< what the page, or the page with the files beside it, weighs
 };
@@ -72,5 +73,11 @@ struct WrittenOutputs {
 Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::string& folder,
                                        double report_max_mb = default_report_max_mb,
                                        const PageIntroduction* introduction = nullptr);
+
+/// The same in two steps, so that the time budget in result.json, which is written last, holds what the other
+/// files took and whatever is done in between. Where no StageLog runs it has none.
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, const std::string& folder,
+                                              double report_max_mb, const PageIntroduction* introduction);
+Expected<void> write_result(WrittenOutputs& written, const std::string& folder);
 
 }  // namespace gnomon::compare

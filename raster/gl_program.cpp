@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "raster/shader_text.h"
+#include "scene/stages.h"
 
 namespace gnomon::raster {
 namespace {
@@ -156,6 +157,7 @@ std::string expand_shader(std::string_view file, std::span<const std::string_vie
 
 Expected<Program> Program::link(const Gl& gl, std::string_view vertex, std::string_view fragment,
                                 std::span<const std::string_view> defines) {
+  const TimedStage timed("shader compile");
   Program program(gl, gl->CreateProgram());
   const Stage vertex_stage(gl, GL_VERTEX_SHADER);
   const Stage fragment_stage(gl, GL_FRAGMENT_SHADER);
@@ -175,6 +177,7 @@ Expected<Program> Program::link(const Gl& gl, std::string_view vertex, std::stri
 }
 
 Expected<Program> Program::link_compute(const Gl& gl, std::string_view source) {
+  const TimedStage timed("shader compile");
   Program program(gl, gl->CreateProgram());
   const Stage stage(gl, GL_COMPUTE_SHADER);
   const Expansion text = expand_source(source, "compute", gl.shader_folder());

@@ -18,6 +18,7 @@
 #include "raster/shader_folder.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"
+#include "scene/stages.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -70,7 +71,9 @@ class GlRenderer final : public Renderer {
                        LightRecord* record);
   Expected<void> shade_without_light(Job& job);
   using Pass = std::function<Expected<void>()>;
-  Expected<void> time_pass(int runs, Times& times, const Pass& warm_up, const Pass& pass);
+  /// `repeats`: the stage that all of it is charged to, for only frames that are kept count as made.
+  Expected<void> time_pass(std::string_view repeats, int runs, Times& times, const Pass& warm_up,
+                           const Pass& pass);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
     RasterOptions options;  ///< without the bias
@@ -184,6 +187,7 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   if (scene.lights.empty()) {
     if (auto ok = shade_without_light(job); !ok) return fail(ok.error());
   }
+  const TimedStage reading("read-back");
   shading_.read_color(job.frame.color);
   shading_.read_primitives(job.frame.primitive);
   if (auto ok = gl_->check("reading the picture back"); !ok) return fail(ok.error());
@@ -192,8 +196,10 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
 }
 
 // The warm-up, then the timed runs, each from an idle device to an idle device.
-Expected<void> GlRenderer::time_pass(int runs, Times& times, const Pass& warm_up, const Pass& pass) {
+Expected<void> GlRenderer::time_pass(std::string_view repeats, int runs, Times& times, const Pass& warm_up,
+                                     const Pass& pass) {
   if (runs == 0) return {};
+  const TimedStage stage(repeats, TimedStage::Inner::included);
   if (auto ok = warm_up(); !ok) return ok;
   (*gl_)->Finish();
   Expected<void> result;
@@ -279,8 +285,9 @@ Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& r
   job.frame.map_texels += texels_of(request.map);
   if (record != nullptr) {
     const Pass pass = [&] { return external_.prepare(request, true); };
-    if (auto ok = time_pass(job.options.runs, record->map_pass, pass, pass); !ok) return ok;
+    if (auto ok = time_pass("sheet runs", job.options.runs, record->map_pass, pass, pass); !ok) return ok;
   }
+  const TimedStage stage("sheets");
   return external_.prepare(request, false);
 }
 
@@ -334,10 +341,14 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
       }
       return draw_map(map, false);
     };
-    if (auto ok = time_pass(job.options.runs, record->map_pass, pass, pass); !ok) return ok;
+    if (auto ok = time_pass("map runs", job.options.runs, record->map_pass, pass, pass); !ok) return ok;
   }
   const bool with_ids = record != nullptr && hands_on_map(job.options);
+  TimedStage drawing(with_ids ? "map with ids" : "map");
   if (auto ok = draw_map(map, with_ids); !ok) return ok;
+  (*gl_)->Finish();
+  drawing.end();
+  const TimedStage reading("read-back");
   if (with_ids) map_pass_.read(record->map, true);
   if (with_ids && technique_pass_ != nullptr) technique_pass_->read(record->map);
   return gl_->check("drawing the shadow map");
@@ -372,7 +383,8 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
       if (asked != nullptr) return pass();
       return shading_.warm_up(buffers_, job.view, timed, !job.first_light);
     };
-    if (auto ok = time_pass(job.options.runs, record->shade_pass, warm_up, pass); !ok) return ok;
+    if (auto ok = time_pass("shading runs", job.options.runs, record->shade_pass, warm_up, pass); !ok)
+      return ok;
     if (job.options.runs > 0) last_timed_ = timed;
   }
   if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {
@@ -380,7 +392,11 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
     job.visibility_drawn = true;
   }
   const ShadePermutation kept = shade_permutation(light, map, job.first_light, records);
+  TimedStage shading(records ? "shading with records" : "shading");
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
+  (*gl_)->Finish();
+  shading.end();
+  const TimedStage reading("read-back");
   if (records) shading_.read_records(*record);
   if (records && !gl_->shader_folder().replaced().empty()) {
     const std::string file = technique_file(map, light);
@@ -429,7 +445,9 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> co
   if (!folder) return fail(folder.error());
   (*gl)->shader_folder() = std::move(*folder);
   const SceneFeatures features = scene_features(plan, world);
+  TimedStage uploading("upload");
   auto buffers = WorldBuffers::upload(**gl, world, features);
+  uploading.end();
   if (!buffers) return fail(buffers.error());
   auto renderer =
       std::make_unique<GlRenderer>(std::move(context), std::move(*gl), world, features, std::move(*buffers));

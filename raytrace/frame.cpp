@@ -5,16 +5,30 @@
 #include "raytrace/picture.h"
 #include "raytrace/tiles.h"
 #include "scene/paging.h"
+#include "scene/stages.h"
 
 namespace gnomon::raytrace {
 namespace {
 
+/// Where the time of a pass is charged: the last run makes what is kept, the others only repeat it.
+struct PassStages {
+  std::string_view kept, repeats;
+};
+constexpr PassStages primary_stages{"primary rays", "primary ray repeats"};
+constexpr PassStages shadow_stages{"shadow rays", "shadow ray repeats"};
+constexpr PassStages soft_shadow_stages{"soft shadow rays", "soft shadow ray repeats"};
+
 /// The warm-up run, when there are several, is made and not kept.
 template <class Pass>
-Times time_pass(int runs, const Pass& pass) {
+Times time_pass(const PassStages& stages, int runs, const Pass& pass) {
   Times times;
-  if (runs > 1) pass();
-  for (int run = 0; run < std::max(1, runs); ++run) time_run(times, pass);
+  if (runs > 1) {
+    const TimedStage repeats(stages.repeats, TimedStage::Inner::included);
+    pass();
+    for (int run = 1; run < runs; ++run) time_run(times, pass);
+  }
+  const TimedStage kept(stages.kept);
+  time_run(times, pass);
   return times;
 }
 
@@ -38,7 +52,7 @@ bool receivers_unstored(const Tracer& tracer, const View& view, std::span<const 
 void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                   RayTracedFrame& frame, UnstoredReceivers& unstored, CompactTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
-  frame.primary_rays = time_pass(options.runs, [&] {
+  frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
     primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
                  {.hits = {unstored.hits.data(), unstored.hits.size()},
                   .receivers = nullptr,
@@ -50,7 +64,7 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
 void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                    RayTracedFrame& frame, CompactTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
-  frame.primary_rays = time_pass(options.runs, [&] {
+  frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
     if (blocks_apply(tracer.structures(), view)) {
       primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
                    {.hits = {}, .receivers = &frame.receiver, .compact = {tiles.data(), tiles.size()}});
@@ -77,10 +91,12 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
       .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
   const TileGrid grid{options.size};
   std::vector<std::uint64_t> rays(grid.count());
-  truth.shadow_rays = time_pass(options.runs, [&] {
+  truth.shadow_rays = time_pass(shadow_stages, options.runs, [&] {
     std::fill(rays.begin(), rays.end(), 0);
     if (packets_apply(tracer.structures())) {
+      TimedStage structure("light structure");
       const Sight sight = sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
+      structure.end();
       for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
         const ReceiverSource source = unstored.apply()
                                           ? unstored.source(tracer, view, tile)
@@ -114,7 +130,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
     std::uint64_t asked = 0, cast = 0;
   };
   std::vector<Counts> rays(grid.count());
-  truth.soft_shadow_rays = time_pass(options.runs, [&] {
+  truth.soft_shadow_rays = time_pass(soft_shadow_stages, options.runs, [&] {
     std::fill(rays.begin(), rays.end(), Counts{});
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
@@ -173,6 +189,7 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   if (!at_centres) frame.rays.primary = options.size.pixels();
   if (options.picture) {
     frame.color = ColorImage(options.size);
+    const TimedStage stage("ray-traced picture");
     const Stopwatch watch;
     shade_picture(tracer, plan, view, options, unstored.apply() ? &unstored : nullptr, frame);
     frame.picture_ms = watch.elapsed_ms();

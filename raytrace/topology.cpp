@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "raytrace/sheets.h"
+#include "scene/stages.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -40,6 +41,7 @@ struct HalfEdge {
 
 Topology::Topology(const World& world)
     : across_(3 * world.triangles.size(), boundary), welded_(across_.size()) {
+  const TimedStage stage("topology");
   const std::vector<std::uint32_t> vertex = weld(world.positions);
   std::vector<HalfEdge> edges(across_.size());
   tbb::parallel_for(std::size_t{0}, world.triangles.size(), [&](std::size_t t) {

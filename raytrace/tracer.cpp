@@ -6,6 +6,7 @@
 #include "raytrace/ray_offset.h"
 #include "raytrace/verdict.h"
 #include "raytrace/wide/single.h"
+#include "scene/stages.h"
 #include "scene/timing.h"
 
 namespace gnomon::raytrace {
@@ -116,6 +117,7 @@ struct Tracer::Impl {
 };
 
 Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std::make_unique<Impl>()) {
+  const TimedStage stage("build");
   const Stopwatch watch;
   impl_->structures = make_structures(world, accel, precision);
   const Bvh& bvh = impl_->structures.bvh;

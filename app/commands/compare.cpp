@@ -20,7 +20,9 @@
 #include "app/technique_options.h"
 #include "compare/number_text.h"
 #include "compare/outputs.h"
+#include "compare/time_budget.h"
 #include "scene/files/write_file.h"
+#include "scene/stages.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -73,7 +75,7 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
   if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
     return fail(fits.error());
-  const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   auto comparison =
       compare::compare_world(*loaded.world, **renderer, command.setting.options,
@@ -81,6 +83,10 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   if (!comparison) return comparison;
   const auto used = check_shaders_used(command.shader_folder, comparison->raster, *loaded.scene, console);
   if (!used) return fail(used.error());
+  {
+    const TimedStage stage("exit");
+    renderer->reset();
+  }
   comparison->command = command.command_line;
   comparison->seed = command.seed;
   comparison->machine = machine_info();
@@ -111,17 +117,18 @@ Expected<void> write_json(const CompareCommand& command) {
   return write_file(command.json, *json);
 }
 
-Expected<void> write_all(const CompareCommand& command, const compare::Comparison& comparison,
-                         Console& console) {
-  const OutputGuard whole_outputs;
-  const auto written = compare::write_outputs(comparison, command.folder, command.report_max_mb);
+/// All but result.json.
+Expected<compare::WrittenOutputs> write_all(const CompareCommand& command,
+                                            const compare::Comparison& comparison, Console& console) {
+  auto written = compare::write_all_but_result(comparison, command.folder, command.report_max_mb, nullptr);
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   if (!command.aov.empty()) {
-    if (const auto made = make_folder_for(command.aov); !made) return made;
-    if (const auto saved = compare::write_aov(comparison, command.aov); !saved) return saved;
+    const TimedStage stage("write");
+    if (const auto made = make_folder_for(command.aov); !made) return fail(made.error());
+    if (const auto saved = compare::write_aov(comparison, command.aov); !saved) return fail(saved.error());
   }
-  return write_json(command);
+  return written;
 }
 
 /// Holds one light against --fail-above; the words say what is too much.
@@ -153,6 +160,13 @@ ExitCode judge(const CompareCommand& command, const compare::Comparison& compari
   return code;
 }
 
+/// Before result.json is written, so that what it takes is in its time budget.
+void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
+  const TimedStage stage("exit");
+  comparison = {};
+  loaded = {};
+}
+
 /// A large picture's shadow map and shading take long enough to be timed once.
 constexpr std::size_t large_picture = 1'000'000;  // pixels
 constexpr int runs_of_large = 1;
@@ -170,7 +184,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   command.setting.options.raytrace.seed = command.seed;
 
   if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
-  const auto loaded = load(command.scene, console, command.tessellate, command.camera);
+  auto loaded = load(command.scene, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   const auto posed =
@@ -180,14 +194,22 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!comparison) return fail(comparison.error());
   comparison->total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
-  if (const auto written = write_all(command, *comparison, console); !written) return fail(written.error());
-
-  if (!command.quiet && command.json != "-")
-    print_data(compare::summary_table(*comparison, stdout_takes_colour()));
+  const OutputGuard whole_outputs;
+  auto written = write_all(command, *comparison, console);
+  if (!written) return fail(written.error());
+  std::string summary = compare::summary_table(*comparison, stdout_takes_colour());
+  const ExitCode code = judge(command, *comparison, console);
+  give_back(*comparison, *loaded);
+  if (const auto result = compare::write_result(*written, command.folder); !result)
+    return fail(result.error());
+  if (const auto json = write_json(command); !json) return fail(json.error());
+  if (const StageLog* log = StageLog::current())
+    summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
+  if (!command.quiet && command.json != "-") print_data(summary);
   console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)",
                               command.folder, total.elapsed_ms() / 1000.0,
                               static_cast<double>(peak_memory_bytes()) / 1e6));
-  return judge(command, *comparison, console);
+  return code;
 }
 
 void add_options(CLI::App& app, CompareCommand& command) {

@@ -186,6 +186,7 @@ std::string cost_section(const PageInput& in) {
 <h2 id="cost-title">Time and work</h2>
 <p>Wall-clock medians on this machine, each pass finished before the clock stops.</p>
 )" + time_table(in) +
+         (in.budget != nullptr ? time_budget_block(*in.budget) : std::string()) +
          R"(<div class="columns">
 <div>)" + work_table(in.comparison) +
          "</div>\n<div>" + whole_table(in) + "</div>\n</div>\n</section>\n";

@@ -42,12 +42,11 @@ std::string sections(const PageInput& in) {
 
 }  // namespace
 
-BuiltPage report_page(PageInput in, double max_mb) {
+BuiltPage report_page(PageInput in, PageData& data, double max_mb) {
   PageShell shell;
   shell.title = title(in);
   shell.links = links(in);
   shell.result = in.json;
-  PageData data = page_data(in);
   shell.data = std::move(data.head);
   shell.parts = std::move(data.parts);
   shell.main = sections(in);
@@ -61,10 +60,10 @@ BuiltPage report_page(PageInput in, double max_mb) {
 Expected<std::string> report_html(const Comparison& comparison) {
   const Expected<PictureSet> pictures = encode_pictures(comparison);
   if (!pictures) return fail(pictures.error());
-  return report_page(
-             {comparison, *pictures, result_json(comparison), result_csv(comparison), comparison.total_ms},
-             std::numeric_limits<double>::infinity())
-      .html;
+  const std::string json = result_json(comparison), csv = result_csv(comparison);
+  const PageInput input{comparison, *pictures, json, csv, comparison.total_ms};
+  PageData data = page_data(input);
+  return report_page(input, data, std::numeric_limits<double>::infinity()).html;
 }
 
 }  // namespace gnomon::compare

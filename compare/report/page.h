@@ -10,6 +10,7 @@
 #include "compare/comparison.h"
 #include "compare/picture_set.h"
 #include "compare/report/shell.h"
+#include "scene/stages.h"
 
 namespace gnomon::compare {
 
@@ -20,18 +21,21 @@ struct PageIntroduction {
   std::string html;   ///< sections
 };
 
+struct PageData;  // page_data.h
+
 struct PageInput {
   const Comparison& comparison;
   const PictureSet& pictures;
-  std::string_view json;  ///< result.json's text, embedded in the page and offered for saving
+  std::string_view json;  ///< result.json's text so far, embedded in the page and offered for saving
   std::string_view csv;
   double total_ms = 0.0;
   const PageIntroduction* introduction = nullptr;
-  bool beside = false;  ///< pictures and pixels are files beside the page; set by report_page
+  const TimeBudget* budget = nullptr;  ///< as in `json`, where it has one
+  bool beside = false;                 ///< pictures and pixels are files beside the page; set by report_page
 };
 
-/// The whole page; of more than `max_mb` megabytes its data, and the set's pictures by their file names, are
-/// beside it.
-BuiltPage report_page(PageInput input, double max_mb);
+/// The whole page, which takes what is in `data`; of more than `max_mb` megabytes its data, and the set's
+/// pictures by their file names, are beside it.
+BuiltPage report_page(PageInput input, PageData& data, double max_mb);
 
 }  // namespace gnomon::compare
