@@ -86,7 +86,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, cons
   const StageLog* log = StageLog::current();
   const TimeBudget budget = log != nullptr ? log->budget() : TimeBudget{};
   const std::string json = log != nullptr ? with_time_budget(result, budget) : result;
-  const std::string csv = result_csv(json);
+  const std::string csv = result_csv(result);
   input.json = json, input.csv = csv, input.total_ms = total_ms;
   input.budget = log != nullptr ? &budget : nullptr;
   const BuiltPage page = report_page(input, data, report_max_mb);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "app/effect_options.h"
 #include "app/interrupt.h"
@@ -194,7 +195,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!comparison) return fail(comparison.error());
   comparison->total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
-  const OutputGuard whole_outputs;
+  std::optional<OutputGuard> whole_outputs(std::in_place);
   auto written = write_all(command, *comparison, console);
   if (!written) return fail(written.error());
   std::string summary = compare::summary_table(*comparison, stdout_takes_colour());
@@ -203,6 +204,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (const auto result = compare::write_result(*written, command.folder); !result)
     return fail(result.error());
   if (const auto json = write_json(command); !json) return fail(json.error());
+  whole_outputs.reset();
   if (const StageLog* log = StageLog::current())
     summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
   if (!command.quiet && command.json != "-") print_data(summary);
