@@ -304,6 +304,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
               {{"map_pass", times(drawn.map_pass)},
                {"shade_pass", times(drawn.shade_pass)},
                {"shadow_rays", times(truth.shadow_rays)},
+               {"exact_shadows", times(truth.exact_times())},
                {"classify", times(light.classify)}}}};
   if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
   if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
