@@ -4,7 +4,7 @@
 add_library(gnomon_flags INTERFACE)
 target_compile_features(gnomon_flags INTERFACE cxx_std_20)
 target_include_directories(gnomon_flags INTERFACE "${PROJECT_SOURCE_DIR}")
-# Contraction to FMA makes a watertight triangle test leak (see raytrace/intersect.h).
+# Contraction to FMA makes a watertight triangle test leak (see raytrace/shapes/intersect.h).
 target_compile_options(gnomon_flags INTERFACE -ffp-contract=off)
 target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
 

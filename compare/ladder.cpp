@@ -11,7 +11,7 @@
 #include "compare/exact_depth.h"
 #include "compare/labelling.h"
 #include "compare/pixel_list.h"
-#include "raytrace/shape_sheets.h"
+#include "raytrace/sheets/shape_sheets.h"
 #include "scene/solid.h"
 #include "scene/stages.h"
 

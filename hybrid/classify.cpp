@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "hybrid/classify.h"
-#include "raytrace/packet/lanes-inl.h"
+#include "raytrace/packets/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::hybrid::HWY_NAMESPACE {
@@ -41,7 +41,7 @@ struct Local {
       : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
   V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
 };
-/// Of the coefficient, the position (1.13, raytrace/packet/compact.h) and three operations: 2^-24 each.
+/// Of the coefficient, the position (1.13, raytrace/packets/compact.h) and three operations: 2^-24 each.
 constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
-#include "raytrace/packet/compact.h"
+#include "raytrace/packets/compact.h"
 
 namespace gnomon::hybrid {
 

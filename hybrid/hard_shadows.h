@@ -12,7 +12,7 @@
 
 #include "hybrid/light_sheets.h"
 #include "hybrid/receivers.h"
-#include "raytrace/packet/passes.h"
+#include "raytrace/packets/passes.h"
 #include "scene/image.h"
 
 namespace gnomon::hybrid {

@@ -18,7 +18,7 @@ double sum_of_magnitudes(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// The sign of the triangle's plane at the light, as raytrace/column.h has it, in the world's axes.
+/// The sign of the triangle's plane at the light, as raytrace/sheets/column.h has it, in the world's axes.
 std::int8_t facing_of(const std::array<Vec3, 3>& corners, const LightView& view, const WorldBounds& bounds) {
   const bool perspective = view.projection == LightProjection::perspective;
   const Vec3 q = corners[0] - view.origin;

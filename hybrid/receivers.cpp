@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "raytrace/packet/passes.h"
+#include "raytrace/packets/passes.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::hybrid {

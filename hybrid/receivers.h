@@ -5,8 +5,8 @@
 // rasterizer's rounding at an outline), the tracer's nearest hit stands in.
 #pragma once
 
-#include "raytrace/packet/compact.h"
-#include "raytrace/packet/huge_array.h"
+#include "raytrace/huge_array.h"
+#include "raytrace/packets/compact.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 #include "scene/image.h"

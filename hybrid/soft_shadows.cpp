@@ -3,8 +3,8 @@
 #include "hybrid/tile_shapes.h"
 
 #include "raytrace/error_bounds.h"
-#include "raytrace/light_samples.h"
-#include "raytrace/picture.h"
+#include "raytrace/shading/light_samples.h"
+#include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::hybrid {

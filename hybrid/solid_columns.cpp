@@ -1,7 +1,7 @@
 #include "hybrid/solid_columns.h"
 
-#include "raytrace/along_ray.h"
 #include "raytrace/error_bounds.h"
+#include "raytrace/shapes/along_ray.h"
 
 namespace gnomon::hybrid {
 namespace {

@@ -12,7 +12,7 @@
 #include <array>
 
 #include "hybrid/tile_shapes.h"
-#include "raytrace/bounds.h"
+#include "raytrace/precision/bounds.h"
 
 namespace gnomon::hybrid {
 

@@ -8,7 +8,7 @@
 #include "hybrid/solid_columns.h"
 #include "hybrid/texel_parts.h"
 #include "hybrid/tile_shapes.h"
-#include "raytrace/packet/huge_array.h"
+#include "raytrace/huge_array.h"
 
 namespace gnomon::hybrid {
 

@@ -1,8 +1,8 @@
 #include "raytrace/frame.h"
 
-#include "raytrace/light_samples.h"
-#include "raytrace/packet/unstored.h"
-#include "raytrace/picture.h"
+#include "raytrace/packets/unstored.h"
+#include "raytrace/shading/light_samples.h"
+#include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
 #include "scene/paging.h"
 #include "scene/stages.h"

@@ -34,7 +34,7 @@ struct RayCounts {
   std::uint64_t shadow = 0;       ///< to lights without size, and to the centres of those with one
   std::uint64_t soft_shadow = 0;  ///< to samples of lights with size, cast
   /// The samples that were wanted: of them none is cast below a point's own horizon, and none at all where
-  /// nothing surely stands between point and light (raytrace/light_shaft.h).
+  /// nothing surely stands between point and light (raytrace/shading/light_shaft.h).
   std::uint64_t soft_shadow_asked = 0;
   std::uint64_t reflection = 0, refraction = 0;  ///< sharp ones
   std::uint64_t glossy = 0;                      ///< that leave rough mirrors and rough glass

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "raytrace/accel/structure.h"
-#include "raytrace/solid.h"
-#include "raytrace/surface_uv.h"
+#include "raytrace/bvh/traverse.h"
+#include "raytrace/bvh/wide_tree.h"
+#include "raytrace/shapes/solid.h"
+#include "raytrace/shapes/surface_uv.h"
 #include "raytrace/tracer.h"
-#include "raytrace/traverse.h"
-#include "raytrace/wide/tree.h"
 
 namespace gnomon::raytrace {
 

@@ -1,11 +1,11 @@
 #include "raytrace/tracer.h"
 
+#include "raytrace/bvh/wide_single.h"
 #include "raytrace/kernels.h"
 #include "raytrace/precision/exact.h"
 #include "raytrace/precision/fast.h"
-#include "raytrace/ray_offset.h"
-#include "raytrace/verdict.h"
-#include "raytrace/wide/single.h"
+#include "raytrace/precision/ray_offset.h"
+#include "raytrace/precision/visibility.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
 

@@ -88,9 +88,9 @@ class Tracer {
   /// The surface point of a hit of this ray, with its error bound.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
-  /// The one ray-offset policy (raytrace/ray_offset.h): a ray that leaves a surface point on the side of
-  /// `direction`, moved off the surface by the point's error bound so that it cannot meet the surface it
-  /// starts on.
+  /// The one ray-offset policy (raytrace/precision/ray_offset.h): a ray that leaves a surface point on the
+  /// side of `direction`, moved off the surface by the point's error bound so that it cannot meet the surface
+  /// it starts on.
   Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
 
   /// From the point to the light's centre: unit direction, t is distance and ends strictly before the light

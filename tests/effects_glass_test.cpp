@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effects_support.h"
-#include "raytrace/interior.h"
+#include "raytrace/shading/interior.h"
 
 namespace gnomon {
 namespace {

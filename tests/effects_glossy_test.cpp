@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "effects_support.h"
-#include "raytrace/microfacet.h"
-#include "raytrace/sampling.h"
+#include "raytrace/shading/microfacet.h"
+#include "raytrace/shading/sampling.h"
 
 namespace gnomon {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "raytrace/frame.h"
-#include "raytrace/light_samples.h"
+#include "raytrace/shading/light_samples.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "raytrace/bvh.h"
+#include "raytrace/bvh/bvh.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

@@ -1,4 +1,4 @@
-// A light's cells (raytrace/packet/cells.h) where their bound is tight: receivers exactly on the lines
+// A light's cells (raytrace/packets/light_bins.h) where their bound is tight: receivers exactly on the lines
 // between cells and on their crossings, triangles whose corners and edges lie there too, triangles that touch
 // a cell in one point, slivers, triangles that reach through the light's plane; lights near and far. Every
 // verdict is held against brute force in double, for every instruction set that this machine has.
@@ -8,9 +8,9 @@
 #include <atomic>
 
 #include "every_target.h"
-#include "raytrace/packet/passes.h"
-#include "raytrace/packet/seen.h"
-#include "raytrace/ray_offset.h"
+#include "raytrace/packets/passes.h"
+#include "raytrace/packets/seen.h"
+#include "raytrace/precision/ray_offset.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
 #include "scene/light.h"

@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "raytrace/frame.h"
-#include "raytrace/fresnel.h"
+#include "raytrace/shading/fresnel.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "raytrace/traverse.h"
+#include "raytrace/bvh/traverse.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

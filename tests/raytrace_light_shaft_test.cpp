@@ -7,8 +7,8 @@
 #include <atomic>
 
 #include "every_target.h"
-#include "raytrace/light_samples.h"
-#include "raytrace/light_shaft.h"
+#include "raytrace/shading/light_samples.h"
+#include "raytrace/shading/light_shaft.h"
 #include "raytrace_support.h"
 #include "tests/support/places.h"
 

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "every_target.h"
-#include "raytrace/bvh.h"
-#include "raytrace/packet/cell_cover.h"
-#include "raytrace/packet/passes.h"
+#include "raytrace/bvh/bvh.h"
+#include "raytrace/packets/bin_cover.h"
+#include "raytrace/packets/passes.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
 

@@ -11,8 +11,8 @@
 
 #include "every_target.h"
 #include "raytrace/frame.h"
-#include "raytrace/packet/passes.h"
-#include "raytrace/packet/seen.h"
+#include "raytrace/packets/passes.h"
+#include "raytrace/packets/seen.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
 #include "scene/light.h"

@@ -1,7 +1,7 @@
 // Spheres and planes, and the ray-offset policy: rays that leave a surface do not meet it again.
 #include <gtest/gtest.h>
 
-#include "raytrace/intersect.h"
+#include "raytrace/shapes/intersect.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

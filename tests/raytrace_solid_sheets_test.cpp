@@ -2,11 +2,11 @@
 // crossings.
 #include <gtest/gtest.h>
 
-#include "raytrace/along_ray.h"
-#include "raytrace/inside.h"
-#include "raytrace/shape_sheets.h"
+#include "raytrace/shapes/along_ray.h"
+#include "raytrace/shapes/inside.h"
+#include "raytrace/shapes/solid.h"
 #include "raytrace/sheets.h"
-#include "raytrace/solid.h"
+#include "raytrace/sheets/shape_sheets.h"
 #include "raytrace_support.h"
 #include "solid_samples.h"
 

@@ -3,9 +3,9 @@
 // skipped, points and offsets, verdicts, and every structure against brute force.
 #include <gtest/gtest.h>
 
-#include "raytrace/along_ray.h"
 #include "raytrace/frame.h"
-#include "raytrace/solid.h"
+#include "raytrace/shapes/along_ray.h"
+#include "raytrace/shapes/solid.h"
 #include "raytrace_support.h"
 #include "solid_samples.h"
 

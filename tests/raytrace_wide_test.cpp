@@ -7,9 +7,9 @@
 #include <atomic>
 
 #include "every_target.h"
+#include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/kernels.h"
-#include "raytrace/packet/seen.h"
-#include "raytrace/wide/walk.h"
+#include "raytrace/packets/seen.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "tests/support/places.h"

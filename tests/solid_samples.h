@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "raytrace/intersect.h"
+#include "raytrace/shapes/intersect.h"
 #include "scene/solid.h"
 
 namespace gnomon::test {

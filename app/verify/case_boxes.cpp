@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "app/verify/cases.h"
-#include "raytrace/traverse.h"
+#include "raytrace/bvh/traverse.h"
 
 namespace gnomon::verify {
 

@@ -8,7 +8,7 @@
 #include "app/verify/small_world.h"
 #include "raytrace/error_bounds.h"
 #include "raytrace/frame.h"
-#include "raytrace/fresnel.h"
+#include "raytrace/shading/fresnel.h"
 
 namespace gnomon::verify {
 

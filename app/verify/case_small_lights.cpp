@@ -4,7 +4,7 @@
 
 #include "app/verify/cases.h"
 #include "app/verify/small_world.h"
-#include "raytrace/light_samples.h"
+#include "raytrace/shading/light_samples.h"
 
 namespace gnomon::verify {
 

@@ -72,7 +72,7 @@ inline PlaneCrossing cross(const BspNode& node, const PlaneRay& ray, double slac
   return {height + doubt >= 0.0 ? -infinity : infinity, height - doubt <= 0.0 ? infinity : -infinity, near};
 }
 
-/// walk() of raytrace/traverse.h; `visit` is given places in the order of CellItems.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
 bool walk(const BspTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.leaves.empty()) return false;

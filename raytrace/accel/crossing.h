@@ -4,8 +4,8 @@
 // (1/d infinite) is on one side for ever, or, with its origin in doubt, on both.
 #pragma once
 
-#include "raytrace/accel/cells.h"
-#include "raytrace/traverse.h"
+#include "raytrace/accel/even_cells.h"
+#include "raytrace/bvh/traverse.h"
 
 namespace gnomon::raytrace {
 

@@ -193,7 +193,7 @@ class GridWalk {
   std::ptrdiff_t cell_ = 0;  ///< that one
 };
 
-/// walk() of raytrace/traverse.h; `visit` is given places in the order of CellItems.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
 bool walk(const Grid& grid, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (grid.offsets.empty()) return false;

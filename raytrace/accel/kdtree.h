@@ -31,7 +31,7 @@ struct KdTree {
 
 KdTree build_kdtree(const CellItems& items, KdSplit rule = KdSplit::surface_area);
 
-/// walk() of raytrace/traverse.h; `visit` is given places in the order of CellItems.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
 bool walk(const KdTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.nodes.empty()) return false;

@@ -1,6 +1,6 @@
 // The textbook's bounding-volume hierarchy: a binary tree, cut at the median object along the longest axis of
 // the box, leaves of about five (Shirley, Ashikhmin and Marschner, "Fundamentals of computer graphics",
-// section 12.3.2; Kay and Kajiya 1986). raytrace/bvh.h is the one to use; this one shows what the
+// section 12.3.2; Kay and Kajiya 1986). raytrace/bvh/bvh.h is the one to use; this one shows what the
 // surface-area heuristic and the wide nodes are worth.
 #pragma once
 
@@ -26,7 +26,7 @@ struct MedianBvh {
 
 MedianBvh build_median_bvh(const CellItems& items);
 
-/// walk() of raytrace/traverse.h; `visit` is given places in the order of CellItems.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
 bool walk(const MedianBvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (bvh.nodes.empty()) return false;

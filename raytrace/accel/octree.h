@@ -29,7 +29,7 @@ struct Octree {
 
 Octree build_octree(const CellItems& items);
 
-/// walk() of raytrace/traverse.h; `visit` is given places in the order of CellItems.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
 bool walk(const Octree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.nodes.empty()) return false;

@@ -15,7 +15,7 @@
 
 #include <optional>
 
-#include "raytrace/traverse.h"
+#include "raytrace/bvh/traverse.h"
 
 namespace gnomon::raytrace {
 

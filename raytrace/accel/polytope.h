@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "raytrace/accel/cells.h"
+#include "raytrace/accel/even_cells.h"
 
 namespace gnomon::raytrace {
 

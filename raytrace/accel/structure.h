@@ -1,7 +1,7 @@
-// Every structure but the default one (raytrace/bvh.h) and brute force, behind one function: walk(). A
-// structure is plain data with a build function, and a walk() that has the contract of raytrace/traverse.h:
-// it offers every primitive that the ray may meet before ray.t_max, near ones first as far as it can, some
-// perhaps twice. Which structure it is, is decided once per ray and never inside.
+// Every structure but the default one (raytrace/bvh/bvh.h) and brute force, behind one function: walk(). A
+// structure is plain data with a build function, and a walk() that has the contract of
+// raytrace/bvh/traverse.h: it offers every primitive that the ray may meet before ray.t_max, near ones first
+// as far as it can, some perhaps twice. Which structure it is, is decided once per ray and never inside.
 #pragma once
 
 #include <variant>

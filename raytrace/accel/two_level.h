@@ -57,7 +57,7 @@ bool walk_placed(const Bvh& tree, const Placement& placement, BoxRay& ray, doubl
   });
 }
 
-/// walk() of raytrace/traverse.h; `visit` is given places in `leaves`.
+/// walk() of raytrace/bvh/traverse.h; `visit` is given places in `leaves`.
 template <class Stats, class Visit>
 bool walk(const TwoLevel& two, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (two.entries.empty()) return false;

@@ -1,6 +1,6 @@
 #include "ball_light.h"
 
-#include "raytrace/light_samples.h"
+#include "raytrace/shading/light_samples.h"
 #include "scene/light.h"
 
 namespace gnomon::bench {

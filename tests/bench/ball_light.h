@@ -1,4 +1,5 @@
-// The share that points see of a light with size, with the shaft (raytrace/light_shaft.h) and by every ray.
+// The share that points see of a light with size, with the shaft (raytrace/shading/light_shaft.h) and by
+// every ray.
 #pragma once
 
 #include <vector>

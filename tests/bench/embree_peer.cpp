@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "raytrace/packet/tile.h"
+#include "raytrace/packets/tile.h"
 #include "raytrace/tiles.h"
 #include "scene/light.h"
 

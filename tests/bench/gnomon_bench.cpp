@@ -14,7 +14,7 @@
 #include "embree_peer.h"
 #include "instruction_set.h"
 #include "raytrace/kernels.h"
-#include "raytrace/packet/passes.h"
+#include "raytrace/packets/passes.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::bench {

@@ -1,0 +1,98 @@
+// The boxes of a world's primitives, for every structure's builder: raytrace/bvh/bvh.h.
+#include <tbb/parallel_for.h>
+
+#include "raytrace/bvh/bvh.h"
+#include "scene/solid.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+// A difference of doubles is right to 2^-53 of itself, far less than float_below and float_above give way.
+BoxRef box_of(const Vec3& min, const Vec3& max, std::uint32_t id) {
+  return {{float_below(min.x), float_below(min.y), float_below(min.z)},
+          {float_above(max.x), float_above(max.y), float_above(max.z)},
+          id};
+}
+
+BoxRef triangle_box(const std::array<Vec3, 3>& corners, std::uint32_t id, const Vec3& center) {
+  const auto& [a, b, c] = corners;
+  return box_of(glm::min(a, glm::min(b, c)) - center, glm::max(a, glm::max(b, c)) - center, id);
+}
+
+BoxRef sphere_box(const Sphere& sphere, std::uint32_t id, const Vec3& center) {
+  const Vec3 middle = sphere.center - center;
+  const Vec3 half = Vec3(sphere.radius) + error_gamma(3) * (glm::abs(middle) + Vec3(sphere.radius));
+  return box_of(middle - half, middle + half, id);
+}
+
+BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& center) {
+  const Aabb box = world_box(solid);
+  const Vec3 error = error_gamma(32) * (glm::abs(box.min) + glm::abs(box.max) + box.extent());
+  return box_of(box.min - error - center, box.max + error - center, id);
+}
+
+bool usable_triangle(const World& world, std::uint32_t id, const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double size2 = glm::dot(n, n);
+  if (size2 > 1e-280 && size2 < 1e280) return true;  // and so all is finite: the common case, without a root
+  return all_finite(a) && all_finite(b) && all_finite(c) && geometric_normal(world, id, a) != Vec3(0.0);
+}
+
+// In blocks over all threads, each at the place of its ids; closed up where some were left out.
+void append_triangles(const World& world, FinitePrimitives& out) {
+  constexpr std::uint32_t block_size = 8192;
+  const std::uint32_t count = world.triangle_count();
+  std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
+  out.boxes.resize(count);
+  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t block) {
+    const auto first = static_cast<std::uint32_t>(block) * block_size;
+    BoxRef* at = out.boxes.data() + first;
+    for (std::uint32_t id = first; id < std::min(first + block_size, count); ++id) {
+      const std::array<Vec3, 3> corners = world.corners(id);
+      if (usable_triangle(world, id, corners)) *at++ = triangle_box(corners, id, out.center);
+    }
+    kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
+  });
+  std::size_t size = 0;
+  for (std::size_t block = 0; block < kept.size(); size += kept[block++])
+    if (size != block * block_size)
+      std::copy_n(out.boxes.data() + block * block_size, kept[block], out.boxes.data() + size);
+  out.boxes.resize(size);
+  out.dropped += count - size;
+}
+
+}  // namespace
+
+BoxRef shape_box(const World& world, std::uint32_t id, const Vec3& center) {
+  const ShapeGeometry& geometry = world.shape(id).geometry;
+  if (is_solid(geometry)) return solid_box(geometry, id, center);
+  return sphere_box(std::get<Sphere>(geometry), id, center);
+}
+
+FinitePrimitives finite_primitives(const World& world) {
+  FinitePrimitives out;
+  const Vec3 middle = world.finite_bounds.center();
+  if (all_finite(middle)) out.center = middle;
+  append_triangles(world, out);
+  for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
+    const ShapeGeometry& geometry = world.shape(id).geometry;
+    if (std::holds_alternative<Plane>(geometry)) continue;
+    if (is_solid(geometry)) {
+      const Aabb box = world_box(geometry);
+      if (all_finite(box.min) && all_finite(box.max))
+        out.boxes.push_back(solid_box(geometry, id, out.center));
+      else
+        ++out.dropped;
+      continue;
+    }
+    const auto* sphere = std::get_if<Sphere>(&geometry);
+    if (all_finite(sphere->center) && std::isfinite(sphere->radius) && sphere->radius > 0.0)
+      out.boxes.push_back(sphere_box(*sphere, id, out.center));
+    else
+      ++out.dropped;
+  }
+  return out;
+}
+
+}  // namespace gnomon::raytrace

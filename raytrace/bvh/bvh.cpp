@@ -1,0 +1,255 @@
+// The upper part of the hierarchy: the primitives are sorted into the cells of a grid, the cells' runs are
+// split by bins (Wald 2007) as if each run were one primitive of its weight, and ranges that have become
+// small enough are split primitive by primitive (raytrace/bvh/treelet.h). Where a few cells hold many
+// primitives, these get a finer grid of their own.
+#include "raytrace/bvh/bvh.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "raytrace/bvh/clusters.h"
+#include "raytrace/bvh/treelet.h"
+#include "scene/solid.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+using namespace binned;
+
+constexpr std::uint32_t treelet_size = 256;         // primitives; what fits the nearest caches
+constexpr std::uint32_t parallel_threshold = 4096;  // primitives; below it a task costs more than it gains
+constexpr std::uint32_t few_clusters = 8;           // too few to choose well between them
+
+}  // namespace
+
+LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {
+  if (world.is_triangle(id)) {
+    const auto [a, b, c] = world.corners(id);
+    return {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}};
+  }
+  const ShapeGeometry& geometry = world.shape(id).geometry;
+  if (is_solid(geometry)) return {};  // looked up in the world
+  const auto& sphere = std::get<Sphere>(geometry);
+  return {{sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius}};
+}
+
+namespace {
+
+void set_leaf(const World& world, std::size_t i, std::uint32_t id, Bvh& bvh) {
+  bvh.ids[i] = id;
+  bvh.primitives[i] = leaf_primitive(world, id);
+}
+
+Box centroids_of(std::span<const Ref> refs) {
+  Bounds bounds;
+  for (const Ref& ref : refs) bounds.grow_centroids(ref);
+  return bounds.centroids;
+}
+
+/// A range of clusters, and where their primitives begin in the order of the leaves.
+struct ClusterRange {
+  std::uint32_t first_cluster, clusters, first, count;
+  Bounds bounds;
+  int depth;  // in binary splits
+  bool is_whole = false;
+};
+
+/// Nodes of fewer than four children have more than leaf_size primitives and leaves alone: those of treelets
+/// are fewer than 7/15 of the primitives. The ranges of one depth above are apart, each of more than
+/// treelet_size.
+std::size_t most_nodes(std::size_t primitives) {
+  static_assert(sah_depth * 5 <= treelet_size);
+  return 7 * primitives / 15 + primitives / 5 + 2;
+}
+
+class Builder {
+ public:
+  /// world: where leaves' primitives are; none: they get ids alone.
+  Builder(const World* world, Bvh& bvh, std::size_t count)
+      : world_(world), bvh_(bvh), nodes_(bvh, most_nodes(count)) {
+    bvh.ids.resize(count);
+    if (world != nullptr) bvh.primitives.resize(count);
+  }
+
+  void run(std::span<const BoxRef> boxes) {
+    const BvhChild root = build(boxes, centroid_bounds(boxes), 0, 0);
+    if (root.is_leaf()) {
+      const std::uint32_t index = nodes_.take(1);
+      BvhNode& node = nodes_[index];
+      nodes_.below(index) = {root.first(), root.count()};
+      Box box = Box::empty();
+      for (const BoxRef& b : boxes) box.grow(ref_of(b).box);
+      set_child(node, 0, box, root);
+      for (std::size_t i = 1; i < 4; ++i) set_child(node, i, Box::empty(), BvhChild::empty());
+    }
+    nodes_.finish();
+  }
+
+ private:
+  friend class Top;
+
+  template <class In>
+  BvhChild build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth);
+
+  BvhChild treelet(TreeletRoom& room, std::uint32_t first, int depth) {
+    const BvhChild root = build_treelet(room, first, depth, nodes_);
+    for (std::size_t i = 0; i < room.refs.size(); ++i)
+      if (world_ != nullptr)
+        set_leaf(*world_, first + i, room.refs[i].id(), bvh_);
+      else
+        bvh_.ids[first + i] = room.refs[i].id();
+    return root;
+  }
+
+  const World* world_;
+  Bvh& bvh_;
+  NodeStore nodes_;
+  tbb::enumerable_thread_specific<TreeletRoom> rooms_;
+};
+
+/// The part of the tree above the runs of one grid.
+class Top {
+ public:
+  Top(Builder& builder, Clusters& grid) : builder_(builder), grid_(grid), scratch_(grid.size()) {}
+
+  BvhChild run(std::uint32_t first, int depth) {
+    ClusterRange all{0,     static_cast<std::uint32_t>(grid_.size()),
+                     first, static_cast<std::uint32_t>(grid_.refs.size()),
+                     {},    depth};
+    for (const Ref& box : grid_.boxes) all.bounds.grow(box);
+    return node(all, 2);
+  }
+
+ private:
+  BvhChild build(const ClusterRange& range) {
+    if (range.count <= treelet_size || range.depth >= sah_depth) {
+      TreeletRoom& room = builder_.rooms_.local();
+      gather(range, room.refs);
+      return builder_.treelet(room, range.first, range.depth);
+    }
+    if (range.clusters >= few_clusters) return node(range, few_clusters);
+    std::vector<Ref> refs;
+    gather(range, refs);
+    return builder_.build<Ref>(refs, centroids_of(refs), range.first, range.depth);
+  }
+
+  void gather(const ClusterRange& range, std::vector<Ref>& refs) const {
+    refs.resize(range.count);
+    auto at = refs.begin();
+    for (std::uint32_t i = 0; i < range.clusters; ++i) {
+      const Cluster& cluster = cluster_at(range.first_cluster + i);
+      at = std::copy_n(grid_.refs.data() + cluster.first, cluster.count, at);
+    }
+  }
+  const Cluster& cluster_at(std::uint32_t i) const { return grid_.clusters[grid_.boxes[i].id()]; }
+
+  /// `least`: clusters in a range that may be split.
+  BvhChild node(const ClusterRange& range, std::uint32_t least) {
+    std::array<ClusterRange, 4> children{range};
+    const std::size_t count = four_of(children, [&](ClusterRange& left, ClusterRange& right) {
+      return left.clusters >= least && split(left, right);
+    });
+    const std::uint32_t index = builder_.nodes_.take(1);
+    builder_.nodes_.below(index) = {range.first, range.count};
+    const auto put_child = [&](std::size_t i) {
+      BvhNode& node = builder_.nodes_[index];
+      if (i < count)
+        set_child(node, i, children[i].bounds.box, build(children[i]));
+      else
+        set_child(node, i, Box::empty(), BvhChild::empty());
+    };
+    if (range.count < parallel_threshold)
+      for (std::size_t i = 0; i < 4; ++i) put_child(i);
+    else
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, 4, 1),
+          [&](const auto& r) {
+            for (std::size_t i = r.begin(); i != r.end(); ++i) put_child(i);
+          },
+          tbb::simple_partitioner());
+    return BvhChild::node(index);
+  }
+
+  // Reorders the range's clusters and leaves it the left ones; there are at least two.
+  bool split(ClusterRange& left, ClusterRange& right) {
+    const std::span<Ref> boxes(grid_.boxes.data() + left.first_cluster, left.clusters);
+    const Binning binning(left.bounds.centroids, most_bins, 0.0f);
+    Bins bins(binning);
+    for (const Ref& box : boxes) bins.put(box, binning, grid_.clusters[box.id()].count);
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (binning.scale[axis] > 0.0f) best_on_axis(bins, most_bins, axis, best);
+    std::array<Bounds, 2> bounds;
+    std::uint32_t middle = left.clusters / 2;
+    if (best.bin >= 0)
+      middle = partition(boxes, scratch_.data() + left.first_cluster, bounds,
+                         [&](const Ref& box) { return binning.is_left(box, best); });
+    bounds = {};
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < left.clusters; ++i) {
+      bounds[i < middle ? 0 : 1].grow(boxes[i]);
+      if (i < middle) count += grid_.clusters[boxes[i].id()].count;
+    }
+    right = {left.first_cluster + middle,
+             left.clusters - middle,
+             left.first + count,
+             left.count - count,
+             bounds[1],
+             left.depth + 1};
+    left = {left.first_cluster, middle, left.first, count, bounds[0], left.depth + 1};
+    return true;
+  }
+
+  Builder& builder_;
+  Clusters& grid_;
+  std::vector<Ref> scratch_;
+};
+
+const Ref& as_ref(const Ref& ref) {
+  return ref;
+}
+Ref as_ref(const BoxRef& box) {
+  return ref_of(box);
+}
+
+template <class In>
+BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth) {
+  if (in.size() > treelet_size && depth < sah_depth && grid_applies(centroids)) {
+    Clusters grid = cluster_by_cells(in, centroids);
+    return Top(*this, grid).run(first, depth);
+  }
+  TreeletRoom& room = rooms_.local();
+  room.refs.resize(in.size());
+  for (std::size_t i = 0; i < in.size(); ++i) room.refs[i] = as_ref(in[i]);
+  return treelet(room, first, depth);
+}
+
+}  // namespace
+
+Bvh build_bvh(const World& world) {
+  const FinitePrimitives finite = finite_primitives(world);
+  Bvh bvh;
+  bvh.dropped = finite.dropped;
+  bvh.center = finite.center;
+  if (!finite.boxes.empty()) Builder(&world, bvh, finite.boxes.size()).run(finite.boxes);
+  return bvh;
+}
+
+Bvh build_bvh(std::span<const BoxRef> boxes) {
+  Bvh bvh;
+  if (!boxes.empty()) Builder(nullptr, bvh, boxes.size()).run(boxes);
+  return bvh;
+}
+
+Bvh build_flat(const World& world) {
+  const FinitePrimitives finite = finite_primitives(world);
+  Bvh bvh;
+  bvh.dropped = finite.dropped;
+  bvh.center = finite.center;
+  bvh.primitives.resize(finite.boxes.size()), bvh.ids.resize(finite.boxes.size());
+  tbb::parallel_for(std::size_t{0}, finite.boxes.size(),
+                    [&](std::size_t i) { set_leaf(world, i, finite.boxes[i].id, bvh); });
+  return bvh;
+}
+
+}  // namespace gnomon::raytrace

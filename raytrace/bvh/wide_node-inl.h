@@ -1,0 +1,182 @@
+// A node's children against one ray, sixteen at once, whatever the instruction set's width, and the stack of
+// those that the ray may meet.
+
+#if defined(GNOMON_RAYTRACE_BVH_WIDE_NODE_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_BVH_WIDE_NODE_INL_H_
+#undef GNOMON_RAYTRACE_BVH_WIDE_NODE_INL_H_
+#else
+#define GNOMON_RAYTRACE_BVH_WIDE_NODE_INL_H_
+#endif
+
+#include "raytrace/bvh/wide_leaf-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+
+/// Children that the ray may yet meet, the next one last.
+struct Stack {
+  // Deeper ones lie above. Of each depth there are the children of two nodes at most, but for one child; a
+  // leaf with too many corners may have been halved thrice; the last store may write sixteen.
+  static constexpr std::size_t most = (2 * node_lanes - 1) * (Bvh::max_depth + 4) + node_lanes;
+  std::uint32_t child[most];
+  float near[most];
+};
+
+/// The ray in every lane, and where in a node the near and the far planes are.
+struct SpreadRay {
+  V inverse[3], near[3], far_inverse[3], far[3], t_min;
+  std::size_t near_row[3], far_row[3];  // bytes
+  int octant_shift;
+  explicit SpreadRay(const WideRay& ray)
+      : t_min(all(ray.t_min)),
+        octant_shift(static_cast<int>(4 * (lanes == node_lanes ? 7 - ray.octant : ray.octant))) {
+    constexpr std::size_t row = sizeof(WideNode::bounds[0]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
+      far_inverse[a] = all(ray.far_inverse[a]), far[a] = all(ray.far[a]);
+      near_row[a] = row * ((ray.octant >> a & 1u) != 0 ? 3 + a : a);
+      far_row[a] = row * (2 * a + 3) - near_row[a];
+    }
+  }
+};
+
+/// Where the ray enters and leaves the boxes from the i-th on.
+HWY_INLINE void meet_boxes(const WideNode& node, const SpreadRay& ray, std::size_t i, V t_max, V& near,
+                           V& far) {
+  const char* bounds = reinterpret_cast<const char*>(node.bounds) + i * sizeof(float);
+  const auto at = [&](std::size_t row, V inverse, V constant) {
+    return hn::MulAdd(hn::Load(f, reinterpret_cast<const float*>(bounds + row)), inverse, constant);
+  };
+  near = hn::Max(hn::Max(at(ray.near_row[0], ray.inverse[0], ray.near[0]),
+                         at(ray.near_row[1], ray.inverse[1], ray.near[1])),
+                 hn::Max(at(ray.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
+  far = hn::Min(hn::Min(at(ray.far_row[0], ray.far_inverse[0], ray.far[0]),
+                        at(ray.far_row[1], ray.far_inverse[1], ray.far[1])),
+                hn::Min(at(ray.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
+}
+
+/// The children of a node whose boxes the ray may meet, by bits; where vectors hold a whole node.
+template <bool whole = lanes == node_lanes>
+struct MetChildren {
+  V near, far;
+  unsigned bits;
+  HWY_INLINE MetChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
+    meet_boxes(node, ray, 0, all(t_max), near, far);
+    bits = bits_of(f, hn::Le(near, far));
+  }
+
+  /// All onto the stack, the nearest on top.
+  HWY_INLINE void push(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size) const {
+    if (bits != 0) Sorted(*this, node, ray).push(stack, size, 0);
+  }
+  /// The same, but the nearest into `next`; false: none.
+  HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
+                       std::uint32_t& next) const {
+    if (bits == 0) return false;
+    if ((bits & (bits - 1)) == 0) {
+      next = node.child[std::countr_zero(bits)];
+      return true;
+    }
+    const Sorted sorted(*this, node, ray);
+    next = hn::GetLane(sorted.child);
+    sorted.push(stack, size, 1);
+    return true;
+  }
+
+ private:
+  /// Nearest first.
+  struct Sorted {
+    hn::Vec<U> child;
+    V near;
+    std::uint32_t count;
+    HWY_INLINE Sorted(const MetChildren& met, const WideNode& node, const SpreadRay& ray)
+        : count(static_cast<std::uint32_t>(std::popcount(met.bits))) {
+      const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
+                                 hn::Set(ids, node_lanes - 1));
+      const auto in_order = [&](V v) { return hn::TableLookupLanes(v, hn::IndicesFromVec(f, order)); };
+      const V entered = in_order(met.near);
+      const M is_met = hn::Le(entered, in_order(met.far));
+      child = hn::Compress(hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order)),
+                           hn::RebindMask(ids, is_met));
+      near = hn::Compress(entered, is_met);
+    }
+    /// The last first; without the first `but`.
+    HWY_INLINE void push(Stack& stack, std::size_t& size, std::uint32_t but) const {
+      const auto back =
+          hn::And(hn::Sub(hn::Set(ids, count - 1), hn::Iota(ids, 0)), hn::Set(ids, node_lanes - 1));
+      hn::StoreU(hn::TableLookupLanes(child, hn::IndicesFromVec(ids, back)), ids, stack.child + size);
+      hn::StoreU(hn::TableLookupLanes(near, hn::IndicesFromVec(f, back)), f, stack.near + size);
+      size += count - but;
+    }
+  };
+};
+
+/// Where they do not.
+template <>
+struct MetChildren<false> {
+  alignas(64) float near[node_lanes];
+  unsigned bits = 0;
+  HWY_INLINE MetChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
+    for (std::size_t i = 0; i < node_lanes; i += lanes) {
+      V in, out;
+      meet_boxes(node, ray, i, all(t_max), in, out);
+      hn::Store(in, f, near + i);
+      bits |= bits_of(f, hn::Le(in, out)) << i;
+    }
+  }
+
+  HWY_INLINE void push(const WideNode& node, const SpreadRay&, Stack& stack, std::size_t& size) const {
+    Child nearest;
+    if (take(node, stack, size, nearest)) put(nearest, stack, size++);
+  }
+  HWY_INLINE bool take(const WideNode& node, const SpreadRay&, Stack& stack, std::size_t& size,
+                       std::uint32_t& next) const {
+    Child nearest;
+    if (!take(node, stack, size, nearest)) return false;
+    next = nearest.child;
+    return true;
+  }
+
+ private:
+  struct Child {
+    std::uint32_t child;
+    float near;
+  };
+  static HWY_INLINE void put(const Child& c, Stack& stack, std::size_t at) {
+    stack.child[at] = c.child, stack.near[at] = c.near;
+  }
+  HWY_INLINE bool take(const WideNode& node, Stack& stack, std::size_t& size, Child& nearest) const {
+    if (bits == 0) return false;
+    const auto child = [&](unsigned met) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+      return Child{node.child[lane], near[lane]};
+    };
+    nearest = child(bits);
+    const std::size_t base = size;
+    for (unsigned met = bits & (bits - 1); met != 0; met &= met - 1) {
+      Child other = child(met);
+      if (other.near < nearest.near) std::swap(other, nearest);
+      std::size_t at = size++;  // the farthest at the bottom
+      for (; at > base && stack.near[at - 1] < other.near; --at)
+        put({stack.child[at - 1], stack.near[at - 1]}, stack, at);
+      put(other, stack, at);
+    }
+    return true;
+  }
+};
+
+/// The children of a node, as above, over those of one that comes after it. Together, for a ray that waits
+/// for memory and for one step after the other; and a ray that meets nothing visits both anyhow.
+HWY_INLINE bool take_children_of_two(const WideNode& node, const WideNode& after, const SpreadRay& ray,
+                                     float t_max, Stack& stack, std::size_t& size, std::uint32_t& next) {
+  const MetChildren<> met(node, ray, t_max), met_after(after, ray, t_max);
+  met_after.push(after, ray, stack, size);
+  return met.take(node, ray, stack, size, next);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard

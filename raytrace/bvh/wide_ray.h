@@ -1,0 +1,72 @@
+// A ray as the wide tree sees it: floats that count from the tree's centre, and how far they may be off.
+//
+// Notation: e = 2^-24, u = 2^-53; d the ray's direction scaled so that its largest component is in [1/2, 1),
+// o its origin from the centre, r = `reach`, q >= |o|, all in the maximum norm. No float here overflows, and
+// none that underflows is missed, because 2^-26 <= r <= 2^30 and q <= 64 r; other rays are refused, and walk
+// the plain way.
+//
+// Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, -o / d made of it to 4 e, and b / d - o / d by
+// one step, fused or not, to 4 e |t| + 7 e |o / d|; widened by 2^-20, as the far ends are, to 5 e |t| + 9 e
+// |o / d|. The second term and more, 16 e (|o| + r 2^-10) / d, is in the constants `near` and `far`; the
+// first, for near and far ends together, is less than the 16 e of the widening. What the doubles themselves
+// are off by, 2^-50 of r + q, is well within r 2^-30. A direction's |d_a| < 2^-60 is taken for +-2^-60: on
+// its way to a hit no ray moves by more than 2^-60 T along such an axis, T = 4 (r + q) < 2^9 r, and the
+// constants, which give way by 2^30 r, hold all of [0, T] in the slab if the origin is within it but for that
+// much.
+//
+// Triangles. The test in double (raytrace/shapes/intersect.h) moves corners to the ray's origin and shears
+// them so that the ray is the z axis; so do these floats, z being the direction's largest component, and with
+// the depth in units of t: t = s_z / d_z, x = s_x - d_x t, y likewise, s = v - o'. A leaf's corners v count
+// from its anchor in steps of g, |v| <= X = 2^15 g; o' is the origin from there, S = |o'| + X. v is right to
+// g / 2 and, times g, to e X, o' to e (q + |o'|), s to g / 2 + e (q + 2 S); d_x t is d_x / d_z times s_z, the
+// factor, of at most 1, right to 5 e; so x, with fused steps or without, is right to g + 2 e (q + 2 S) + 8 e
+// S,
+//   f = 12 e |o'| + `corner_error` g + `coordinate_error`,
+// where corner_error is 1.03 > 1 + 12 e 2^15 and coordinate_error 2.75 e q + 2^-34 r, whose last term holds
+// what the doubles' own coordinates are off by, and the doubts of a verdict
+// (raytrace/precision/visibility.cpp) in a point's place, all below 2^-41 r.
+//   First, for all triangles of a leaf: let no component of an edge be above L >= 2^-16 r. Where the doubles
+// see edge functions of one sign, or a verdict doubts their signs and the triangle's box is passed, the axis
+// passes within the corners' x and y, so none of these is above 2 L but for f. The edge functions U, V, W =
+// x_i y_j - x_j y_i are then right to 8 L f + 2 f f and, by rounding, 16 e (L + f)^2, together less than 12 L
+// f + 4 f f (an edge that is not that small has L <= 2 X <= 2 S), less than f (13 L + 16 f): if one of the
+// three is above that and another below its negative, it is a miss.
+//   Then closer, for the few that are left: let no x or y be above m <= 2 S. An edge function is right to 4 m
+// f + 2 f f and, by rounding, 4 e m m < 0.67 m f, less than E = f (5 m + 2 f): two on either side of that are
+// a miss, three on one side a hit in double, too, unless t is out of range. The doubles' t is a mean of the
+// corners' t_i, which are right to p = f / |d_z| and span R, with weights U, V, W. So |U t_0 + V t_1 + W t_2
+// - det t|, det = U + V + W, is at most E (2 R + 6 p) for the weights and (|det| + 9 E) p for the t_i;
+// rounding, as e |t_i| <= e S / |d_z| < p / 12, adds less than (|det| + 12 E) p / 2: together less than
+//   D = 2 |det| p + E (2 R + 30 p),
+// also where all weights are in doubt, for t is between the corners' then. A hit's t is within D / |det| of
+// the floats' own.
+#pragma once
+
+#include <algorithm>
+
+#include "raytrace/bvh/wide_tree.h"
+
+namespace gnomon::raytrace {
+
+struct WideRay {
+  static constexpr float widening = 1.0f + 0x1p-20f;
+  static constexpr float least_direction = 0x1p-60f;  ///< smaller ones are taken for this
+  static constexpr float corner_error = 1.03f;        ///< in steps of a leaf
+  // By axis; the fourth means nothing.
+  alignas(16) float origin[4], direction[4];
+  // t of a plane at x along an axis: x inverse + near, and, widened, x far_inverse + far.
+  alignas(16) float inverse[4], near[4], far_inverse[4], far[4];
+  float t_min, t_max;                 ///< t_max: widened, and finite
+  float surely_after, surely_before;  ///< t between these is in range
+  float inverse_z, t_per_z;           ///< 1 / d_z and its size
+  float direction_x, direction_y;
+  float coordinate_error;                               ///< 2.75 e q + 2^-34 r
+  float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
+  std::uint32_t axis[3];  ///< which are x, y and z: z the direction's largest component
+  std::uint32_t octant;   ///< bit a: backwards along axis a
+
+  /// t in the units of RayFrame.
+  void limit(float t_above) { t_max = std::min(t_max, t_above * widening); }
+};
+
+}  // namespace gnomon::raytrace

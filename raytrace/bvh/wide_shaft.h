@@ -1,0 +1,39 @@
+// What may lie between a point and a box: the leaves of the wide tree that a shaft of segments passes
+// (Haines and Wallace 1994, "Shaft culling for efficient ray-traced radiosity").
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "raytrace/bvh/wide_tree.h"
+
+namespace gnomon::raytrace {
+
+/// The points origin + t d for t in [0, 1], or [0, infinity) if endless, and every d within [low, high].
+struct Shaft {
+  Vec3 origin, low, high;
+  bool endless = false;
+};
+
+/// Whose boxes the shaft may meet; no other primitive of the tree lies in it, not by 2^-21 of its size and of
+/// the distance from the tree's centre.
+class ShaftLeaves {
+ public:
+  static constexpr std::size_t most = 24;
+  std::span<const LeafRange> ranges() const { return {range_.data(), count_}; }
+  /// False: no room.
+  bool add(LeafRange range) {
+    if (count_ == most) return false;
+    range_[count_++] = range;
+    return true;
+  }
+
+ private:
+  std::array<LeafRange, most> range_;
+  std::size_t count_ = 0;
+};
+
+/// False: not found, for there are too many, or the shaft is out of the floats' range.
+bool leaves_in_shaft(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found);
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,280 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raytrace/bvh/wide_traverse.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "raytrace/bvh/wide_node-inl.h"
+#include "raytrace/bvh/wide_traverse.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+/// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
+inline bool prepare_plain(const Ray& given, double kernel_t, WideRay& ray) {
+  for (int a = 0; a < 3; ++a) {
+    ray.plain_origin[a] = static_cast<float>(given.origin[a]);
+    ray.plain_direction[a] = static_cast<float>(given.direction[a]);
+  }
+  ray.kernel_t = static_cast<float>(kernel_t);
+  return kernel_t >= 0x1p-60 && kernel_t <= 0x1p60;
+}
+
+/// Fills the ray; false: refused. The order of operations is that of raytrace/bvh/wide_ray.h.
+HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits& limits, WideRay& ray) {
+  static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
+  using D = hn::CappedTag<double, 4>;
+  using Half = hn::Rebind<float, D>;
+  constexpr D d;
+  constexpr Half half;
+  const auto* numbers = reinterpret_cast<const double*>(&given);
+  const double largest = std::max(std::max(std::abs(numbers[3]), std::abs(numbers[4])), std::abs(numbers[5]));
+  if (!(largest >= 0x1p-900 && largest <= 0x1p900)) return false;
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(largest) & (0x7ffull << 52);
+  const double kernel_t = std::bit_cast<double>(exponent + (1ull << 52));
+  const auto scale = hn::Set(d, std::bit_cast<double>((2045ull << 52) - exponent));
+  const float r = tree.reach;
+  const auto narrowest = hn::Set(half, WideRay::least_direction);
+  unsigned good = 0, backwards = 0;
+  for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
+    const auto o =
+        hn::DemoteTo(half, hn::Sub(hn::LoadU(d, numbers + i), hn::Load(d, tree.center.data() + i)));
+    const auto v = hn::DemoteTo(half, hn::Mul(hn::LoadU(d, numbers + 3 + i), scale));
+    const auto inverse = hn::Div(
+        hn::Set(half, 1.0f), hn::IfThenElse(hn::Lt(hn::Abs(v), narrowest), hn::CopySign(narrowest, v), v));
+    const auto middle = hn::Mul(hn::Neg(o), inverse);
+    const auto slack = hn::Mul(hn::Mul(hn::Set(half, 0x1p-20f), hn::Abs(inverse)),
+                               hn::Add(hn::Set(half, 0x1p-10f * r), hn::Abs(o)));
+    hn::Store(o, half, ray.origin + i), hn::Store(v, half, ray.direction + i);
+    hn::Store(inverse, half, ray.inverse + i);
+    hn::Store(hn::Sub(middle, slack), half, ray.near + i);
+    const auto widening = hn::Set(half, WideRay::widening);
+    hn::Store(hn::Mul(inverse, widening), half, ray.far_inverse + i);
+    hn::Store(hn::Mul(hn::Add(middle, slack), widening), half, ray.far + i);
+    const auto bits = [&](auto mask) { return bits_of(half, mask) << i; };
+    good |=
+        bits(hn::And(hn::Le(hn::Abs(o), hn::Set(half, 64.0f * r)), hn::Le(hn::Abs(v), hn::Set(half, 1.0f))));
+    backwards |= bits(hn::Lt(inverse, hn::Zero(half)));
+  }
+  constexpr unsigned axes = 7;
+  const double t_min = given.t.min * kernel_t, t_max = given.t.max * kernel_t;
+  if ((good & axes) != axes || !(t_min >= 0.0 && t_min <= 0x1p100 && t_min <= t_max) ||
+      limits.origin_error > 0x1p-44 * static_cast<double>(r))
+    return false;
+  const float q =
+      std::max(std::max(std::abs(ray.origin[0]), std::abs(ray.origin[1])), std::abs(ray.origin[2]));
+  ray.octant = backwards & axes;
+  const auto doubt = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
+  const auto least = static_cast<float>(t_min), most = static_cast<float>(t_max);
+  ray.t_min = std::max(0.0f, least - doubt(least)), ray.surely_after = least + doubt(least);
+  const auto last = static_cast<float>(t_max + limits.beyond * kernel_t);
+  ray.t_max = std::min((last + doubt(last)) * WideRay::widening, FLT_MAX);
+  ray.surely_before = most <= FLT_MAX ? most - doubt(most) : FLT_MAX;
+  ray.limit(limits.t_above);
+  ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
+  const auto size = [&](std::size_t a) { return std::abs(numbers[3 + a]); };
+  const std::uint32_t z = size(2) > std::max(size(0), size(1)) ? 2 : size(0) >= size(1) ? 0 : 1;
+  const std::uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+  ray.axis[0] = x, ray.axis[1] = y, ray.axis[2] = z;
+  ray.inverse_z = ray.inverse[z], ray.t_per_z = std::abs(ray.inverse_z);
+  ray.direction_x = ray.direction[x], ray.direction_y = ray.direction[y];
+  if (tree.plain) return prepare_plain(given, kernel_t, ray);
+  return true;
+}
+
+template <class Leaf>
+const Leaf* leaves_of(const WideTree& tree) {
+  if constexpr (std::is_same_v<Leaf, PlainLeaf>)
+    return tree.plain_leaves.data();
+  else
+    return tree.leaves.data();
+}
+
+/// Asks memory ahead of need for a child that comes after the next one.
+template <class Leaf>
+HWY_INLINE void prefetch(const WideNode* nodes, const Leaf* leaves, WideChild child) {
+  constexpr std::size_t line = 64;
+  const auto lines = [](const void* at, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(at) + i);
+  };
+  if (child.is_leaf())
+    lines(leaves + child.index(), sizeof(Leaf));
+  else
+    lines(nodes + child.index(), sizeof(WideNode));
+}
+
+/// meet(leaf) returns true to end the walk.
+template <class Leaf, class Meet>
+HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
+  const SpreadRay spread(ray);
+  const WideNode* nodes = tree.nodes.data();
+  const Leaf* leaves = leaves_of<Leaf>(tree);
+  float t_max = ray.t_max;
+  Stack stack;
+  std::size_t size = 0;
+  std::size_t known = 0;  // on the stack, asked for already
+  const auto ask_ahead = [&] {
+    if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
+    known = size;
+  };
+  WideChild child{0};
+  for (;;) {
+    if (child.is_leaf()) {
+      if (meet(leaves[child.index()])) return WideWalk::ended;
+      t_max = ray.t_max;
+    } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
+      known = 0;
+      const WideNode& after = nodes[stack.child[--size]];
+      if (take_children_of_two(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
+    } else {
+      const WideNode& node = nodes[child.index()];
+      if (MetChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
+    }
+    do {
+      if (size == 0) return WideWalk::done;
+      child.bits = stack.child[--size];
+    } while (stack.near[size] > t_max);
+    known = 0;
+    ask_ahead();
+  }
+}
+
+/// False: no room.
+inline bool keep(LeafCandidates& found, std::uint32_t leaf, float t, const WideRay& ray) {
+  if (found.count == LeafCandidates::most) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.count; ++i)
+      if (found.t[i] <= ray.t_max) found.leaf[kept] = found.leaf[i], found.t[kept++] = found.t[i];
+    found.count = kept;
+    if (kept == LeafCandidates::most) return false;
+  }
+  found.leaf[found.count] = leaf, found.t[found.count++] = t;
+  return true;
+}
+
+constexpr auto all_wanted = [](unsigned candidates) { return candidates; };
+
+/// candidate(i, test) for each; true ends.
+template <class Test, class Candidate, class Wanted = decltype(all_wanted)>
+HWY_INLINE bool each_candidate(const typename Test::Leaf& leaf, const WideRay& ray,
+                               const Candidate& candidate, const Wanted& wanted = all_wanted) {
+  const Test test(leaf, ray, wanted);
+  for (unsigned left = test.candidates; left != 0; left &= left - 1)
+    if (candidate(static_cast<unsigned>(std::countr_zero(left)), test)) return true;
+  return false;
+}
+
+template <class Test>
+bool is_surely_met(unsigned i, const Test& test, const WideRay& ray) {
+  return test.is_sure(i) && test.t_below(i) > ray.surely_after && test.t_above(i) < ray.surely_before;
+}
+
+template <class Test>
+HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
+  const auto walked = walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+      const float t = test.t_below(i);
+      if (t > ray.t_max) return false;
+      if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
+      tree.origin->prefetch(leaf.triangles.first() + i);
+      return !keep(found, leaf.triangles.first() + i, t, ray);
+    });
+  });
+  found.t_max = ray.t_max;
+  return walked == WideWalk::ended ? WideWalk::refused : walked;
+}
+
+template <class Test>
+HWY_INLINE WideWalk visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
+  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) {
+      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
+    });
+  });
+}
+
+template <class Test>
+HWY_INLINE WideWalk visit_unsure(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
+  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+      if (is_surely_met(i, test, ray)) return true;
+      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
+    });
+  });
+}
+
+WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
+  WideRay ray;
+  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
+  return tree.plain ? closest<PlainTest>(tree, ray, found) : closest<LeafTest>(tree, ray, found);
+}
+
+WideWalk visit_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits,
+                      CandidateVisitor visitor) {
+  WideRay ray;
+  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  return tree.plain ? visit_all<PlainTest>(tree, ray, visitor) : visit_all<LeafTest>(tree, ray, visitor);
+}
+
+WideWalk collect_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits, std::uint32_t skip,
+                        LeafCandidates& found) {
+  WideRay ray;
+  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  bool full = false;
+  const auto walked = walk<WideLeaf>(tree, ray, [&](const WideLeaf& leaf) {
+    const auto others = [&](unsigned candidates) {
+      for (unsigned left = candidates; left != 0; left &= left - 1)
+        if (tree.origin->ids[leaf.triangles.first() + static_cast<unsigned>(std::countr_zero(left))] == skip)
+          candidates &= ~(left & -left);
+      return candidates;
+    };
+    const auto keep_doubtful = [&](unsigned i, const LeafTest& test) {
+      if (is_surely_met(i, test, ray)) return true;
+      full = !keep(found, leaf.triangles.first() + i, test.t_below(i), ray);
+      return full;
+    };
+    return each_candidate<LeafTest>(leaf, ray, keep_doubtful, others);
+  });
+  return full ? WideWalk::refused : walked;
+}
+
+WideWalk doubtful_kernel(const WideTree& tree, const Ray& given, CandidateVisitor visitor) {
+  WideRay ray;
+  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
+  return tree.plain ? visit_unsure<PlainTest>(tree, ray, visitor)
+                    : visit_unsure<LeafTest>(tree, ray, visitor);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::raytrace {
+HWY_EXPORT(closest_kernel);
+HWY_EXPORT(visit_kernel);
+HWY_EXPORT(doubtful_kernel);
+HWY_EXPORT(collect_kernel);
+
+WideWalk closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
+  return HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
+}
+WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                          CandidateVisitor visitor) {
+  return HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visitor);
+}
+WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
+  return HWY_DYNAMIC_DISPATCH(doubtful_kernel)(tree, ray, visitor);
+}
+WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found) {
+  return HWY_DYNAMIC_DISPATCH(collect_kernel)(tree, ray, limits, skip, found);
+}
+
+}  // namespace gnomon::raytrace
+#endif  // HWY_ONCE

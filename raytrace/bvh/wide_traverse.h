@@ -1,0 +1,59 @@
+// One ray through the wide tree, compiled once per instruction set. What is found are candidates: no hit of
+// the tests in double is ever missing among them (raytrace/bvh/wide_ray.h says why), and few others are
+// there.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "raytrace/bvh/wide_ray.h"
+#include "scene/ray.h"
+
+namespace gnomon::raytrace {
+
+/// Positions in leaf order, each with a lower bound of its t (-infinity: none is known).
+struct LeafCandidates {
+  static constexpr std::size_t most = 32;
+  std::array<std::uint32_t, most> leaf;
+  std::array<float, most> t;
+  std::size_t count = 0;
+  float t_max = 0.0;  ///< none is later
+};
+
+/// refused: nothing was done, the ray has to walk another way. ended: by a visitor or a sure hit.
+enum class WideWalk : std::uint8_t { refused, done, ended };
+
+/// All that may be the closest hit: those before the least t where there surely is one. Every primitive must
+/// count (no masks). `refused` also where there would be too many.
+WideWalk closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found);
+
+/// Near ones first, roughly. The visitor may limit the ray, and returns true to end the walk.
+struct CandidateVisitor {
+  bool (*visit)(const void* self, std::uint32_t leaf, WideRay& ray);
+  const void* self;
+};
+struct WalkLimits {
+  float t_above = std::numeric_limits<float>::infinity();  ///< none from here on; in the units of RayFrame
+  double origin_error = 0.0;  ///< how far the ray's true origin may lie from its own, along any axis
+  double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
+};
+WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                          CandidateVisitor visitor);
+/// The same, but a triangle that is surely met in range ends it, too, and is not offered.
+WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor);
+
+/// All that the ray may meet, but for the triangle `skip` (a primitive's id); ended: one is surely met.
+/// `refused` also where there would be too many.
+WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found);
+
+/// visit(leaf, ray)
+template <class Visit>
+CandidateVisitor visitor_of(const Visit& visit) {
+  return {[](const void* self, std::uint32_t leaf, WideRay& ray) {
+            return (*static_cast<const Visit*>(self))(leaf, ray);
+          },
+          &visit};
+}
+
+}  // namespace gnomon::raytrace

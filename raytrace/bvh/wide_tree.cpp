@@ -1,0 +1,357 @@
+#include "raytrace/bvh/wide_tree.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <span>
+
+#include "raytrace/bvh/wide_pack.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+constexpr float inf = Box::inf;
+constexpr int parallel_depth = 4;                    // below it one thread does all
+constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
+
+/// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
+struct Part {
+  Box box;
+  std::uint32_t pair = 0;              // its index, if it is one
+  std::uint32_t first = 0, count = 0;  // count 0: a pair
+  bool is_leaf() const { return count > 0; }
+};
+
+/// Two parts, and what they cost at least when they become so many children of a wide node: [i - 1] for i.
+struct Pair {
+  std::array<Part, 2> parts;
+  std::array<float, node_lanes> cost;
+  std::array<std::uint8_t, node_lanes> left;  // how many of them the first part makes; 0: as with one fewer
+};
+
+Box box_of(const BvhNode& node, std::size_t child) {
+  Box box;
+  for (std::size_t row = 0; row < 6; ++row) box.at[row] = node.bounds[row][child];
+  return box;
+}
+bool is_empty(const BvhChild& child) {
+  return child.is_leaf() && child.count() == 0;
+}
+
+/// A leaf's corners, each once.
+struct Corners {
+  std::array<const double*, leaf_corners> at;
+  std::array<std::uint32_t, leaf_corners> hash{};
+  std::uint32_t index[3][2] = {};  // as in LeafTriangles
+  std::uint32_t count = 0;
+
+  /// The k-th corner of the leaf's i-th triangle; false: no room.
+  bool put(const double* corner, std::size_t i, std::size_t k) {
+    std::uint64_t mixed = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      mixed = (mixed + std::bit_cast<std::uint64_t>(corner[a])) * 0x9e3779b97f4a7c15u;
+    const auto h = static_cast<std::uint32_t>(mixed >> 32);
+    std::uint32_t equal = 0;  // bit j: to the j-th; without branches
+    for (std::uint32_t j = 0; j < leaf_corners; ++j) equal |= hash[j] == h ? 1u << j : 0u;
+    for (equal &= (1u << count) - 1; equal != 0; equal &= equal - 1)
+      if (std::equal(corner, corner + 3, at[static_cast<std::size_t>(std::countr_zero(equal))])) break;
+    const std::uint32_t found = equal != 0 ? static_cast<std::uint32_t>(std::countr_zero(equal)) : count;
+    if (found == leaf_corners) return false;
+    if (found == count) at[count] = corner, hash[count++] = h;
+    index[k][i % 2] |= (found + 1) << (4 * (i / 2));
+    return true;
+  }
+};
+
+/// The largest component of a triangle's edges.
+double longest_edge(const LeafPrimitive& triangle) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 9; ++i)
+    longest = std::max(longest, std::abs(triangle.v[(i + 3) % 9] - triangle.v[i]));
+  return longest;
+}
+
+// First the pairs, bottom up, with the least cost of each as one to eight children (Ylitalo et al. 2017,
+// "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1); then the nodes,
+// top down. A thread takes the places of what it makes when it begins it.
+class Folding {
+ public:
+  Folding(const Bvh& bvh, const World& world, WideTree& tree)
+      : bvh_(bvh), world_(world), tree_(tree), has_shapes_(world.primitive_count() > world.triangle_count()) {
+    pairs_.resize(bvh.primitives.size());  // without values: pages that are not reached cost nothing
+    tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
+    Box all;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_empty(bvh.nodes[0].child[i])) all.grow(box_of(bvh.nodes[0], i));
+    fold(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
+    tree.nodes.resize(nodes_), resize_leaves(leaves_);
+  }
+
+ private:
+  void resize_leaves(std::size_t count) {
+    tree_.plain ? tree_.plain_leaves.resize(count) : tree_.leaves.resize(count);
+  }
+
+  struct Pieces {
+    std::array<Part, node_lanes> at;
+    std::size_t count = 0;
+  };
+
+  /// Whether all below a child is few enough for a leaf; then the range of leaf order that it is.
+  bool is_short(const BvhChild& child, std::uint32_t& first, std::uint32_t& end) const {
+    if (is_empty(child)) return true;
+    if (!child.is_leaf()) {
+      const BvhNode& node = bvh_.nodes[child.index()];
+      return std::all_of(std::begin(node.child), std::end(node.child),
+                         [&](const BvhChild& c) { return is_short(c, first, end); });
+    }
+    first = std::min(first, child.first());
+    end = std::max(end, child.first() + child.count());
+    return end - first <= leaf_lanes;
+  }
+
+  bool is_triangle(std::uint32_t leaf) const { return world_.is_triangle(bvh_.ids[leaf]); }
+
+  bool are_alike(std::uint32_t first, std::uint32_t count) const {
+    for (std::uint32_t i = 1; i < count; ++i)
+      if (is_triangle(first + i) != is_triangle(first)) return false;
+    return true;
+  }
+  /// False: more than a leaf has room for.
+  bool corners_of(std::uint32_t first, std::uint32_t count, Corners& corners) const {
+    for (std::uint32_t i = 0; i < count && is_triangle(first); ++i) {
+      const double* v = bvh_.primitives[first + i].v.data();
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!corners.put(v + 3 * k, i, k)) return false;
+    }
+    return true;
+  }
+  bool fits(std::uint32_t first, std::uint32_t count) const {
+    if (count > leaf_lanes || (has_shapes_ && !are_alike(first, count))) return false;
+    Corners corners;
+    return count <= leaf_corners / 3 || corners_of(first, count, corners);
+  }
+
+  Part part_of(const BvhChild& child, const Box& box, int depth) {
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
+    if (is_short(child, first, end) && fits(first, end - first)) return {box, 0, first, end - first};
+    if (child.is_leaf()) return halved(child.first(), child.count(), box);
+    const BvhNode& node = bvh_.nodes[child.index()];
+    std::array<Part, 4> parts;
+    std::array<std::size_t, 4> used{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_empty(node.child[i])) used[count++] = i;
+    const auto make = [&](std::size_t k) {
+      parts[k] = part_of(node.child[used[k]], box_of(node, used[k]), depth + 1);
+    };
+    if (depth < 2 * parallel_depth)
+      tbb::parallel_for(std::size_t{0}, count, make);
+    else
+      for (std::size_t k = 0; k < count; ++k) make(k);
+    return joined(parts, (1u << count) - 1);
+  }
+
+  /// Of a leaf that has too many corners: parts of it, all with its box.
+  Part halved(std::uint32_t first, std::uint32_t count, const Box& box) {
+    if (fits(first, count)) return {box, 0, first, count};
+    const std::uint32_t half = count / 2;
+    return pair_of(halved(first, half, box), halved(first + half, count - half, box), box);
+  }
+
+  /// The parts of a set as one: in two halves with the least area.
+  Part joined(const std::array<Part, 4>& parts, unsigned set) {
+    if (std::has_single_bit(set)) return parts[static_cast<std::size_t>(std::countr_zero(set))];
+    const auto around = [&](unsigned some) {
+      Box box;
+      for (; some != 0; some &= some - 1)
+        box.grow(parts[static_cast<std::size_t>(std::countr_zero(some))].box);
+      return box;
+    };
+    unsigned best = 0;
+    float least = inf;
+    for (unsigned half = (set - 1) & set; half > set / 2; half = (half - 1) & set) {
+      const float area = around(half).half_area() + around(set & ~half).half_area();
+      if (best == 0 || area < least) best = half, least = area;
+    }
+    return pair_of(joined(parts, best), joined(parts, set & ~best), around(set));
+  }
+
+  float cost_of(const Part& part, std::size_t children) const {
+    return part.is_leaf() ? leaf_cost * part.box.half_area() : pairs_[part.pair].cost[children - 1];
+  }
+
+  Part pair_of(const Part& one, const Part& other, const Box& box) {
+    const std::uint32_t first = std::min(one.first, other.first);
+    const std::uint32_t end = std::max(one.first + one.count, other.first + other.count);
+    const bool whole = one.is_leaf() && other.is_leaf() && end - first == one.count + other.count;
+    if (whole && fits(first, end - first)) return {box, 0, first, end - first};
+    const std::uint32_t index = used_pairs_++;
+    Pair& pair = pairs_[index];
+    pair.parts = {one, other};
+    for (std::size_t children = 2; children <= node_lanes; ++children) {
+      float least = children > 2 ? pair.cost[children - 2] : inf;
+      std::size_t left = 0;
+      for (std::size_t k = 1; k < children; ++k) {
+        const float cost = cost_of(one, k) + cost_of(other, children - k);
+        if (cost < least || (left == 0 && children == 2)) least = cost, left = k;
+      }
+      pair.cost[children - 1] = least, pair.left[children - 1] = static_cast<std::uint8_t>(left);
+    }
+    pair.cost[0] = node_cost * box.half_area() + pair.cost[node_lanes - 1];
+    for (std::size_t i = 1; i < node_lanes; ++i)
+      if (pair.cost[i] > pair.cost[0]) pair.cost[i] = pair.cost[0], pair.left[i] = 0;
+    return {box, index, 0, 0};
+  }
+
+  /// Appends what the part becomes as so many children.
+  void split(const Part& part, std::size_t children, Pieces& pieces) const {
+    if (!part.is_leaf()) {
+      const Pair& pair = pairs_[part.pair];
+      while (children > 1 && pair.left[children - 1] == 0) --children;
+      if (children > 1) {
+        const std::size_t left = pair.left[children - 1];
+        split(pair.parts[0], left, pieces), split(pair.parts[1], children - left, pieces);
+        return;
+      }
+    }
+    pieces.at[pieces.count++] = part;
+  }
+
+  void fold(const Part& from, std::uint32_t to, int depth) {
+    Pieces pieces;
+    split(from, node_lanes, pieces);
+    WideNode& node = tree_.nodes[to];
+    for (std::size_t i = 0; i < node_lanes; ++i) {
+      const Box box = i < pieces.count ? pieces.at[i].box : Box{};
+      for (std::size_t row = 0; row < 6; ++row) node.bounds[row][i] = box.at[row];
+      node.child[i] = WideChild::leaf_flag;
+    }
+    put_order({pieces.at.data(), pieces.count}, node);
+    const auto put_child = [&](std::size_t i) {
+      const Part& piece = pieces.at[i];
+      const std::uint32_t place = piece.is_leaf() ? leaves_++ : nodes_++;
+      node.child[i] = piece.is_leaf() ? WideChild::leaf_flag | place : place;
+      if (piece.is_leaf())
+        put_leaf(piece, place);
+      else
+        fold(piece, place, depth + 1);
+    };
+    if (depth < parallel_depth)
+      tbb::parallel_for(std::size_t{0}, pieces.count, put_child);
+    else
+      for (std::size_t i = 0; i < pieces.count; ++i) put_child(i);
+  }
+
+  /// Nearest first by the boxes' middles along the octant's diagonal; the opposite octant's is the reverse.
+  static void put_order(std::span<const Part> pieces, WideNode& node) {
+    std::fill(std::begin(node.order), std::end(node.order), 0u);
+    for (unsigned octant = 0; octant < 4; ++octant) {
+      std::array<std::pair<float, std::uint32_t>, node_lanes> far;
+      for (std::uint32_t i = 0; i < node_lanes; ++i) {
+        far[i] = {inf, i};
+        if (i >= pieces.size()) continue;
+        const auto& box = pieces[i].box.at;
+        float sum = 0.0f;
+        for (std::size_t a = 0; a < 3; ++a) {
+          const float middle = box[a] + box[3 + a];
+          sum += (octant >> a & 1u) != 0 ? -middle : middle;
+        }
+        far[i].first = sum;
+      }
+      std::sort(far.begin(), far.end());
+      for (std::size_t i = 0; i < node_lanes; ++i) {
+        node.order[node_lanes - 1 - i] |= far[i].second << (4 * octant);
+        node.order[i] |= far[i].second << (4 * (7 - octant));
+      }
+    }
+  }
+
+  void put_leaf(const Part& piece, std::uint32_t place) {
+    Corners corners;
+    corners_of(piece.first, piece.count, corners);
+    LeafTriangles triangles;
+    std::copy(&corners.index[0][0], &corners.index[0][0] + 6, &triangles.index[0][0]);
+    triangles.range = piece.first | (piece.count - 1) << 27 | (is_triangle(piece.first) ? 0u : 1u << 31);
+    if (tree_.plain) {
+      tree_.plain_leaves[place].triangles = triangles;
+      put_plain_corners(corners, tree_.plain_leaves[place]);
+    } else {
+      tree_.leaves[place].triangles = triangles;
+      put_corners(piece, corners, tree_.leaves[place]);
+    }
+  }
+
+  static void put_plain_corners(const Corners& corners, PlainLeaf& leaf) {
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t i = 0; i <= leaf_corners; ++i)
+        leaf.corner[a][i] = i > 0 && i <= corners.count ? static_cast<float>(corners.at[i - 1][a]) : 0.0f;
+  }
+
+  void put_corners(const Part& piece, const Corners& corners, WideLeaf& leaf) const {
+    std::array<std::array<double, 3>, leaf_corners> from_center;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < corners.count; ++i)
+      for (std::size_t a = 0; a < 3; ++a) from_center[i][a] = corners.at[i][a] - tree_.center[a];
+    for (std::uint32_t i = 0; i < piece.count && !leaf.triangles.shapes(); ++i)
+      longest = std::max(longest, longest_edge(bvh_.primitives[piece.first + i]));
+    pack_corners(piece.box, {from_center.data(), corners.count}, longest, tree_.reach, leaf);
+  }
+
+  const Bvh& bvh_;
+  const World& world_;
+  WideTree& tree_;
+  bool has_shapes_;
+  HugeVector<Pair> pairs_;
+  std::atomic<std::uint32_t> used_pairs_{0}, nodes_{0}, leaves_{0};
+};
+
+/// The largest coordinate of the boxes at the root.
+float reach_of(const BvhNode& root) {
+  float reach = 0.0f;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!is_empty(root.child[i]))
+      for (const auto& row : root.bounds) reach = std::max(reach, std::abs(row[i]));
+  return reach;
+}
+
+}  // namespace
+
+std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain) {
+  if (bvh.nodes.empty()) return nullptr;
+  auto tree = std::make_unique<WideTree>();
+  tree->origin = &bvh, tree->plain = plain;
+  tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
+  tree->reach = reach_of(bvh.nodes[0]);
+  if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
+  const Folding fold(bvh, world, *tree);
+  return tree;
+}
+
+// Isolated, for else a thread that waits for the rest of the tree would begin another tile of the picture.
+void WideOnDemand::fold(const Bvh& bvh, const World& world) {
+  if (begun_.exchange(true)) return;
+  tbb::this_task_arena::isolate(
+      [&] { ready_.store(fold_wide(bvh, world, plain_).release(), std::memory_order_release); });
+}
+
+std::uint64_t WideOnDemand::bytes() const {
+  const WideTree* tree = ready_.load(std::memory_order_acquire);
+  return tree != nullptr ? tree->bytes() : 0;
+}
+
+// Each thread counts by itself and tells now and then. Folding costs for a primitive about what a ray
+// saves; who casts a sixteenth as many rays as there are primitives will cast more.
+const WideTree* WideOnDemand::count_ray(const Bvh& bvh, const World& world) {
+  constexpr unsigned told_at_once = 256, least = 4096;
+  thread_local unsigned untold = 0;
+  if (++untold < told_at_once) return nullptr;
+  untold = 0;
+  if ((rays_ += told_at_once) >= least + bvh.primitives.size() / 16) fold(bvh, world);
+  return ready_.load(std::memory_order_acquire);
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,111 @@
+// The hierarchy as single rays walk it: nodes of sixteen children and leaves of up to sixteen triangles in
+// float, folded from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough single
+// rays have come to pay for it. The floats only say which triangles a ray surely misses; the doubles decide.
+// Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow ones.
+#pragma once
+
+#include <atomic>
+#include <cstring>
+#include <memory>
+
+#include "raytrace/bvh/bvh.h"
+
+namespace gnomon::raytrace {
+
+inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16, leaf_corners = 15;
+
+/// A node's index, or a leaf's with the top bit set.
+struct WideChild {
+  std::uint32_t bits;
+  static constexpr std::uint32_t leaf_flag = 0x80000000u;
+  bool is_leaf() const { return (bits & leaf_flag) != 0; }
+  std::uint32_t index() const { return bits & ~leaf_flag; }
+};
+
+/// bounds as in BvhNode. order: lane i has in bits 4k..4k+3 the child that rays of octant k (bit a: backwards
+/// along axis a) visit as the i-th from the end.
+struct alignas(64) WideNode {
+  float bounds[6][node_lanes];
+  std::uint32_t child[node_lanes];
+  std::uint32_t order[node_lanes];
+};
+
+/// The triangles of a leaf share their corners, numbered from 1. Triangle i has the number of its k-th in the
+/// four bits from 4 (i / 2) on of index[k][i % 2], from where a vector unpacks all at once.
+struct LeafTriangles {
+  std::uint32_t index[3][2];
+  std::uint32_t range;  ///< position in leaf order, 27 bits; count - 1, 4 bits; whether all are shapes
+  std::uint32_t first() const { return range & BvhChild::first_mask; }
+  std::uint32_t last() const { return range >> 27 & 15u; }
+  unsigned lanes() const { return (2u << last()) - 1; }
+  bool shapes() const { return (range >> 31) != 0; }  ///< of which the corners say nothing
+};
+
+/// Corners in sixteen bits: anchor + corner * step, to the nearest. Anchor, step and size are floats of which
+/// only the upper halves are stored; the lower half of each is what stands before it, whatever that is, and
+/// the corners are made to fit. Two lines of memory, so that what a ray reads here and there stays in the
+/// caches.
+struct alignas(64) WideLeaf {
+  LeafTriangles triangles;
+  std::uint16_t half[5];  ///< of anchor (from the tree's centre), step, size_13
+  std::int16_t corner[3][leaf_corners];
+
+  float value(std::size_t i) const {
+    float value;
+    std::memcpy(&value, reinterpret_cast<const char*>(half + i) - sizeof(std::uint16_t), sizeof value);
+    return value;
+  }
+  float anchor(std::size_t axis) const { return value(axis); }
+  float step() const { return value(3); }
+  /// 13 L: no component of an edge is above L, and L is not below 2^-16 of `reach`.
+  float size_13() const { return value(4); }
+};
+static_assert(sizeof(WideLeaf) == 128);
+
+/// The world's corners, rounded: for the textbook's test (Precision::fast). corner[a][0] is unused.
+struct alignas(64) PlainLeaf {
+  float corner[3][leaf_corners + 1];
+  LeafTriangles triangles;
+};
+
+struct WideTree {
+  HugeVector<WideNode> nodes;  ///< node 0 is the root
+  HugeVector<WideLeaf> leaves;
+  HugeVector<PlainLeaf> plain_leaves;          ///< instead of these, where `plain`
+  const Bvh* origin = nullptr;                 ///< what was folded; it must outlive the tree
+  alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
+  bool plain = false;
+  float reach = 0.0;  ///< no coordinate of a box is above this
+  std::uint64_t bytes() const {
+    return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf) +
+           plain_leaves.size() * sizeof(PlainLeaf);
+  }
+};
+
+/// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than
+/// 2^-26.
+std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain = false);
+
+/// Folds the tree when so many rays have asked for it that it pays. Any number of threads may ask.
+class WideOnDemand {
+ public:
+  explicit WideOnDemand(bool plain = false) : plain_(plain) {}
+  ~WideOnDemand() { delete ready_.load(); }
+  /// Null until it is there; counts the ray.
+  const WideTree* for_ray(const Bvh& bvh, const World& world) {
+    const WideTree* tree = ready_.load(std::memory_order_acquire);
+    return tree != nullptr ? tree : count_ray(bvh, world);
+  }
+  /// Folds now, unless it has been or is being done.
+  void fold(const Bvh& bvh, const World& world);
+  std::uint64_t bytes() const;
+
+ private:
+  const WideTree* count_ray(const Bvh& bvh, const World& world);
+  bool plain_;
+  std::atomic<const WideTree*> ready_{nullptr};
+  std::atomic<std::uint64_t> rays_{0};
+  std::atomic<bool> begun_{false};
+};
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,302 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raytrace/packets/bin_shadows.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "raytrace/packets/bin_shadows.h"
+#include "raytrace/packets/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+
+using Place = hn::RebindToSigned<F>;
+using Places = hn::Vec<Place>;
+constexpr Place place;
+
+/// A vector of rays: what is still asked of them, and where in their cells they lie.
+struct alignas(64) TileState {
+  float far[tile_rays];  ///< +infinity: nothing is asked any more
+  std::int32_t u_in_cell[tile_rays], v_in_cell[tile_rays];
+};
+
+/// A vector's rays that share a cell, and of the cell's list what has not been looked at yet.
+struct Group {
+  std::uint32_t lane, bits;   ///< of the vector's first ray; which of its rays
+  std::uint32_t next, end;    ///< of the list
+  std::uint32_t first, last;  ///< candidates: list places, their primitives on their way to the cache
+};
+
+/// A vector of rays against primitives.
+class CellShadows {
+ public:
+  CellShadows(const TileRays& rays, TileState& state, std::size_t at, TileShadows& out)
+      : u_(hn::Load(f, rays.u + at)),
+        v_(hn::Load(f, rays.v + at)),
+        far_(hn::Load(f, state.far + at)),
+        own_(hn::Load(ids, rays.own + at)),
+        at_(at),
+        state_(state),
+        out_(out) {}
+  ~CellShadows() { hn::Store(far_, f, state_.far + at_); }
+  CellShadows(const CellShadows&) = delete;
+  CellShadows& operator=(const CellShadows&) = delete;
+
+  unsigned shadowed() const { return shadowed_; }
+  unsigned unsure() const { return unsure_; }
+  float least_far(M asked) const {
+    return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(asked, far_, all(inf))));
+  }
+
+  /// True when rays have been found to be shadowed.
+  template <bool plane>
+  bool test(const SeenPrimitive& p, std::uint32_t leaf, M asked) {
+    const RayTest rays{Functions(p)};
+    const V edge = plane ? all(inf) : rays.least_edge(u_, v_);
+    const V edge_error = all(p.edge_error), depth_error = all(p.depth_error);
+    const V nearness = rays.nearness(u_, v_);
+    const M known = hn::Gt(nearness, all(p.depth_floor));
+    const M behind = hn::And(hn::Lt(nearness, hn::Sub(far_, depth_error)), known);
+    // A flat shape does not shadow itself; of others the double kernels know when.
+    const std::uint32_t not_by = p.edge_error < inf ? p.id & ~never_sure : no_id;
+    const M own = hn::RebindMask(f, hn::Eq(own_, hn::Set(ids, not_by)));
+    const M near = hn::AndNot(own, hn::And(asked, hn::Ge(edge, hn::Neg(edge_error))));
+    const M contact = hn::AndNot(behind, near);
+    if (hn::AllFalse(f, contact)) return false;
+    const M ahead = hn::And(hn::Gt(nearness, hn::Add(far_, depth_error)), known);
+    const M inside = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
+    const unsigned sure = (p.id & never_sure) == 0 ? bits_of(inside) : 0;
+    const unsigned open = bits_of(contact) & ~sure;
+    unsure_ |= open;
+    if (!plane) out_.note(leaf, at_, open);
+    if (sure == 0) return false;
+    shadowed_ |= sure;
+    far_ = hn::IfThenElse(inside, all(inf), far_);
+    return true;
+  }
+
+ private:
+  V u_, v_, far_;
+  hn::Vec<I> own_;
+  unsigned shadowed_ = 0, unsure_ = 0;
+  std::size_t at_;
+  TileState& state_;
+  TileShadows& out_;
+};
+
+/// The box of some rays in their cell, against the boxes of as many primitives at once.
+class Extent {
+ public:
+  Extent(const TileState& state, std::size_t at, M asked) {
+    const auto mask = hn::RebindMask(place, asked);
+    const auto u = hn::Load(place, state.u_in_cell + at), v = hn::Load(place, state.v_in_cell + at);
+    const auto low = [&](Places p) {
+      return hn::MinOfLanes(place, hn::IfThenElse(mask, p, hn::Set(place, 255)));
+    };
+    const auto high = [&](Places p) { return hn::MaxOfLanes(place, hn::IfThenElseZero(mask, p)); };
+    u_min_ = low(u), u_max_ = high(u), v_min_ = low(v), v_max_ = high(v);
+  }
+  /// Bits of list places `first` on, as many as there are lanes; not those behind `least`.
+  unsigned meets(const Cells& cells, std::uint32_t first, std::uint32_t end, float least) const {
+    const auto box = hn::LoadU(place, reinterpret_cast<const std::int32_t*>(cells.box.data()) + first);
+    const auto byte = hn::Set(place, 255);
+    const auto part = [&](auto shifted) { return hn::And(shifted, byte); };
+    auto apart = hn::Or(hn::Gt(part(box), u_max_), hn::Gt(u_min_, part(hn::ShiftRight<8>(box))));
+    apart = hn::Or(apart, hn::Or(hn::Gt(part(hn::ShiftRight<16>(box)), v_max_),
+                                 hn::Gt(v_min_, part(hn::ShiftRight<24>(box)))));
+    const M behind = hn::Lt(hn::LoadU(f, cells.nearest.data() + first), all(least));
+    const unsigned met = bits_of(hn::Not(hn::Or(behind, hn::RebindMask(f, apart))));
+    return end - first < lanes() ? met & ((1u << (end - first)) - 1) : met;
+  }
+
+ private:
+  Places u_min_, u_max_, v_min_, v_max_;
+};
+
+/// A tile in three rounds, so that what one round asks memory for is there in the next: which cells the rays
+/// lie in; which primitives of the cells' lists they may meet; the tests.
+class CellTile {
+ public:
+  CellTile(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out)
+      : cells_(cells), seen_(seen), rays_(rays), out_(out), columns_(cells.columns()) {}
+
+  void run(LaneMask& outside) {
+    out_.doubt_count = 0;
+    out_.shadowed.fill(0), out_.unsure.fill(0);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      unsigned out_of_cells = 0;
+      for (std::size_t i = 0; i < packet_rays && rays_.alive[p] != 0; i += lanes())
+        out_of_cells |= find_groups(p * packet_rays + i) << i;
+      outside[p] = static_cast<std::uint16_t>(out_of_cells);
+    }
+    for (std::size_t g = 0; g < group_count_; ++g) gather(groups_[g]);
+    for (std::size_t g = 0; g < group_count_; ++g) finish(groups_[g]);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      outside[p] &= static_cast<std::uint16_t>(~out_.shadowed[p]);
+      out_.unsure[p] = static_cast<std::uint16_t>((out_.unsure[p] | outside[p]) & ~out_.shadowed[p]);
+    }
+  }
+
+ private:
+  /// Returns the bits of the rays outside the cells.
+  unsigned find_groups(std::size_t at) {
+    const unsigned alive =
+        static_cast<unsigned>(rays_.alive[at / packet_rays]) >> (at % packet_rays) & ((1u << lanes()) - 1);
+    if (alive == 0) return 0;
+    hn::Store(hn::IfThenElse(mask_of(alive), hn::Load(f, rays_.far + at), all(inf)), f, state_.far + at);
+    unsigned left = alive;
+    if (!seen_.planes.empty()) {
+      CellShadows some(rays_, state_, at, out_);
+      for (const SeenPrimitive& plane : seen_.planes) some.test<true>(plane, 0, mask_of(alive));
+      keep(some, at);
+      left &= ~some.shadowed();
+    }
+    left &= ~beyond_limits(at);
+    const unsigned outside = find_cells(at, left);
+    left &= ~outside;
+    while (left != 0) {
+      const std::int32_t cell = cell_[std::countr_zero(left)];
+      const auto same = hn::Eq(hn::Load(place, cell_), hn::Set(place, cell));
+      const unsigned bits = left & bits_of(hn::RebindMask(f, same));
+      left &= ~bits;
+      const std::uint32_t begin = cells_.first[static_cast<std::size_t>(cell)];
+      const std::uint32_t end = cells_.first[static_cast<std::size_t>(cell) + 1];
+      if (begin == end) continue;
+      groups_[group_count_++] = {static_cast<std::uint32_t>(at), bits, begin, end, 0, 0};
+      for (const std::uint32_t i : {begin, begin + 16}) {  // where there is no more, nothing is asked for
+        __builtin_prefetch(cells_.nearest.data() + i), __builtin_prefetch(cells_.leaf.data() + i);
+        __builtin_prefetch(cells_.box.data() + i);
+      }
+    }
+    return outside;
+  }
+
+  /// Bits of the rays that nothing finite can meet.
+  unsigned beyond_limits(std::size_t at) const {
+    const PlaneLimits& limits = cells_.limits;
+    const auto beyond = [at](const float* from, float min, float max) {
+      const V value = hn::Load(f, from + at);
+      return hn::Or(hn::Lt(value, all(min)), hn::Gt(value, all(max)));
+    };
+    return bits_of(
+        hn::Or(beyond(rays_.u, limits.u_min, limits.u_max), beyond(rays_.v, limits.v_min, limits.v_max)));
+  }
+
+  /// Stores the rays' cells, and where in them they lie; returns the bits of those outside.
+  unsigned find_cells(std::size_t at, unsigned asked) {
+    M within = mask_of(asked);
+    const auto along = [&](const float* from, const CellAxis& axis, std::int32_t* in_cell) {
+      const V step = hn::Mul(hn::Sub(hn::Load(f, from + at), all(axis.origin)), all(axis.per_width));
+      within = hn::And(within,
+                       hn::And(hn::Ge(step, all(0.0f)), hn::Lt(step, all(static_cast<float>(axis.count)))));
+      const auto fine = hn::ConvertTo(place, hn::Mul(step, all(256.0f)));
+      hn::Store(hn::And(fine, hn::Set(place, 255)), place, in_cell + at);
+      return hn::ShiftRight<8>(fine);
+    };
+    const auto x = along(rays_.u, cells_.u, state_.u_in_cell);
+    const auto y = along(rays_.v, cells_.v, state_.v_in_cell);
+    hn::Store(hn::Add(hn::Mul(y, hn::Set(place, columns_)), x), place, cell_);
+    return asked & ~bits_of(within);
+  }
+
+  /// The first of the list's primitives that the rays may meet.
+  void gather(Group& group) {
+    constexpr std::uint32_t few = 4;      // not worth telling apart
+    constexpr std::uint32_t enough = 24;  // one of them may end the search
+    const M asked = mask_of(group.bits);
+    const V far = hn::IfThenElse(asked, hn::Load(f, state_.far + group.lane), all(inf));
+    const float least = hn::GetLane(hn::MinOfLanes(f, far));
+    group.first = group.last = candidate_count_;
+    if (cells_.nearest[group.next] < least) {
+      group.next = group.end;
+      return;
+    }
+    if (candidate_count_ + packet_rays > most_candidates) return;
+    if (group.end - group.next <= few) {
+      while (group.next < group.end && !(cells_.nearest[group.next] < least)) add_candidate(group.next++);
+      group.next = group.end;
+    } else {
+      const Extent extent(state_, group.lane, asked);
+      while (candidate_count_ - group.first < enough && candidate_count_ + packet_rays <= most_candidates) {
+        for (unsigned met = extent.meets(cells_, group.next, group.end, least); met != 0; met &= met - 1)
+          add_candidate(group.next + static_cast<std::uint32_t>(std::countr_zero(met)));
+        group.next = std::min(group.next + static_cast<std::uint32_t>(lanes()), group.end);
+        if (group.next == group.end || cells_.nearest[group.next] < least) break;
+      }
+      if (group.next < group.end && cells_.nearest[group.next] < least) group.next = group.end;
+    }
+    group.last = candidate_count_;
+  }
+  void add_candidate(std::uint32_t i) {
+    __builtin_prefetch(&cells_.primitives[cells_.leaf[i]]);
+    candidates_[candidate_count_++] = i;
+  }
+
+  void finish(const Group& group) {
+    if (group.first == group.last && group.next == group.end) return;
+    const M asked = mask_of(group.bits);
+    CellShadows some(rays_, state_, group.lane, out_);
+    float least = some.least_far(asked);
+    const auto test = [&](std::uint32_t i) {
+      const std::uint32_t leaf = cells_.leaf[i];
+      if (some.test<false>(cells_.primitives[leaf], leaf, asked)) least = some.least_far(asked);
+    };
+    for (std::uint32_t c = group.first; c != group.last && !(cells_.nearest[candidates_[c]] < least); ++c)
+      test(candidates_[c]);
+    if (group.next < group.end && !(cells_.nearest[group.next] < least)) {
+      const Extent extent(state_, group.lane, asked);
+      for (std::uint32_t next = group.next; next < group.end && !(cells_.nearest[next] < least);
+           next += static_cast<std::uint32_t>(lanes())) {
+        const unsigned all_met = extent.meets(cells_, next, group.end, least);
+        for (unsigned met = all_met; met != 0; met &= met - 1)
+          __builtin_prefetch(
+              &cells_.primitives[cells_.leaf[next + static_cast<std::uint32_t>(std::countr_zero(met))]]);
+        for (unsigned met = all_met; met != 0; met &= met - 1)
+          test(next + static_cast<std::uint32_t>(std::countr_zero(met)));
+      }
+    }
+    keep(some, group.lane);
+  }
+
+  void keep(const CellShadows& some, std::size_t at) {
+    const std::size_t p = at / packet_rays, shift = at % packet_rays;
+    out_.shadowed[p] |= static_cast<std::uint16_t>(some.shadowed() << shift);
+    out_.unsure[p] |= static_cast<std::uint16_t>(some.unsure() << shift);
+  }
+
+  const Cells& cells_;
+  const Seen& seen_;
+  const TileRays& rays_;
+  TileShadows& out_;
+  int columns_;
+  TileState state_;
+  alignas(64) std::int32_t cell_[packet_rays];
+  Group groups_[tile_rays];
+  std::size_t group_count_ = 0;
+  static constexpr std::uint32_t most_candidates = 2048;
+  std::uint32_t candidates_[most_candidates];
+  std::uint32_t candidate_count_ = 0;
+};
+
+void shadows_kernel(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& out,
+                    LaneMask& outside) {
+  CellTile(cells, seen, rays, out).run(outside);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::raytrace {
+HWY_EXPORT(shadows_kernel);
+
+void shadows_in_cells(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& shadows,
+                      LaneMask& outside) {
+  HWY_DYNAMIC_DISPATCH(shadows_kernel)(cells, seen, rays, shadows, outside);
+}
+
+}  // namespace gnomon::raytrace
+#endif  // HWY_ONCE

@@ -1,0 +1,45 @@
+// Receivers of pixels whose primitive is known: raytrace/packets/passes.h.
+#include "raytrace/packets/known_hit.h"
+#include "raytrace/packets/passes.h"
+#include "raytrace/packets/places.h"
+#include "raytrace/packets/receivers.h"
+
+namespace gnomon::raytrace {
+std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
+                         const TileRect& rect, const Image<std::uint32_t>& primitives,
+                         Image<SurfacePoint>& receivers, CompactTile& compact) {
+  LaneMask left;
+  left.fill(0xffff);
+  CompactDraft draft;
+  compact.clear();
+  const Structures& s = tracer.structures();
+  if (is_whole(rect) && packets_apply(s) && !s.has_masks) {
+    TileHits known;
+    for_each_place(rect, [&](int x, int y, std::size_t lane) {
+      const std::uint32_t id = primitives.at(x, y);
+      known.leaf[lane] = id == no_id || !tracer.world().is_triangle(id) ? nothing_hit : leaf_of[id];
+    });
+    left = store_receivers(s.bvh, view, rect.x0, rect.y0, axis_of(view, rect), known,
+                           {.points = &receivers.at(rect.x0, rect.y0),
+                            .stride = static_cast<std::size_t>(receivers.size.width),
+                            .compact = &compact,
+                            .draft = &draft});
+  }
+  std::uint64_t missed = 0;
+  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
+    SurfacePoint& out = receivers.at(x, y);
+    const std::uint32_t id = primitives.at(x, y);
+    out = SurfacePoint{};
+    if (id == no_id) return;
+    const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+    std::optional<Hit> hit = hit_at(s, ray, leaf_of[id]);
+    if (!hit) ++missed, hit = tracer.closest_hit(ray);
+    if (!hit) return;
+    out = tracer.surface_point(ray, *hit);
+    compact.put(lane, out, draft);
+  });
+  compact.finish(draft, draft.bounds.center());  // from points in double: no error grows with a distance
+  return missed;
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,175 @@
+#include "raytrace/packets/passes.h"
+
+#include "raytrace/packets/known_hit.h"
+#include "raytrace/packets/places.h"
+#include "raytrace/packets/plane_receivers.h"
+#include "raytrace/packets/receivers.h"
+#include "raytrace/packets/view_block.h"
+#include "raytrace/tiles.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+/// Leaves among which a pixel's nearest hit is; `known`: else it may be any.
+struct Candidates {
+  std::span<const std::uint32_t> leaves;
+  bool known = false;
+};
+
+/// Where in the tree the triangle lies; unsure_hit where that is not known.
+std::uint32_t leaf_of(const Tracer& tracer, const Candidates& candidates, std::uint32_t triangle) {
+  if (triangle == no_id || !tracer.world().is_triangle(triangle)) return unsure_hit;
+  for (const std::uint32_t leaf : candidates.leaves)
+    if (tracer.structures().bvh.ids[leaf] == triangle) return leaf;
+  return unsure_hit;
+}
+
+/// The receiver of a pixel whose ray meets this leaf.
+SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, std::uint32_t leaf,
+                         const Candidates& candidates = {}) {
+  if (leaf == nothing_hit) return {};
+  const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+  // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
+  std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
+  if (!hit)
+    hit = candidates.known ? tracer.closest_hit_among(ray, candidates.leaves) : tracer.closest_hit(ray);
+  return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
+}
+
+std::size_t place_in_tile(const TileRect& rect, int x, int y) {
+  return static_cast<std::size_t>(tile_pixels * (y - rect.y0) + x - rect.x0);
+}
+
+TileHits those_of(const TileHits& hits, const LaneMask& bits) {
+  TileHits some;
+  for (std::size_t lane = 0; lane < tile_rays; ++lane)
+    some.leaf[lane] = (bits[lane / packet_rays] & bit_of(lane)) != 0 ? hits.leaf[lane] : nothing_hit;
+  return some;
+}
+
+/// Those receivers that are found many at a time; returns the bits of the others.
+LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, const TileHits& hits,
+                          Image<SurfacePoint>* receivers, CompactTile* compact, CompactDraft& draft) {
+  const Bvh& bvh = tracer.structures().bvh;
+  const int axis = axis_of(view, rect);
+  if (receivers != nullptr || compact == nullptr)
+    return store_receivers(bvh, view, rect.x0, rect.y0, axis, hits,
+                           {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
+                            .stride = static_cast<std::size_t>(view.size.width),
+                            .compact = compact,
+                            .draft = &draft});
+  const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *compact, draft);
+  if (left.ill == LaneMask{}) return left.others;
+  const TileHits ill = those_of(hits, left.ill);
+  LaneMask still = store_receivers(bvh, view, rect.x0, rect.y0, axis, ill,
+                                   {.points = nullptr, .stride = 0, .compact = compact, .draft = &draft});
+  for (std::size_t p = 0; p < tile_packets; ++p)
+    still[p] = static_cast<std::uint16_t>((still[p] & left.ill[p]) | left.others[p]);
+  return still;
+}
+
+/// The tile's receivers from its hits in the block.
+void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::size_t index,
+                const TileRect& rect, Image<SurfacePoint>* receivers, CompactTile* compact) {
+  TileHits& hits = block.tiles[index];
+  CompactDraft draft;
+  if (compact != nullptr) compact->clear();
+  const LaneMask left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
+  const bool any_planes = !tracer.structures().planes.empty();
+  HugeArray<SurfacePoint> on_planes(any_planes ? tile_rays : 0);
+  LaneMask found{};
+  if (any_planes) found = find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
+  const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
+    if (receivers != nullptr) receivers->at(x, y) = point;
+    if (compact != nullptr) compact->put(lane, point, draft);
+  };
+  std::vector<std::uint32_t> leaves;
+  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
+    const std::uint32_t leaf = hits.leaf[lane];
+    if (leaf == nothing_hit && receivers == nullptr) return;
+    if ((found[lane / packet_rays] & bit_of(lane)) != 0)
+      return store(x, y, lane, on_planes[static_cast<std::size_t>(place_in_tile(rect, x, y))]);
+    Candidates candidates;
+    if (leaf == unsure_hit) {
+      leaves.clear();
+      for (const BlockDoubt& doubt : block.doubts_at(index * tile_rays + lane)) leaves.push_back(doubt.leaf);
+      candidates = {leaves, block.all_doubts};
+    }
+    const SurfacePoint point = receiver_of(tracer, view, x, y, leaf, candidates);
+    if (leaf == unsure_hit) hits.leaf[lane] = leaf_of(tracer, candidates, point.primitive);
+    store(x, y, lane, point);
+  });
+  if (compact != nullptr) compact->finish(draft, view.eye);
+}
+
+/// tile(index in the block, its rectangle) for every tile of a block's rectangle.
+template <class Tile>
+void for_each_tile_of(const BlockRect& block, const Tile& tile) {
+  for (int y = block.y0; y < block.y1; y += tile_pixels)
+    for (int x = block.x0; x < block.x1; x += tile_pixels) {
+      const int index = (y - block.y0) / tile_pixels * block_tiles + (x - block.x0) / tile_pixels;
+      tile(static_cast<std::size_t>(index),
+           TileRect{x, y, std::min(x + tile_pixels, block.x1), std::min(y + tile_pixels, block.y1)});
+    }
+}
+
+/// block(rectangle) for every block of the picture, over all threads.
+template <class Block>
+void for_each_block(ImageSize size, const Block& block) {
+  const int columns = (size.width + block_pixels - 1) / block_pixels;
+  const int rows = (size.height + block_pixels - 1) / block_pixels;
+  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), [&](const tbb::blocked_range<int>& r) {
+    for (int i = r.begin(); i != r.end(); ++i) {
+      const int x = i % columns * block_pixels, y = i / columns * block_pixels;
+      block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
+    }
+  });
+}
+
+std::size_t tile_at(ImageSize size, const TileRect& rect) {
+  return static_cast<std::size_t>(rect.y0 / tile_pixels) * TileGrid{size}.columns() +
+         static_cast<std::size_t>(rect.x0 / tile_pixels);
+}
+
+}  // namespace
+
+void primary_pass(const Tracer& tracer, const View& view, const Seen& eye, const PrimarySinks& sinks) {
+  const bool hits_alone = sinks.receivers == nullptr && sinks.compact.empty();
+  for_each_block(view.size, [&](const BlockRect& rect) {
+    BlockHits block;
+    closest_in_block(tracer.structures(), eye, view, rect, block);
+    for_each_tile_of(rect, [&](std::size_t i, const TileRect& tile) {
+      const std::size_t at = tile_at(view.size, tile);
+      if (!hits_alone)
+        store_tile(tracer, view, block, i, tile, sinks.receivers,
+                   sinks.compact.empty() ? nullptr : &sinks.compact[at]);
+      if (!sinks.hits.empty()) sinks.hits[at] = block.tiles[i];
+    });
+  });
+}
+
+SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
+  const TilePlace place = tile_place(lane);
+  const int x = rect.x0 + place.x, y = rect.y0 + place.y;
+  return stored != nullptr ? stored->at(x, y) : receiver_of(tracer, *view, x, y, hits->leaf[lane]);
+}
+
+void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const {
+  LaneMask left = asked;
+  if (stored == nullptr) {
+    const Bvh& bvh = tracer.structures().bvh;
+    for_each_place(rect, asked, [&](int, int, std::size_t lane) {
+      if (hits->leaf[lane] < bvh.primitives.size()) bvh.prefetch(hits->leaf[lane]);
+    });
+    const LaneMask others =
+        store_receivers(bvh, *view, rect.x0, rect.y0, axis_of(*view, rect), those_of(*hits, asked),
+                        {.points = points, .stride = tile_pixels});
+    for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
+    const LaneMask found = find_plane_receivers(tracer.structures(), *view, rect, *hits, left, points);
+    for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= static_cast<std::uint16_t>(~found[p]);
+  }
+  for_each_place(rect, left,
+                 [&](int x, int y, std::size_t lane) { points[place_in_tile(rect, x, y)] = at(rect, lane); });
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,64 @@
+// The primary and hard-shadow passes of a frame by tiles. What they store is what the double kernels give,
+// bit for bit: the floats only say which primitive is hit, and which rays must be asked again in double.
+#pragma once
+
+#include <span>
+
+#include "raytrace/packets/sight.h"
+#include "raytrace/packets/tile.h"
+#include "raytrace/tracer.h"
+#include "scene/camera.h"
+#include "scene/image.h"
+
+namespace gnomon::raytrace {
+
+/// A tile's rectangle of pixels: at most 16 x 16.
+struct TileRect {
+  int x0, y0, x1, y1;
+};
+
+/// Where a whole picture's pass goes; what is empty is not asked for.
+struct PrimarySinks {
+  std::span<TileHits>
+      hits;  ///< by tile; unsure where floats cannot tell, but on triangles that doubles found
+  Image<SurfacePoint>* receivers = nullptr;
+  std::span<CompactTile> compact;  ///< by tile
+};
+
+/// The whole picture by blocks, over all threads. `eye`: seen_by_eye().
+void primary_pass(const Tracer& tracer, const View& view, const Seen& eye, const PrimarySinks& sinks);
+
+/// Where a tile's receivers are to be had in double: stored, or by tracing the pixel again.
+struct ReceiverSource {
+  const Tracer& tracer;
+  const Image<SurfacePoint>* stored = nullptr;
+  const View* view = nullptr;  ///< these two when none are stored
+  const TileHits* hits = nullptr;
+  SurfacePoint at(const TileRect& rect, std::size_t lane) const;
+  /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
+  void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
+};
+
+/// Fills the verdicts of the tile's receivers as Tracer::light_verdict does, `shadowed` where the light
+/// cannot reach, and returns the number of rays. Without a compact tile the receivers must be stored.
+std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
+                          const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts);
+
+/// The whole tile: lit, or shadowed where the bit is set.
+void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts);
+
+/// Fills the verdicts of the asked receivers alone, which exist and which the light reaches; the others' are
+/// left as they are. The receivers must be stored, and `compact` may be nullptr. Without a sight of the light
+/// (packets do not apply) each ray is traced by itself.
+void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sight* sight,
+                  const TileRect& rect, const CompactTile* compact, const LaneMask& asked,
+                  Image<Verdict>& verdicts);
+
+/// Fills the tile's receivers from the primitives that its pixels are known to show (no_id: none), as
+/// primary_pass does where it finds the same ones. `leaf_of`: by primitive, as in TileHits. Returns the
+/// number of pixels whose ray misses their primitive; these get the nearest hit.
+std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
+                         const TileRect& rect, const Image<std::uint32_t>& primitives,
+                         Image<SurfacePoint>& receivers, CompactTile& compact);
+
+}  // namespace gnomon::raytrace

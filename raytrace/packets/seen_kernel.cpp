@@ -1,0 +1,305 @@
+// The numbers of raytrace/packets/seen.h, in double, eight triangles at a time.
+//
+// The bounds, with u = 2^-24 and M the largest coordinate in the pass:
+// - An edge function has 5 roundings of terms that sum to at most |d| (<= 2.35 for |u|, |v| <= 1.5): 12 u.
+//   Along a direction, with |u|, |v| <= 2 R for the world's radius R and no line farther than R from the
+//   middle, near an edge: of the coefficients and of (u, v) 2 * 2.83 R + R, of the inner sum 2 R, of products
+//   where they are not fused 2.83 R, of compact receivers' positions 4 R: below 16 u R.
+// - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
+// error
+//   boxes included: gamma(7) and gamma(24) of raytrace/precision/ray_offset.h, gamma(12) of
+//   raytrace/precision/visibility.cpp, times the shear), so an edge function by 2^-41 M C with C the farthest
+//   corner; four times that is taken, for one edge function surely negative then leaves another one surely
+//   positive.
+// - The depth: the mean of the corners' with weights known to the same bound.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raytrace/packets/seen_kernel.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "raytrace/packets/seen.h"
+#include "raytrace/packets/seen_rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+constexpr D d;
+
+struct V3 {
+  V x, y, z;
+};
+V3 operator-(const V3& a, const V3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+V dot(const V3& a, const V3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+V product_difference(V a, V b, V c, V e) {
+  return hn::Sub(hn::Mul(a, b), hn::Mul(c, e));
+}
+V3 cross(const V3& a, const V3& b) {
+  return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
+          product_difference(a.x, b.y, a.y, b.x)};
+}
+V3 times(const V3& a, V s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+V length(const V3& a) {
+  return hn::Sqrt(dot(a, a));
+}
+V max3(V a, V b, V c) {
+  return hn::Max(a, hn::Max(b, c));
+}
+V min3(V a, V b, V c) {
+  return hn::Min(a, hn::Min(b, c));
+}
+V all(double v) {
+  return hn::Set(d, v);
+}
+
+// What is to be written: rows of SeenPrimitive.
+struct Out {
+  V3 edge[3], nearness;
+  V edge_error, depth_error, depth_floor;
+};
+
+// Where `thin`: the triangle is taken for its own plane alone, seen edge-on; it never says how near it is.
+template <class M>
+void lie_in_plane(M thin, const V3& normal, V error, Out& out) {
+  out.edge_error = hn::IfThenElse(thin, error, out.edge_error);
+  const V3 slab[3] = {normal, times(normal, all(-1.0)), times(normal, all(0.0))};
+  for (int k = 0; k < 3; ++k) {
+    out.edge[k] = {hn::IfThenElse(thin, slab[k].x, out.edge[k].x),
+                   hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
+                   hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
+  }
+  out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
+                  hn::IfThenZeroElse(thin, out.nearness.z)};
+  out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
+}
+
+V inverse_or_zero(V length, V sign) {
+  return hn::IfThenElseZero(hn::Gt(length, all(0.0)), hn::Div(sign, length));
+}
+
+// Divisions and roots are what these numbers cost, so several quotients share one.
+struct Inverses {
+  V of[3], most;  ///< of a length of zero: 0; the most: infinity there
+  explicit Inverses(const V (&l)[3]) {
+    const V product = hn::Mul(hn::Mul(l[0], l[1]), l[2]);
+    const auto in_range = hn::And(hn::Gt(product, all(1e-200)), hn::Lt(product, all(1e200)));
+    if (hn::AllTrue(d, in_range)) [[likely]] {
+      const V inverse = hn::Div(all(1.0), product), last = hn::Mul(inverse, l[2]);
+      of[0] = hn::Mul(last, l[1]), of[1] = hn::Mul(last, l[0]);
+      of[2] = hn::Mul(inverse, hn::Mul(l[0], l[1]));
+      most = max3(of[0], of[1], of[2]);
+      return;
+    }
+    for (int k = 0; k < 3; ++k) of[k] = inverse_or_zero(l[k], all(1.0));
+    most = hn::Div(all(1.0), min3(l[0], l[1], l[2]));
+  }
+};
+
+Out from_point(const V3& a, const V3& b, const V3& c, double m) {
+  const V3 e0 = c - b, e1 = a - c, e2 = b - a;
+  const V3 n[3] = {cross(b, e0), cross(c, e1), cross(a, e2)};
+  const V3 normal = cross(e1, e2);
+  const V det = dot(normal, a), size = hn::Abs(det), sign = hn::CopySign(all(1.0), det);
+  const V corner = hn::Sqrt(max3(dot(a, a), dot(b, b), dot(c, c)));
+  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
+  const V l[3] = {length(n[0]), length(n[1]), length(n[2])};
+  const V doubt = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
+  const Inverses inverse(l);
+  Out out;
+  out.edge_error = hn::MulAdd(doubt, inverse.most, all(0x1p-20));
+  for (int k = 0; k < 3; ++k) out.edge[k] = times(n[k], hn::Mul(inverse.of[k], sign));
+  const V per_size = hn::Div(all(1.0), size), steep = hn::Mul(area, per_size);
+  out.nearness = times(normal, hn::Mul(sign, per_size));
+  out.depth_error = hn::MulAdd(
+      steep, hn::MulAdd(hn::Mul(all(0x1p-35 * m), corner), hn::Mul(extent, per_size), all(0x1p-19)),
+      hn::Mul(all(0x1p-40 * m), hn::Mul(steep, steep)));
+  // Rays in the widened triangle meet its plane ahead, at a distance that the double kernels know.
+  const V well = hn::Max(hn::Mul(hn::Mul(all(12.0), out.edge_error), hn::Mul(max3(l[0], l[1], l[2]), corner)),
+                         hn::Mul(all(0x1p-33 * m), hn::Mul(corner, corner)));
+  out.depth_floor = hn::IfThenElse(hn::Ge(size, well), all(-infinity),
+                                   hn::Mul(hn::Mul(all(0x1p-34 * m), corner), per_size));
+  // Edge-on: all edge planes are the triangle's own; only rays within that plane's error are not surely off.
+  const auto thin = hn::Not(hn::Gt(size, hn::Mul(hn::Mul(all(0x1p-38 * m), corner), extent)));
+  if (!hn::AllFalse(d, thin)) {
+    const V3 unit = times(normal, inverse_or_zero(area, all(1.0)));
+    const V s0 = dot(n[0], unit), s1 = dot(n[1], unit), s2 = dot(n[2], unit);
+    const V spread = hn::Min(max3(s0, s1, s2), hn::Neg(min3(s0, s1, s2)));
+    const V off = hn::MulAdd(hn::Mul(all(3.0), hn::Div(size, area)), extent, doubt);
+    const V error =
+        hn::IfThenElse(hn::Gt(spread, all(0.0)), hn::Add(all(0x1p-20), hn::Div(off, spread)), all(infinity));
+    lie_in_plane(thin, unit, error, out);
+  }
+  return out;
+}
+
+// The line through p along e in the plane across the direction, as an edge function, times `scale`.
+V3 line(const V3& p, const V3& e, V scale) {
+  return times({hn::Neg(e.y), e.x, product_difference(e.y, p.x, e.x, p.y)}, scale);
+}
+V length2(const V3& e) {
+  return hn::Sqrt(hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y)));
+}
+
+Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass) {
+  const V3 e0 = c - b, e1 = a - c, e2 = b - a;
+  const V3 normal = cross(e1, e2);
+  const V size = hn::Abs(normal.z), sign = hn::CopySign(all(1.0), normal.z);
+  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
+  const V l[3] = {length2(e0), length2(e1), length2(e2)};
+  const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
+  const V doubt = all(0x1p-39 * m * corner);
+  Out out;
+  const Inverses per(l);
+  out.edge_error = hn::MulAdd(doubt, per.most, all(0x1p-20 * radius));
+  out.edge[0] = line(b, e0, hn::Mul(per.of[0], sign));
+  out.edge[1] = line(c, e1, hn::Mul(per.of[1], sign));
+  out.edge[2] = line(a, e2, hn::Mul(per.of[2], sign));
+  const V inverse = hn::Div(all(1.0), normal.z);
+  out.nearness = {hn::Neg(hn::Mul(normal.x, inverse)), hn::Neg(hn::Mul(normal.y, inverse)),
+                  hn::Mul(dot(normal, a), inverse)};
+  const V terms = hn::MulAdd(hn::Add(hn::Abs(out.nearness.x), hn::Abs(out.nearness.y)), all(2.0 * radius),
+                             hn::Abs(out.nearness.z));
+  out.depth_error = hn::MulAdd(terms, all(0x1p-20),
+                               hn::MulAdd(all(0x1p-35 * m * corner), hn::Mul(extent, hn::Abs(inverse)),
+                                          all(0x1p-20 * radius + 0x1p-40 * m)));
+  out.depth_floor = all(-infinity);
+  const auto thin = hn::Not(hn::Gt(size, all(0x1p-35 * m * corner)));
+  if (!hn::AllFalse(d, thin)) {
+    const V longest = max3(l[0], l[1], l[2]);
+    const V3 own[3] = {line(b, e0, inverse_or_zero(l[0], all(1.0))),
+                       line(c, e1, inverse_or_zero(l[1], all(1.0))),
+                       line(a, e2, inverse_or_zero(l[2], all(1.0)))};
+    const auto first = hn::Eq(l[0], longest), second = hn::Eq(l[1], longest);
+    const auto pick = [&](V p, V q, V r) { return hn::IfThenElse(first, p, hn::IfThenElse(second, q, r)); };
+    const V3 n = {pick(own[0].x, own[1].x, own[2].x), pick(own[0].y, own[1].y, own[2].y),
+                  pick(own[0].z, own[1].z, own[2].z)};
+    const V off = hn::Mul(all(2.0), hn::Add(doubt, size));
+    const V error = hn::IfThenElse(hn::Gt(longest, all(0.0)),
+                                   hn::Add(all(0x1p-20 * radius), hn::Div(off, longest)), all(infinity));
+    lie_in_plane(thin, n, error, out);
+  }
+  return out;
+}
+
+// Rounds the errors up, and lets numbers beyond a float's range (and what is not a number) decide nothing.
+void store(const Out& out, SeenRows& rows, std::size_t first) {
+  constexpr hn::Rebind<float, D> half;
+  const auto size = [](const V3& v) { return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z))); };
+  const V sum =
+      hn::Add(hn::Add(size(out.edge[0]), size(out.edge[1])), hn::Add(size(out.edge[2]), size(out.nearness)));
+  const auto sound = hn::And(hn::Lt(sum, all(1e30)),
+                             hn::And(hn::Gt(out.edge_error, all(0.0)), hn::Gt(out.depth_error, all(0.0))));
+  std::size_t row = 0;
+  const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.seen[row++] + first); };
+  const auto put_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
+  const auto put_above = [&](V v, double otherwise) {
+    put(hn::IfThenElse(sound, hn::MulAdd(hn::Abs(v), all(0x1p-20), v), all(otherwise)));
+  };
+  for (const V3& e : out.edge) put_number(e.x), put_number(e.y), put_number(e.z);
+  put_number(out.nearness.x), put_number(out.nearness.y), put_number(out.nearness.z);
+  put_above(out.edge_error, infinity), put_above(out.depth_error, infinity);
+  put(hn::IfThenElse(hn::And(sound, hn::Gt(out.depth_floor, all(-1.0))),
+                     hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
+}
+
+// The rays that the float tests do not send away make a cone of three planes, the edges' moved out by twice
+// their error (the tests' own rounding is below it); its generators are the planes' crossings. All of them
+// ahead: a triangle of (u, v). All behind: nothing. Else, or when rounding could turn it over: not known.
+void bound(SeenRows& rows, std::size_t first) {
+  constexpr hn::Rebind<float, D> half;
+  const auto row = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(half, rows.seen[i] + first)); };
+  const V error = row(12), moved = hn::Add(error, error);
+  V3 n[3];
+  for (std::size_t k = 0; k < 3; ++k) n[k] = {row(3 * k), row(3 * k + 1), hn::Add(row(3 * k + 2), moved)};
+  const V3 m = {row(9), row(10), row(11)};
+  const V3 across = cross(n[1], n[2]);
+  const V volume = dot(n[0], across), turn = hn::CopySign(all(1.0), volume);
+  const V3 g[3] = {times(across, turn), times(cross(n[2], n[0]), turn), times(cross(n[0], n[1]), turn)};
+  // Roundings of the generators' components: n.x and n.y are at most 1, n.z may be as large as a world.
+  const V size = hn::Add(hn::Add(hn::Abs(n[0].z), hn::Abs(n[1].z)), hn::Add(hn::Abs(n[2].z), all(2.0)));
+  const V doubt_z = all(0x1p-49), doubt = hn::Mul(doubt_z, size);
+  const auto upright = hn::Gt(hn::Abs(volume), hn::Mul(all(8.0), doubt));
+  auto ahead = upright, behind = upright;
+  V u_min = all(infinity), u_max = all(-infinity), v_min = all(infinity), v_max = all(-infinity);
+  V nearest = all(-infinity);
+  // One division for all three; where a corner is not ahead, what it gives is not looked at.
+  const V z01 = hn::Mul(g[0].z, g[1].z), per_z012 = hn::Div(all(1.0), hn::Mul(z01, g[2].z));
+  const V per_z01 = hn::Mul(per_z012, g[2].z);
+  const V per_z[3] = {hn::Mul(per_z01, g[1].z), hn::Mul(per_z01, g[0].z), hn::Mul(per_z012, z01)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const V3& corner = g[k];
+    ahead = hn::And(ahead, hn::Gt(corner.z, all(0x1p-46)));
+    behind = hn::And(behind, hn::Lt(corner.z, all(-0x1p-46)));
+    const V u = hn::Mul(corner.x, per_z[k]), v = hn::Mul(corner.y, per_z[k]);
+    const V du = hn::Mul(hn::MulAdd(hn::Abs(u), doubt_z, doubt), per_z[k]);
+    const V dv = hn::Mul(hn::MulAdd(hn::Abs(v), doubt_z, doubt), per_z[k]);
+    u_min = hn::Min(u_min, hn::Sub(u, du)), u_max = hn::Max(u_max, hn::Add(u, du));
+    v_min = hn::Min(v_min, hn::Sub(v, dv)), v_max = hn::Max(v_max, hn::Add(v, dv));
+    const V terms = hn::MulAdd(hn::Abs(m.x), hn::Add(hn::Abs(u), du),
+                               hn::MulAdd(hn::Abs(m.y), hn::Add(hn::Abs(v), dv), hn::Abs(m.z)));
+    const V slack = hn::MulAdd(hn::Abs(m.x), du, hn::MulAdd(hn::Abs(m.y), dv, hn::Mul(all(0x1p-18), terms)));
+    nearest = hn::Max(nearest, hn::Add(hn::MulAdd(m.x, u, hn::MulAdd(m.y, v, m.z)), slack));
+  }
+  nearest = hn::MulAdd(row(13), all(1.0 + 0x1p-18), nearest);
+  const auto known = hn::And(ahead, hn::Lt(error, all(infinity)));
+  const auto clear = hn::And(known, hn::Not(hn::Gt(row(14), all(-infinity))));
+  std::size_t at = SeenRows::numbers;
+  const auto put = [&](V value, double unknown, double none) {
+    const V chosen = hn::IfThenElse(known, value, hn::IfThenElse(behind, all(none), all(unknown)));
+    hn::Store(hn::DemoteTo(half, chosen), half, rows.seen[at++] + first);
+  };
+  put(u_min, -infinity, infinity), put(u_max, infinity, -infinity);
+  put(v_min, -infinity, infinity), put(v_max, infinity, -infinity);
+  const auto sure = hn::And(clear, hn::Lt(nearest, all(1e30)));
+  hn::Store(hn::DemoteTo(half, hn::IfThenElse(sure, nearest, all(infinity))), half, rows.seen[at] + first);
+}
+
+// rows: corners in, SeenPrimitive's numbers out, eight triangles.
+void see_eight(SeenRows& rows, const SeenPass& pass) {
+  for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
+    V3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
+      const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
+      corner[k] = p;
+      if (!pass.turned) continue;
+      const auto along = [&](const Vec3& axis) { return dot(p, V3{all(axis.x), all(axis.y), all(axis.z)}); };
+      corner[k] = {along(pass.axes[0]), along(pass.axes[1]), along(pass.axes[2])};
+    }
+    const Out out = pass.directional ? along_direction(corner[0], corner[1], corner[2], pass)
+                                     : from_point(corner[0], corner[1], corner[2], pass.largest);
+    store(out, rows, first);
+    if (pass.bounds) bound(rows, first);
+  }
+}
+
+const char* target() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::raytrace {
+HWY_EXPORT(see_eight);
+HWY_EXPORT(target);
+
+void see_eight_triangles(SeenRows& rows, const SeenPass& pass) {
+  HWY_DYNAMIC_DISPATCH(see_eight)(rows, pass);
+}
+const char* packet_target() {
+  return HWY_DYNAMIC_DISPATCH(target)();
+}
+
+}  // namespace gnomon::raytrace
+#endif  // HWY_ONCE

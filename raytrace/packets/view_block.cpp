@@ -1,0 +1,353 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raytrace/packets/view_block.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raytrace/packets/bin_cover.h"
+#include "raytrace/packets/block_plane-inl.h"
+#include "raytrace/packets/frustum-inl.h"
+#include "raytrace/packets/seen_rows.h"
+#include "raytrace/packets/view_block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+
+/// One of eight primitives' numbers in every lane.
+struct LaneNumbers {
+  V edge[3][3], nearness[3], edge_error, depth_error, depth_floor;
+  LaneNumbers(const SeenRows& rows, std::size_t i) {
+    const auto row = [&](std::size_t k) { return all(rows.seen[k][i]); };
+    for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = row(k);
+    for (std::size_t k = 0; k < 3; ++k) nearness[k] = row(9 + k);
+    edge_error = row(12), depth_error = row(13), depth_floor = row(14);
+  }
+  explicit LaneNumbers(const SeenPrimitive& p) {
+    for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = all(p.edge[k / 3][k % 3]);
+    for (std::size_t k = 0; k < 3; ++k) nearness[k] = all(p.nearness[k]);
+    edge_error = all(p.edge_error), depth_error = all(p.depth_error), depth_floor = all(p.depth_floor);
+  }
+  static V of(const V (&n)[3], V u, V v) { return value(n[0], n[1], n[2], u, v); }
+  V least_edge(V u, V v) const {
+    return hn::Min(of(edge[0], u, v), hn::Min(of(edge[1], u, v), of(edge[2], u, v)));
+  }
+};
+
+/// Of each ray the best sure hit's nearness is known to lie in [low, high], and no other hit is nearer than
+/// `doubt`.
+class BlockClosest {
+ public:
+  BlockClosest(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect, BlockHits& out)
+      : s_(s),
+        seen_(seen),
+        pass_(seen_pass(s, seen)),
+        plane_(s, seen, view, rect),
+        packets_(plane_.packets),
+        rect_(rect),
+        out_(out) {
+    pass_.bounds = true;
+    start();
+  }
+
+  void run() {
+    for (std::uint32_t k = 0; k < seen_.planes.size(); ++k) {
+      const LaneNumbers numbers(seen_.planes[k]);
+      test_all<true>(numbers, first_plane + k, (seen_.planes[k].id & never_sure) == 0, packets_);
+    }
+    Packets intervals;
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      intervals.u_min[p] = plane_.u_min, intervals.u_max[p] = plane_.u_max;
+      intervals.v_min[p] = plane_.v_min, intervals.v_max[p] = plane_.v_max;
+    }
+    const Frustum frustum(s_.bvh, seen_, Axes{0, 1, 2, 1.0f}, intervals);
+    update_limit();
+    walk(frustum);
+    while (pending_count_ > 0) flush();
+    finish();
+  }
+
+ private:
+  static constexpr std::uint32_t run_size = 32, batch = 32;
+
+  // Rays outside the picture ask nothing.
+  void start() {
+    for (std::size_t y = 0; y < block_side; ++y)
+      for (std::size_t x = 0; x < block_side; ++x) {
+        const std::size_t packet = packet_at(x, y);
+        const unsigned alive = alive_in(static_cast<int>(4 * x), static_cast<int>(4 * y));
+        nearest_asked_[y][x] = alive != 0 ? 0.0f : inf;
+        for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+          const std::size_t at = packet * packet_rays + i;
+          const V first = hn::IfThenElse(mask_of(alive >> i), all(0.0f), all(inf));
+          hn::Store(first, f, low_ + at), hn::Store(first, f, high_ + at),
+              hn::Store(all(-inf), f, doubt_ + at);
+          hn::Store(hn::IfThenElse(hn::RebindMask(ids, mask_of(alive >> i)), hn::Set(ids, nothing_hit),
+                                   hn::Set(ids, unsure_hit)),
+                    ids, leaf_at(at));
+        }
+      }
+    out_.doubts.clear(), out_.all_doubts = true;
+  }
+
+  /// Of the packet with this corner in the block.
+  unsigned alive_in(int x, int y) const {
+    const int columns = rect_.x1 - rect_.x0 - x, rows = rect_.y1 - rect_.y0 - y;
+    if (columns >= 4 && rows >= 4) return 0xffff;
+    unsigned alive = 0;
+    for (int i = 0; i < static_cast<int>(packet_rays); ++i)
+      if (i % 4 < columns && i / 4 < rows) alive |= 1u << i;
+    return alive;
+  }
+
+  std::uint32_t* leaf_at(std::size_t place) { return out_.tiles[place / tile_rays].leaf + place % tile_rays; }
+
+  /// A child of a node.
+  struct Entry {
+    const BvhNode* parent;
+    std::uint32_t child;
+    float priority;
+  };
+
+  /// Nearest first, but several nodes at a time: memory takes longer to bring a node than its test takes.
+  void walk(const Frustum& frustum) {
+    constexpr std::size_t together = 4;
+    Entry stack[together * Bvh::stack_size];
+    std::size_t size = 0;
+    std::uint32_t nodes[together] = {0};
+    std::size_t count = 1;
+    while (count > 0) {
+      for (std::size_t k = count; k-- > 0;) {  // the nearest last, on top of the stack
+        const BvhNode& node = s_.bvh.nodes[nodes[k]];
+        alignas(16) float priority[4];
+        const std::size_t base = size;
+        for (unsigned mask = frustum.meets(node, limit_, priority); mask != 0; mask &= mask - 1) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+          std::size_t at = size++;
+          for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
+          stack[at] = {&node, i, priority[i]};
+        }
+      }
+      for (count = 0; size > 0 && count < together;) {
+        const Entry entry = stack[--size];
+        if (entry.priority < limit_) continue;
+        const BvhChild child = entry.parent->child[entry.child];
+        const LeafRange below =
+            child.is_leaf() ? LeafRange{child.first(), child.count()} : s_.bvh.below[child.index()];
+        if (below.count > run_size) {
+          nodes[count++] = child.index();
+          const char* node = reinterpret_cast<const char*>(&s_.bvh.nodes[child.index()]);
+          __builtin_prefetch(node), __builtin_prefetch(node + 64);
+        } else if (!is_hidden(*entry.parent, entry.child)) {
+          put(below);
+        }
+      }
+    }
+  }
+
+  void put(LeafRange run) {
+    const char* bytes = reinterpret_cast<const char*>(&s_.bvh.primitives[run.first]);
+    for (std::size_t at = 0; at < run.count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
+    for (std::uint32_t k = 0; k < run.count; ++k) pending_[pending_count_++] = run.first + k;
+    while (pending_count_ >= batch + run_size) flush();
+  }
+
+  /// Whether no ray of the block can find anything in the child's box that is nearer than what it has.
+  bool is_hidden(const BvhNode& node, std::uint32_t child) const {
+    BoxRef box{};
+    for (std::size_t a = 0; a < 3; ++a)
+      box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
+    const BoxPlace place = plane_.packets_of(box);
+    if (place.met.x0 > place.met.x1) return true;
+    for (int y = place.met.y0; y <= place.met.y1; ++y)
+      if (asking(place.nearest, place.met, y) != 0) return false;
+    return true;
+  }
+
+  /// Bits of the row's packets that ask for something of that nearness.
+  unsigned asking(float nearest, const PacketRect& met, int y) const {
+    const float* row = nearest_asked_[y - packets_.y0];
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < block_side; i += lanes())
+      bits |= bits_of(hn::Not(hn::Lt(all(nearest), hn::Load(f, row + i)))) << i;
+    return bits & ((2u << (met.x1 - packets_.x0)) - (1u << (met.x0 - packets_.x0)));
+  }
+
+  /// Finds the numbers of the longest waiting ones, and tries the nearest of them first.
+  void flush() {
+    const std::size_t count = std::min<std::size_t>(pending_count_, batch);
+    alignas(64) float nearest[batch + packet_rays] = {};
+    alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
+    unsigned never[batch / 8];
+    for (std::size_t first = 0; first < count; first += 8) {
+      SeenBlock& block = blocks_[first / 8];
+      never[first / 8] =
+          see_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
+      place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.lo), block.u_min(), block.u_max(),
+                  u_[first / 8]);
+      place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.lo), block.v_min(), block.v_max(),
+                  v_[first / 8]);
+      std::copy_n(block.nearest(), 8, nearest + first);
+    }
+    rank_falling(nearest, count, rank);
+    for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = i;
+    bool taken = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t b = order[k] / 8, i = order[k] % 8;
+      const std::uint32_t leaf = pending_[order[k]];
+      const CellPlaces &u = u_[b], &v = v_[b];
+      PacketRect met{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
+                     std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
+      // A sphere's or a solid's own numbers have no bounds.
+      if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.ids[leaf]))
+        met = plane_.packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).met;
+      if (met.x0 > met.x1 || met.y0 > met.y1) continue;
+      const LaneNumbers numbers(blocks_[b].rows, i);
+      taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], met);
+    }
+    pending_count_ -= count;
+    std::copy_n(pending_ + count, pending_count_, pending_);
+    if (taken) update_limit();
+  }
+
+  bool test_packets(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, float nearest,
+                    const PacketRect& met) {
+    bool taken = false;
+    for (int y = met.y0; y <= met.y1; ++y)
+      for (unsigned left = asking(nearest, met, y); left != 0; left &= left - 1)
+        taken |= test<false>(numbers, leaf, may_be_sure, static_cast<std::size_t>(std::countr_zero(left)),
+                             static_cast<std::size_t>(y - packets_.y0));
+    return taken;
+  }
+  template <bool plane>
+  void test_all(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, const PacketRect& met) {
+    for (int y = met.y0; y <= met.y1; ++y)
+      for (int x = met.x0; x <= met.x1; ++x)
+        test<plane>(numbers, leaf, may_be_sure, static_cast<std::size_t>(x - packets_.x0),
+                    static_cast<std::size_t>(y - packets_.y0));
+  }
+
+  template <bool plane>
+  bool test(const LaneNumbers& p, std::uint32_t leaf, bool may_be_sure, std::size_t column, std::size_t row) {
+    const std::size_t packet = packet_at(column, row);
+    bool taken = false;
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const std::size_t at = packet * packet_rays + i;
+      const V u = hn::Load(f, plane_.u[column] + i), v = hn::Load(f, plane_.v[row] + i);
+      const V edge = plane ? all(inf) : p.least_edge(u, v);
+      const V nearness = LaneNumbers::of(p.nearness, u, v), low = hn::Load(f, low_ + at);
+      const M known = hn::Gt(nearness, p.depth_floor);
+      const M behind = hn::And(hn::Lt(nearness, hn::Sub(low, p.depth_error)), known);
+      const M contact = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error)));
+      if (hn::AllFalse(f, contact)) continue;
+      M sure = hn::And(contact, hn::And(hn::Gt(edge, p.edge_error), known));
+      if (!may_be_sure) sure = hn::Lt(low, low);
+      const V high = hn::Load(f, high_ + at), new_low = hn::Sub(nearness, p.depth_error);
+      const V new_high = hn::IfThenElse(known, hn::Add(nearness, p.depth_error), all(inf));
+      const M take = hn::And(sure, hn::Gt(new_low, low));
+      // Surely nearer than all that was sure before: the old best is no rival. Otherwise the loser is a
+      // doubt.
+      const M rival = hn::AndNot(hn::And(take, hn::Gt(new_low, high)), contact);
+      if (!hn::AllFalse(f, rival)) {
+        const V doubt = hn::Load(f, doubt_ + at);
+        hn::Store(hn::IfThenElse(rival, hn::Max(doubt, hn::IfThenElse(take, high, new_high)), doubt), f,
+                  doubt_ + at);
+        note(leaf, at, bits_of(rival), bits_of(take));
+      }
+      if (hn::AllFalse(f, take)) continue;
+      taken = true;
+      hn::Store(hn::IfThenElse(take, new_low, low), f, low_ + at);
+      hn::Store(hn::IfThenElse(take, new_high, high), f, high_ + at);
+      const auto old = hn::Load(ids, leaf_at(at));
+      hn::Store(hn::IfThenElse(hn::RebindMask(ids, take), hn::Set(ids, leaf), old), ids, leaf_at(at));
+    }
+    if (taken) {
+      float& asked = nearest_asked_[row][column];
+      M still = hn::Lt(all(0.0f), all(0.0f));
+      for (std::size_t i = 0; i < packet_rays; i += lanes())
+        still = hn::Or(still, hn::Eq(hn::Load(f, low_ + packet * packet_rays + i), all(asked)));
+      if (hn::AllFalse(f, still)) asked = smallest(low_ + packet * packet_rays);
+    }
+    return taken;
+  }
+
+  /// The losers: what was the best where this one is taken, else this one.
+  void note(std::uint32_t leaf, std::size_t at, unsigned rival, unsigned take) {
+    constexpr std::size_t most = 4 * block_rays;
+    for (; rival != 0; rival &= rival - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rival));
+      const std::uint32_t loser = (take >> i & 1) != 0 ? *leaf_at(at + i) : leaf;
+      if (loser < first_plane) out_.doubts.push_back({static_cast<std::uint32_t>(at + i), loser});
+    }
+    if (out_.doubts.size() > most) out_.doubts.clear(), out_.all_doubts = false;
+  }
+
+  void update_limit() {
+    V least = all(inf);
+    for (std::size_t y = 0; y < block_side; ++y)
+      for (std::size_t x = 0; x < block_side; x += lanes())
+        least = hn::Min(least, hn::Load(f, nearest_asked_[y] + x));
+    const float far = hn::GetLane(hn::MinOfLanes(f, least));
+    limit_ = far > 0.0f ? -(1.0f / far) * (1.0f + 0x1p-20f) : -inf;
+  }
+
+  void finish() {
+    for (std::size_t at = 0; at < block_rays; at += lanes()) {
+      const M unsure = hn::Ge(hn::Load(f, doubt_ + at), hn::Load(f, low_ + at));
+      unsigned bits = bits_of(unsure);
+      if (bits == 0) continue;
+      for (unsigned left = bits; left != 0; left &= left - 1) {
+        const std::size_t place = at + static_cast<std::size_t>(std::countr_zero(left));
+        const std::uint32_t best = *leaf_at(place);
+        if (best < first_plane) out_.doubts.push_back({static_cast<std::uint32_t>(place), best});
+        *leaf_at(place) = unsure_hit;
+      }
+    }
+    std::sort(out_.doubts.begin(), out_.doubts.end(),
+              [](const BlockDoubt& a, const BlockDoubt& b) { return a.place < b.place; });
+  }
+
+  const Structures& s_;
+  const Seen& seen_;
+  SeenPass pass_;
+  BlockPlane plane_;
+  PacketRect packets_;
+  BlockRect rect_;
+  BlockHits& out_;
+  float limit_ = -inf;
+  std::uint32_t pending_[batch + 2 * run_size];
+  std::size_t pending_count_ = 0;
+  SeenBlock blocks_[batch / 8];
+  CellPlaces u_[batch / 8], v_[batch / 8];
+  alignas(64) float nearest_asked_[block_side]
+                                  [block_side];  ///< of packets; what is nowhere nearer is of no interest
+  alignas(64) float low_[block_rays], high_[block_rays], doubt_[block_rays];
+};
+
+void block_kernel(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect,
+                  BlockHits& hits) {
+  BlockClosest(s, seen, view, rect, hits).run();
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon::raytrace {
+HWY_EXPORT(block_kernel);
+
+void closest_in_block(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect,
+                      BlockHits& hits) {
+  HWY_DYNAMIC_DISPATCH(block_kernel)(s, seen, view, rect, hits);
+}
+
+std::span<const BlockDoubt> BlockHits::doubts_at(std::size_t place) const {
+  const auto less = [](const BlockDoubt& doubt, std::size_t p) { return doubt.place < p; };
+  const auto begin = std::lower_bound(doubts.begin(), doubts.end(), place, less);
+  return {begin, std::lower_bound(begin, doubts.end(), place + 1, less)};
+}
+
+}  // namespace gnomon::raytrace
+#endif  // HWY_ONCE

@@ -1,0 +1,137 @@
+#include "raytrace/shading/light_samples.h"
+
+#include <array>
+#include <bit>
+#include <vector>
+
+#include "raytrace/shading/light_shaft.h"
+
+namespace gnomon::raytrace {
+
+LightSamples::LightSamples(const Tracer& tracer, const SurfacePoint& from, const Light& light, int count,
+                           std::uint64_t key)
+    : tracer_(tracer),
+      from_(from),
+      light_(light),
+      count_(count),
+      square_(static_cast<std::uint32_t>(count), key) {
+  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
+    kind_ = Kind::directions;
+    axis_ = -light.direction;
+    const double half_sine = std::sin(0.25 * sun->angular_diameter);
+    cap_ = 2.0 * half_sine * half_sine;
+    orthonormal_basis(axis_, u_, v_);
+  } else if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) {
+    const Vec3 offset = light.position - from.position;
+    distance_ = glm::length(offset), radius_ = sphere->radius;
+    kind_ = distance_ > radius_ ? Kind::sphere : Kind::from_within;
+    if (kind_ == Kind::from_within) return;
+    axis_ = offset / distance_;
+    const double sine = radius_ / distance_;
+    cap_ = sine * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine)));
+    orthonormal_basis(axis_, u_, v_);
+  } else if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
+    orthonormal_basis(disc->normal, u_, v_);
+    u_ *= disc->radius, v_ *= disc->radius;
+  } else if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
+    round_ = false;
+    u_ = rectangle->half_width, v_ = rectangle->half_height;
+  }
+}
+
+Ray LightSamples::ray(const Vec2& square) const {
+  if (kind_ == Kind::area) {
+    const Vec2 p = round_ ? concentric_disc(square) : 2.0 * square - 1.0;
+    return tracer_.shadow_ray(from_, light_.position + p.x * u_ + p.y * v_);
+  }
+  if (kind_ == Kind::from_within) {  // the whole sphere, evenly
+    const double z = 1.0 - 2.0 * square.x, angle = 2.0 * pi * square.y;
+    const double across = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
+    const Vec3 outwards(across * std::cos(angle), across * std::sin(angle), z);
+    return tracer_.shadow_ray(from_, light_.position + radius_ * outwards);
+  }
+  // A point of the disc lifted onto the cap of directions: 1 - cos grows as the disc's area does. No
+  // difference of nearly equal numbers enters, so a cone of any width keeps its shape.
+  const Vec2 p = concentric_disc(square);
+  const double versine = cap_ * glm::dot(p, p);
+  const double spread = std::sqrt(cap_ * (2.0 - versine));
+  const Vec3 direction = (1.0 - versine) * axis_ + spread * (p.x * u_ + p.y * v_);
+  if (kind_ == Kind::directions) return tracer_.spawn_ray(from_, direction);
+  const double off_axis = distance_ * spread * glm::length(p);
+  const double depth = std::sqrt(std::max(0.0, (radius_ - off_axis) * (radius_ + off_axis)));
+  return tracer_.shadow_ray(from_, from_.position + (distance_ * (1.0 - versine) - depth) * direction);
+}
+
+bool LightSamples::below_horizon(const Vec3& direction) const {
+  return !(glm::dot(from_.normal, direction) > 0.0);
+}
+
+std::optional<Ray> LightSamples::operator[](int i) const {
+  const Ray ray = this->ray(square_[static_cast<std::uint32_t>(i)]);
+  if (below_horizon(ray.direction)) return std::nullopt;
+  return ray;
+}
+
+namespace {
+
+// Of the members of a block: the sum of their strata's variances. A whole block's interaction of rows and
+// columns has four times the variance of one stratum, and no trend along either; the spread of a block that
+// is cut short by the number of samples also holds its trend.
+double block_variance(std::span<const std::uint8_t> samples, std::span<const std::size_t> members) {
+  if (members.size() == 4) {
+    const double contrast = double(samples[members[0]]) - double(samples[members[1]]) -
+                            double(samples[members[2]]) + double(samples[members[3]]);
+    return contrast * contrast;
+  }
+  if (members.size() < 2) return 0.0;
+  const auto count = static_cast<double>(members.size());
+  double lit = 0.0;
+  for (const std::size_t i : members) lit += samples[i];
+  return lit * (count - lit) / (count - 1.0);
+}
+
+}  // namespace
+
+double stratified_standard_error(std::span<const std::uint8_t> samples) {
+  const std::size_t count = samples.size();
+  if (count < 2) return 0.0;
+  // Of 2^m points each cell of a grid with 2^ceil(m/2) rows holds one. Rows are numbered by the point's
+  // lowest bits in reverse, columns by the others: these two bits step to the next row and to the next
+  // column.
+  const int bits = std::bit_width(count - 1), row_bits = (bits + 1) / 2;
+  const std::size_t down = std::size_t{1} << (row_bits - 1), across = std::size_t{1} << row_bits;
+  double variance = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((i & (down | across)) != 0) continue;
+    std::array<std::size_t, 4> members{};
+    std::size_t found = 0;
+    for (const std::size_t member : {i, i | down, i | across, i | down | across})
+      if (member < count) members[found++] = member;
+    variance += block_variance(samples, std::span(members).first(found));
+  }
+  return std::sqrt(variance) / static_cast<double>(count);
+}
+
+Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,
+                            std::uint64_t key) {
+  if (samples >= least_shaft_rays && surely_sees_whole_light(tracer.structures(), from, light))
+    return {1.0, 0.0, 0};
+  const LightSamples rays(tracer, from, light, samples, key);
+  Visibility seen;
+  int lit = 0;
+  thread_local std::vector<std::uint8_t> arrived;
+  arrived.assign(static_cast<std::size_t>(samples), 0);
+  for (int i = 0; i < samples; ++i) {
+    const std::optional<Ray> ray = rays[i];
+    if (!ray) continue;
+    ++seen.rays;
+    if (tracer.occluded(*ray)) continue;
+    arrived[static_cast<std::size_t>(i)] = 1;
+    ++lit;
+  }
+  seen.share = static_cast<double>(lit) / samples;
+  if (lit > 0 && lit < samples) seen.standard_error = stratified_standard_error(arrived);
+  return seen;
+}
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,166 @@
+// The loops over pixels, one for each set of effects. The sets are compiled in four files: with and without
+// soft shadows and indirect light.
+#pragma once
+
+#include <limits>
+
+#include "raytrace/packets/unstored.h"
+#include "raytrace/shading/shade.h"
+#include "raytrace/tiles.h"
+
+namespace gnomon::raytrace {
+
+using PictureKernel = void (*)(const PictureInput&, RayTracedFrame&);
+
+PictureKernel plain_kernel(const EffectPlan& plan, const RaytraceOptions& options);     // plain.cpp
+PictureKernel soft_kernel(const EffectPlan& plan, const RaytraceOptions& options);      // soft.cpp
+PictureKernel indirect_kernel(const EffectPlan& plan, const RaytraceOptions& options);  // indirect.cpp
+PictureKernel soft_indirect_kernel(const EffectPlan& plan,
+                                   const RaytraceOptions& options);  // soft_indirect.cpp
+
+/// For each light of the scene its place in RayTracedFrame::lights, or npos.
+std::vector<std::size_t> truth_of_light(const Scene& scene, const RayTracedFrame& frame);
+
+/// What a tile adds to the frame's counts.
+struct TileCounts {
+  RayCounts rays;
+  std::uint64_t non_finite = 0;
+
+  /// The radiance, or black when it is not a number (HARD_CASES 39).
+  Vec3f finite(const Vec3f& radiance) {
+    if (std::isfinite(radiance.x) && std::isfinite(radiance.y) && std::isfinite(radiance.z)) return radiance;
+    ++non_finite;
+    return Vec3f(0.0f);
+  }
+};
+void add_counts(const std::vector<TileCounts>& tiles, RayTracedFrame& frame);
+
+/// What the eye sees of a point. In glass the way to it counts too.
+template <class Policy, class Shadow>
+Vec3f seen(Shader<Policy>& shader, const PictureInput& input, const SurfacePoint& point, PathOf<Policy> path,
+           RayCounts& rays, const Shadow& shadow) {
+  if constexpr (Policy::refracts) {
+    path.inside = input.eye;
+    if (!path.inside.empty())
+      return shader.arriving(point, glm::length(point.position - input.view.eye), path, rays.refraction);
+  }
+  return shader.leaving(point, path, shadow);
+}
+
+/// receiver(x, y, tile index, point) for every pixel's centre.
+template <class Receiver>
+void for_each_receiver(const PictureInput& input, const RayTracedFrame& frame, const TileGrid& grid,
+                       const Receiver& receiver) {
+  for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
+    std::array<SurfacePoint, tile_rays> found;
+    const SurfacePoint* points = found.data();
+    std::size_t stride = tile_pixels;
+    if (input.unstored != nullptr)
+      input.unstored->source(input.tracer, input.view, tile).fill({x0, y0, x1, y1}, every_lane, found.data());
+    else
+      points = &frame.receiver.at(x0, y0), stride = static_cast<std::size_t>(grid.size.width);
+    for (int y = y0; y < y1; ++y, points += stride)
+      for (int x = x0; x < x1; ++x) receiver(x, y, tile, points[x - x0]);
+  });
+}
+
+/// One sample, at the pixel's centre, where receivers and verdicts are known.
+template <class Policy>
+void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
+  const Scene& scene = *input.tracer.world().scene;
+  const std::vector<std::size_t> truth = truth_of_light(scene, frame);
+  const TileGrid grid{input.options.size};
+  std::vector<TileCounts> counts(grid.count());
+  for_each_receiver(input, frame, grid, [&](int x, int y, std::size_t tile, const SurfacePoint& point) {
+    if (point.primitive == no_id) {
+      frame.color.at(x, y) = scene.background;
+      return;
+    }
+    RayCounts& rays = counts[tile].rays;
+    Shader<Policy> shader(input, frame.color.index(x, y), rays);
+    const PathOf<Policy> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
+    // A verdict already known saves the ray, but for light that glass may let through and for doubtful
+    // pixels.
+    const auto shadow = [&](std::uint32_t i) {
+      if (truth[i] < frame.lights.size()) {
+        if constexpr (Policy::soft) {
+          const Image<float>& visibility = frame.lights[truth[i]].visibility;
+          if (!visibility.data.empty())
+            return Policy::refracts && visibility.at(x, y) < 1.0f ? shader.transmittance(point, path, i)
+                                                                  : Vec3f(visibility.at(x, y));
+        }
+        const Verdict verdict = frame.lights[truth[i]].verdict.at(x, y);
+        if (verdict == Verdict::lit) return Vec3f(1.0f);
+        if (verdict == Verdict::shadowed && !Policy::refracts) return Vec3f(0.0f);
+      }
+      return shader.transmittance(point, path, i);
+    };
+    frame.color.at(x, y) = counts[tile].finite(seen(shader, input, point, path, rays, shadow));
+  });
+  add_counts(counts, frame);
+}
+
+/// Several samples, spread over the pixel's area, each with its own ray from the eye; their mean is the
+/// pixel.
+template <class Policy>
+void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
+  const Tracer& tracer = input.tracer;
+  const int per_pixel = input.options.samples_per_pixel;
+  const bool traced_centres = !frame.receiver.data.empty();
+  const TileGrid grid{input.options.size};
+  std::vector<TileCounts> counts(grid.count());
+  for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
+    RayCounts& rays = counts[tile].rays;
+    const std::size_t pixel = frame.color.index(x, y);
+    Shader<Policy> shader(input, pixel, rays);
+    const StratifiedSquare square(static_cast<std::uint32_t>(per_pixel), shader.next_key());
+    Vec3 sum(0.0);
+    for (int s = 0; s < per_pixel; ++s) {
+      const Vec2 place = square[static_cast<std::uint32_t>(s)];
+      const Ray ray = pixel_ray(input.view, x + place.x, y + place.y);
+      if (s > 0 || traced_centres) ++rays.antialiasing;
+      const std::optional<Hit> hit = tracer.closest_hit(ray);
+      if (!hit) {
+        sum += Vec3(tracer.world().scene->background);
+        continue;
+      }
+      const PathOf<Policy> path{.direction = ray.direction, .siblings = per_pixel};
+      const SurfacePoint point = tracer.surface_point(ray, *hit);
+      const auto shadow = [&](std::uint32_t i) { return shader.transmittance(point, path, i); };
+      sum += Vec3(counts[tile].finite(seen(shader, input, point, path, rays, shadow)));
+    }
+    frame.color.data[pixel] = Vec3f(sum / static_cast<double>(per_pixel));
+  });
+  add_counts(counts, frame);
+}
+
+template <Secondary secondary, bool glossy, bool soft, bool indirect>
+PictureKernel choose_local(const EffectPlan& plan, const RaytraceOptions& options) {
+  const bool textures = plan.simulates(Effect::textures), specular = plan.simulates(Effect::specular);
+  const auto kernel = [&]<bool with_textures, bool with_specular>() -> PictureKernel {
+    using Policy = ShadePolicy<secondary, glossy, with_textures, with_specular, soft, indirect>;
+    return options.samples_per_pixel > 1 ? shade_samples<Policy> : shade_centres<Policy>;
+  };
+  if (textures)
+    return specular ? kernel.template operator()<true, true>() : kernel.template operator()<true, false>();
+  return specular ? kernel.template operator()<false, true>() : kernel.template operator()<false, false>();
+}
+
+template <Secondary secondary, bool soft, bool indirect>
+PictureKernel choose_roughness(const EffectPlan& plan, const RaytraceOptions& options) {
+  return plan.simulates(Effect::glossy) ? choose_local<secondary, true, soft, indirect>(plan, options)
+                                        : choose_local<secondary, false, soft, indirect>(plan, options);
+}
+
+template <bool soft, bool indirect>
+PictureKernel choose_kernel(const EffectPlan& plan, const RaytraceOptions& options) {
+  if (plan.simulates(Effect::absorption))
+    return choose_roughness<Secondary::absorbing_glass, soft, indirect>(plan, options);
+  if (plan.simulates(Effect::refraction))
+    return choose_roughness<Secondary::glass, soft, indirect>(plan, options);
+  if (plan.simulates(Effect::reflection))
+    return choose_roughness<Secondary::mirror, soft, indirect>(plan, options);
+  return choose_local<Secondary::none, false, soft, indirect>(plan, options);
+}
+
+}  // namespace gnomon::raytrace

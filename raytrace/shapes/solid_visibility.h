@@ -1,0 +1,17 @@
+// Whether a ray from a point that is known only within an error bound crosses a solid: surely, perhaps, or
+// surely not. By interval arithmetic, for all origins within the bound at once.
+#pragma once
+
+#include "raytrace/shapes/solid.h"
+
+namespace gnomon::raytrace {
+
+enum class Meets : std::uint8_t { no, perhaps, surely };
+
+/// Crossings count in ray.t; from its end to `surely_out` they may count. `error`: of the origin, per axis of
+/// the world. `own_normal`: for a ray that starts on this solid, its normal there on the side the ray leaves
+/// to (else none); the start itself is no crossing.
+Meets meet_solid(const RayFrame& ray, double surely_out, const Vec3& error, const ShapeGeometry& solid,
+                 const Vec3* own_normal);
+
+}  // namespace gnomon::raytrace

@@ -1,0 +1,219 @@
+// The primitives of each texel's column, by descending the hierarchy with the column's planes. Boxes are
+// tested in floats with the rounding given away, primitives in double by raytrace/sheets/column.h.
+#include <tbb/parallel_for.h>
+
+#include <bit>
+
+#include "raytrace/kernels.h"
+#include "raytrace/sheets.h"
+#include "raytrace/sheets/column.h"
+
+namespace gnomon::raytrace {
+namespace {
+
+/// Neighbouring columns of one row, which share one descent. The lists do not depend on how keys are grouped:
+/// whatever the boxes leave out, the test of the single column would leave out too.
+struct Strip {
+  int face, row, first, last;  // columns first ... last
+  static constexpr int longest = 8;
+  bool joins(TexelKey key) const {
+    return key.face() == face && key.row() == row && key.column() < first + longest;
+  }
+};
+
+/// A box is kept unless it lies wholly outside one plane: normal . p >= offset for its farthest corner.
+class BoxColumn {
+ public:
+  BoxColumn(const LightView& view, const Strip& strip, const Bvh& bvh, double reach) {
+    auto planes = column_planes(view, strip.face, strip.first, strip.row);
+    planes[1] = column_planes(view, strip.face, strip.last, strip.row)[1];
+    for (std::size_t k = 0; k < 4; ++k) sides_[k] = side(planes[k], view.origin, bvh, reach);
+    if (view.projection != LightProjection::perspective) return;
+    const Vec3& forward = view.faces[static_cast<std::size_t>(strip.face)].forward;
+    sides_[count_++] = side({forward, 0.0}, view.origin, bvh, reach);
+  }
+
+  int meet(const BvhNode& node) const {
+    int mask = 15;
+    for (std::size_t k = 0; k < count_ && mask != 0; ++k) {
+      const Side& s = sides_[k];
+      const Float4 sum = Float4::load(node.bounds[s.far_plane[0]]) * Float4::all(s.normal[0]) +
+                         Float4::load(node.bounds[s.far_plane[1]]) * Float4::all(s.normal[1]) +
+                         Float4::load(node.bounds[s.far_plane[2]]) * Float4::all(s.normal[2]);
+      mask &= less_equal_mask(Float4::all(s.offset), sum);
+    }
+    return mask;
+  }
+
+ private:
+  struct Side {
+    std::array<float, 3> normal;
+    std::array<std::size_t, 3> far_plane;  // rows of BvhNode::bounds
+    float offset;
+  };
+
+  // reach: the largest coordinate of a box, from the centre. Eight float roundings in the sum and the normal.
+  static Side side(const HalfSpace& plane, const Vec3& origin, const Bvh& bvh, double reach) {
+    const Vec3 shift = origin - bvh.center;
+    const double slack = 8.0 * FLT_EPSILON * 3.0 * reach +
+                         error_gamma(16) * (glm::dot(Vec3(1.0), glm::abs(shift)) + std::abs(plane.offset));
+    Side out;
+    out.offset = float_below(plane.offset + glm::dot(plane.normal, shift) - slack);
+    for (std::size_t a = 0; a < 3; ++a) {
+      out.normal[a] = static_cast<float>(plane.normal[static_cast<int>(a)]);
+      out.far_plane[a] = out.normal[a] < 0.0f ? a : 3 + a;
+    }
+    return out;
+  }
+
+  std::array<Side, 5> sides_;
+  std::size_t count_ = 4;
+};
+
+/// The sphere around a solid's box.
+Sphere around(const ShapeGeometry& geometry) {
+  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return *sphere;
+  return {solid_center(geometry), 0.5 * local_box(geometry).diagonal()};
+}
+
+bool sphere_surely_misses(const Sphere& sphere, const LightView& view, TexelKey key) {
+  const Vec3 offset = sphere.center - view.origin;
+  const double size = glm::dot(Vec3(1.0), glm::abs(sphere.center) + glm::abs(view.origin)) + sphere.radius;
+  const LightFace& face = view.face(key.face());
+  const double reach =
+      std::max({face.half_extent.x, face.half_extent.y, std::abs(face.center.x), std::abs(face.center.y)});
+  const double slack =
+      error_gamma(32) * (size + (view.projection == LightProjection::orthographic ? reach : size));
+  for (const HalfSpace& plane : column_planes(view, key.face(), key.column(), key.row()))
+    if (glm::dot(plane.normal, offset) - plane.offset < -(sphere.radius + slack)) return true;
+  return view.projection == LightProjection::perspective &&
+         glm::dot(face.forward, offset) < -(sphere.radius + slack);
+}
+
+/// Collects the lists of a run of keys; one per task, for it keeps its buffers.
+class Collector {
+ public:
+  Collector(const Structures& s, const Bvh& bvh, const LightView& view) : s_(s), bvh_(bvh), view_(view) {
+    const Aabb& b = s.world->finite_bounds;
+    reach_ =
+        b.empty() ? 0.0 : max_component(glm::max(glm::abs(b.min - bvh.center), glm::abs(b.max - bvh.center)));
+  }
+
+  /// The lists one after the other in `out`; ends[i] is where the i-th ends.
+  void collect(std::span<const TexelKey> keys, std::span<std::uint64_t> ends,
+               std::vector<std::uint32_t>& out) {
+    for (std::size_t i = 0; i < keys.size();) {
+      Strip strip{keys[i].face(), keys[i].row(), keys[i].column(), keys[i].column()};
+      std::size_t end = i + 1;
+      for (; end < keys.size() && strip.joins(keys[end]); ++end) strip.last = keys[end].column();
+      gather(strip);
+      for (; i < end; ++i) {
+        list(keys[i], out);
+        ends[i] = out.size();
+      }
+    }
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t id;
+    std::array<LightVertex, 3> corners;  // of a triangle
+  };
+
+  // The primitives that may meet the strip, ascending.
+  void gather(const Strip& strip) {
+    found_.clear();
+    if (bvh_.nodes.empty())
+      for (std::uint32_t i = 0; i < bvh_.ids.size(); ++i) found_.push_back(i);
+    else
+      descend(BoxColumn(view_, strip, bvh_, reach_));
+    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.ids[a] < bvh_.ids[b]; });
+    const Column column(view_, strip.face, strip.first, strip.row);
+    candidates_.resize(found_.size());
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      Candidate& c = candidates_[i];
+      c.id = bvh_.ids[found_[i]];
+      if (!s_.world->is_triangle(c.id)) continue;
+      const auto& v = bvh_.primitives[found_[i]].v;
+      for (std::size_t k = 0; k < 3; ++k)
+        c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
+    }
+  }
+
+  void descend(const BoxColumn& boxes) {
+    std::array<BvhChild, Bvh::stack_size> stack;
+    std::size_t size = 0;
+    stack[size++] = BvhChild::node(0);
+    while (size > 0) {
+      const BvhChild child = stack[--size];
+      if (child.is_leaf()) {
+        for (std::uint32_t i = child.first(); i < child.first() + child.count(); ++i) found_.push_back(i);
+        continue;
+      }
+      const BvhNode& node = bvh_.nodes[child.index()];
+      for (auto mask = static_cast<unsigned>(boxes.meet(node)); mask != 0; mask &= mask - 1)
+        stack[size++] = node.child[std::countr_zero(mask)];
+    }
+  }
+
+  void list(TexelKey key, std::vector<std::uint32_t>& out) const {
+    const Column column(view_, key.face(), key.column(), key.row());
+    const std::size_t first = out.size();
+    for (const Candidate& c : candidates_) {
+      const bool misses = s_.world->is_triangle(c.id)
+                              ? column.surely_misses(c.corners)
+                              : sphere_surely_misses(around(s_.world->shape(c.id).geometry), view_, key);
+      if (!misses) out.push_back(c.id);
+    }
+    if (s_.planes.empty()) return;
+    out.insert(out.end(), s_.planes.begin(), s_.planes.end());
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+  }
+
+  const Structures& s_;
+  const Bvh& bvh_;
+  const LightView& view_;
+  double reach_;
+  std::vector<std::uint32_t> found_;  // places in leaf order
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::size_t TexelLists::find(TexelKey key) const {
+  const auto at = std::lower_bound(keys.begin(), keys.end(), key);
+  return at != keys.end() && *at == key ? static_cast<std::size_t>(at - keys.begin()) : keys.size();
+}
+
+TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::vector<TexelKey> keys) {
+  constexpr std::size_t block = 256;  // keys per task
+  const Structures& s = tracer.structures();
+  std::optional<Bvh> own;  // the other structures answer rays, not columns
+  if (s.structure.index() != 0) own = build_bvh(*s.world);
+  const Bvh& bvh = own ? *own : s.bvh;
+  TexelLists lists;
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  lists.keys = std::move(keys);
+  const std::size_t count = lists.keys.size(), blocks = (count + block - 1) / block;
+  std::vector<std::vector<std::uint32_t>> found(blocks);
+  lists.offsets.assign(count + 1, 0);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t begin = b * block, size = std::min(count, begin + block) - begin;
+    Collector(s, bvh, view)
+        .collect(std::span(lists.keys).subspan(begin, size),
+                 std::span(lists.offsets).subspan(begin + 1, size), found[b]);
+  });
+  std::vector<std::uint64_t> first(blocks + 1, 0);
+  for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + found[b].size();
+  lists.primitives.resize(first[blocks]);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    std::copy(found[b].begin(), found[b].end(),
+              lists.primitives.begin() + static_cast<std::ptrdiff_t>(first[b]));
+    for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i)
+      lists.offsets[i + 1] += first[b];
+  });
+  return lists;
+}
+
+}  // namespace gnomon::raytrace
