@@ -13,6 +13,7 @@
 #include "compare/option_names.h"
 #include "hybrid/visibility.h"
 #include "raster/shader_folder.h"
+#include "raytrace/choose_tracer.h"
 #include "scene/load.h"
 #include "scene/stages.h"
 #include "scene/tessellate.h"
@@ -31,6 +32,10 @@ Expected<LoadedScene> load(const std::string& path_or_name, Console& console, in
   LoadedScene loaded;
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
   loaded.world = std::make_unique<World>(make_world(*loaded.scene));
+  if (loaded.world->primitive_count() > raytrace::most_primitives)
+    return fail(ErrorKind::bad_input,
+                fmt::format("{}: too many triangles and shapes (got {}, allowed {})", path_or_name,
+                            loaded.world->primitive_count(), raytrace::most_primitives));
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
   if (const std::string note = lesson_note(path_or_name); !note.empty()) console.note(note);

@@ -1,5 +1,6 @@
 #include "raytrace/frame.h"
 
+#include "raytrace/choose_tracer.h"
 #include "raytrace/packets/unstored.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/picture.h"
@@ -35,19 +36,6 @@ Times time_pass(const PassStages& stages, int runs, const Pass& pass) {
 /// Tiles for the lights' passes; none where they are not asked for.
 using CompactTiles = HugeArray<CompactTile>;
 
-/// Whether a frame's receivers need not be stored: nobody reads them but passes that find them again quickly,
-/// which spot lights' do not, and only triangles and planes are surely seen by floats.
-bool receivers_unstored(const Tracer& tracer, const View& view, std::span<const std::uint32_t> lights,
-                        const RaytraceOptions& options) {
-  const Structures& s = tracer.structures();
-  if (options.records || !options.picture || !blocks_apply(s, view) || s.has_masks || s.has_shapes)
-    return false;
-  return std::none_of(lights.begin(), lights.end(), [&](std::uint32_t i) {
-    const Light& light = s.world->scene->lights[i];
-    return has_size(light) || light.type == LightType::spot;
-  });
-}
-
 /// As trace_primary, keeping only what is seen.
 void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                   RayTracedFrame& frame, UnstoredReceivers& unstored, CompactTiles& tiles) {
@@ -61,11 +49,11 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
   frame.rays.primary = options.size.pixels();
 }
 
-void trace_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
+void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const RaytraceOptions& options,
                    RayTracedFrame& frame, CompactTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
-    if (blocks_apply(tracer.structures(), view)) {
+    if (way == PrimaryWay::blocks) {
       primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
                    {.hits = {}, .receivers = &frame.receiver, .compact = {tiles.data(), tiles.size()}});
       return;
@@ -83,9 +71,9 @@ bool reaches(const Light& light, const SurfacePoint& point) {
   return point.primitive != no_id && !light_cannot_reach(light, point.position, point.normal);
 }
 
-LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const RaytraceOptions& options,
-                         const Image<SurfacePoint>& receivers, const View& view,
-                         const UnstoredReceivers& unstored, const CompactTiles& tiles) {
+LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, ShadowWay way,
+                         const RaytraceOptions& options, const Image<SurfacePoint>& receivers,
+                         const View& view, const UnstoredReceivers& unstored, const CompactTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{
       .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
@@ -93,7 +81,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, const 
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(shadow_stages, options.runs, [&] {
     std::fill(rays.begin(), rays.end(), 0);
-    if (packets_apply(tracer.structures())) {
+    if (way == ShadowWay::packets) {
       TimedStage structure("light structure");
       const Sight sight = sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
       structure.end();
@@ -162,20 +150,21 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
                            std::span<const std::uint32_t> lights, const RaytraceOptions& options) {
   const View view = make_view(camera, options.size);
   RayTracedFrame frame;
-  const bool at_centres = options.records || options.samples_per_pixel == 1;
+  const TracerPlan ways = choose_tracer(tracer, view, lights, options);
+  const bool at_centres = ways.primary != PrimaryWay::none;
   CompactTiles tiles;
-  if (at_centres && !lights.empty() && blocks_apply(tracer.structures(), view))
-    tiles = CompactTiles(TileGrid{options.size}.count());
+  if (ways.compact) tiles = CompactTiles(TileGrid{options.size}.count());
   UnstoredReceivers unstored;
-  if (at_centres && receivers_unstored(tracer, view, lights, options))
+  if (ways.receivers == ReceiverStore::found_again)
     find_primary(tracer, view, options, frame, unstored, tiles);
-  else if (at_centres)
-    trace_primary(tracer, view, options, frame, tiles);
+  else if (ways.receivers == ReceiverStore::stored)
+    trace_primary(tracer, view, ways.primary, options, frame, tiles);
   for (const std::uint32_t light : lights) {
     if (!at_centres) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
-      frame.lights.push_back(trace_shadows(tracer, light, options, frame.receiver, view, unstored, tiles));
+      frame.lights.push_back(
+          trace_shadows(tracer, light, ways.shadow, options, frame.receiver, view, unstored, tiles));
     } else {
       frame.lights.emplace_back().light = light;
     }

@@ -33,6 +33,10 @@ TEST(Json, ScenesAndPlanArePure) {
     for (const json& effect : effects) total += effect["rays"].get<std::uint64_t>();
     EXPECT_EQ(document["rays"]["total"], total);
     EXPECT_EQ(document["rays"]["primary"], 1280u * 720u);
+    for (const char* rays : {"primary", "receivers", "shadow"}) {
+      EXPECT_FALSE(document["tracer"][rays]["way"].get<std::string>().empty());
+      EXPECT_FALSE(document["tracer"][rays]["reason"].get<std::string>().empty());
+    }
     for (const json& effect : effects) {
       EXPECT_TRUE(effect["simulated"] || effect["rays"] == 0);
       EXPECT_TRUE(effect["simulated"].is_boolean() && effect["called_for"].is_boolean());

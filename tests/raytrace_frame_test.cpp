@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "raytrace/choose_tracer.h"
 #include "raytrace/frame.h"
 #include "raytrace/shading/fresnel.h"
 #include "raytrace_support.h"
@@ -348,6 +349,56 @@ TEST(Frame, ThePictureAloneStoresNoReceivers) {
   const RayTracedFrame frame =
       trace_frame(Tracer(w.world(), Accel::bvh), plan_effects(w.scene()), w.scene().camera, lights, options);
   EXPECT_TRUE(frame.receiver.data.empty());
+}
+
+raytrace::TracerPlan ways_of(Scene scene, Accel accel, raytrace::Precision precision,
+                             const RaytraceOptions& options) {
+  const TestWorld w(std::move(scene));
+  const Tracer tracer(w.world(), accel, precision);
+  const std::vector<std::uint32_t> lights{0};
+  return choose_tracer(tracer, make_view(w.scene().camera, {40, 30}), lights, options);
+}
+
+// One function chooses, and says why: each of its reasons once.
+TEST(Ways, EveryWayHasItsReason) {
+  using raytrace::Precision, raytrace::PrimaryWay, raytrace::ReceiverStore, raytrace::ShadowWay;
+  const Scene plain = waves({test::sun({1, -2, -1})});
+  Scene wide = plain, spot = plain, soft = plain;
+  wide.camera.vertical_fov = 2.9;
+  spot.lights[0].type = LightType::spot;
+  soft.lights[0].extent = SunDisc{0.01};
+  const RaytraceOptions records;
+  RaytraceOptions picture, samples;
+  picture.records = samples.records = false, samples.samples_per_pixel = 4;
+  struct Case {
+    raytrace::TracerPlan ways;
+    PrimaryWay primary;
+    ReceiverStore receivers;
+    ShadowWay shadow;
+  };
+  const auto robust = [&](const Scene& scene, const RaytraceOptions& options) {
+    return ways_of(scene, Accel::bvh, Precision::robust, options);
+  };
+  const Case cases[] = {
+      {robust(plain, records), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::packets},
+      {robust(plain, picture), PrimaryWay::blocks, ReceiverStore::found_again, ShadowWay::packets},
+      {robust(spot, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::packets},
+      {robust(soft, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::none},
+      {robust(wide, picture), PrimaryWay::single_rays, ReceiverStore::stored, ShadowWay::packets},
+      {robust(plain, samples), PrimaryWay::none, ReceiverStore::none, ShadowWay::none},
+      {ways_of(plain, Accel::bvh, Precision::fast, records), PrimaryWay::single_rays, ReceiverStore::stored,
+       ShadowWay::single_rays},
+      {ways_of(plain, Accel::grid, Precision::robust, records), PrimaryWay::single_rays,
+       ReceiverStore::stored, ShadowWay::single_rays},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(&c - cases);
+    EXPECT_EQ(c.ways.primary, c.primary);
+    EXPECT_EQ(c.ways.receivers, c.receivers);
+    EXPECT_EQ(c.ways.shadow, c.shadow);
+    EXPECT_FALSE(c.ways.primary_reason.empty() || c.ways.receivers_reason.empty() ||
+                 c.ways.shadow_reason.empty());
+  }
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_samples.h"
 #include "app/session.h"
+#include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
 #include "scene/files/write_file.h"
 #include "scene/one_line.h"
@@ -63,7 +65,12 @@ nlohmann::ordered_json size_json(const ImageSize& size) {
   return {size.width, size.height};
 }
 
-std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
+nlohmann::ordered_json way_json(std::string_view way, std::string_view reason) {
+  return {{"way", way}, {"reason", reason}};
+}
+
+std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast,
+                      const raytrace::TracerPlan& ways) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
     effects.push_back({{"effect", effect_name(entry.effect)},
@@ -78,7 +85,10 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
                                     {"exact", forecast.exact},
                                     {"primary", forecast.rays.primary},
                                     {"total", total_rays(forecast.rays)}};
-  return nlohmann::ordered_json{{"effects", effects}, {"rays", rays}}.dump(
+  const nlohmann::ordered_json tracer{{"primary", way_json(name_of(ways.primary), ways.primary_reason)},
+                                      {"receivers", way_json(name_of(ways.receivers), ways.receivers_reason)},
+                                      {"shadow", way_json(name_of(ways.shadow), ways.shadow_reason)}};
+  return nlohmann::ordered_json{{"effects", effects}, {"rays", rays}, {"tracer", tracer}}.dump(
              2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";
 }
@@ -102,6 +112,15 @@ std::string plan_row(std::string_view name, std::string_view state, const std::s
   return fmt::format("{:<16}{:<11}{:>9}  {}\n", name, state, rays, why);
 }
 
+std::string ways_table(const raytrace::TracerPlan& ways) {
+  const auto row = [](std::string_view what, std::string_view way, std::string_view reason) {
+    return fmt::format("{:<16}{}: {}\n", what, way, reason);
+  };
+  return "\n" + row("primary rays", name_of(ways.primary), ways.primary_reason) +
+         row("receivers", name_of(ways.receivers), ways.receivers_reason) +
+         row("shadow rays", name_of(ways.shadow), ways.shadow_reason);
+}
+
 std::string plan_table(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
   std::string text = plan_row("effect", "", "rays", "why");
   for (const EffectEntry& entry : plan.entries) {
@@ -120,6 +139,15 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
   return text;
 }
 
+/// How gnomon raytrace makes the picture, with all lights.
+raytrace::TracerPlan picture_ways(const raytrace::Tracer& tracer, const Camera& camera,
+                                  raytrace::RaytraceOptions options) {
+  options.records = false;
+  std::vector<std::uint32_t> lights(tracer.world().scene->lights.size());
+  std::iota(lights.begin(), lights.end(), 0U);
+  return choose_tracer(tracer, make_view(camera, options.size), lights, options);
+}
+
 Expected<ExitCode> run_plan(const PlanCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
@@ -134,7 +162,8 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   const raytrace::Tracer tracer(*loaded->world, raytrace::Accel::bvh);
   const raytrace::Forecast forecast = forecast_rays(tracer, loaded->plan, loaded->scene->camera, options);
   console.clear_progress();
-  const std::string json = plan_json(loaded->plan, options.size, forecast);
+  const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
+  const std::string json = plan_json(loaded->plan, options.size, forecast, ways);
   if (!command.json.empty() && command.json != "-") {
     if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
     if (const auto written = write_file(command.json, json); !written) return fail(written.error());
@@ -142,7 +171,7 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   if (command.json == "-") {
     print_data(json);
   } else if (!command.quiet) {
-    print_data(plan_table(loaded->plan, options.size, forecast));
+    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways));
   }
   return ExitCode::done;
 }

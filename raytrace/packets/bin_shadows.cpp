@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "raytrace/packets/bin_shadows.h"
+#include "raytrace/packets/blocked-inl.h"
 #include "raytrace/packets/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -53,27 +54,15 @@ class CellShadows {
   /// True when rays have been found to be shadowed.
   template <bool plane>
   bool test(const SeenPrimitive& p, std::uint32_t leaf, M asked) {
-    const RayTest rays{Functions(p)};
-    const V edge = plane ? all(inf) : rays.least_edge(u_, v_);
-    const V edge_error = all(p.edge_error), depth_error = all(p.depth_error);
-    const V nearness = rays.nearness(u_, v_);
-    const M known = hn::Gt(nearness, all(p.depth_floor));
-    const M behind = hn::And(hn::Lt(nearness, hn::Sub(far_, depth_error)), known);
-    // A flat shape does not shadow itself; of others the double kernels know when.
-    const std::uint32_t not_by = p.edge_error < inf ? p.id & ~never_sure : no_id;
-    const M own = hn::RebindMask(f, hn::Eq(own_, hn::Set(ids, not_by)));
-    const M near = hn::AndNot(own, hn::And(asked, hn::Ge(edge, hn::Neg(edge_error))));
-    const M contact = hn::AndNot(behind, near);
-    if (hn::AllFalse(f, contact)) return false;
-    const M ahead = hn::And(hn::Gt(nearness, hn::Add(far_, depth_error)), known);
-    const M inside = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
-    const unsigned sure = (p.id & never_sure) == 0 ? bits_of(inside) : 0;
-    const unsigned open = bits_of(contact) & ~sure;
+    const Blocked blocked = blocked_by<plane>(p, RayTest{Functions(p)}, u_, v_, far_, own_, asked);
+    if (hn::AllFalse(f, blocked.perhaps)) return false;
+    const unsigned sure = bits_of(blocked.surely);
+    const unsigned open = bits_of(blocked.perhaps) & ~sure;
     unsure_ |= open;
     if (!plane) out_.note(leaf, at_, open);
     if (sure == 0) return false;
     shadowed_ |= sure;
-    far_ = hn::IfThenElse(inside, all(inf), far_);
+    far_ = hn::IfThenElse(blocked.surely, all(inf), far_);
     return true;
   }
 

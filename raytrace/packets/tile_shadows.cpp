@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "raytrace/packets/blocked-inl.h"
 #include "raytrace/packets/frustum-inl.h"
 #include "raytrace/packets/tile.h"
 
@@ -127,28 +128,20 @@ class Shadows {
   bool test_packet(const SeenPrimitive& primitive, std::uint32_t leaf, const RayTest& rays,
                    std::size_t packet) {
     bool taken = false;
-    const V edge_error = all(primitive.edge_error), depth_error = all(primitive.depth_error);
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
       const std::size_t at = packet * packet_rays + i;
       const V u = hn::Load(f, rays_.u + at), v = hn::Load(f, rays_.v + at);
-      const V edge = plane ? all(inf) : rays.least_edge(u, v);
-      const V nearness = rays.nearness(u, v), far = hn::Load(f, far_ + at);
-      const M known = hn::Gt(nearness, all(primitive.depth_floor));
-      const M behind = hn::And(hn::Lt(nearness, hn::Sub(far, depth_error)), known);
-      M contact = hn::AndNot(behind, hn::Ge(edge, hn::Neg(edge_error)));
-      if (hn::AllFalse(f, contact)) continue;
-      // A shape may shadow itself; the double kernels know when.
-      const auto own = hn::Eq(hn::Load(ids, rays_.own + at), hn::Set(ids, primitive.id & ~never_sure));
-      if (primitive.edge_error < inf) contact = hn::AndNot(hn::RebindMask(f, own), contact);
-      const M ahead = hn::And(hn::Gt(nearness, hn::Add(far, depth_error)), known);
-      const M inside = hn::And(contact, hn::And(hn::Gt(edge, edge_error), ahead));
-      const unsigned bits = (primitive.id & never_sure) == 0 ? bits_of(inside) : 0;
-      const unsigned open = bits_of(contact) & ~bits;
+      const V far = hn::Load(f, far_ + at);
+      const Blocked blocked =
+          blocked_by<plane>(primitive, rays, u, v, far, hn::Load(ids, rays_.own + at), hn::Eq(far, far));
+      if (hn::AllFalse(f, blocked.perhaps)) continue;
+      const unsigned bits = bits_of(blocked.surely);
+      const unsigned open = bits_of(blocked.perhaps) & ~bits;
       unsure_[packet] |= open << i;
       if (!plane) out_->note(leaf, at, open);
       if (bits == 0) continue;
       shadowed_[packet] |= bits << i;
-      hn::Store(hn::IfThenElse(inside, all(inf), far), f, far_ + at);
+      hn::Store(hn::IfThenElse(blocked.surely, all(inf), far), f, far_ + at);
       taken = true;
     }
     if (taken) packets_.far_min[packet] = smallest(far_ + packet * packet_rays);

@@ -1,0 +1,53 @@
+// Which ways a frame's rays take. This is the one place that chooses; trace_frame() does what it says, and
+// gnomon plan prints it with the reasons.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "raytrace/frame.h"
+
+namespace gnomon::raytrace {
+
+/// More than this no tree can number: its leaves have 27 bits for a primitive's position.
+inline constexpr std::uint32_t most_primitives = (1u << 27) - 1;
+
+/// How the rays from the eye find what they see.
+enum class PrimaryWay : std::uint8_t {
+  none,        ///< the picture's own samples are all that is cast
+  blocks,      ///< blocks of 64 x 64 pixels, packets of 16 rays (raytrace/packets/view_block.h)
+  single_rays  ///< each by itself
+};
+
+/// Where the points that the eye sees are kept for the lights' passes and the picture.
+enum class ReceiverStore : std::uint8_t {
+  none,
+  stored,      ///< in double, a frame's receivers
+  found_again  ///< of each pixel the primitive alone; a tile's points are found again when they are asked for
+};
+
+/// How rays to a light's centre find what stands between.
+enum class ShadowWay : std::uint8_t {
+  none,
+  packets,     ///< tiles of packets: by light-space bins where sight_of_light() finds that they pay, else by
+               ///< walks
+  single_rays  ///< each by itself
+};
+
+std::string_view name_of(PrimaryWay way);
+std::string_view name_of(ReceiverStore store);
+std::string_view name_of(ShadowWay way);
+
+struct TracerPlan {
+  PrimaryWay primary = PrimaryWay::none;
+  ReceiverStore receivers = ReceiverStore::none;
+  ShadowWay shadow = ShadowWay::none;
+  bool compact = false;  ///< tiles of float receivers are made for the lights' passes
+  std::string_view primary_reason, receivers_reason, shadow_reason;
+};
+
+/// `lights`: those whose truth trace_frame() is asked for.
+TracerPlan choose_tracer(const Tracer& tracer, const View& view, std::span<const std::uint32_t> lights,
+                         const RaytraceOptions& options);
+
+}  // namespace gnomon::raytrace
