@@ -87,9 +87,10 @@ double lens(double r, double s, double d) {
   return r * r * (x - 0.5 * std::sin(2.0 * x)) + s * s * (y - 0.5 * std::sin(2.0 * y));
 }
 
-// Against the scatter of many seeds. 400 of them tell a standard deviation to 4 %; the estimate takes what a
-// curved edge bends within a block of four strata for noise, which adds up to a third here.
-TEST_F(Coaxial, StandardErrorIsTheScatterOfTheSamples) {
+// Against the scatter of many seeds; 400 of them tell a standard deviation to 4 %. The points are spread more
+// evenly than their strata alone make them, so the estimate is on the safe side, up to twice the scatter
+// here; it still has to be well below that of samples without strata.
+TEST_F(Coaxial, StandardErrorCoversTheScatterOfTheSamples) {
   for (const int samples : {16, 64, 100, 256})
     for (const double radius : {umbra + 0.3 * (penumbra - umbra), 0.5 * (umbra + penumbra)}) {
       constexpr int seeds = 400;
@@ -103,7 +104,8 @@ TEST_F(Coaxial, StandardErrorIsTheScatterOfTheSamples) {
       std::printf("  %3d samples: scatter %.4f, estimate %.4f, ratio %.2f\n", samples, scatter, estimate,
                   estimate / scatter);
       EXPECT_GT(estimate, 0.9 * scatter) << samples;
-      EXPECT_LT(estimate, 1.4 * scatter) << samples;
+      const double mean = sum / seeds, unstratified = std::sqrt(mean * (1.0 - mean) / samples);
+      EXPECT_LT(estimate, 0.6 * unstratified) << samples;
     }
   EXPECT_EQ(seen(0.5 * umbra, 64, 1).standard_error, 0.0);
 }

@@ -28,6 +28,7 @@ pid_t start(const Words& words, const std::string& log) {
   const pid_t child = fork();
   if (child != 0) return child;
   std::freopen(log.c_str(), "w", stdout);
+  std::freopen(log.c_str(), "a", stdout);  // behind what stderr has said by then
   std::freopen(log.c_str(), "a", stderr);
   std::vector<char*> argv;
   for (std::string& word : all) argv.push_back(word.data());
