@@ -1,23 +1,39 @@
-// Arrays of integers as short text for the page: deflated planes of bytes, in base64. The page's twin is
-// page/src/packed.ts.
+// Arrays of integers as short text for the page. The page's twin is page/src/packed.ts.
 //
-// A number is taken modulo 2^(8 bytes). `difference` first replaces each number by its difference from the
-// one before it, which suits what changes little from pixel to pixel. Then all lowest bytes, all second bytes
-// and so on, compressed as one zlib stream (RFC 1950).
+// A number is taken modulo 2^(8 bytes). What is predicted of it is subtracted; what is left, read as signed,
+// is folded to 0, -1, 1, -2, 2, ... = 0, 1, 2, 3, 4, ..., so that small numbers of either sign have empty
+// high bytes. Then all lowest bytes, all second bytes and so on, compressed as one zlib stream (RFC 1950),
+// whose bits, lowest first, stand 13 by 13 in pairs of 91 characters that JSON and HTML take as they are (a
+// last rest of at most six in one character). That is a thirteenth shorter than base64.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::compare {
 
+/// What a number is predicted from: nothing, the number before, or the last one of the same surface.
+enum class From : std::uint8_t { nothing, previous, surface };
+
+/// For each number the place of the last one before it of the same surface, or else of the one before; 0 of
+/// the first.
+using Sources = std::vector<std::uint32_t>;
+/// `surfaces`: of each number, by name.
+Sources surface_sources(const std::vector<std::uint32_t>& surfaces);
+
 struct PackOptions {
   int bytes = 4;  ///< of each number: 1, 2 or 4
-  bool difference = false;
-  int level = 3;  ///< of deflate(): 6 takes twice the time for a few percent
+  From from = From::nothing;
+  int level = 7;  ///< of deflate(): 3 takes half the time and leaves a tenth more
 };
 
-std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& options);
+/// `sources`: for From::surface.
+std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& options,
+                   const Sources* sources = nullptr);
+
+/// Bytes as pairs of characters.
+std::string dense_text(std::string_view bytes);
 
 }  // namespace gnomon::compare

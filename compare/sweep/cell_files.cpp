@@ -32,11 +32,11 @@ std::string truth_name(std::string_view png) {
 }
 
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {
-  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, false, 1});
+  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, From::nothing, 1});
   return data_file(
       {cell_name(cell),
        fmt::format(
-           R"({{"width":{},"height":{},"truth":"{}","classes":{{"bytes":1,"difference":false,"data":"{}"}}}})",
+           R"({{"width":{},"height":{},"truth":"{}","classes":{{"bytes":1,"from":"nothing","data":"{}"}}}})",
            codes.size.width, codes.size.height, truth, classes)});
 }
 

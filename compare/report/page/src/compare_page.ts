@@ -36,7 +36,13 @@ async function restore(): Promise<void> {
   document.querySelector(`#light-${wanted.light} .viewer`)!.scrollIntoView({ block: "start" });
 }
 
+declare global {
+  var gnomon: { light: (index: number) => Promise<Light> } | undefined;  // eslint-disable-line no-var
+}
+
 export async function startComparison(): Promise<void> {
+  // For the browser's console, and for tests: a light's numbers, unpacked.
+  globalThis.gnomon = { light: Light.load };
   for (let i = 0; i < page.lights; ++i)
     if (isBeside && i > 0) loadWhenNear(i);
     else await panel(i);

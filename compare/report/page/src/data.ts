@@ -1,7 +1,9 @@
 // What the page knows: words, and each light's pixels, map and geometry (../../page_data.cpp), unpacked on first use.
+import { endless, expectedGaps, nothingStored } from "./expected_gaps";
 import { alongRay, texelRay, add, type LightView, type MapPoint, type Vec3 } from "./light_view";
-import { unpack, unpackAll, type Channel, type Numbers, type Packed } from "./packed";
+import { surfaceSources, unpack, unpackAll, type Channel, type Numbers, type Packed } from "./packed";
 import { pageData, part } from "./parts";
+import { addPredicted, type PixelRays, type PixelSurfaces } from "./surface_prediction";
 
 export interface LabelWords {
   value: number;
@@ -40,8 +42,11 @@ interface PageJson {
   height: number;
   position_steps: number;
   visibility_steps: number;
+  colour_steps: number;    // of an octave of linear light
+  darkest_octave: number;  // 1: 2 to this power; 0: black
   exposure: number;  // linear factor of both pictures
   lights: number;
+  rays: PixelRays;
 }
 
 interface GeometryJson {
@@ -58,11 +63,18 @@ export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
 /** What both renderers see, and their linear pictures. */
 export class Pixels {
   private static loading: Promise<Pixels> | null = null;
-  private constructor(readonly channels: Record<string, Numbers>) {}
-  static load(): Promise<Pixels> {
-    return Pixels.loading ??= part<Record<string, Channel>>("pixels").then(unpackAll).then((channels) => new Pixels(channels));
+  private constructor(readonly channels: Record<string, Numbers>, readonly sources: Int32Array) {}
+  static load(): Promise<Pixels> { return Pixels.loading ??= Pixels.unpacked(); }
+  private static async unpacked(): Promise<Pixels> {
+    let sources: Int32Array | undefined;
+    const sourcesOf = (done: Record<string, Numbers>) => sources ??= surfaceSources(done.primitive!);
+    return new Pixels(await unpackAll(await part<Record<string, Channel>>("pixels"), sourcesOf), sources!);
   }
-  /** Red, green and blue of a picture as 16-bit floats. */
+  surfaces(): PixelSurfaces {
+    const { primitive, nx, ny, nz } = this.channels;
+    return { width: page.width, rays: page.rays, primitives: primitive!, normals: [nx!, ny!, nz!], sources: this.sources };
+  }
+  /** Red, green and blue of a picture, as logarithms (linear.ts). */
   picture(name: PictureName): Int16Array[] {
     return ["R", "G", "B"].map((c) => this.channels[name + c] as Int16Array);
   }
@@ -116,7 +128,7 @@ export class DepthMap {
     if (column < 0 || row < 0 || column >= this.light.view.size || row >= this.light.view.size) return Infinity;
     const i = (face * this.size + Math.floor(row / this.step)) * this.size + Math.floor(column / this.step);
     const number = this.numbers[i]!;
-    return number === -1 ? Infinity : this.light.view.near + number * this.light.depth_step;
+    return number === nothingStored ? Infinity : this.light.view.near + number * this.light.depth_step;
   }
 }
 
@@ -125,19 +137,19 @@ export class Light {
   readonly label: Int8Array;
   readonly truth: Int16Array;
   readonly drawn: Int16Array;
-  readonly flip: Uint8Array | null;  // in steps of 1/255
+  readonly flip: Int8Array | null;   // in hundredths
   readonly decision: Int8Array | null;  // of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced, 3 not asked
-  readonly ssim: Int8Array | null;   // in steps of 1/127; -128 where no window fits
+  readonly ssim: Int8Array | null;   // in hundredths; -128 where no window fits
   private readonly us: Numbers;
   private readonly vs: Numbers;
   private readonly faces: Numbers;
   private constructor(readonly json: LightJson, private readonly channels: Record<string, Numbers>,
                       readonly pixels: Pixels, readonly map: DepthMap) {
-    this.gap = new Float32Array((channels.gap as Int32Array).buffer);
+    this.gap = Float32Array.from(channels.gap!, (number) => (number === endless ? -Infinity : number * json.depth_step));
     this.label = channels.label as Int8Array;
     this.truth = channels.V0 as Int16Array;
     this.drawn = channels.V6 as Int16Array;
-    this.flip = channels.flip ? new Uint8Array(channels.flip.buffer) : null;
+    this.flip = (channels.flip as Int8Array | undefined) ?? null;
     this.ssim = (channels.ssim as Int8Array | undefined) ?? null;
     this.decision = (channels.decision as Int8Array | undefined) ?? null;
     this.us = channels.u!;
@@ -146,7 +158,11 @@ export class Light {
   }
   static async load(index: number): Promise<Light> {
     const json = await part<LightJson>(`light-${index}`);
-    const [channels, pixels, map] = await Promise.all([unpackAll(json.channels), Pixels.load(), unpack(json.map)]);
+    const [pixels, map] = await Promise.all([Pixels.load(), unpack(json.map)]);
+    const channels = await unpackAll(json.channels, () => pixels.sources, (_, done) => {
+      addPredicted(pixels.surfaces(), json.view, page.position_steps, json.depth_step, done.u!, done.v!, done.distance!, done.face!);
+      return expectedGaps(json, pixels.surfaces(), done, map);
+    });
     return new Light(json, channels, pixels, new DepthMap(json, json.map.step, map));
   }
 

@@ -103,7 +103,7 @@ export class LightPanel {
     this.shown = this.light.pixel(x, y);
     const { index, label } = this.shown, { flip, ssim } = this.light;
     this.line.textContent = `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour("raytraced", index)}` +
-      (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 255, 2)}` : "") + (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 127, 2)}` : "");
+      (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 100, 2)}` : "") + (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 100, 2)}` : "");
   }
 
   private hover(x: number, y: number): void {

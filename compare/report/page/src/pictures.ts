@@ -45,8 +45,8 @@ export function lightPicture(light: Light, name: string): ImageData | null {
       return texels < 0 ? mix(missedShadow, Math.min(1, -texels / 4)) : mix(falseShadow, Math.min(1, texels / 4));
     });
     case "absolute error": return compared((i) => magma(Math.abs(light.drawn[i]! - light.truth[i]!) / steps));
-    case "FLIP": return light.flip && painted((i) => magma(light.flip![i]! / 255));
-    case "1 − SSIM": return light.ssim && painted((i) => (light.ssim![i] === -128 ? unseen : magma(1 - light.ssim![i]! / 127)));
+    case "FLIP": return light.flip && painted((i) => magma(light.flip![i]! / 100));
+    case "1 − SSIM": return light.ssim && painted((i) => (light.ssim![i] === -128 ? unseen : magma(1 - light.ssim![i]! / 100)));
     default: return null;
   }
 }
