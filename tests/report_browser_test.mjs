@@ -108,6 +108,42 @@ async function checkViewer() {
   await close(page);
 }
 
+// Several lights stand in tabs: one section at a time, by mouse, keyboard and link; all of them in print and without scripts.
+async function checkTabs() {
+  const page = await open("three"), tabs = page.getByRole("tab");
+  const seen = () => page.locator("main section[id^=light-]:visible").evaluateAll((all) => all.map((e) => e.id));
+  assert.equal(await tabs.count(), 3);
+  assert.deepEqual(await seen(), ["light-0"]);
+  await tabs.nth(1).click();
+  assert.deepEqual(await seen(), ["light-1"]);
+  assert.equal(await page.getByRole("tabpanel").getAttribute("id"), "light-1");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  assert.deepEqual(await seen(), ["light-0"]);
+  assert.equal(await tabs.first().evaluate((e) => e === document.activeElement && e.getAttribute("aria-selected") === "true"), true);
+  await page.keyboard.press("End");
+  assert.deepEqual(await seen(), ["light-2"]);
+  await page.locator("nav a[href='#light-1']").click();
+  await page.waitForFunction(() => document.querySelector("#light-1").getBoundingClientRect().top < 200);
+  assert.deepEqual(await seen(), ["light-1"]);
+  await page.emulateMedia({ media: "print" });
+  assert.deepEqual(await seen(), ["light-0", "light-1", "light-2"]);
+  await close(page);
+  const plain = await open("three", { javaScriptEnabled: false });
+  assert.equal(await plain.locator("main section[id^=light-]:visible").count(), 3);
+  await close(plain);
+}
+
+// The first screen of 1440 x 900 holds both pictures and the labelled one, side by side.
+async function checkFirstScreen() {
+  const page = await open("one"), boxes = [];
+  for (const id of ["picture-raster", "picture-raytraced", "picture-labels-0"]) boxes.push(await page.locator(`#${id}`).boundingBox());
+  for (const box of boxes) assert.ok(box.y === boxes[0].y && box.y + box.height < 900 && box.width > 300, JSON.stringify(boxes));
+  assert.ok(boxes[0].x < boxes[1].x && boxes[1].x < boxes[2].x);
+  assert.ok((await page.locator(".verdict").boundingBox()).y < 900);
+  await close(page);
+}
+
 try {
   for (const name of ["one", "three", "none"]) {
     const page = await open(name);
@@ -121,7 +157,9 @@ try {
     console.log(`${name}: ${numbers} numbers equal to result.json, no violation, no request`);
   }
   await checkViewer();
-  console.log("viewer: keys, mouse and labels work");
+  await checkTabs();
+  await checkFirstScreen();
+  console.log("viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture");
 } finally {
   await browser.close();
 }

@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
+import { axeSource, browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
 const width = 240, height = 136, biases = ["0.02", "0.3"];
@@ -261,6 +261,61 @@ async function checkControls(page) {
   await page.locator(".marker").first().waitFor({ state: "hidden" });
 }
 
+// Picture, pixel drawing, cross-section and bias on one screen of 1440 x 900; what one shows follows what is dragged in
+// another. Closed, all is back in its place.
+async function checkPresenter() {
+  const page = await open(folderOf(biases[0]), {}, "#light-0?pixel=100,80"), dialog = page.locator("dialog.presenter");
+  const places = () => page.evaluate(() => [...document.querySelectorAll(".bias-live, .pixel-probe")].map((e) => e.textContent.length > 40));
+  const before = await places();
+  await page.getByRole("button", { name: "Present" }).click();
+  for (const part of [".bias-picture canvas", "svg.light-space", "svg.section", ".bias-bar input[type=range]", ".story"]) {
+    const box = await dialog.locator(part).boundingBox();
+    assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= 1440 && box.y + box.height <= 900 && box.width > 150, `${part}: ${JSON.stringify(box)}`);
+  }
+  const look = () => dialog.evaluate((d) => [".pixel-title", ".light-space", ".section"].map((s) => d.querySelector(s).outerHTML));
+  const canvas = await dialog.locator(".bias-picture canvas").boundingBox(), first = await look();
+  await page.mouse.move(canvas.x + 0.3 * canvas.width, canvas.y + 0.7 * canvas.height);
+  await page.mouse.down();
+  await redrawn(page);
+  const second = await look();
+  await page.mouse.move(canvas.x + 0.6 * canvas.width, canvas.y + 0.8 * canvas.height);
+  await redrawn(page);
+  const third = await look();  // the button is still down
+  await page.mouse.up();
+  for (const k of [0, 1, 2]) assert.ok(first[k] !== second[k] && second[k] !== third[k], `part ${k} does not follow the dragged pixel`);
+  await dialog.locator(".bias-bar input[type=range]").fill("700");
+  await redrawn(page);
+  const fourth = await look();
+  for (const k of [1, 2]) assert.notEqual(fourth[k], third[k], `part ${k} does not follow the bias`);
+  await dialog.locator("svg.section").evaluate((e) => e.closest(".scroll").focus());
+  await page.keyboard.press("Shift+ArrowRight");
+  await redrawn(page);
+  assert.notEqual((await look())[0], fourth[0]);
+  await page.evaluate(axeSource);
+  assert.deepEqual(await page.evaluate(async () => (await window.axe.run("dialog")).violations.map((v) => `${v.id}: ${v.nodes[0].html}`)), []);
+  await page.keyboard.press("Escape");
+  assert.equal(await dialog.isVisible(), false);
+  assert.deepEqual(await places(), before);
+  await close(page);
+}
+
+// So many pixels of one row that marks would hide each other: bars, split by what came out, that add up to the counts.
+async function checkBins(page) {
+  await page.getByRole("button", { name: "all", exact: true }).click();
+  await redrawn(page);
+  const { counts, areas } = await page.locator(".probe-section").evaluate((host) => ({
+    counts: [...host.querySelectorAll(".key span")].map((e) => Number(e.textContent.split(": ")[1].replaceAll(",", ""))),
+    areas: ["lit", "dark", "false", "missed"].map((outcome) => {
+      const heights = host.querySelector(`.spot.${outcome}`)?.getAttribute("d").matchAll(/v([\d.]+)/g) ?? [];
+      return [...heights].reduce((sum, [, h]) => sum + Number(h), 0);
+    }),
+  }));
+  assert.ok(counts.reduce((a, b) => a + b) > 600, `only ${counts} marks`);
+  assert.equal(await page.locator("svg.section .dot").count(), 0, "marks beside the bars");
+  // An outcome has bars exactly where it has pixels, and those of wrong pixels are seen beside the right ones.
+  counts.forEach((count, k) => assert.equal(areas[k] > 0, count > 0, `${count} pixels, bars ${areas[k]} high`));
+}
+
 // A page larger than allowed keeps pictures and pixels in files beside it, says so, and does all the same.
 async function checkBeside() {
   const large = join(folder, "beside"), run = [program, ["compare", "sphere-plane", "--size", `${width}x${height}`, "--map-size", "64", "--runs", "1",
@@ -287,7 +342,7 @@ async function checkBeside() {
 async function checkWeight() {
   const large = join(folder, "hd");
   execFileSync(program, ["compare", "fence", "--size", "1280x720", "--runs", "1", "--quiet", "-o", large], { stdio: "inherit" });
-  const page = await open(large), said = await page.evaluate(async () => {
+  const page = await open(large, {}, "#light-0?pixel=900,300"), said = await page.evaluate(async () => {
     const [paint] = performance.getEntriesByName("first-contentful-paint"), slider = document.querySelector(".bias-bar input[type=range]");
     const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
     const timed = async (act) => {
@@ -304,6 +359,7 @@ async function checkWeight() {
     const pixel = await timed(() => stage.dispatchEvent(step));
     return { firstPaint: Math.round(paint?.startTime ?? NaN), bias, stops, pixel };
   });
+  await checkBins(page);
   const weight = statSync(join(large, "report.html")).size / 1e6;
   assert.ok(weight < 10, `the page of fence weighs ${weight} MB`);
   console.log(`1280x720, ${weight.toFixed(1)} MB: first paint after ${said.firstPaint} ms; until the next frame but one, a dragged bias ${said.bias} ms, an exposure ${said.stops} ms, another pixel ${said.pixel} ms`);
@@ -324,6 +380,7 @@ try {
   await checkControls(page);
   assert.deepEqual([...new Set(page.requests.filter((url) => !url.startsWith("data:")))].length, 1);
   await close(page);
+  await checkPresenter();
   await checkUrl();
   await checkBeside();
   await checkPhone(folderOf(biases[0]));

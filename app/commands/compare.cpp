@@ -53,7 +53,7 @@ Expected<void> check_outputs(const CompareCommand& command) {
     if (const auto writable = check_output_file(command.aov); !writable) return writable;
   }
   if (const auto writable = check_output_file(command.json); !writable) return writable;
-  return check_output_folder(command.folder);
+  return command.folder.empty() ? Expected<void>() : check_output_folder(command.folder);
 }
 
 // Measured: what the peak grows by from 320x180 to 2560x1440, with one light and with four.
@@ -103,6 +103,11 @@ Expected<std::string> read_back(const std::string& path) {
   if (!file || bytes.empty())
     return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
   return bytes;
+}
+
+/// Nothing but the result on stdout was asked for: no folder is written.
+bool only_prints_json(const CompareCommand& command) {
+  return command.json == "-" && command.folder.empty() && command.aov.empty();
 }
 
 /// --json hands out the same bytes as the folder's result.json.
@@ -168,6 +173,37 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
   loaded = {};
 }
 
+/// --json - alone: the result goes to stdout and nowhere else.
+ExitCode print_result(const CompareCommand& command, compare::Comparison& comparison, LoadedScene& loaded,
+                      Console& console) {
+  const ExitCode code = judge(command, comparison, console);
+  std::string json = compare::result_json(comparison);
+  give_back(comparison, loaded);
+  print_data(compare::with_time_budget(std::move(json)));
+  return code;
+}
+
+Expected<ExitCode> write_folder(const CompareCommand& command, compare::Comparison& comparison,
+                                LoadedScene& loaded, const Stopwatch& total, Console& console) {
+  std::optional<OutputGuard> whole_outputs(std::in_place);
+  auto written = write_all(command, comparison, console);
+  if (!written) return fail(written.error());
+  std::string summary = compare::summary_table(comparison, stdout_takes_colour());
+  const ExitCode code = judge(command, comparison, console);
+  give_back(comparison, loaded);
+  if (const auto result = compare::write_result(*written, command.folder); !result)
+    return fail(result.error());
+  if (const auto json = write_json(command); !json) return fail(json.error());
+  whole_outputs.reset();
+  if (const StageLog* log = StageLog::current())
+    summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
+  if (!command.quiet && command.json != "-") print_data(summary);
+  console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)",
+                              command.folder, total.elapsed_ms() / 1000.0,
+                              static_cast<double>(peak_memory_bytes()) / 1e6));
+  return code;
+}
+
 /// A large picture's shadow map and shading take long enough to be timed once.
 constexpr std::size_t large_picture = 1'000'000;  // pixels
 constexpr int runs_of_large = 1;
@@ -176,7 +212,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads);
-  if (command.folder.empty()) command.folder = default_output(command.scene);
+  if (command.folder.empty() && !only_prints_json(command)) command.folder = default_output(command.scene);
   if (command.runs)
     command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
   else if (command.setting.options.raster.size.pixels() > large_picture)
@@ -195,32 +231,18 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!comparison) return fail(comparison.error());
   comparison->total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
-  std::optional<OutputGuard> whole_outputs(std::in_place);
-  auto written = write_all(command, *comparison, console);
-  if (!written) return fail(written.error());
-  std::string summary = compare::summary_table(*comparison, stdout_takes_colour());
-  const ExitCode code = judge(command, *comparison, console);
-  give_back(*comparison, *loaded);
-  if (const auto result = compare::write_result(*written, command.folder); !result)
-    return fail(result.error());
-  if (const auto json = write_json(command); !json) return fail(json.error());
-  whole_outputs.reset();
-  if (const StageLog* log = StageLog::current())
-    summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
-  if (!command.quiet && command.json != "-") print_data(summary);
-  console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)",
-                              command.folder, total.elapsed_ms() / 1000.0,
-                              static_cast<double>(peak_memory_bytes()) / 1e6));
-  return code;
+  return only_prints_json(command) ? print_result(command, *comparison, *loaded, console)
+                                   : write_folder(command, *comparison, *loaded, total, console);
 }
 
 void add_options(CLI::App& app, CompareCommand& command) {
   add_scene(app, command.scene);
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
-  add_output(
-      app, "-o,--output", command.folder, "DIR",
-      "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the scene]");
+  add_output(app, "-o,--output", command.folder, "DIR",
+             "folder for report.html, result.json, result.csv and the pictures [default out/NAME of the "
+             "scene; none with "
+             "--json - alone]");
   add_setting_options(app, command.setting);
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);

@@ -89,6 +89,10 @@ std::string keyed_count(std::string_view key, std::uint64_t count) {
   return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", count, key, grouped(count));
 }
 
+std::string keyed_things(std::string_view key, std::uint64_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", keyed_count(key, count), thing, count == 1 ? "" : "s");
+}
+
 std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
   return fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
 }

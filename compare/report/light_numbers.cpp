@@ -45,11 +45,14 @@ The best is {}{}, which leaves {} wrong.)",
   text += " No constant bias can be right everywhere: ";
   if (!std::isfinite(best.needs_less_than))
     return text + "some shadowed pixels find no caster stored in the map.";
-  return text + fmt::format("{} lit pixels need {} or more, {} shadowed pixels need less than {}.",
-                            keyed_count(b.key("best_bias.lit_pixels_above"), best.lit_pixels_above),
-                            value("needs_more_than", best.needs_more_than),
-                            keyed_count(b.key("best_bias.shadowed_pixels_below"), best.shadowed_pixels_below),
-                            value("needs_less_than", best.needs_less_than));
+  return text +
+         fmt::format("{} need{} {} or more, {} need{} less than {}.",
+                     keyed_things(b.key("best_bias.lit_pixels_above"), best.lit_pixels_above, "lit pixel"),
+                     best.lit_pixels_above == 1 ? "s" : "", value("needs_more_than", best.needs_more_than),
+                     keyed_things(b.key("best_bias.shadowed_pixels_below"), best.shadowed_pixels_below,
+                                  "shadowed pixel"),
+                     best.shadowed_pixels_below == 1 ? "s" : "",
+                     value("needs_less_than", best.needs_less_than));
 }
 
 std::string fact(std::string_view name, const std::string& value, const std::string& what) {
@@ -64,8 +67,8 @@ std::string edge_facts(const LightBlock& b) {
   const EdgeStats& e = b.light.edges;
   if (e.edges == 0) return "";
   return fact("Edge error", fact_value(b, "edges.rms_texels", e.rms_texels) + " texels",
-              fmt::format("root mean square over {} true edge pixels; {} pixels on the screen",
-                          keyed_count(b.key("edges.count"), e.edges),
+              fmt::format("root mean square over {} on true edges; {} pixels on the screen",
+                          keyed_things(b.key("edges.count"), e.edges, "pixel"),
                           fact_value(b, "edges.rms_pixels", e.rms_pixels))) +
          fact("Edge offset", fact_value(b, "edges.mean_texels", e.mean_texels) + " texels",
               fmt::format("on average the drawn shadow is {} than the true one",
@@ -76,8 +79,8 @@ std::string detachment_fact(const LightBlock& b) {
   const Detachment& d = b.light.detachment;
   if (d.pixels == 0) return "";
   return fact("Detachment", fact_value(b, "detachment.mean_world", d.mean_world),
-              fmt::format("world units from caster to drawn shadow on {} pixels, {} at most",
-                          keyed_count(b.key("detachment.pixels"), d.pixels),
+              fmt::format("world units from caster to drawn shadow on {}, {} at most",
+                          keyed_things(b.key("detachment.pixels"), d.pixels, "pixel"),
                           fact_value(b, "detachment.max_world", d.max_world)));
 }
 
@@ -85,8 +88,8 @@ std::string bleeding_fact(const LightBlock& b) {
   const BleedingStats& bleeding = b.light.bleeding;
   if (bleeding.pixels == 0) return "";
   return fact("Light bleeding", fact_value(b, "bleeding.mean", bleeding.mean),
-              fmt::format("mean light that the filter lets into closed shadow, on {} pixels; {} at most",
-                          keyed_count(b.key("bleeding.pixels"), bleeding.pixels),
+              fmt::format("mean light that the filter lets into closed shadow, on {}; {} at most",
+                          keyed_things(b.key("bleeding.pixels"), bleeding.pixels, "pixel"),
                           fact_value(b, "bleeding.max", bleeding.max)));
 }
 
@@ -197,7 +200,8 @@ std::string bias_block(const LightBlock& b) {
   if (chart.empty()) return "";
   const std::string_view whose =
       has_bias ? "from this one render" : "if a hard test looked up a map of this size";
-  return fmt::format("<h3>Every constant bias, {}</h3>\n<p>", whose) + bias_words(b) + "</p>\n" +
+  return fmt::format("<h3>How the error depends on the bias, {}</h3>\n<p>", whose) + bias_words(b) +
+         "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
                        chart) +
          lesson_details(lesson("bias"));

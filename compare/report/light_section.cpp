@@ -45,23 +45,16 @@ std::string bias_text(const Comparison& c, const LightComparison& light) {
 std::string difference_figure(const LightBlock& b) {
   const ErrorStats& e = b.light.error;
   return fmt::format(
-      "<figure>{}<figcaption>{} <b>False shadow</b>: drawn dark, truly lit, {} pixels. {} <b>Missed "
+      "<figure>{}<figcaption>{} <b>False shadow</b>: drawn dark, truly lit, {}. {} <b>Missed "
       "shadow</b>: drawn lit, "
-      "truly dark, {} pixels.</figcaption></figure>\n",
+      "truly dark, {}.</figcaption></figure>\n",
       picture(
           b.in, b.in.pictures.lights[b.index].difference,
           "The picture in grey; pixels with a false shadow in orange, with a missed shadow in light blue.",
           fmt::format("picture-difference-{}", b.index)),
-      swatch(false_shadow_colour, "\u2212"), keyed_count(b.key("error.false_shadow"), e.false_shadow),
-      swatch(missed_shadow_colour, "+"), keyed_count(b.key("error.missed_shadow"), e.missed_shadow));
-}
-
-std::string label_figure(const LightBlock& b) {
-  return fmt::format(
-      "<figure>{}<figcaption>Each wrong pixel in the colour of its label; grey means right: light where "
-      "lit, darker where in shadow.</figcaption></figure>\n",
-      picture(b.in, b.in.pictures.lights[b.index].labels, "Every wrong pixel in the colour of its label.",
-              fmt::format("picture-labels-{}", b.index)));
+      swatch(false_shadow_colour, "\u2212"),
+      keyed_things(b.key("error.false_shadow"), e.false_shadow, "pixel"), swatch(missed_shadow_colour, "+"),
+      keyed_things(b.key("error.missed_shadow"), e.missed_shadow, "pixel"));
 }
 
 std::vector<std::size_t> occurring_classes(const LightComparison& light) {
@@ -161,6 +154,25 @@ std::string where(const Light& light) {
 
 }  // namespace
 
+std::size_t labelled_light(const Comparison& c) {
+  const auto most = std::max_element(c.lights.begin(), c.lights.end(), [](const auto& a, const auto& b) {
+    return a.error.wrong < b.error.wrong;
+  });
+  return static_cast<std::size_t>(most - c.lights.begin());
+}
+
+std::string label_figure(const PageInput& in, std::size_t index) {
+  const Comparison& c = in.comparison;
+  const std::string light =
+      c.lights.size() > 1 ? fmt::format(", light {}", escaped(shown_light_name(c, index))) : std::string();
+  return fmt::format(
+      "<figure>{}<figcaption><b>Labels</b>{}: each wrong pixel in the colour of its cause; grey is "
+      "right.</figcaption></figure>\n",
+      picture(in, in.pictures.lights[index].labels, "Every wrong pixel in the colour of its label.",
+              fmt::format("picture-labels-{}", index)),
+      light);
+}
+
 std::string viewer_block(const std::string& options, std::string_view id, std::string_view hint,
                          bool exposure) {
   return fmt::format(
@@ -207,8 +219,9 @@ std::string light_section(const PageInput& in, std::size_t i) {
                                                      flowing(verdict_sentence(in.comparison, b.light))));
   out += viewer(b);
   out += R"(<div class="pair">
-)" + difference_figure(b) +
-         label_figure(b) + "</div>\n";
+)" + difference_figure(b);
+  // One light's labels stand on the first screen.
+  out += (i == labelled_light(in.comparison) ? "" : label_figure(in, i)) + "</div>\n";
   if (b.light.pixels.compared == 0) return out + label_table(b) + depth_map_block(b) + "</section>\n";
   out += R"(<div class="columns">
 <div>)" + label_table(b) +

@@ -176,12 +176,14 @@ std::string overview_section(const PageInput& in) {
 <h1 id="title">{}</h1>
 {})",
                                 escaped(name.empty() ? "Scene without a name" : name), setting_line(in));
-  out += R"(<div class="pair">
-)";
+  out += fmt::format(R"(<div class="{}">
+)",
+                     c.lights.empty() ? "pair" : "trio");
   out += figure(in, in.pictures.raster, "picture-raster",
                 "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c));
   out += figure(in, in.pictures.raytraced, "picture-raytraced",
                 "The same view ray traced, with exact shadows.", raytraced_caption(c));
+  if (!c.lights.empty()) out += label_figure(in, labelled_light(c));
   out += "</div>\n";
   for (std::size_t i = 0; i < c.lights.size(); ++i) out += card(in, i);
   if (c.lights.empty())

@@ -9,6 +9,10 @@ namespace gnomon::compare {
 
 /// The pictures side by side, the verdicts and the budgets: what a projector shows first.
 std::string overview_section(const PageInput& input);
+/// The light whose labelled picture stands on the first screen: that with the most wrong pixels.
+std::size_t labelled_light(const Comparison& comparison);
+/// Its wrong pixels in the colours of their labels.
+std::string label_figure(const PageInput& input, std::size_t index);
 /// Everything about one light; `index` in Comparison::lights.
 std::string light_section(const PageInput& input, std::size_t index);
 /// Times and what does not depend on the machine.

@@ -18,7 +18,7 @@ function load(name) {
 const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
   || skip("no chromium-headless-shell or chromium in /usr/bin");
 const { chromium } = load("playwright-core");
-const axeSource = load("axe-core").source;
+export const axeSource = load("axe-core").source;
 export const browser = await chromium.launch({ executablePath: browserPath });
 
 /** Opens FOLDER/report.html and collects everything that it must not do. `hash` begins with #. */

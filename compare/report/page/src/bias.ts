@@ -3,7 +3,7 @@
 import { page, type Light } from "./data";
 import { backdropOf, recolour } from "./pictures";
 import { GapHistogram } from "./histogram";
-import { grouped, html, number, percent, svg } from "./svg";
+import { counted, grouped, html, number, percent, svg } from "./svg";
 
 interface Chart {
   drawing: SVGSVGElement;
@@ -17,8 +17,11 @@ interface Chart {
 export class BiasPanel {
   private readonly range = html("input", { type: "range", min: "0", max: "1000", step: "1" });
   private readonly exact = html("input", { type: "number", step: "any", inputmode: "decimal" });
-  private readonly said = html("p", { class: "bias-counts", role: "status" });
+  readonly said = html("p", { class: "bias-counts", role: "status" });
   private readonly canvas = html("canvas", { role: "img", tabindex: "-1" });
+  private readonly marker = html("div", { class: "marker" });
+  readonly picture = html("div", { class: "bias-picture" }, this.canvas, this.marker);
+  readonly bar: HTMLElement;
   private readonly chart: Chart;
   private readonly image: ImageData;
   private readonly backdrop: Uint32Array;
@@ -42,12 +45,11 @@ export class BiasPanel {
       b.addEventListener("click", () => chosen(bias));
       return b;
     };
-    host.append(html("div", { class: "bias-live" },
-      html("div", { class: "bias-bar" },
-        html("label", {}, "Bias ", this.range), html("label", {}, "world units ", this.exact),
-        button("as rendered", light.json.bias.constant), button("best", best)),
-      this.said,
-      html("figure", {}, this.canvas, html("figcaption", {},
+    this.bar = html("div", { class: "bias-bar" },
+      html("label", {}, "Bias ", this.range), html("label", {}, "world units ", this.exact),
+      button("as rendered", light.json.bias.constant), button("best", best));
+    host.append(html("div", { class: "bias-live" }, this.bar, this.said,
+      html("figure", {}, this.picture, html("figcaption", {},
         "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow."))),
       this.histogram.figure);
     this.listen(pin);
@@ -79,8 +81,8 @@ export class BiasPanel {
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
-    this.said.textContent = `At a bias of ${number(bias)} (${number(texels, 2)} texels) ${percent(wrong / Math.max(1, this.compared))} ` +
-      `of the compared pixels are wrong: ${grouped(counts.falseShadow)} false shadow, ${grouped(counts.missedShadow)} missed shadow.`;
+    this.said.textContent = `At a bias of ${number(bias)} (${number(texels, 2)} texel${number(texels, 2) === "1" ? "" : "s"}) ${percent(wrong / Math.max(1, this.compared))} ` +
+      `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
   }
 
@@ -105,10 +107,17 @@ export class BiasPanel {
     drawing.addEventListener("pointerdown", (event) => { dragging = true; drawing.setPointerCapture(event.pointerId); drag(event); });
     drawing.addEventListener("pointermove", (event) => { if (dragging) drag(event); });
     for (const end of ["pointerup", "pointercancel"]) drawing.addEventListener(end, () => { dragging = false; });
-    this.canvas.addEventListener("click", (event) => {
-      const box = this.canvas.getBoundingClientRect();
-      pin(Math.floor(((event.clientX - box.left) / box.width) * page.width), Math.floor(((event.clientY - box.top) / box.height) * page.height));
-    });
+    const pick = (event: PointerEvent) => {
+      const box = this.canvas.getBoundingClientRect(), at = (share: number, size: number) => Math.floor(Math.min(Math.max(share, 0), 1) * (size - 1e-6));
+      pin(at((event.clientX - box.left) / box.width, page.width), at((event.clientY - box.top) / box.height, page.height));
+    };
+    this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); pick(event); });
+    this.canvas.addEventListener("pointermove", (event) => { if (this.canvas.hasPointerCapture(event.pointerId)) pick(event); });
+  }
+
+  /** Where the probed pixel is. */
+  mark(x: number, y: number): void {
+    Object.assign(this.marker.style, { left: `${(100 * x) / page.width}%`, top: `${(100 * y) / page.height}%`, width: `${100 / page.width}%`, height: `${100 / page.height}%` });
   }
 }
 

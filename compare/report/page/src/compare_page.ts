@@ -5,6 +5,7 @@ import { LightPanel } from "./light_panel";
 import { isBeside } from "./parts";
 import { readLight } from "./state";
 import { html } from "./svg";
+import { LightTabs } from "./tabs";
 
 const panels: (Promise<LightPanel | null> | undefined)[] = [];
 
@@ -29,7 +30,14 @@ function loadWhenNear(index: number): void {
   near.observe(document.getElementById(`light-${index}`)!);
 }
 
+let tabs: LightTabs | undefined;
+
 async function restore(): Promise<void> {
+  const section = /^#light-(\d+)/.exec(location.hash);
+  if (section && tabs && Number(section[1]) < page.lights) {
+    tabs.show(Number(section[1]));
+    if (!location.hash.includes("?")) document.querySelector(section[0])!.scrollIntoView();
+  }
   const wanted = readLight(location.hash);
   if (!wanted || wanted.light >= page.lights) return;
   (await panel(wanted.light))?.restore(wanted.state);
@@ -43,6 +51,8 @@ declare global {
 export async function startComparison(): Promise<void> {
   // For the browser's console, and for tests: a light's numbers, unpacked.
   globalThis.gnomon = { light: Light.load };
+  const sections = Array.from({ length: page.lights }, (_, i) => document.getElementById(`light-${i}`)!);
+  if (page.lights > 1) tabs = new LightTabs(sections);
   for (let i = 0; i < page.lights; ++i)
     if (isBeside && i > 0) loadWhenNear(i);
     else await panel(i);

@@ -6,6 +6,7 @@ import { MapMarker } from "./map_marker";
 import { colourAt, exposed, linearAt } from "./linear";
 import { byId, hex, isolatedLabel, lightPicture, lightPictureNames } from "./pictures";
 import { Probe } from "./probe";
+import { Presenter } from "./presenter";
 import { initialLight, saveLight, type LightState } from "./state";
 import { html, number } from "./svg";
 import { Viewer, type Source } from "./viewer";
@@ -32,7 +33,7 @@ export class LightPanel {
     const host = html("div", { class: "pixel-probe" });
     root.after(host);
     this.probe = new Probe(light, index, host, this.state, () => this.redraw());
-    this.labels = new LabelTable(section, light.label, (label) => this.choose(label));
+    this.labels = new LabelTable(section, index, light.label, (label) => this.choose(label));
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
     this.map = new MapMarker(light, section.querySelector<HTMLImageElement>(".depth img")!);
     this.shown = this.example();
@@ -44,6 +45,17 @@ export class LightPanel {
     this.map.show(this.shown);
     this.coloured = light.json.bias.constant;
     this.bias?.show(this.coloured);
+    this.bias?.mark(this.shown.x, this.shown.y);
+    const { words, drawing, bar, below } = this.probe;
+    new Presenter(root.querySelector(".viewer-bar")!, `light ${light.json.name}`, page, {
+      controls: this.bias ? [this.bias.bar, this.bias.said] : [], picture: this.bias?.picture ?? root.querySelector<HTMLElement>(".stage")!,
+      drawing, words, section: [bar, below],
+    }, (x, y) => this.step(x, y));
+  }
+
+  private step(x: number, y: number): void {
+    const within = (at: number, size: number) => Math.min(Math.max(at, 0), size - 1);
+    this.pin(within(this.shown.x + x, page.width), within(this.shown.y + y, page.height));
   }
 
   restore(state: LightState): void {
@@ -70,6 +82,7 @@ export class LightPanel {
 
   private choose(label: string | null): void {
     this.state.label = label;
+    if (label !== null) this.state.right = "labels";
     this.labels.show(label);
     const value = page.labels.find((words) => words.name === label)?.value;
     if (value !== undefined) {
@@ -136,6 +149,7 @@ export class LightPanel {
     this.probe.show(this.shown, bias, this.passing);
     this.map.show(this.shown);
     if (bias !== this.coloured) this.bias?.show(bias);
+    this.bias?.mark(this.shown.x, this.shown.y);
     this.coloured = bias;
   }
 }

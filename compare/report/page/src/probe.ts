@@ -25,7 +25,7 @@ function ladder(pixel: Pixel): HTMLElement {
 
 function facts(light: Light, pixel: Pixel): HTMLElement {
   const rows: [string, string, string][] = [
-    ["gap", number(pixel.gap, 6), "world units"],
+    ["gap", number(pixel.gap, 6), isFinite(pixel.gap) ? `world units, to ${number(light.json.depth_step, 1)}` : ""],
     ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length === 1 ? "u, v" : light.json.view.perspective ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : `u, v in cascade ${pixel.face + 1}`],
     ["distance", number(pixel.distance, 6), light.json.view.perspective ? "from the light" : "along the light, from the map's origin"],
     ["primitive", String(pixel.primitive), ""],
@@ -52,8 +52,10 @@ function press(group: HTMLElement, key: string, value: string): void {
 }
 
 export class Probe {
-  private readonly body = html("div", { class: "probe-body" });
-  private readonly below = html("div", { class: "probe-section" });
+  readonly words = html("div", { class: "probe-words" });
+  readonly drawing = html("div", { class: "probe-drawing" });
+  readonly bar: HTMLElement;  // of the cross-section
+  readonly below = html("div", { class: "probe-section" });
   private readonly widths: HTMLElement;
   private readonly ways: HTMLElement;
   private scene: Geometry | null = null;
@@ -67,8 +69,8 @@ export class Probe {
     this.widths = choice("Width of the cross-section", "texels", widths.map((t) => [String(t), t === size ? "all" : `± ${t}`]),
       (value) => { state.texels = Number(value); changed(); });
     this.ways = choice("Way across the map", "cut", [["row", "row"], ["column", "column"]], (value) => { state.cut = value; changed(); });
-    host.append(html("h3", {}, "One pixel, in light space"), this.body,
-      html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths), this.below);
+    this.bar = html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths);
+    host.append(html("h3", {}, "One pixel, in light space"), html("div", { class: "probe-body" }, this.words, this.drawing), this.bar, this.below);
     void geometry().then((scene) => { this.scene = scene; this.redraw(); });
   }
 
@@ -87,10 +89,9 @@ export class Probe {
     press(this.ways, "cut", axis === 0 ? "row" : "column");
     const swatch = html("span", { class: "dot-swatch" });
     swatch.style.background = words.colour;
-    const head = html("div", {}, html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
-      html("p", { class: "story" }, story(this.light, pixel, bias)));
-    if (pixel.seen) head.append(ladder(pixel), facts(this.light, pixel));
-    this.body.replaceChildren(head, ...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
+    this.words.replaceChildren(html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
+      html("p", { class: "story" }, story(this.light, pixel, bias)), ...(pixel.seen ? [ladder(pixel), facts(this.light, pixel)] : []));
+    this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
     const section = () => this.below.replaceChildren(drawable && this.scene
       ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`)

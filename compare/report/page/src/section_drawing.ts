@@ -4,7 +4,7 @@
 import type { Geometry, Light, Pixel } from "./data";
 import { alongRay, halfSlopes, texelWidth } from "./light_view";
 import { sceneCut, type Curve } from "./scene_cut";
-import { html, niceTicks, number, svg } from "./svg";
+import { counted, grouped, html, niceTicks, number, svg } from "./svg";
 
 const width = 1160, height = 420, left = 62, right = 12, top = 34, bottom = 46;
 
@@ -122,6 +122,48 @@ function dotShape(dot: Dot, frame: Frame, s: number): string {
   return `${at}m${-2 * s},0a${2 * s},${2 * s} 0 1 0 ${4 * s},0a${2 * s},${2 * s} 0 1 0 ${-4 * s},0`;
 }
 
+/** From so many on, marks lie over each other: bars show what share of a spot's pixels came out how. */
+const mostMarks = 600, spotWidth = 3, spotHeight = 9;
+
+/** A small spot of the drawing and its pixels by outcome. */
+interface Spot {
+  x: number;
+  y: number;
+  counts: Record<Outcome, number>;
+}
+
+function spotsOf(dots: Dot[], frame: Frame): Spot[] {
+  const spots = new Map<number, Spot>();
+  for (const dot of dots) {
+    const column = Math.floor((frame.x(dot.t) - left) / spotWidth), row = Math.floor((frame.y(dot.depth) - top) / spotHeight), key = 4096 * row + column;
+    let spot = spots.get(key);
+    if (!spot) spots.set(key, spot = { x: left + column * spotWidth, y: top + row * spotHeight, counts: { lit: 0, dark: 0, false: 0, missed: 0 } });
+    ++spot.counts[dot.outcome];
+  }
+  return [...spots.values()];
+}
+
+// Each spot split from top to bottom in proportion.
+function spotPaths(spots: Spot[]): SVGElement[] {
+  const paths: Record<Outcome, string> = { lit: "", dark: "", false: "", missed: "" };
+  for (const { x, y, counts } of spots) {
+    const all = counts.lit + counts.dark + counts.false + counts.missed;
+    let from = y;
+    for (const outcome of Object.keys(outcomes) as Outcome[]) {
+      const height = (spotHeight * counts[outcome]) / all;
+      if (height > 0) paths[outcome] += `M${x.toFixed(1)},${from.toFixed(1)}h${spotWidth}v${height.toFixed(1)}h${-spotWidth}z`;
+      from += height;
+    }
+  }
+  return (Object.keys(outcomes) as Outcome[]).map((outcome) => svg("path", { class: `spot ${outcome}`, d: paths[outcome] }));
+}
+
+function marks(dots: Dot[], frame: Frame): SVGElement[] {
+  if (dots.length > mostMarks) return spotPaths(spotsOf(dots, frame));
+  return (Object.keys(outcomes) as Outcome[]).map((outcome) =>
+    svg("path", { class: `dot ${outcome}`, d: dots.filter((d) => d.outcome === outcome).map((d) => dotShape(d, frame, 1)).join("") }));
+}
+
 function axes(frame: Frame, line: string): SVGElement {
   const group = svg("g");
   for (const depth of niceTicks(frame.low, frame.high, 5))
@@ -141,7 +183,7 @@ function legend(dots: Dot[]): HTMLElement {
     const count = dots.filter((dot) => dot.outcome === outcome).length;
     const mark = svg("svg", { viewBox: "-5 -5 10 10", "aria-hidden": "true", class: "mark" },
       svg("path", { class: `dot ${outcome}`, d: dotShape({ t: 0, depth: 0, outcome, index: 0 }, { x: () => 0, y: () => 0 } as unknown as Frame, 1) }));
-    list.append(html("span", {}, mark, ` ${name}: ${count}`));
+    list.append(html("span", {}, mark, ` ${name}: ${grouped(count)}`));
   }
   return list;
 }
@@ -158,7 +200,6 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
   const dots = pixels.map((i) => dotOf(light, axis, i, bias));
   const frame = frameFor(light, pixel, axis, from, to, dots);
   const clip = `${id}-clip`, x = frame.x(t), y = frame.y(pixel.at.depth);
-  const dotSize = Math.round(100 * Math.min(1, Math.max(0.5, Math.sqrt(700 / Math.max(1, dots.length))))) / 100;
   const stretch = ((height - top - bottom) / (frame.high - frame.low)) /
     ((width - left - right) / ((to - from) * texelWidth(light.json.view, axis, { ...pixel.at, face: pixel.face })));
   const drawing = svg("svg", { class: "section", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-labelledby": `${id}-title` },
@@ -168,11 +209,10 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
     svg("g", { "clip-path": `url(#${clip})` },
       storedSteps(light, pixel, frame, bias),
       svg("path", { class: "profile", d: curves.map((curve) => curvePath(curve, frame)).join("") }),
-      ...(Object.keys(outcomes) as Outcome[]).map((outcome) =>
-        svg("path", { class: `dot ${outcome}`, d: dots.filter((d) => d.outcome === outcome).map((d) => dotShape(d, frame, dotSize)).join("") }))),
+      ...marks(dots, frame)),
     svg("line", { class: "own-ray", x1: x, x2: x, y1: top, y2: y }), svg("circle", { class: "ring", cx: x, cy: y, r: 8 }));
   return html("figure", {}, html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": `Cross-section, ${light.json.name}` }, drawing as unknown as Node), legend(dots),
     html("figcaption", {}, `${outside ? "The pixel lies outside the map: no texel is asked about it. " : ""}Thin: the scene itself, cut exactly along the light rays through the pixel${scene.solidSectors > 0 ? `, curved solids other than spheres as meshes of ${scene.solidSectors} sectors or ${scene.solidSectors / 2} cells across` : ""}${scene.complete ? "" : " (some of it is too much for this page and left out)"}. ` +
       `Thick steps: the depths stored in ${line}${light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""}. Shaded: shadow by the map, from the bias on. ` +
-      `Depth is drawn ${number(stretch, 2)} times as large as width. Marks: the ${dots.length} pixels that look these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`));
+      `Depth is drawn ${number(stretch, 2)} times as large as width. ${dots.length > mostMarks ? "Coloured bars, each split by what came out" : "Marks"}: the ${counted(dots.length, "pixel")} that look${dots.length === 1 ? "s" : ""} these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`));
 }

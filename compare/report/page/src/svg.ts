@@ -27,6 +27,9 @@ export function number(value: number, digits = 4): string {
 
 export const grouped = (count: number): string => String(count).replace(/\B(?=(\d{3})+$)/g, ",");
 
+/** "1 pixel", "12,713 pixels" */
+export const counted = (count: number, unit: string): string => `${grouped(count)} ${unit}${count === 1 ? "" : "s"}`;
+
 export function percent(share: number): string {
   return `${number(100 * share, 2)} %`;
 }
