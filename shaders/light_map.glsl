@@ -51,10 +51,10 @@ float unwarped(int face, float shown) {
 float warp_divisor(int face, float y) { return 1.0 + light.origin_and_warp[face].w * y; }
 #endif
 
-Texel project_to_face(int face, vec3 position) {
+// `d`: from the face's origin.
+Texel project_offset(int face, vec3 d) {
   Texel t;
   t.face = face;
-  vec3 d = position - light.origin_and_warp[face].xyz;
   t.local = to_face(face, d);
 #ifdef PERSPECTIVE
   t.distance = length(d);
@@ -75,16 +75,26 @@ Texel project_to_face(int face, vec3 position) {
   return t;
 }
 
-// A point in several cascades belongs to the first that holds it and the four texels around it.
-Texel project_to_texel(vec3 position) {
-#if defined(CUBE)
+Texel project_to_face(int face, vec3 position) { return project_offset(face, position - light.origin_and_warp[face].xyz); }
+
+#ifdef CUBE
+// A direction from the light need not be unit. It is not added to the light's position, where rounding would turn it by
+// an angle that grows with the distance from the reference.
+Texel project_direction(vec3 direction) {
   // On an edge of the face rounding may leave it.
-  Texel t = project_to_face(cube_face(position - light.origin_and_size.xyz), position);
+  Texel t = project_offset(cube_face(direction), direction);
   if (t.local.z > 0.0) {
     t.uv = clamp(t.uv, vec2(0.0), vec2(light.origin_and_size.w * (1.0 - 6e-8)));  // the last float below size
     t.inside = true;
   }
   return t;
+}
+#endif
+
+// A point in several cascades belongs to the first that holds it and the four texels around it.
+Texel project_to_texel(vec3 position) {
+#if defined(CUBE)
+  return project_direction(position - light.origin_and_size.xyz);
 #elif defined(CASCADES)
   int last = light.counts.x - 1;
   for (int face = 0; face < last; ++face) {

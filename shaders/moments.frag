@@ -16,7 +16,7 @@ void main() {
   vec3 local = vec3((2.0 * uv / size - 1.0) * light.extent_and_depths[face].xy, 1.0);
 #ifdef CUBE
   vec3 direction = light.right[face].xyz * local.x + light.up[face].xyz * local.y + light.forward[face].xyz;
-  Texel there = project_to_texel(light.origin_and_size.xyz + direction);
+  Texel there = project_direction(direction);
   texel = ivec3(clamp(ivec2(floor(there.uv)), ivec2(0), ivec2(int(size) - 1)), there.face);
   local = there.local / there.local.z;
 #endif

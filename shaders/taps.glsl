@@ -64,7 +64,7 @@ Tap tap_beyond_edge(Comparison c, ivec2 texel) {
   vec2 tangent = own + (vec2(texel) + 0.5 - c.at.uv) * extent;
   vec3 direction = light.right[c.at.face].xyz * tangent.x + light.up[c.at.face].xyz * tangent.y +
                    light.forward[c.at.face].xyz;
-  Texel there = project_to_texel(light.origin_and_size.xyz + direction);
+  Texel there = project_direction(direction);
   ivec2 last = ivec2(light.origin_and_size.w) - 1;
   ivec3 at = ivec3(clamp(ivec2(floor(there.uv)), ivec2(0), last), there.face);
   vec2 centre = (2.0 * (vec2(at.xy) + 0.5) / light.origin_and_size.w - 1.0) * light.extent_and_depths[at.z].xy;

@@ -6,7 +6,8 @@ set(hard_cases
   22_light_in_plane 23_light_at_vertex 24_occluder_at_end 25_light_inside 26_coplanar_duplicates 27_contact_gap
   28_smooth_normals 29_critical_angle 30_invisible_glass 31_depth_range 32_behind_light 33_outside_map
   34_texel_boundaries 35_cube_seams 36_bias_convergence 37_far_from_origin 38_image_sizes
-  39_non_finite_radiance 40_shrinking_lights 41_extreme_bias)
+  39_non_finite_radiance 40_shrinking_lights 41_extreme_bias
+  42_scale_invariance 43_coplanar_lights)
 
 add_executable(hard_case_test hard_case_test.cpp)
 target_link_libraries(hard_case_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt)
@@ -14,6 +15,11 @@ foreach(case ${hard_cases})
   add_test(NAME hard_case_${case} COMMAND hard_case_test ${case})
 endforeach()
 add_test(NAME hard_case_list COMMAND hard_case_test --complete ${hard_cases})
+
+# izb and hybrid against the rays on random scenes; by hand 2,000 of them: build/release/tests/random_scenes_gl_test 2000
+add_executable(random_scenes_gl_test random_scenes_gl_test.cpp)
+target_link_libraries(random_scenes_gl_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify gnomon::hybrid test_places fmt::fmt)
+add_test(NAME random_scenes_gl_test COMMAND random_scenes_gl_test 120)
 
 # exact against rational numbers, triangle by triangle; by hand with 1e7: build/release/tests/exact_gmp_test 1e7
 add_executable(exact_gmp_test exact_gmp_test.cpp)

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "app/verify/case_invariance.h"
+
 namespace gnomon::verify {
 
 std::span<const Case> all_cases() {
@@ -58,6 +60,9 @@ std::span<const Case> all_cases() {
            non_finite_radiance},
       Case{40, "shrinking_lights", "a light that shrinks to nothing becomes the hard one", shrinking_lights},
       Case{41, "extreme_bias", "biases of 0, -1e6, 1e30 and NaN, and a map of one texel", extreme_bias},
+      Case{42, "scale_invariance", "lengths times a power of two change no drawn shadow", scale_invariance},
+      Case{43, "coplanar_lights", "a light in the planes of faces is drawn by izb as certain rays say",
+           coplanar_lights},
   };
   return cases;
 }

@@ -112,13 +112,17 @@ Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
 }
 #endif
 
+// Clearly: where the light lies in the receiver's own plane, rounding decides which way it faces, and the ray tracer's
+// rounding may decide otherwise.
 bool faces_away(Receiver64 r) {
 #ifdef DIRECTIONAL
   dvec3 towards = -izb.light.xyz;
+  double doubt = error_gamma(24) * dot(abs(r.normal), abs(towards));
 #else
   dvec3 towards = izb.light.xyz - r.position;
+  double doubt = error_gamma(24) * dot(abs(r.normal), abs(izb.light.xyz) + abs(r.position)) + dot(abs(r.normal), r.error);
 #endif
-  return !(dot(r.normal, towards) > 0.0LF);
+  return !(dot(r.normal, towards) > -doubt);
 }
 
 bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {

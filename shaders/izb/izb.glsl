@@ -58,15 +58,9 @@ struct ShadowRay {
 };
 
 ShadowRay shadow_ray(Receiver64 r) {
+  dvec3 origin = r.position + dot(abs(r.normal), r.error) * r.normal;  // only receivers that face the light are asked for
 #ifdef DIRECTIONAL
-  dvec3 towards = -izb.light.xyz;
-#else
-  dvec3 towards = izb.light.xyz - r.position;
-#endif
-  dvec3 offset = dot(abs(r.normal), r.error) * r.normal;
-  dvec3 origin = dot(r.normal, towards) < 0.0LF ? r.position - offset : r.position + offset;
-#ifdef DIRECTIONAL
-  return ShadowRay(origin, towards, no_end);
+  return ShadowRay(origin, -izb.light.xyz, no_end);
 #else
   dvec3 way = izb.light.xyz - origin;
   double distance = sqrt(dot(way, way));

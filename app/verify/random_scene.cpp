@@ -1,0 +1,104 @@
+#include "app/verify/random_scene.h"
+
+#include "app/verify/small_world.h"
+#include "scene/light.h"
+
+namespace gnomon::verify {
+
+namespace {
+
+/// A multiple of 1/4 in [low, high].
+double quarter(Random& r, double low, double high) {
+  return 0.25 * r.integer(static_cast<int>(4.0 * low), static_cast<int>(4.0 * high));
+}
+
+Vec3 place(Random& r) {
+  return {quarter(r, -2.0, 2.0), quarter(r, 0.25, 2.25), quarter(r, -2.0, 2.0)};
+}
+
+Mesh random_box(Random& r) {
+  const Vec3 low = place(r);
+  return box(low, low + Vec3(quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0)));
+}
+
+Mesh loose_triangles(Random& r, int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 first = place(r);
+    const auto corner = [&] {
+      return first + Vec3(quarter(r, -1, 1), quarter(r, -0.25, 1), quarter(r, -1, 1));
+    };
+    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& p : {first, corner(), corner()}) mesh.positions.push_back(p);
+    mesh.triangles.push_back({n, n + 1, n + 2});
+  }
+  return mesh;
+}
+
+/// In the plane of a random face, at one of its corners, inside a box or a sphere, or anywhere.
+Vec3 light_place(const Scene& scene, Random& r) {
+  const Mesh& any = scene.meshes[r.below(static_cast<std::uint32_t>(scene.meshes.size()))];
+  const Mesh& m = r.coin() ? scene.meshes.back() : any;  // the loose triangles lie in no axis-parallel plane
+  const auto& t = m.triangles[r.below(static_cast<std::uint32_t>(m.triangles.size()))];
+  const Vec3 a = m.positions[t[0]], b = m.positions[t[1]], c = m.positions[t[2]];
+  switch (r.below(5)) {
+    case 0:
+      return a;
+    case 1:
+      return 0.5 * (m.positions.front() + m.positions.back());
+    case 2:
+      return {quarter(r, -3, 3), quarter(r, 2, 5), quarter(r, -3, 3)};
+    default:
+      return a + 0.5 * r.integer(-3, 6) * (b - a) + 0.5 * r.integer(-3, 6) * (c - a);
+  }
+}
+
+Light random_light(const Scene& scene, Random& r) {
+  Light light = point_light(light_place(scene, r));
+  const auto type = r.below(4);
+  if (type == 0) {
+    const Mesh& m = scene.meshes[r.below(static_cast<std::uint32_t>(scene.meshes.size()))];
+    const Vec3 along = m.positions[1] - m.positions[0];  // often in the planes of faces
+    Vec3 direction = r.coin() ? along : Vec3(quarter(r, -1, 1), -1.0, quarter(r, -1, 1));
+    if (direction == Vec3(0.0)) direction = Vec3(0.0, -1.0, 0.0);
+    light = sun(direction.y > 0.0 ? -direction : direction);
+  } else if (type == 1) {
+    light.type = LightType::spot;
+    light.direction = glm::normalize(Vec3(quarter(r, -0.5, 0.5), -1.0, quarter(r, -0.5, 0.5)));
+    light.outer_angle = 0.7;
+  }
+  return light;
+}
+
+}  // namespace
+
+Scene random_scene(Random& r) {
+  std::vector<Mesh> meshes;
+  for (int i = r.integer(1, 4); i > 0; --i) meshes.push_back(random_box(r));
+  meshes.push_back(loose_triangles(r, r.integer(1, 12)));
+  std::vector<Shape> shapes{plane(Vec3(0.0), Vec3(0.0, 1.0, 0.0))};
+  if (r.below(3) == 0) shapes.push_back(plane({-3.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+  for (int i = r.integer(0, 2); i > 0; --i) shapes.push_back(sphere(place(r), quarter(r, 0.25, 1.0)));
+  Scene scene = scene_of(std::move(meshes), std::move(shapes));
+  scene.lights = {random_light(scene, r)};
+  scene.camera.eye = Vec3(4.0, 2.0, 3.5) + Vec3(quarter(r, 0, 1), quarter(r, 0, 2), quarter(r, 0, 1));
+  scene.camera.target = {quarter(r, -0.5, 0.5), 0.5, quarter(r, -0.5, 0.5)};
+  return scene;
+}
+
+Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn,
+                            const raytrace::RayTracedFrame& traced) {
+  Agreement out;
+  for (std::size_t i = 0; i < traced.receiver.data.size(); ++i) {
+    const raytrace::SurfacePoint& p = traced.receiver.data[i];
+    const raytrace::Verdict truth = traced.lights[0].verdict.data[i];
+    if (p.primitive == no_id || p.primitive != drawn.primitive.data[i]) continue;
+    if (truth == raytrace::Verdict::uncertain || light_cannot_reach(scene.lights[0], p.position, p.normal))
+      continue;
+    ++out.asked;
+    out.wrong += (drawn.lights[0].visibility.data[i] > 0.5f) == (truth == raytrace::Verdict::lit) ? 0 : 1;
+  }
+  return out;
+}
+
+}  // namespace gnomon::verify

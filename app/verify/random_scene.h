@@ -1,0 +1,25 @@
+// Small random scenes whose light lies where rounding decides: in the planes of faces, at corners, inside
+// bodies. Every coordinate is a multiple of 1/8, so that what shall lie in a plane does so exactly.
+#pragma once
+
+#include "app/verify/random.h"
+#include "raster/frame.h"
+#include "raytrace/frame.h"
+#include "scene/scene.h"
+
+namespace gnomon::verify {
+
+/// Boxes, loose triangles, spheres, one or two planes, a camera and one light without size.
+Scene random_scene(Random& random);
+
+struct Agreement {
+  std::uint64_t asked =
+      0;  ///< pixels that show the same primitive, face the light and have a certain verdict
+  std::uint64_t wrong = 0;  ///< of these, drawn otherwise than the rays say
+};
+
+/// The first light's drawn visibility against the ray tracer's verdicts.
+Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn,
+                            const raytrace::RayTracedFrame& traced);
+
+}  // namespace gnomon::verify
