@@ -98,8 +98,8 @@ struct RasterFrame {
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id
   std::vector<LightRecord> lights;  ///< in the order asked for
   std::optional<CustomShader> custom_shader;
-  std::uint64_t map_texels = 0;     ///< texels rendered, all lights, blur and the like included
-  std::uint64_t map_bytes = 0;      ///< device memory of maps at one time: the lights take turns in it
+  std::uint64_t map_texels = 0;  ///< texels rendered, all lights, blur and the like included
+  std::uint64_t map_bytes = 0;   ///< device memory of maps at one time: the lights take turns in it
 };
 
 }  // namespace gnomon::raster
