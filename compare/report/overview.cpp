@@ -162,7 +162,7 @@ std::string budget_table(const LightComparison& light, std::size_t index) {
         light.budget[k].false_shadow + light.budget[k].missed_shadow > 0)
       rows += budget_row(light.budget[k], k, index, compared, scale);
   return fmt::format(
-      R"(<table class="budget"><thead><tr><th scope="col">step</th><th scope="col"></th><th
+      R"(<table class="budget"><thead><tr><th scope="col">step</th><td class="wide"></td><th
 scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>
 {}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td class="n" colspan="2">{}</td></tr></tbody></table>
 )",
