@@ -141,7 +141,7 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
   const std::string text = functions_define(features.functions, 0, functions, {FunctionForm::gradient});
   const std::string technique = "TECHNIQUE " + p.technique.name;
   auto defines = Defines()
-                     .add(lit, technique)
+                     .add(true, technique)
                      .add(p.no_light, "NO_LIGHT")
                      .add(p.first_light, "FIRST_LIGHT")
                      .add(p.records, "RECORDS")

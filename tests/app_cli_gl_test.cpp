@@ -45,18 +45,28 @@ TEST(Json, ScenesAndPlanArePure) {
   }
 }
 
-TEST(Json, CompareGivesTheBytesOfItsResultFile) {
+TEST(Json, OnStdoutAloneWritesNoFolder) {
   const TemporaryFolder folder;
   const ProcessResult result =
-      run_gnomon(Words{"compare", "acne-floor", "--bias", "0", "--seed", "7", "--json", "-"} + small,
-                 {.folder = folder.path()});
+      run_gnomon(Words{"compare", "acne-floor", "--json", "-"} + small, {.folder = folder.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out, read_file(folder / "out/acne-floor/result.json"));
+  EXPECT_EQ(json::parse(result.out)["schema"], "gnomon/result/1");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(Json, CompareGivesTheBytesOfItsResultFile) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon(
+      Words{"compare", "acne-floor", "--bias", "0", "--seed", "7", "--json", "-", "-o", "out"} + small,
+      {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, read_file(folder / "out/result.json"));
   const json document = json::parse(result.out);
   EXPECT_EQ(document["schema"], "gnomon/result/1");
   EXPECT_EQ(document["seed"], 7);
-  EXPECT_EQ(document["command"],
-            "gnomon compare acne-floor --bias 0 --seed 7 --json - --size 64x36 --map-size 128 --runs 1");
+  EXPECT_EQ(
+      document["command"],
+      "gnomon compare acne-floor --bias 0 --seed 7 --json - -o out --size 64x36 --map-size 128 --runs 1");
   EXPECT_GT(document["lights"][0]["classes"]["acne"], 0);
 }
 

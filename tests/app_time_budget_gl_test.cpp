@@ -118,7 +118,8 @@ TEST(TimeBudget, TraceHoldsTheStages) {
   EXPECT_NE(run.out.find("process   "), std::string::npos) << run.out;
   std::set<std::string> names;
   double end_us = 0.0;
-  for (const json& event : json::parse(read_file(folder / "trace.json")).at("traceEvents")) {
+  const json trace = json::parse(read_file(folder / "trace.json"));
+  for (const json& event : trace.at("traceEvents")) {
     if (event.at("ph") != "X") continue;
     names.insert(event.at("name"));
     EXPECT_GE(event.at("ts"), 0.0);

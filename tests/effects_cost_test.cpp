@@ -114,12 +114,12 @@ TEST(EffectCost, AnEffectNotCalledForAllocatesNothing) {
   ready.materials[0].absorption = Vec3f(1.0f);
   EXPECT_EQ(bytes_of_a_frame(ready), base);
   // The picture's own effects work without memory of their own; a soft light keeps what each pixel sees of
-  // it.
+  // it, and the standard error of that.
   for (const EffectCase& on : effect_cases()) {
     Scene scene = plain();
     on.call(scene);
     const std::uint64_t bytes = bytes_of_a_frame(scene);
-    const std::uint64_t visibility = pixels * (sizeof(float) - sizeof(raytrace::Verdict));
+    const std::uint64_t visibility = pixels * (2 * sizeof(float) - sizeof(raytrace::Verdict));
     EXPECT_EQ(bytes > base + kib, on.effect == Effect::soft_shadow) << effect_name(on.effect);
     EXPECT_LE(bytes, base + visibility + kib) << effect_name(on.effect);
   }

@@ -41,7 +41,7 @@ const rgb = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
 async function checkCells(page) {
   const all = results(), words = JSON.parse(await page.locator("#page-data").textContent()).labels;
   const colours = new Map(words.map(({ name, colour }) => [name, rgb(colour)]));
-  const named = { peter_panning: "peter-panning", light_leak: "light leak", missed_feature: "missed feature", false_feature: "false feature", light_size: "light size", outside_map: "outside the map" };
+  const named = { peter_panning: "peter-panning", light_leak: "light leak", missed_feature: "missed feature", false_feature: "false feature", light_size: "light size", outside_map: "outside the map", custom_shader: "custom shader" };
   for (const [cell, { lights: [light], command, axes }] of all.entries()) {
     await page.locator(`.cells a[href='#cell-${cell}']`).click();
     await opened(page, cell);

@@ -85,6 +85,10 @@ std::string keyed(std::string_view key, double value, std::string_view text) {
   return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", exact, key, escaped(text));
 }
 
+std::string keyed_decrease(std::string_view key, double value) {
+  return (value > 0.0 ? "\u2212" : "") + keyed(key, value, unsigned_number(value));
+}
+
 std::string keyed_count(std::string_view key, std::uint64_t count) {
   return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", count, key, grouped(count));
 }

@@ -21,6 +21,8 @@ void append_script_safe(std::string& html, std::string_view json);
 
 /// <data value="0.041" data-key="lights.0.error.wrong_fraction">4.1 %</data>; `text` is escaped.
 std::string keyed(std::string_view key, double value, std::string_view text);
+/// What something is less by, a number >= 0: shown with a minus sign before it.
+std::string keyed_decrease(std::string_view key, double value);
 std::string keyed_count(std::string_view key, std::uint64_t count);
 /// The same with what is counted: "1 pixel", "12,713 pixels".
 std::string keyed_things(std::string_view key, std::uint64_t count, std::string_view thing);

@@ -21,7 +21,7 @@ std::string ladder_step(const LightBlock& b, std::size_t k) {
   return fmt::format(
       R"(<td>{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)",
       step_text(static_cast<Cause>(k)).name,
-      keyed(b.key(fmt::format("budget.{}.darkened", k)), step.darkened(), signed_number(-step.darkened())),
+      keyed_decrease(b.key(fmt::format("budget.{}.darkened", k)), step.darkened()),
       keyed(b.key(fmt::format("budget.{}.lightened", k)), step.lightened(), signed_number(step.lightened())),
       keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean, signed_number(step.signed_mean)),
       keyed(b.key(fmt::format("budget.{}.absolute", k)), step.absolute_mean,

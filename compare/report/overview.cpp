@@ -144,7 +144,7 @@ std::string budget_row(const BudgetStep& step, std::size_t k, std::size_t index,
       R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td><td class="n">{}</td></tr>
 )",
       step_text(static_cast<Cause>(k)).name, two_sided_bar({step.darkened(), step.lightened()}, left, scale),
-      keyed(key("darkened"), step.darkened(), signed_number(-step.darkened())),
+      keyed_decrease(key("darkened"), step.darkened()),
       keyed(key("lightened"), step.lightened(), signed_number(step.lightened())));
 }
 
