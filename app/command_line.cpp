@@ -205,7 +205,7 @@ int run_action(const Invocation& invocation) {
 }
 
 int parse_and_run(int argc, const char* const* argv, bool runs) {
-  Invocation invocation{command_line_text(argc, argv), {}, {}};
+  Invocation invocation{command_line_text(argc, argv), {}, {}, {}};
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
     print_error(help_text(*program));
@@ -217,7 +217,14 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
   if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
   try {
     program->parse(argc, argv);
-    for (CLI::App* command : program->get_subcommands()) add_lesson_settings(*command);
+    for (CLI::App* command : program->get_subcommands()) {
+      add_lesson_settings(*command);
+      if (const auto added = add_scene_settings(*command); !added) {
+        print_error(added.error());
+        return static_cast<int>(added.error().kind);
+      }
+    }
+    if (invocation.finish) invocation.finish();
     if (!runs) return 0;
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();

@@ -17,6 +17,8 @@ enum class ExitCode : int { done = 0, threshold_exceeded = 1 };
 
 struct Invocation {
   std::string command_line;  ///< as the user could type it again
+  /// Run when lessons and scenes have given their settings; throws CLI::ParseError.
+  std::function<void()> finish;
   std::function<Expected<ExitCode>()> action;
   std::string trace;  ///< file for the stages of the run; empty: none
 };

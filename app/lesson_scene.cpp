@@ -4,15 +4,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <sstream>
 #include <vector>
 
+#include "app/setting.h"
 #include "compare/report/lessons.h"
+#include "scene/load.h"
 
 namespace gnomon::app {
 
 namespace {
+
+constexpr std::array<const char*, 5> bias_options{"--bias", "--slope-bias", "--normal-offset",
+                                                  "--receiver-plane", "--adaptive-bias"};
 
 struct LessonSetting {
   std::string option;                ///< "--map-size"
@@ -66,6 +72,43 @@ std::string lesson_note(const std::string& path_or_name) {
     if (lesson.name == path_or_name)
       return fmt::format("lesson \"{}\": {}, where no option given here says otherwise", lesson.title,
                          lesson.command);
+  }
+  return {};
+}
+
+std::string scene_settings_text(const std::string& path_or_name) {
+  std::string text;
+  for (const SceneSetting& setting : scene_settings(path_or_name))
+    text += fmt::format("{}--{} {}", text.empty() ? "" : " ", setting.option, setting.value);
+  return text;
+}
+
+Expected<void> add_scene_settings(CLI::App& command) {
+  const CLI::Option* scene = command.get_option_no_throw("SCENE");
+  if (scene == nullptr || scene->count() != 1 || was_given(command, "--technique")) return {};
+  const std::string& path = scene->results().front();
+  const auto asked = scene_settings(scene_of_lesson(path));
+  if (asked.empty()) return {};
+  const bool biased =
+      command.get_name() == "tune" || std::any_of(bias_options.begin(), bias_options.end(),
+                                                  [&](const char* name) { return was_given(command, name); });
+  const std::vector<std::string> known = map_setting_names();
+  for (const auto& [name, value] : asked) {
+    const std::string option_name = "--" + name;
+    Error error{ErrorKind::bad_input, "is no option of the shadow map"};
+    error.file = path, error.field = "settings." + name;
+    if (std::find(known.begin(), known.end(), name) == known.end()) return fail(std::move(error));
+    CLI::Option* option = command.get_option_no_throw(option_name);
+    const bool of_bias =
+        std::find(bias_options.begin(), bias_options.end(), option_name) != bias_options.end();
+    if (option == nullptr || option->count() > 0 || (biased && of_bias)) continue;
+    try {
+      option->add_result(value);
+      option->run_callback();
+    } catch (const CLI::ParseError& wrong) {
+      error.reason = wrong.what();
+      return fail(std::move(error));
+    }
   }
   return {};
 }

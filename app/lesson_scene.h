@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "scene/expected.h"
+
 namespace CLI {
 class App;
 }
@@ -14,6 +16,15 @@ namespace gnomon::app {
 std::string scene_of_lesson(const std::string& path_or_name);
 /// What to tell a user who named a lesson; empty for any other text.
 std::string lesson_note(const std::string& path_or_name);
+
+/// "--bias 0": what a scene file asks for; empty for others.
+std::string scene_settings_text(const std::string& path_or_name);
+
+/// Gives a parsed command the settings that its scene file asks for (scene/load.h): those of the shadow map's
+/// options that it knows and was not given. None when it was given --technique, as below; no bias where it
+/// was given one of any kind, and none to `tune`, which finds it. Error (bad_input): an option that the
+/// shadow map has not, or a value that it does not take.
+Expected<void> add_scene_settings(CLI::App& command);
 
 /// Gives a parsed command whose SCENE is a lesson's name the lesson's settings: those options of the lesson's
 /// command that it knows and was not given. None when it was given --technique, to whose settings the

@@ -52,20 +52,27 @@ constexpr int max_threads = 1024;
 constexpr int max_runs = 1000;
 
 void add_bias_options(CLI::App& command, raster::Bias& bias) {
-  add_value(command, "--bias", "B|Btexel",
-            describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
-                     "world units along the light ray, or texels with the suffix texel, any finite number",
-                     fmt::format("{}, csm and lispsm {}texel", bias_text(bias),
-                                 raster::default_bias_texels(raster::Technique::csm))),
-            [&bias](const std::string& text) -> Expected<void> {
-              const Expected<BiasValue> value = parse_bias(text);
-              if (!value) return fail(value.error());
-              bias.constant = value->constant;
-              bias.unit = value->unit;
-              return {};
-            });
-  add_number(command, "--slope-bias", bias.slope, slope_range,
-             "multiples of the depth slope over half a texel", "slope bias; 1 leaves no acne on a plane");
+  add_value(
+      command, "--bias", "auto|B|Btexel",
+      describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
+               fmt::format("world units along the light ray, or texels with the suffix texel, any finite "
+                           "number; auto is what rounding may do, and {} texel",
+                           raster::automatic_bias_texels),
+               bias_text(bias)),
+      [&bias](const std::string& text) -> Expected<void> {
+        const Expected<BiasValue> value = parse_bias(text);
+        if (!value) return fail(value.error());
+        bias.constant = value->constant;
+        bias.unit = value->unit;
+        return {};
+      });
+  add_value(
+      command, "--slope-bias", "NUMBER",
+      describe("slope bias; 1 leaves no acne on a plane",
+               fmt::format("multiples of the depth slope over half a texel, {}", range_text(slope_range)),
+               fmt::format("{}, or 0 where another bias is asked for or the technique brings its own",
+                           number_text(bias.slope))),
+      [&bias](const std::string& text) { return assign(bias.slope, parse_number(text, slope_range)); });
   add_number(command, "--normal-offset", bias.normal_offset_texels, normal_offset_range, "texels",
              "moves the receiver along its normal, scaled by the sine of the light's angle");
   command.add_flag("--receiver-plane", bias.receiver_plane,

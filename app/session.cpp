@@ -39,6 +39,10 @@ Expected<LoadedScene> load(const std::string& path_or_name, Console& console, in
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
   if (const std::string note = lesson_note(path_or_name); !note.empty()) console.note(note);
+  // The settings of built-in scenes are theirs by design; those of a file may surprise.
+  if (const std::string asked = scene_settings_text(scene_of_lesson(path_or_name));
+      !asked.empty() && std::filesystem::is_regular_file(path_or_name))
+    console.note("the scene asks for " + asked + ", where no option given here says otherwise");
   for (const std::string& note : loaded.scene->notes) console.note(note);
   return loaded;
 }

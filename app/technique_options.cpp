@@ -119,12 +119,6 @@ std::string given_text(std::span<const Technique> techniques, std::span<const Fi
 
 }  // namespace
 
-raster::MapOptions with_default_bias(raster::MapOptions map) {
-  map.bias.constant = raster::default_bias_texels(map.technique);
-  map.bias.unit = raster::BiasUnit::texel;
-  return map;
-}
-
 std::vector<std::string_view> technique_options() {
   std::vector<std::string_view> names;
   for (const Row& row : rows) names.push_back(row.option);
@@ -173,7 +167,11 @@ void finish_map_options(const CLI::App& command, raster::MapOptions& map) {
     const auto read = check_read(row.option, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
     if (!read) throw CLI::ValidationError(read.error().field, read.error().reason);
   }
-  if (command.count("--bias") == 0) map.bias = with_default_bias(map).bias;
+  const auto given = [&](const char* option) { return command.count(option) > 0; };
+  if (given("--slope-bias")) return;
+  const bool any =
+      given("--bias") || given("--normal-offset") || given("--receiver-plane") || given("--adaptive-bias");
+  map.bias.slope = any ? 0.0 : raster::default_bias(map).slope;
 }
 
 }  // namespace gnomon::app

@@ -32,14 +32,11 @@ std::string readers_of(std::string_view option);
 Expected<void> check_read(std::string_view option, std::span<const raster::Technique> techniques,
                           std::span<const raster::FilterKernel> kernels);
 
-/// With the constant bias that the technique has where none is asked for.
-raster::MapOptions with_default_bias(raster::MapOptions map);
-
 /// Puts the readers before the help of each option of the table.
 void name_readers(CLI::App& command);
 
 /// When all is parsed: throws CLI::ValidationError for the first option on the command line that the
-/// technique does not read; gives the constant bias the technique's own default where none was asked for.
+/// technique does not read. A bias of any kind takes the place of the default's slope.
 void finish_map_options(const CLI::App& command, raster::MapOptions& map);
 
 }  // namespace gnomon::app

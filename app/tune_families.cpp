@@ -21,14 +21,18 @@ bool is_named(const Values& values, const std::string& name) {
 
 /// What is tried of the options that nothing was said about.
 std::vector<Values> default_kinds() {
-  return {
-      {}, {{"slope-bias", "1"}}, {{"normal-offset", "1"}}, {{"receiver-plane", "on"}}, {{"cull", "front"}}};
+  return {{{"bias", "1texel"}},
+          {{"slope-bias", "1"}},
+          {{"normal-offset", "1"}},
+          {{"receiver-plane", "on"}},
+          {{"cull", "front"}}};
 }
 
 std::string family_name(const Values& values, raster::Technique technique) {
   std::string name;
   bool kind = false;
   for (const auto& [option, value] : values) {
+    if (option == "bias") continue;  // the tuner finds it
     kind = kind || option != "technique";
     name +=
         (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));

@@ -71,6 +71,7 @@ Expected<ImageSize> parse_size(std::string_view text) {
 }
 
 Expected<BiasValue> parse_bias(std::string_view text) {
+  if (text == "auto") return BiasValue{1.0, raster::BiasUnit::automatic};
   std::string_view number = text;
   BiasValue bias;
   for (const std::string_view suffix : {std::string_view("texels"), std::string_view("texel")}) {
@@ -81,13 +82,14 @@ Expected<BiasValue> parse_bias(std::string_view text) {
   const std::optional<double> value = whole_number<double>(number);
   if (!value || !contains(bias_range, *value)) {
     return wrong("not a bias", text,
-                 "a finite number of world units, such as 0.02, or of texels, such as 0.5texel");
+                 "auto, or a finite number of world units, such as 0.02, or of texels, such as 0.5texel");
   }
   bias.constant = *value;
   return bias;
 }
 
 std::string bias_text(const raster::Bias& bias) {
+  if (bias.unit == raster::BiasUnit::automatic) return "auto";
   return number_text(bias.constant) + (bias.unit == raster::BiasUnit::texel ? "texel" : "");
 }
 

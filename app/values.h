@@ -37,8 +37,9 @@ struct BiasValue {
   raster::BiasUnit unit = raster::BiasUnit::world;
 };
 inline constexpr NumberRange bias_range{-1e30, 1e30};
-/// "0.02" (world units along the light ray) or "0.5texel".
+/// "0.02" (world units along the light ray), "0.5texel" or "auto".
 Expected<BiasValue> parse_bias(std::string_view text);
+/// Of the constant; an automatic one counts once.
 std::string bias_text(const raster::Bias& bias);
 
 /// "1%" or "0.01": a share in [0, 1].

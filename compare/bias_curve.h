@@ -19,8 +19,8 @@ struct GapLists {
 
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels);
 
-/// The bias >= 0 with the fewest wrong pixels: the middle of the first interval between neighbouring gaps
-/// where the least is reached (the interval's start where it has no end).
+/// The bias >= 0 with the fewest wrong pixels: in the first interval between neighbouring gaps where the
+/// least is reached, a tenth above its start, or its middle where that comes first.
 BestBias find_best_bias(const GapLists& gaps);
 
 /// `points` biases from 0 to four texels, or further where the current or the best bias lies beyond; both are

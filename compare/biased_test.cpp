@@ -80,9 +80,9 @@ double gap_before(const raster::LightRecord& record, const raster::Bias& bias, c
     receiver_depth -= std::max(0.0, at.depth - plane()) + record.rounding.adaptive_epsilon_world;
   const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
   double gap = (receiver_depth - caster_depth) * along_ray;
-  if (const double base = record.rounding.constant_texel_world; base > 0.0)
-    gap -= record.bias_constant_world * (texel_world_size(view, at) / base - 1.0);
   if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, lookup.position, normal);
+  if (const double base = record.rounding.constant_texel_world; base > 0.0)
+    gap *= base / texel_world_size(view, at);
   return gap;
 }
 

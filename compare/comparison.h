@@ -112,7 +112,7 @@ struct Detachment {
 };
 
 struct BiasCurvePoint {
-  double bias = 0.0;  ///< constant, world units along the light ray
+  double bias = 0.0;  ///< constant, as raster::LightRecord::bias_constant_world
   std::uint64_t false_shadow = 0, missed_shadow = 0;
 };
 
@@ -134,6 +134,16 @@ struct BestBias {
   double needs_less_than = 0.0;
   std::uint64_t lit_pixels_above = 0;       ///< lit pixels with gap >= needs_more_than; 0 when feasible
   std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels with gap <= needs_less_than; 0 when feasible
+};
+
+/// One kind of bias at its smallest setting that is hardly wrong more often than its best (bias_kinds.h), as
+/// the drawing's own map answers.
+struct BiasKind {
+  std::string_view name;  ///< "slope bias"
+  raster::Bias bias;      ///< the setting
+  double wrong_fraction = 0.0;
+  bool of_slope = false;  ///< from and to are multiples of the slope; else constants as bias_constant_world
+  double from = 0.0, to = 0.0;  ///< settings from `from` on and below `to` are hardly worse, too
 };
 
 /// Of the finite values over compared pixels.
@@ -182,9 +192,11 @@ struct LightComparison {
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::vector<BiasCurvePoint> bias_curve;
   BestBias best_bias;
+  std::vector<BiasKind> bias_kinds;  ///< the best first; empty where not made
   TheoryStats theory;
   std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
   std::array<double, 3> texel_world{};         ///< min, median, max over compared receivers
+  double bias_texel_world = 0.0;               ///< what a bias in texels is a multiple of
   Times classify;
 
   std::array<Image<float>, rung_count>

@@ -1,6 +1,7 @@
 #include "compare/light_comparison.h"
 
 #include "compare/bias_curve.h"
+#include "compare/bias_kinds.h"
 #include "compare/bleeding.h"
 #include "compare/budget.h"
 #include "compare/edges.h"
@@ -145,11 +146,13 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   const MapMeasures map = options.map != nullptr ? *options.map : measure_map(in, out.labels);
   out.texel_world = map.texel_world;
   out.theory = map.theory;
+  out.bias_texel_world = in.record.texel_world;
   if (in.drawn.custom_shader) return out;  // what it draws does not follow from the gaps
   const TimedStage curve("curve");
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);
-  out.bias_curve = draw_bias_curve(gaps, out.texel_world[1], in.record.bias_constant_world,
+  if (options.perceptual) out.bias_kinds = compare_bias_kinds(in, truth, out.labels);
+  out.bias_curve = draw_bias_curve(gaps, out.bias_texel_world, in.record.bias_constant_world,
                                    out.best_bias.constant_world, options.bias_curve_points);
   return out;
 }

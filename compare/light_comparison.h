@@ -14,7 +14,8 @@ MapMeasures measure_map(const LadderInput& input, const Image<Label>& labels);
 
 struct MeasureOptions {
   int bias_curve_points = 129;
-  /// FLIP and SSIM, which cost more than all the rest (NaN when left out), and the maps of displacement.
+  /// FLIP and SSIM, which cost more than all the rest (NaN when left out), the maps of displacement, and the
+  /// kinds of bias.
   bool perceptual = true;
   const MapMeasures* map = nullptr;  ///< of the same map and the same compared pixels; null: made anew
 };

@@ -1,5 +1,7 @@
 #include "compare/option_names.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 /// The program brings it along (cmake/GnomonCommit.cmake), so that a new commit compiles no library anew;
@@ -78,6 +80,20 @@ std::string_view cull_name(raster::Cull cull) {
       return "back";
   }
   return "unknown";
+}
+
+std::string bias_arguments(const raster::Bias& bias) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
+  if (bias.slope != 0.0) add(fmt::format("--slope-bias {}", bias.slope));
+  if (bias.normal_offset_texels != 0.0) add(fmt::format("--normal-offset {}", bias.normal_offset_texels));
+  if (bias.receiver_plane) add("--receiver-plane");
+  if (bias.adaptive) add("--adaptive-bias");
+  if (bias.unit != raster::BiasUnit::automatic)
+    add(fmt::format("--bias {}{}", bias.constant, bias.unit == raster::BiasUnit::texel ? "texel" : ""));
+  else if (text.empty())
+    add("--bias auto");
+  return text;
 }
 
 std::string_view program_version() {

@@ -1,6 +1,7 @@
 // The words of the command line for the rasterizer's and the scene's choices, as files and pages write them.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "raster/options.h"
@@ -12,6 +13,8 @@ std::string_view light_type_name(LightType type);                ///< "direction
 std::string_view technique_name(raster::Technique technique);    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
+/// "--slope-bias 1", "--receiver-plane --bias 0.002": what asks for a bias on the command line.
+std::string bias_arguments(const raster::Bias& bias);
 /// "0.1.0", with the commit that the program was built from where that is known: "0.1.0+0123456789ab", and
 /// ".changed" after it where files differed from the commit.
 std::string_view program_version();

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "compare/engine_units.h"
 #include "compare/filter_parameters.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -106,21 +107,37 @@ Json cascades_json(const raster::MapOptions& map, const LightView& view) {
           {"faces", std::move(faces)}};
 }
 
+std::string_view bias_unit_name(raster::BiasUnit unit) {
+  switch (unit) {
+    case raster::BiasUnit::world:
+      return "world";
+    case raster::BiasUnit::texel:
+      return "texel";
+    case raster::BiasUnit::automatic:
+      break;
+  }
+  return "auto";
+}
+
 // A shader of the user's own that reads no bias draws without: null, and nothing but zeros.
 Json bias_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
-  const bool drawn = draws_bias(c) || !compares_depths(c.raster.options.map.technique);
-  const raster::Bias bias = drawn ? c.raster.options.map.bias : raster::Bias{};
-  const double texel = light.texel_world[1];
-  return {
-      {"constant_world", drawn ? number(record.bias_constant_world) : Json(nullptr)},
-      {"constant_texels", drawn && texel > 0.0 ? number(record.bias_constant_world / texel) : Json(nullptr)},
-      {"slope", number(bias.slope)},
-      {"normal_offset_texels", number(bias.normal_offset_texels)},
-      {"receiver_plane", bias.receiver_plane},
-      {"adaptive", bias.adaptive},
-      {"adaptive_epsilon_world",
-       bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}};
+  const raster::MapOptions& map = c.raster.options.map;
+  const bool drawn = draws_bias(c) || !compares_depths(map.technique);
+  const raster::Bias bias = drawn ? map.bias : raster::Bias{};
+  const auto if_drawn = [drawn](double value) { return drawn ? number(value) : Json(nullptr); };
+  return {{"constant_world", if_drawn(record.bias_constant_world)},
+          {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
+          {"unit", bias_unit_name(map.bias.unit)},
+          {"texel_world", number(record.texel_world)},
+          {"scales_with_texel", raster::scales_bias(map)},
+          {"slope", number(bias.slope)},
+          {"normal_offset_texels", number(bias.normal_offset_texels)},
+          {"receiver_plane", bias.receiver_plane},
+          {"receiver_plane_slack_world", bias.receiver_plane ? number(record.rounding_world) : Json(nullptr)},
+          {"adaptive", bias.adaptive},
+          {"adaptive_epsilon_world",
+           bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}};
 }
 
 // null where the program's own shaders drew.
@@ -232,19 +249,49 @@ Json penumbra_json(const PenumbraStats& p) {
 Json bias_curve_json(const LightComparison& light) {
   Json json = Json::array();
   for (const BiasCurvePoint& p : light.bias_curve)
-    json.push_back(
-        {{"bias", number(p.bias)}, {"false_shadow", p.false_shadow}, {"missed_shadow", p.missed_shadow}});
+    json.push_back({{"bias", number(p.bias)},
+                    {"bias_texels", number(p.bias / light.bias_texel_world)},
+                    {"false_shadow", p.false_shadow},
+                    {"missed_shadow", p.missed_shadow}});
   return json;
 }
 
-Json best_bias_json(const BestBias& b) {
+Json best_bias_json(const LightComparison& light) {
+  const BestBias& b = light.best_bias;
   return {{"constant_world", number(b.constant_world)},
+          {"constant_texels", number(b.constant_world / light.bias_texel_world)},
           {"wrong_fraction", number(b.wrong_fraction)},
           {"feasible", b.feasible},
           {"needs_more_than", number(b.needs_more_than)},
           {"needs_less_than", number(b.needs_less_than)},
           {"lit_pixels_above", b.lit_pixels_above},
           {"shadowed_pixels_below", b.shadowed_pixels_below}};
+}
+
+Json bias_kinds_json(const LightComparison& light) {
+  Json json = Json::array();
+  for (const BiasKind& kind : light.bias_kinds)
+    json.push_back({{"kind", kind.name},
+                    {"options", bias_arguments(kind.bias)},
+                    {"wrong_fraction", number(kind.wrong_fraction)},
+                    {"range_of", kind.of_slope ? "slope" : "constant_world"},
+                    {"from", number(kind.from)},
+                    {"to", number(kind.to)}});
+  return json;
+}
+
+// Of the bias drawn with.
+Json engine_units_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  Json json = Json::array();
+  if (!compares_depths(c.raster.options.map.technique)) return json;
+  for (const EngineUnit& unit : engine_units(c.raster.options.map.bias, record.bias_constant_world,
+                                             c.world->scene->lights[light.light].type, record, *c.world))
+    json.push_back({{"engine", unit.engine},
+                    {"setting", unit.setting},
+                    {"value", unit.value ? number(*unit.value) : Json(nullptr)},
+                    {"formula", unit.formula}});
+  return json;
 }
 
 Json distribution_json(const Distribution& d) {
@@ -297,7 +344,9 @@ Json light_block(const Comparison& c, const LightComparison& light) {
                {"mean_texels", in_texels(light.detachment.mean_world, light)},
                {"max_texels", in_texels(light.detachment.max_world, light)}}},
              {"bias_curve", bias_curve_json(light)},
-             {"best_bias", best_bias_json(light.best_bias)},
+             {"best_bias", best_bias_json(light)},
+             {"bias_kinds", bias_kinds_json(light)},
+             {"engine_units", engine_units_json(c, light)},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},
              {"times_ms",

@@ -61,7 +61,7 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  const double texel = light.texel_world[1];
+  const double texel = light.bias_texel_world;
   std::string text = fmt::format(
       "{}, {} x {}{} texels", technique_name(map.technique), record.map.view.size, record.map.view.size,
       record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");

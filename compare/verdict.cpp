@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/bias_advice.h"
 #include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "compare/sweep/engine.h"
@@ -76,48 +77,6 @@ std::string error_part(const LightComparison& light) {
          uncertain_part(light.pixels);
 }
 
-std::string bias_text(const LightComparison& light, double bias) {
-  const std::string world = plain_number(bias) + " world units";
-  const double texel = light.texel_world[1];
-  return texel > 0.0 && std::isfinite(bias) ? fmt::format("{} ({})", world, texels_text(bias / texel))
-                                            : world;
-}
-
-std::string opposing_needs(const BestBias& best) {
-  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
-  return fmt::format(
-      " No constant bias can be right everywhere: {} lit pixel{} {} or more, {} shadowed pixel{} less than "
-      "{}.",
-      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_more_than), grouped(shadowed),
-      shadowed == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
-}
-
-// Why no constant bias is right everywhere.
-std::string contradiction(const BestBias& best) {
-  if (best.needs_less_than == -infinity)
-    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
-           "map.";
-  return opposing_needs(best);
-}
-
-std::string bias_part(const LightComparison& light) {
-  const BestBias& best = light.best_bias;
-  std::string text;
-  if (best.wrong_fraction < light.error.wrong_fraction) {
-    const bool few = best.wrong_fraction < few_fraction && best.wrong_fraction > 0.0;
-    const double left = best.wrong_fraction * static_cast<double>(light.pixels.compared);
-    const std::string rest = best.wrong_fraction == 0.0 ? "none"
-                             : few                      ? fmt::format("{:.0f} of them", left)
-                                                        : percent(best.wrong_fraction);
-    const char* wrong = light.error.fractional > 0 ? " wrong" : "";
-    text = fmt::format(" A constant bias of {} would leave {}{}.", bias_text(light, best.constant_world),
-                       rest, wrong);
-  } else if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction) {
-    text = " No other constant bias does better.";
-  }
-  return best.feasible ? text : text + contradiction(best);
-}
-
 std::string nothing_compared(const PixelCounts& p) {
   return fmt::format(
       "No pixel could be compared: of {}, {} show{} no surface, {} face{} away from the light, {} {} and {} "
@@ -133,7 +92,7 @@ std::string nothing_compared(const PixelCounts& p) {
 // What other biases would do follows from the gaps of a hard test alone.
 std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_part(light) : "");
+  return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_advice(light) : "");
 }
 
 }  // namespace gnomon::compare

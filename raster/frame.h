@@ -45,11 +45,21 @@ struct BiasRounding {
   double stored_step = 0.0;  ///< of the depth format, stored depth
   /// Bias::adaptive: 1e-4 of the scene's diagonal (Dou et al. 2014).
   double adaptive_epsilon_world = 0.0;
-  /// Where a map's texels differ in size by design (csm, lispsm) and the constant bias is in texels: the
-  /// texel that the constant was converted with; a lookup's bias is the constant times its own texel over
-  /// this. Else 0.
+  /// Where a map's texels differ in size by design (csm, lispsm) and the constant bias is not in world
+  /// units: the texel that the constant was converted with; a lookup's bias is the constant times its own
+  /// texel over this. Else 0.
   double constant_texel_world = 0.0;
 };
+
+/// What rounding may do to a comparison, world units: floats and one step of the stored depth, on a
+/// perspective map where the finite scene is farthest from the light.
+double rounding_world(const BiasRounding& rounding, const LightView& view, const World& world);
+/// The constant that a slope bias of 1 needs beside it: rounding_world(), and automatic_bias_texels of a
+/// texel for curved surfaces.
+double automatic_bias_world(const BiasRounding& rounding, const LightView& view, const World& world);
+/// The constant bias in world units; where it scales, on a texel of BiasRounding::constant_texel_world.
+double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const LightView& view,
+                           const World& world);
 
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
 /// The images, map.depth and map.primitive are empty unless RasterOptions::analysis.
@@ -58,13 +68,16 @@ struct LightRecord {
   ShadowMap map;
   BiasRounding rounding;
   double bias_constant_world = 0.0;  ///< the constant bias in world units, after unit conversion
+  double texel_world = 0.0;          ///< what a bias in texels is a multiple of (texel_world())
+  double rounding_world = 0.0;       ///< what a bias that follows the receiver's plane leaves to rounding
   Image<float> visibility;   ///< what was drawn, in [0, 1]: 1 lit, 0 shadowed (rung V6). Not times n.l
   Image<Vec2f> texel_uv;     ///< the receiver's own map position in texels, before any offset
   Image<std::uint8_t> face;  ///< of texel_uv
   Image<float> distance;     ///< along the light ray, world units
   /// The gap less every part of the bias but the constant: a hard test shadows iff gap >
-  /// float(bias_constant_world). -infinity where nothing is stored or the lookup falls outside the map, and
-  /// where the bias has no bound; never NaN.
+  /// float(bias_constant_world). Where BiasRounding::constant_texel_world is not 0 it is given in multiples
+  /// of the texel looked up, times that. -infinity where nothing is stored or the lookup falls outside the
+  /// map, and where the bias has no bound; never NaN.
   Image<float> gap;
   /// 1 where the lookup falls beside the map or behind the light, or finds nothing stored for a receiver that
   /// lies outside the map's depth range.

@@ -117,13 +117,17 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   return check_map_options(options.map);
 }
 
-double default_bias_texels(Technique technique) {
-  return technique == Technique::csm || technique == Technique::lispsm ? 2.0 : 1.0;
+Bias default_bias(const MapOptions& map) {
+  Bias bias = MapOptions{}.bias;
+  MapOptions plain = map;
+  plain.bias = {};
+  if (effective_options(plain).bias.receiver_plane) bias.slope = 0.0;
+  return bias;
 }
 
 bool scales_bias(const MapOptions& map) {
   return (map.technique == Technique::csm || map.technique == Technique::lispsm) &&
-         map.bias.unit == BiasUnit::texel;
+         map.bias.unit != BiasUnit::world;
 }
 
 double texel_world(const LightView& view, const World& world) {
@@ -152,8 +156,50 @@ BiasRounding bias_rounding(const MapOptions& map, const LightView& view, const W
           .constant_texel_world = by_texel ? texel_world(view, world) : 0.0};
 }
 
-double constant_bias_world(const Bias& bias, const LightView& view, const World& world) {
-  return bias.unit == BiasUnit::world ? bias.constant : bias.constant * texel_world(view, world);
+namespace {
+
+// One step of the stored depth on a face, world units of depth.
+double stored_step_world(double step, const LightView& view, int face, const World& world) {
+  const LightFace& f = view.face(face);
+  if (view.projection == LightProjection::orthographic) {
+    const double middle = 0.5 * view.size;
+    return std::abs(depth_from_stored(view, face, middle, step) - depth_from_stored(view, face, middle, 0.0));
+  }
+  double farthest = f.far_depth;
+  if (const Aabb& box = world.finite_bounds; !box.empty())
+    farthest = std::min(farthest, glm::length(box.center() - view.origin) + 0.5 * box.diagonal());
+  return step * farthest * farthest * (f.far_depth - f.near_depth) / (f.near_depth * f.far_depth);
+}
+
+}  // namespace
+
+double rounding_world(const BiasRounding& rounding, const LightView& view, const World& world) {
+  double step = 0.0;
+  for (int i = 0; i < view.face_count; ++i)
+    step = std::max(step, stored_step_world(rounding.stored_step, view, i, world));
+  return rounding.float_world + step;
+}
+
+double automatic_bias_world(const BiasRounding& rounding, const LightView& view, const World& world) {
+  const double base = texel_world(view, world);
+  // A constant that scales with the texel must cover the rounding on the narrowest ones.
+  double narrowest = base;
+  if (rounding.constant_texel_world > 0.0)
+    for (int i = 0; i < view.face_count; ++i) narrowest = std::min(narrowest, texel_world_size(view, i, 1.0));
+  return automatic_bias_texels * base + rounding_world(rounding, view, world) * (base / narrowest);
+}
+
+double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const LightView& view,
+                           const World& world) {
+  switch (bias.unit) {
+    case BiasUnit::world:
+      return bias.constant;
+    case BiasUnit::texel:
+      return bias.constant * texel_world(view, world);
+    case BiasUnit::automatic:
+      break;
+  }
+  return bias.constant * automatic_bias_world(rounding, view, world);
 }
 
 }  // namespace gnomon::raster

@@ -34,15 +34,16 @@ enum class DepthFormat : std::uint8_t { d16, d24, d32f, d32f_reversed };
 enum class Cull : std::uint8_t { none, front, back };
 
 enum class BiasUnit : std::uint8_t {
-  world,  ///< world units along the light ray
-  texel   ///< multiples of the texel's world width, taken at the scene's centre for a perspective map
+  world,     ///< world units along the light ray
+  texel,     ///< multiples of texel_world() (frame.h); with csm and lispsm of the texel looked up
+  automatic  ///< multiples of automatic_bias_world() (frame.h)
 };
 
 /// A hard test shadows a receiver iff its gap (distance to the light minus the stored distance, along the
 /// receiver's own light ray, in world units) exceeds constant + slope * (depth slope over the texel).
 struct Bias {
-  double constant = 1.0;  ///< in `unit`; finite; default 1 texel
-  BiasUnit unit = BiasUnit::texel;
+  double constant = 1.0;  ///< in `unit`; finite
+  BiasUnit unit = BiasUnit::automatic;
   /// Finite; in multiples of h_u |dz/du| + h_v |dz/dv| with h half a texel and z the depth of the receiver's
   /// plane, taken as half the difference of that plane's depths across the texel: 1 leaves no acne on a
   /// plane. Infinite where the plane is edge-on to a ray of the texel: such a receiver is lit.
@@ -97,12 +98,18 @@ struct FilterOptions {
 /// Of Bias::adaptive, as a share of the scene's diagonal.
 inline constexpr double adaptive_epsilon = 1e-4;
 
+/// Of BiasUnit::automatic, in texels. Over a texel of width w a surface whose normal turns with a radius r
+/// leaves its tangent plane by (w/2)^2 / r at most, both axes together: a sixteenth of w where r is 4 w.
+inline constexpr double automatic_bias_texels = 1.0 / 16.0;
+
 struct MapOptions {
   Technique technique = Technique::hard;
   int size = 1024;  ///< texels on a side, >= 1, at most the context's limit
   DepthFormat depth_format = DepthFormat::d32f;
   Cull cull = Cull::none;
-  Bias bias;
+  /// Slope 1 leaves no acne on a plane, the automatic constant none of rounding and little of curvature
+  /// (docs/defaults.md).
+  Bias bias{.slope = 1.0};
   FilterOptions filter;
   CascadeOptions cascades;  ///< csm
   bool operator==(const MapOptions&) const = default;
@@ -112,14 +119,12 @@ struct MapOptions {
 /// lights.
 bool has_map_for(Technique technique, LightType type);
 
-/// The constant bias, in texels, that a technique has where none is asked for: 2 for csm and lispsm, else 1.
-/// A constant of b texels leaves no acne on a plane whose depth rises by 2 b texels over one. The one map of
-/// the others is fitted to the scene: what a low sun makes long of a texel's shadow it makes short of the
-/// map, so that the side along which the ground rises is the narrow one, and the bias is taken by the wide
-/// one. Cascades are squares, and their texels too.
-double default_bias_texels(Technique technique);
+/// The bias where none of any kind is asked for: MapOptions' own, but without the slope where the receiver's
+/// plane is compared with anyway.
+Bias default_bias(const MapOptions& map);
 
-/// A bias in texels is taken by the texel looked up, not by the texel at the scene's centre: csm and lispsm.
+/// The constant bias is taken by the texel looked up, not by the texel at the scene's centre: csm and lispsm,
+/// unless it is in world units.
 bool scales_bias(const MapOptions& map);
 
 /// Draws from filtered moments of the depth: vsm, esm, evsm, msm.

@@ -1,4 +1,4 @@
-// Checks of the user's choices, and the conversion of a bias to world units. Private to raster.
+// Checks of the user's choices, and what rounding they leave. Private to raster.
 #pragma once
 
 #include "raster/frame.h"
@@ -12,8 +12,5 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
 
 BiasRounding bias_rounding(const MapOptions& map, const LightView& view, const World& world,
                            const Vec3& reference);
-
-/// The constant bias in world units (texel_world() says how wide a texel is).
-double constant_bias_world(const Bias& bias, const LightView& view, const World& world);
 
 }  // namespace gnomon::raster

@@ -249,14 +249,16 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   }
   const auto view = fit(job, light, map);
   if (!view) return fail(view.error());
-  const double constant = constant_bias_world(map.bias, *view, *world_);
   const BiasRounding rounding = bias_rounding(map, *view, *world_, buffers_.reference());
+  const double constant = constant_bias_world(map.bias, rounding, *view, *world_);
   light_block_.write_one(make_light_block(light, *view, map, constant, rounding, buffers_.reference()));
   light_block_.bind(GL_UNIFORM_BUFFER, shaders::light_block);
   if (record != nullptr) {
     record->light = index;
     record->bias_constant_world = constant;
     record->rounding = rounding;
+    record->texel_world = texel_world(*view, *world_);
+    record->rounding_world = rounding_world(rounding, *view, *world_);
     record->map.view = *view;
     record->map.format = map.depth_format;
     if (!job.frame.custom_shader) job.frame.custom_shader = custom_shader(gl_->shader_folder(), map, light);

@@ -24,6 +24,14 @@ struct LoadOptions {
 /// enough memory.
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options = {});
 
+/// What a scene file asks for: an option of the command line without its dashes ("map-size"), and its value.
+struct SceneSetting {
+  std::string option, value;
+};
+/// "settings" of a scene in the project's own format. Empty where there are none, and where the file does not
+/// parse: load_scene says why.
+std::vector<SceneSetting> scene_settings(const std::string& path_or_name);
+
 struct BuiltinScene {
   std::string_view name;
   std::string_view description;  ///< one sentence

@@ -1,7 +1,7 @@
 // The hard shadow test: how far the receiver lies behind what the map stored, along the receiver's own light ray, in world
 // units, less every part of the bias but the constant. Twin of compare/biased_test.cpp. Permutations SLOPE_BIAS,
 // NORMAL_OFFSET (Holbein 2010), RECEIVER_PLANE (Isidoro 2006; less what rounding may do to the plane and the map) and
-// ADAPTIVE_BIAS (Dou et al. 2014); TEXEL_BIAS takes the constant by the texel looked up.
+// ADAPTIVE_BIAS (Dou et al. 2014); TEXEL_BIAS takes the constant, and so the gap, in multiples of the texel looked up.
 
 const float infinite = uintBitsToFloat(0x7f800000u);
 
@@ -74,11 +74,11 @@ ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
   receiver -= max(0.0, at.local.z - plane_depth(at, n, vec2(texel.xy) + 0.5 - at.uv)) + light.rounding.z;
 #endif
   test.gap = (receiver - depth_from_stored(texel, stored)) * along_ray;
-#ifdef TEXEL_BIAS
-  test.gap -= light.bias.x * (texel_world_size(at) / light.rounding.w - 1.0);
-#endif
 #ifdef SLOPE_BIAS
   test.gap -= light.bias.y * texel_depth_slope(at, n) * along_ray;
+#endif
+#ifdef TEXEL_BIAS
+  test.gap *= light.rounding.w / texel_world_size(at);
 #endif
   return test;
 }

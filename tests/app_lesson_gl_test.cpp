@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "compare/report/lessons.h"
@@ -43,6 +44,35 @@ TEST(Lessons, OptionsGivenComeFirst) {
                       result_of({"compare", "acne-floor", "--bias", "0.125", "--map-size", "64"}));
   expect_same_picture(result_of({"compare", "filtering", "--technique", "vsm"}),
                       result_of({"compare", "fence", "--technique", "vsm"}));
+}
+
+json bias_of(const Words& words) {
+  return result_of(words)["lights"][0]["map"]["bias"];
+}
+
+TEST(SceneSettings, HoldWhereNoOptionSaysOtherwise) {
+  expect_same_picture(result_of({"compare", "acne-floor"}),
+                      result_of({"compare", "acne-floor", "--bias", "0"}));
+  EXPECT_EQ(bias_of({"compare", "floating-box"})["constant_texels"], 1.0);
+  EXPECT_EQ(bias_of({"compare", "floating-box"})["slope"], 0.0);
+  const json sloped = bias_of({"compare", "floating-box", "--slope-bias", "1"});
+  EXPECT_EQ(sloped["unit"], "auto") << "a bias of any kind replaces the scene's";
+  EXPECT_EQ(bias_of({"compare", "floating-box", "--technique", "csm"})["slope"], 1.0);
+}
+
+TEST(SceneSettings, ThatAreNoneAreErrors) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& settings) {
+    std::ofstream(folder / "s.json") << R"({"schema": "gnomon/scene/1", "shapes": [{"name": "p",
+      "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}], "settings": )"
+                                     << settings << "}";
+    return run_gnomon({"compare", folder / "s.json", "--quiet"});
+  };
+  for (const char* wrong : {R"({"bais": "1"})", R"({"bias": "wide"})", R"({"bias": 1})", R"(["bias"])"}) {
+    const ProcessResult result = said(wrong);
+    EXPECT_EQ(result.exit_code, 3) << wrong << result.err;
+    EXPECT_NE(result.err.find("settings"), std::string::npos) << result.err;
+  }
 }
 
 TEST(Lessons, CommandsWithoutTheSettingsTakeTheScene) {

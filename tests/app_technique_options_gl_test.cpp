@@ -103,7 +103,7 @@ raster::MapOptions base_options(raster::Technique technique, const std::string& 
   raster::MapOptions map;
   map.technique = technique;
   map.size = 128;
-  map.bias.constant = 0.0;
+  map.bias = {0.0, raster::BiasUnit::texel};
   EXPECT_TRUE(app::set_map_option(map, "filter-kernel", kernel).has_value());
   return map;
 }
@@ -207,17 +207,25 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
   EXPECT_EQ(app::setting_arguments(app::values_read(values)), " --technique izb --map-size 64");
 }
 
-TEST(TechniqueOptions, AnUnaskedBiasIsTheTechniquesOwn) {
+TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   using Values = std::vector<std::pair<std::string, std::string>>;
+  using enum raster::BiasUnit;
   const auto bias = [](const Values& values) {
     const auto parsed = app::parse_setting(values);
     EXPECT_TRUE(parsed.has_value());
-    return parsed ? parsed->options.raster.map.bias.constant : -1.0;
+    return parsed ? parsed->options.raster.map.bias : raster::Bias{-1.0};
   };
-  EXPECT_EQ(bias({}), 1.0);
-  EXPECT_EQ(bias({{"technique", "csm"}}), 2.0);
-  EXPECT_EQ(bias({{"technique", "lispsm"}}), 2.0);
-  EXPECT_EQ(bias({{"technique", "csm"}, {"bias", "1texel"}}), 1.0);
+  const raster::Bias by_default{.slope = 1.0}, constant{1.0, texel};
+  EXPECT_EQ(bias({}), by_default);
+  EXPECT_EQ(bias({{"bias", "auto"}}), raster::Bias{});
+  EXPECT_EQ(bias({{"technique", "csm"}}), by_default);
+  EXPECT_EQ(bias({{"technique", "pcf"}}), raster::Bias{}) << "compares with the receiver's plane";
+  EXPECT_EQ(bias({{"technique", "pcf"}, {"filter-plane", "off"}}), by_default);
+  EXPECT_EQ(bias({{"technique", "csm"}, {"bias", "1texel"}}), constant);
+  EXPECT_EQ(bias({{"slope-bias", "2"}}), (raster::Bias{.slope = 2.0}));
+  EXPECT_EQ(bias({{"normal-offset", "1"}}), (raster::Bias{.normal_offset_texels = 1.0}));
+  EXPECT_EQ(bias({{"receiver-plane", "on"}}), (raster::Bias{.receiver_plane = true}));
+  EXPECT_EQ(bias({{"cull", "front"}}), by_default);
 }
 
 // The scene's matter, not the command line's: said in a note.

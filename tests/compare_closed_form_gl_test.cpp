@@ -187,6 +187,39 @@ TEST(BiasCurve, BestBiasIsBest) {
   }
 }
 
+// What is said of the other kinds of bias from one drawing is what they draw, but for the pixels in which the
+// shader's floats and the doubles that it is said from part: as below, at most one in a thousand.
+TEST(BiasKinds, AreWhatTheyDraw) {
+  const auto options = test_options({640, 360}, 256, 0.01);
+  const Compared said = run_comparison(boxes_under_three_lights(), options);
+  for (std::size_t i = 0; i < said.result.lights.size(); ++i) {
+    const auto& kinds = said.result.lights[i].bias_kinds;
+    ASSERT_EQ(kinds.size(), 5u);
+    for (const compare::BiasKind& kind : kinds) {
+      auto drawing = options;
+      drawing.raster.map.bias = kind.bias;
+      const Compared drawn = run_comparison(boxes_under_three_lights(), drawing);
+      EXPECT_NEAR(drawn.result.lights[i].error.wrong_fraction, kind.wrong_fraction, 1e-3)
+          << kind.name << " light " << i;
+    }
+    EXPECT_LE(kinds.front().wrong_fraction, said.result.lights[i].error.wrong_fraction + 1e-3);
+  }
+}
+
+TEST(Units, ATexelGivenIsATexelReported) {
+  for (const auto technique : {raster::Technique::hard, raster::Technique::cube}) {
+    auto options = test_options({160, 90}, 256);
+    options.raster.map.technique = technique;
+    options.raster.map.bias = {1.0, raster::BiasUnit::texel};
+    Scene scene = boxes_under_three_lights();
+    if (technique == raster::Technique::cube) scene.lights = {scene.lights[2]};
+    const Compared run = run_comparison(scene, options);
+    for (std::size_t i = 0; i < run.result.lights.size(); ++i)
+      EXPECT_DOUBLE_EQ(
+          run.result.raster.lights[i].bias_constant_world / run.result.lights[i].bias_texel_world, 1.0);
+  }
+}
+
 // V5 is computed in double from the exact receiver, V6 is what float shaders drew: they may part only where a
 // receiver falls on a texel's border or a gap on the bias, at most one pixel in a thousand.
 TEST(Ladder, DrawnEqualsBiasedForHard) {

@@ -50,8 +50,7 @@ compare::CompareOptions technique_options(Technique technique, ImageSize size, i
   options.raster.map.technique = technique;
   options.raster.map.filter.receiver_plane =
       technique == Technique::pcss;  // pcf: V5 is that of the plain hard test
-  options.raster.map.bias.constant = 1.0;
-  options.raster.map.bias.unit = raster::BiasUnit::texel;
+  options.raster.map.bias = {1.0, raster::BiasUnit::texel};
   return options;
 }
 

@@ -1,8 +1,12 @@
 // Parts of the comparison on small, hand-made data: the deciding step, the bias curve, the budget.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "compare/bias_curve.h"
+#include "compare/bias_kinds.h"
 #include "compare/budget.h"
+#include "compare/engine_units.h"
 #include "compare/ladder.h"
 #include "support/compare_support.h"
 
@@ -59,7 +63,7 @@ TEST(BestBias, LiesBetweenTheLastLitAndTheFirstShadowedGap) {
   const BestBias best = find_best_bias({{-1.0f, 0.25f, 0.5f}, {1.0f, 2.0f}});
   EXPECT_TRUE(best.feasible);
   EXPECT_EQ(best.wrong_fraction, 0.0);
-  EXPECT_EQ(best.constant_world, 0.75);
+  EXPECT_EQ(best.constant_world, 1.1f * 0.5f) << "not far out on the plateau";
   EXPECT_EQ(best.needs_more_than, 0.5);
   EXPECT_EQ(best.needs_less_than, 1.0);
 }
@@ -68,7 +72,7 @@ TEST(BestBias, SaysWhichPixelsContradict) {
   const BestBias best = find_best_bias({{0.1f, 0.2f, 3.0f}, {1.0f, 2.0f, 4.0f}});
   EXPECT_FALSE(best.feasible);
   EXPECT_DOUBLE_EQ(best.wrong_fraction, 1.0 / 6.0);
-  EXPECT_DOUBLE_EQ(best.constant_world, 0.5f * (1.0f + 0.2f));
+  EXPECT_DOUBLE_EQ(best.constant_world, 1.1f * 0.2f);
   EXPECT_EQ(best.lit_pixels_above, 1u);
   EXPECT_EQ(best.needs_more_than, 3.0);
   EXPECT_EQ(best.shadowed_pixels_below, 1u)
@@ -86,10 +90,63 @@ TEST(BestBias, AShadowThatNothingStoredCastsIsMissedAtAnyBias) {
   EXPECT_EQ(best.lit_pixels_above, 1u);
 }
 
-TEST(BestBias, WithoutShadowsIsTheLargestLitGap) {
+TEST(BestBias, WithoutShadowsIsATenthAboveTheLargestLitGap) {
   const BestBias best = find_best_bias({{0.1f, 0.3f}, {}});
   EXPECT_TRUE(best.feasible);
-  EXPECT_FLOAT_EQ(static_cast<float>(best.constant_world), 0.3f);
+  EXPECT_FLOAT_EQ(static_cast<float>(best.constant_world), 1.1f * 0.3f);
+}
+
+TEST(GoodRange, IsTheFirstThatIsHardlyWorse) {
+  // 1,000 lit pixels, one of which needs a bias far beyond what the shadows bear.
+  GapLists gaps{std::vector<float>(1000, 0.5f), {2.0f, 2.0f}};
+  gaps.lit.push_back(100.0f);
+  const BiasRange range = smallest_good_range(gaps);
+  EXPECT_EQ(range.from, 0.5f);
+  EXPECT_EQ(range.to, 2.0f);
+  gaps.shadowed.clear();
+  EXPECT_EQ(smallest_good_range(gaps).from, 100.0f) << "nothing speaks against it";
+}
+
+TEST(ShortNumber, HasFewDigitsAndLiesInTheRange) {
+  EXPECT_EQ(short_number_in(0.0, 1.0), 0.0);
+  EXPECT_EQ(short_number_in(0.0312, 7.0), 0.032);
+  EXPECT_EQ(short_number_in(0.95, 1e9), 1.0);
+  EXPECT_EQ(short_number_in(0.9, infinity), 0.9);
+  const double low = 0.123456, high = std::nextafter(low, 1.0);
+  EXPECT_EQ(short_number_in(low, high), low);
+}
+
+// A map of 100 units of depth, a texel of a quarter: the table of docs/engine-units.md by hand.
+TEST(EngineUnits, AreThoseOfTheTable) {
+  raster::LightRecord record;
+  record.texel_world = 0.25, record.rounding.stored_step = std::exp2(-24.0);
+  record.map.format = raster::DepthFormat::d24;
+  record.map.view.projection = LightProjection::orthographic;
+  record.map.view.size = 64, record.map.view.face_count = 1;
+  LightFace& face = record.map.view.faces[0];
+  face.near_depth = 10.0, face.far_depth = 110.0, face.half_extent = {8.0, 8.0};
+  const Scene scene;
+  World world;
+  world.scene = &scene;
+  raster::Bias bias;
+  bias.slope = 1.0, bias.normal_offset_texels = 2.0;
+  const auto value = [&, units = engine_units(bias, 0.5, LightType::directional, record, world)](
+                         std::string_view engine, std::string_view setting) {
+    for (const EngineUnit& unit : units)
+      if (unit.engine == engine && unit.setting == setting) return unit.value.value_or(NAN);
+    return double{NAN};
+  };
+  EXPECT_DOUBLE_EQ(value("three.js", "shadow.bias"), -0.005);
+  EXPECT_DOUBLE_EQ(value("three.js", "shadow.normalBias"), 0.5);
+  EXPECT_DOUBLE_EQ(value("Unity (URP)", "Depth Bias"), 2.0);
+  EXPECT_DOUBLE_EQ(value("Unity (URP)", "Normal Bias"), 2.0);
+  EXPECT_DOUBLE_EQ(value("Unreal", "Shadow Bias"), 0.4);
+  EXPECT_DOUBLE_EQ(value("Unreal", "Shadow Slope Bias"), 0.25 * std::sqrt(0.5) / 1.5);
+  EXPECT_DOUBLE_EQ(value("Godot", "shadow_bias"), 50.0);
+  EXPECT_DOUBLE_EQ(value("Bevy", "shadow_depth_bias"), 0.5);
+  EXPECT_DOUBLE_EQ(value("Babylon.js", "bias"), 0.005);
+  EXPECT_DOUBLE_EQ(value("polygon offset", "factor"), 1.0);
+  EXPECT_DOUBLE_EQ(value("polygon offset", "units"), 0.005 * 16777216.0);
 }
 
 // Against counting one by one, on many random lists with ties.

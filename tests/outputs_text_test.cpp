@@ -56,6 +56,7 @@ struct Case {
     light.error.wrong_fraction = static_cast<double>(light.error.wrong) / static_cast<double>(compared);
     light.error.mean_absolute = light.error.wrong_fraction;
     light.texel_world = {0.01, 0.0125, 0.02};
+    light.bias_texel_world = 0.0125;
   }
   std::string verdict() const { return verdict_sentence(made->comparison, light); }
 };

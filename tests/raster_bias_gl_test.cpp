@@ -127,15 +127,18 @@ TEST_P(Bias, NormalOffsetLooksUpAMovedReceiver) {
 TEST_P(Bias, ConstantInTexelsBecomesWorldUnitsOnce) {
   const LightView& map = plain_.light().map.view;
   const TexelCoordinate center = project_to_texel(map, plain_.world->finite_bounds.center());
-  EXPECT_DOUBLE_EQ(raster::constant_bias_world({.constant = 3.0}, map, *plain_.world),
-                   3.0 * texel_world_size(map, center));
-  EXPECT_EQ(
-      raster::constant_bias_world({.constant = 3.0, .unit = raster::BiasUnit::world}, map, *plain_.world),
-      3.0);
+  const auto world_units = [&](const raster::Bias& bias) {
+    return raster::constant_bias_world(bias, plain_.light().rounding, map, *plain_.world);
+  };
+  const double texel = texel_world_size(map, center);
+  EXPECT_DOUBLE_EQ(world_units({3.0, raster::BiasUnit::texel}), 3.0 * texel);
+  EXPECT_EQ(world_units({3.0, raster::BiasUnit::world}), 3.0);
+  EXPECT_EQ(plain_.light().texel_world, texel);
+  EXPECT_DOUBLE_EQ(world_units({2.0}), 2.0 * (texel / 16.0 + plain_.light().rounding_world));
   raster::RasterOptions options = small_options();
   options.map.bias.constant = 3.0;
   biased_.render(options);
-  EXPECT_DOUBLE_EQ(biased_.light().bias_constant_world, 3.0 * texel_world_size(map, center));
+  EXPECT_DOUBLE_EQ(biased_.light().bias_constant_world, 3.0 * texel);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, Bias,

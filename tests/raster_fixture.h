@@ -41,7 +41,7 @@ inline raster::RasterOptions small_options(int map_size = 256) {
   raster::RasterOptions options;
   options.size = {192, 128};
   options.map.size = map_size;
-  options.map.bias.constant = 0.0;
+  options.map.bias = {0.0, raster::BiasUnit::texel};
   options.runs = 0;
   return options;
 }

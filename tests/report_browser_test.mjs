@@ -124,6 +124,7 @@ async function checkTabs() {
   await page.keyboard.press("End");
   assert.deepEqual(await seen(), ["light-2"]);
   await page.locator("nav a[href='#light-1']").click();
+  await page.locator("#light-1").waitFor({ state: "visible" });
   await page.waitForFunction(() => document.querySelector("#light-1").getBoundingClientRect().top < 200);
   assert.deepEqual(await seen(), ["light-1"]);
   await page.emulateMedia({ media: "print" });

@@ -43,7 +43,7 @@ TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   ASSERT_TRUE(writer.make_folders());
   std::vector<app::CellPictureWriter::Job> jobs;
   for (std::size_t cell = 0; cell < 3; ++cell) {
-    setting.raster.map.bias.constant = 0.01 * static_cast<double>(cell);
+    setting.raster.map.bias = {0.01 * static_cast<double>(cell), raster::BiasUnit::texel};
     const auto compared = engine.compare(setting, compare::Detail::numbers);
     ASSERT_TRUE(compared);
     jobs.push_back(writer.pictures(cell, **compared));

@@ -76,6 +76,62 @@ TEST(Engine, DerivedFramesEqualDrawnOnes) {
   EXPECT_EQ(shop.engine.work().truths, 1u);
 }
 
+/// Of every technique that has a curve 20 points at random, drawn afresh in the unit that --bias takes, and
+/// the best one.
+void expect_curve_is_drawn(const Scene& scene, raster::Technique technique) {
+  Workshop shop(scene);
+  Setting setting = shop.first;
+  setting.raster.map.technique = technique;
+  setting.raster.map.bias = {1.0, raster::BiasUnit::texel, 0.5};
+  ASSERT_TRUE(compare::biases_follow_from_gaps(setting.raster.map));
+  const auto drawn = shop.engine.compare(setting);
+  ASSERT_TRUE(drawn) << drawn.error().message();
+  const compare::LightComparison light = (*drawn)->lights.front();
+  std::vector<compare::BiasCurvePoint> points{{light.best_bias.constant_world}};
+  std::mt19937 random(4);
+  for (int i = 0; i < 20; ++i) points.push_back(light.bias_curve[random() % light.bias_curve.size()]);
+  compare::CompareOptions options;
+  options.raster = setting.raster, options.raytrace = setting.raytrace, options.perceptual = false;
+  for (const compare::BiasCurvePoint& point : points) {
+    options.raster.map.bias = compare::with_constant(setting.raster.map, point.bias, light.bias_texel_world);
+    const compare::ErrorStats error = shop.single_world.compare(options).lights.front().error;
+    const bool best = &point == &points.front();
+    if (best)
+      EXPECT_DOUBLE_EQ(error.wrong_fraction, light.best_bias.wrong_fraction) << "best " << point.bias;
+    else
+      EXPECT_EQ(std::pair(error.false_shadow, error.missed_shadow),
+                std::pair(point.false_shadow, point.missed_shadow))
+          << "technique " << int(technique) << " bias " << point.bias;
+  }
+}
+
+TEST(Engine, EveryCurveIsWhatItsBiasesDraw) {
+  using enum raster::Technique;
+  Scene scene = boxes_and_ball();
+  const std::vector<Light> lights = scene.lights;
+  scene.lights = {lights[0]};
+  for (const raster::Technique technique : {hard, second_depth, midpoint, csm, lispsm})
+    expect_curve_is_drawn(scene, technique);
+  scene.lights = {lights[1]};
+  expect_curve_is_drawn(scene, hard);
+  scene.lights = {lights[2]};
+  for (const raster::Technique technique : {hard, cube}) expect_curve_is_drawn(scene, technique);
+}
+
+// Where the constant scales with the texel, a bias in world units is another drawing, not another constant.
+TEST(Engine, UnitsOfCascadesAreNotDerivedFromEachOther) {
+  Scene scene = boxes_and_ball();
+  scene.lights.resize(1);
+  Workshop shop(scene);
+  Setting setting = shop.first;
+  setting.raster.map.technique = raster::Technique::csm;
+  for (const raster::BiasUnit unit : {raster::BiasUnit::texel, raster::BiasUnit::world}) {
+    setting.raster.map.bias = {0.03, unit};
+    EXPECT_EQ(shop.swept(setting), shop.alone(setting));
+    EXPECT_FALSE(shop.engine.last_was_derived());
+  }
+}
+
 // The same when the numbers of all biases are made together, without images.
 TEST(Engine, BiasAxisEqualsDrawnFrames) {
   Workshop shop(boxes_and_ball());

@@ -198,6 +198,7 @@ inline LightComparison make_light(std::uint32_t index) {
   }
   light.best_bias = {0.045, 0.011, false, 0.093, 0.021, 213, 97};
   light.texel_world = {0.041, 0.052, 0.078};
+  light.bias_texel_world = 0.052;
   light.classify.runs = {14.25};
   return light;
 }
@@ -236,6 +237,7 @@ inline void make_records(Comparison& c, const Scene& scene) {
     drawn.light = i;
     drawn.map = make_map(scene.lights[i]);
     drawn.bias_constant_world = 0.052;
+    drawn.texel_world = 0.052;
     drawn.visibility = c.lights[i].rungs[6];
     drawn.texel_uv = Image<Vec2f>(image_size, Vec2f(3.25f, 7.5f));
     drawn.face = Image<std::uint8_t>(image_size, 0);

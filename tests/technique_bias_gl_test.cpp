@@ -162,11 +162,11 @@ TEST_P(ClosedBodies, SecondDepthLeavesNoAcneAndMidpointLess) {
   const auto hard = without_bias(raster::Technique::hard),
              second = without_bias(raster::Technique::second_depth),
              midpoint = without_bias(raster::Technique::midpoint),
-             hard_biased = false_shadow(raster::Technique::hard, raster::Bias{}),
-             second_biased = false_shadow(raster::Technique::second_depth, raster::Bias{});
+             hard_biased = false_shadow(raster::Technique::hard, {1.0, raster::BiasUnit::texel}),
+             second_biased = false_shadow(raster::Technique::second_depth, {1.0, raster::BiasUnit::texel});
   std::printf(
-      "  false shadow at bias 0: hard %llu, second-depth %llu, midpoint %llu; with the bias that is the "
-      "default: hard %llu, second-depth %llu\n",
+      "  false shadow at bias 0: hard %llu, second-depth %llu, midpoint %llu; with a bias of one "
+      "texel: hard %llu, second-depth %llu\n",
       static_cast<unsigned long long>(hard), static_cast<unsigned long long>(second),
       static_cast<unsigned long long>(midpoint), static_cast<unsigned long long>(hard_biased),
       static_cast<unsigned long long>(second_biased));

@@ -23,7 +23,7 @@ raster::RasterOptions cascade_options() {
   options.size = {64, 48};
   options.map.technique = raster::Technique::csm;
   options.map.cascades.count = 3;
-  options.map.bias = {};
+  options.map.bias = {1.0, raster::BiasUnit::texel};
   return options;
 }
 

@@ -33,7 +33,7 @@ TEST_P(Twin, DrawnIsTheBiasedRung) {
   compare::CompareOptions options = test_options({320, 200}, 256, 0.01);
   options.raster.map.technique = c.technique;
   options.raster.map.depth_format = c.format;
-  if (c.texel_bias) options.raster.map.bias = {};
+  if (c.texel_bias) options.raster.map.bias = {1.0, raster::BiasUnit::texel};
   options.raster.map.bias.adaptive = c.adaptive;
   options.raster.map.bias.receiver_plane = c.receiver_plane;
   const compare::Comparison result = one.compare(options);
@@ -111,11 +111,10 @@ TEST(Defaults, CascadesAndWarpAreWrongLessThanTheOneMap) {
     auto scene = load_scene(name);
     ASSERT_TRUE(scene.has_value());
     OneWorld one(std::move(*scene));
-    compare::CompareOptions options = test_options({320, 180}, 512);
+    compare::CompareOptions options = test_options({640, 360}, 512);
     const auto wrong = [&](Technique technique) {
       options.raster.map.technique = technique;
-      options.raster.map.bias = {};
-      options.raster.map.bias.constant = raster::default_bias_texels(technique);
+      options.raster.map.bias = raster::default_bias(options.raster.map);
       const compare::Comparison result = one.compare(options);
       const compare::LightComparison& light = result.lights[0];
       std::printf("  %s %d: wrong %.2f %%, acne %.2f %%\n", name, static_cast<int>(technique),

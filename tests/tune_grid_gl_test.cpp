@@ -23,7 +23,7 @@ constexpr double allowed = 1.1;  // of the grid's best cost
 TuneFamily family(const char* name, Technique technique, double slope = 0.0) {
   TuneFamily out{name, {}};
   out.map.technique = technique;
-  out.map.bias.slope = slope;
+  out.map.bias = {.constant = 1.0, .unit = raster::BiasUnit::texel, .slope = slope};
   return out;
 }
 

@@ -83,7 +83,7 @@ TEST(ViewState, BiasStepsAreTexelsInEitherUnit) {
 
 TEST(ViewState, BiasStepsStopAtZeroOnce) {
   ViewState state = two_light_state();
-  state.setup.map.bias.constant = 0.5;
+  state.setup.map.bias = {0.5, raster::BiasUnit::texel};
   carry_out(state, StepBias{-1.0});
   EXPECT_EQ(state.setup.map.bias.constant, 0.0);
   carry_out(state, StepBias{-1.0});

@@ -13,7 +13,8 @@ TEST(ViewStatus, CommandSaysWhatDiffers) {
   options.scene = "my scene.json";
   ViewState state = two_light_state();
   EXPECT_EQ(compare_command(state, options),
-            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias 1texel --light sun");
+            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias auto --slope-bias 1 "
+            "--light sun");
   carry_out(state, OrbitTo{-30.0, 20.5});
   carry_out(state, PickLight{1});
   carry_out(state, LightAzimuthTo{45.0});

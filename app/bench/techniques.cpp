@@ -86,7 +86,7 @@ Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Bac
     progress(name, static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
     compare::Setting setting = setting_for(loaded, base);
     setting.raster.map.technique = technique;
-    setting.raster.map = with_default_bias(setting.raster.map);
+    setting.raster.map.bias = raster::default_bias(setting.raster.map);
     const auto comparison = engine.compare(setting);
     if (comparison) {
       table.rows.push_back(measure(name, **comparison));

@@ -278,7 +278,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   command->command_line = invocation.command_line;
   add_options(*app, *command);
   app->callback([command, &invocation, app] {
-    finish_map_options(*app, command->setting.options.raster.map);
+    invocation.finish = [command, app] { finish_map_options(*app, command->setting.options.raster.map); };
     command->given = given_options(*app);
     invocation.action = [command] { return run_compare(*command); };
   });

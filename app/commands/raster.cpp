@@ -74,7 +74,7 @@ void add_raster(CLI::App& program, Invocation& invocation) {
   add_picture_manner(*app, *command, "threads of Mesa's software rasterizer",
                      "what was drawn, costs and times");
   app->callback([command, &invocation, app] {
-    finish_map_options(*app, command->options.map);
+    invocation.finish = [command, app] { finish_map_options(*app, command->options.map); };
     note_call(*app, invocation, *command);
     invocation.action = [command] { return run_raster(*command); };
   });

@@ -86,8 +86,13 @@ Values answer_values(const TuneCommand& command, const OptionFamily& family,
   for (const auto& entry : command.options.fixed())
     if (entry.first != "map-size") values.push_back(entry);
   values.insert(values.end(), family.values.begin(), family.values.end());
+  std::erase_if(values,
+                [](const auto& entry) { return entry.first == "bias" || entry.first == "slope-bias"; });
+  const raster::MapOptions& map = family.tuned.map;
   values.emplace_back("map-size", std::to_string(attempt.size));
-  values.emplace_back("bias", number_text(attempt.bias_world));
+  if (map.bias.slope != 0.0) values.emplace_back("slope-bias", number_text(map.bias.slope));
+  values.emplace_back("bias",
+                      bias_text(compare::with_constant(map, attempt.bias_world, attempt.texel_world)));
   return values_read(values);
 }
 

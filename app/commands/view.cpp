@@ -47,7 +47,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);
   app->callback([options, &invocation, app] {
-    finish_map_options(*app, options->compare.raster.map);
+    invocation.finish = [options, app] { finish_map_options(*app, options->compare.raster.map); };
     invocation.action = [options] { return run_view(*options); };
   });
 }

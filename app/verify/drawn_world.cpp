@@ -24,8 +24,7 @@ raster::RasterOptions drawing(ImageSize size, int map_size, double bias_world) {
   raster::RasterOptions options;
   options.size = size;
   options.map.size = map_size;
-  options.map.bias.constant = bias_world;
-  options.map.bias.unit = raster::BiasUnit::world;
+  options.map.bias = {bias_world, raster::BiasUnit::world};
   options.runs = 0;
   return options;
 }

@@ -91,6 +91,8 @@ struct SetupChange {
   /// Steps stop at zero on their way from either side: zero is what one is looking for there.
   void operator()(const StepBias& c) const {
     raster::Bias& bias = s.setup.map.bias;
+    if (bias.unit == raster::BiasUnit::automatic)
+      bias.constant *= raster::automatic_bias_texels, bias.unit = raster::BiasUnit::texel;
     const double unit = bias.unit == raster::BiasUnit::texel ? 1.0 : s.texel_world;
     const double next = tidy(bias.constant + c.texels * unit);
     bias.constant = next * bias.constant < 0.0 ? 0.0 : next;

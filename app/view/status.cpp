@@ -55,7 +55,7 @@ void add_map(std::string& text, const raster::MapOptions& map) {
     if (wanted && technique_reads(key.substr(2), map)) text += fmt::format(" {}", key);
   };
   add(true, "--bias", bias_text(map.bias));
-  add(map.bias.slope != plain.bias.slope, "--slope-bias", number_text(map.bias.slope));
+  add(map.bias.slope != 0.0, "--slope-bias", number_text(map.bias.slope));
   add(map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
       number_text(map.bias.normal_offset_texels));
   flag(map.bias.receiver_plane, "--receiver-plane");

@@ -170,7 +170,7 @@ data-left="{}" data-right="{}" data-top="{}" data-bottom="{}" data-from="{}" dat
 id="{}-title">Wrong pixels at every constant bias</title><desc id="{}-desc">{}</desc>)",
       width, height, id, id, left, width - right, top, height - bottom, scale.min_x, scale.max_x, id, id,
       escaped(description(light, used_bias)));
-  svg += feasible_interval(light.best_bias, scale) + axes(scale, light.texel_world[1]);
+  svg += feasible_interval(light.best_bias, scale) + axes(scale, light.bias_texel_world);
   svg += curve(light, scale, "total", [&](const BiasCurvePoint& p) { return total(p) / compared; });
   svg += curve(light, scale, "false",
                [&](const BiasCurvePoint& p) { return static_cast<double>(p.false_shadow) / compared; });

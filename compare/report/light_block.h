@@ -26,6 +26,10 @@ struct LightBlock {
 std::string ladder_block(const LightBlock& block);
 /// Wrong pixels at every constant bias, as words and as a chart; empty where there is no curve.
 std::string bias_block(const LightBlock& block);
+/// Which kind of bias suits the light; empty where that is not known.
+std::string bias_kinds_table(const LightBlock& block);
+/// The bias drawn with, as engines ask for it; empty for exact techniques.
+std::string engine_units_table(const LightBlock& block);
 /// Edges, detachment, texel width, FLIP, mean error.
 std::string facts_block(const LightBlock& block);
 /// The hybrid's decisions; empty for other techniques.

@@ -284,8 +284,9 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
            {{"constant", draws_bias(c) ? record.bias_constant_world : 0.0},
             {"slope", bias.slope},
             {"normal_offset", bias.normal_offset_texels},
-            {"receiver_plane", bias.receiver_plane}}},
-          {"texel_world", light.texel_world[1]},
+            {"receiver_plane", bias.receiver_plane},
+            {"scales", raster::scales_bias(options)}}},
+          {"texel_world", light.bias_texel_world},
           {"depth_step", depth_step(record.map.view)},
           {"channels", channels.json()},
           {"map", std::move(map_json)}};

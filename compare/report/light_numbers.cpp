@@ -33,7 +33,7 @@ std::string bias_words(const LightBlock& b) {
   const auto value = [&b](std::string_view key, double v) {
     return keyed(b.key(fmt::format("best_bias.{}", key)), v, plain_number(v));
   };
-  const double texel = b.light.texel_world[1];
+  const double texel = b.light.bias_texel_world;
   std::string text = fmt::format(
       R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one, is
 larger than the bias. Sorting the gaps of one render gives the exact error of every constant bias.
@@ -204,7 +204,7 @@ std::string bias_block(const LightBlock& b) {
          "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
                        chart) +
-         lesson_details(lesson("bias"));
+         bias_kinds_table(b) + engine_units_table(b) + lesson_details(lesson("bias"));
 }
 
 std::string facts_block(const LightBlock& b) {

@@ -76,7 +76,8 @@ std::string map_text(const Comparison& c) {
   text += fmt::format(" {}", depth_format_name(map.depth_format));
   if (!draws_bias(c)) return text + ", shader of --shader-dir";
   if (c.lights.size() == 1) {
-    const double bias = drawn_record(c, c.lights[0]).bias_constant_world, texel = c.lights[0].texel_world[1];
+    const double bias = drawn_record(c, c.lights[0]).bias_constant_world,
+                 texel = c.lights[0].bias_texel_world;
     text += fmt::format(", bias {}", plain_number(bias));
     if (texel > 0.0) text += fmt::format(" ({})", texels_text(bias / texel));
   }

@@ -246,6 +246,7 @@ LightComparison without_images(const LightComparison& light) {
   out.pixels = light.pixels;
   out.best_bias = light.best_bias;
   out.texel_world = light.texel_world;
+  out.bias_texel_world = light.bias_texel_world;
   out.theory = light.theory;
   out.classify = light.classify;
   return out;
@@ -274,7 +275,7 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
     fill_counts(axis.counts(place), lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));
-    lights[i].bias_curve = draw_bias_curve(gaps, drawn.texel_world[1], asked[i],
+    lights[i].bias_curve = draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],
                                            drawn.best_bias.constant_world, bias_curve_points);
   });
   return out;

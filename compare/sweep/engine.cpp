@@ -24,7 +24,7 @@ bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& 
   raster::RasterOptions rebiased = a;
   rebiased.map.bias.constant = b.map.bias.constant;
   rebiased.map.bias.unit = b.map.bias.unit;
-  return rebiased == b;
+  return rebiased == b && raster::scales_bias(a.map) == raster::scales_bias(b.map);
 }
 
 bool is_midpoint(const raster::MapOptions& map) {
@@ -64,18 +64,20 @@ bool biases_follow_from_gaps(const raster::MapOptions& map) {
     case raster::Technique::second_depth:
     case raster::Technique::midpoint:
     case raster::Technique::cube:
-      return true;
     case raster::Technique::csm:
     case raster::Technique::lispsm:
-      return !raster::scales_bias(map);
+      return true;
     default:
       return false;
   }
 }
 
-double bias_in_world_units(const raster::Bias& bias, const LightView& view, const World& world) {
-  return bias.unit == raster::BiasUnit::world ? bias.constant
-                                              : bias.constant * raster::texel_world(view, world);
+raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {
+  raster::Bias bias = map.bias;
+  const bool scales = raster::scales_bias(map);
+  bias.constant = scales ? constant_world / texel_world : constant_world;
+  bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
+  return bias;
 }
 
 void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record) {
@@ -135,7 +137,8 @@ Expected<void> Engine::Impl::draw(const Setting& setting) {
 void Engine::Impl::derive(const Setting& setting, Detail detail) {
   comparison.raster.options = setting.raster;
   for (raster::LightRecord& record : comparison.raster.lights) {
-    const double world_units = bias_in_world_units(setting.raster.map.bias, record.map.view, world);
+    const double world_units =
+        raster::constant_bias_world(setting.raster.map.bias, record.rounding, record.map.view, world);
     record.bias_constant_world = world_units;
     if (detail == Detail::images) rebias(comparison.raster.primitive, world_units, record);
   }
@@ -179,7 +182,7 @@ bool Engine::Impl::fill_table() {
     const LadderInput in = input(comparison.raster, i);
     std::vector<double> biases;
     for (const raster::Bias& bias : expected)
-      biases.push_back(bias_in_world_units(bias, in.record.map.view, world));
+      biases.push_back(raster::constant_bias_world(bias, in.record.rounding, in.record.map.view, world));
     table.push_back(
         compare_biases(*lower[i], in, comparison.lights[i], biases, measure_options().bias_curve_points));
   }

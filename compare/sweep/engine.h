@@ -110,8 +110,9 @@ inline bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {
   return !drawn.custom_shader && biases_follow_from_gaps(drawn.options.map);
 }
 
-/// The constant bias in world units: `bias` itself, or its texels at the width that the rasterizer takes.
-double bias_in_world_units(const raster::Bias& bias, const LightView& view, const World& world);
+/// The map's bias with another constant, in the unit that draws it: texels of `texel_world` where the
+/// constant scales (raster::scales_bias), else world units.
+raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world);
 
 /// Turns a record into that of another constant bias. `primitive`: what each pixel shows.
 void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record);

@@ -50,9 +50,7 @@ std::size_t Tuner::prefer_by_cost(TuneResult& result, std::size_t fastest) const
 Expected<void> Tuner::verify(TuneResult& result) {
   FamilyResult& winner = result.families[result.winner];
   Attempt& attempt = winner.answer ? *winner.answer : winner.closest;
-  raster::Bias bias = winner.family.map.bias;
-  bias.constant = attempt.bias_world;
-  bias.unit = raster::BiasUnit::world;
+  const raster::Bias bias = with_constant(winner.family.map, attempt.bias_world, attempt.texel_world);
   auto setting = options_.as_given ? options_.as_given(result.winner, attempt)
                                    : Expected<Setting>(setting_of(winner.family, attempt.size, bias));
   if (!setting) return fail(setting.error());

@@ -51,6 +51,7 @@ Expected<void> FullGrid::draw(std::size_t family, int size, const raster::Bias& 
   attempt.bias_world = probe->best ? probe->best->constant_world : probe->bias_world;
   for (const ErrorFigures& light : probe->best ? probe->lights_at_best : probe->lights)
     attempt.error = std::max(attempt.error, figure(light, options_.goal.measure()));
+  attempt.texel_world = probe->texel_world;
   attempt.time_ms = probe->raster_ms;
   attempt.cost = options_.cost ? options_.cost(setting, *probe) : probe->raster_ms;
   if (attempt.error <= options_.goal.max_error->limit) good_.push_back({family, attempt});
@@ -79,9 +80,8 @@ Expected<void> FullGrid::draw_all(const std::vector<raster::Bias>& biases, GridC
 }
 
 Expected<double> FullGrid::time_again(std::size_t family, const Attempt& attempt) {
-  raster::Bias bias = options_.families[family].map.bias;
-  bias.constant = attempt.bias_world;
-  bias.unit = raster::BiasUnit::world;
+  const raster::Bias bias =
+      with_constant(options_.families[family].map, attempt.bias_world, attempt.texel_world);
   return engine_.time_drawing(setting_of(family, attempt.size, bias));
 }
 

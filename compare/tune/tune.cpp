@@ -101,13 +101,15 @@ Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
   return attempt;
 }
 
-// The closed form (one texel of slope, the default), a part of it, and what hard shadows need at this size,
-// once and twice.
+// The family's own and a part of it (of an automatic one also a texel), and what hard shadows need at this
+// size, once and twice.
 std::vector<raster::Bias> Tuner::biases_to_try(const TuneFamily& family, int size) const {
   std::vector<raster::Bias> biases;
+  const bool automatic = family.map.bias.unit == raster::BiasUnit::automatic;
   for (const double factor : tried_closed_forms) {
     biases.push_back(family.map.bias);
-    biases.back().constant *= factor;
+    if (automatic && factor == 1.0) biases.back().unit = raster::BiasUnit::texel;
+    if (!automatic) biases.back().constant *= factor;
   }
   if (const auto known = hard_bias_.find(size); known != hard_bias_.end())
     for (const double factor : tried_of_hard) {

@@ -121,6 +121,10 @@ void read_settings(SceneReader& reader, const JsonObject& top) {
     if (const auto count = object.require("samples"))
       field = static_cast<int>(count->as_number(sample_range));
   };
+  if (const auto node = top.find("settings")) {
+    if (!node->is(JsonValue::Type::object)) node->wrong("not an object", "options and their values");
+    for (const JsonMember& member : node->value().members) node->child(member.key)->as_string();
+  }
   samples("glossy", scene.glossy_samples);
   samples("indirect", scene.indirect_samples);
 }
@@ -145,7 +149,7 @@ NamedCamera read_named_camera(SceneReader& reader, const JsonNode& node,
 std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root) {
   const JsonObject top(root, {"$schema", "schema", "name", "description", "camera", "cameras", "lights",
                               "materials", "meshes", "instances", "shapes", "include", "ambient",
-                              "background", "exposure", "max_depth", "glossy", "indirect"});
+                              "background", "exposure", "max_depth", "glossy", "indirect", "settings"});
   check_schema(top);
   read_settings(reader, top);
   if (const auto list = top.find("include"))

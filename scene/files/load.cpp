@@ -112,6 +112,23 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
 
 }  // namespace
 
+std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
+  const auto builtin = find_builtin_scene(path_or_name);
+  std::string text;
+  if (!builtin) {
+    if (std::filesystem::path(path_or_name).extension() != ".json") return {};
+    const auto bytes = read_file(path_or_name);
+    if (!bytes) return {};
+    text = *bytes;
+  }
+  const auto document = parse_json(builtin ? builtin->text : std::string_view(text), path_or_name);
+  const JsonMember* settings = document ? document->root.find("settings") : nullptr;
+  std::vector<SceneSetting> out;
+  if (settings != nullptr)
+    for (const JsonMember& member : settings->value.members) out.push_back({member.key, member.value.text});
+  return out;
+}
+
 std::string_view known_extensions() {
   return ".json .gltf .glb .obj .ply";
 }

@@ -72,9 +72,9 @@ class MinimalProgram::Passes {
     const Light& light = world_.scene->lights[0];
     const double aspect = double(options_.size.width) / options_.size.height;
     light_view_ = must(raster::fit_map(world_, light, aspect, options_.map, {}));
-    const double bias = raster::constant_bias_world(options_.map.bias, light_view_, world_);
     const Vec3& reference = buffers_->reference();
     const auto rounding = raster::bias_rounding(options_.map, light_view_, world_, reference);
+    const double bias = raster::constant_bias_world(options_.map.bias, rounding, light_view_, world_);
     light_block_ = raster::Buffer(*gl_);
     light_block_.write_one(
         raster::make_light_block(light, light_view_, options_.map, bias, rounding, reference));

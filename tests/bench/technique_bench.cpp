@@ -34,7 +34,7 @@ Frames race(const World& world, raster::Technique technique, int turns) {
   raster::RasterOptions options;
   options.size = {640, 360};
   options.map.technique = technique;
-  options.map.bias.constant = raster::default_bias_texels(technique);
+  options.map.bias = raster::default_bias(options.map);
   options.map = raster::effective_options(options.map);
   options.analysis = false;
   auto renderer = must(raster::Renderer::create(must(raster::create_context(raster::Backend::automatic)),

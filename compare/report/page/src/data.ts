@@ -28,7 +28,7 @@ export interface LightJson {
   technique: string;
   gaps_decide: boolean;  // a pixel is drawn dark exactly when its gap exceeds the constant bias
   compares_depths: boolean;  // false: an exact technique, without a bias
-  bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean };
+  bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean; scales: boolean };  // scales: gaps and constant are those of a texel of texel_world
   texel_world: number;
   depth_step: number;
   channels: Record<string, Channel>;

@@ -18,12 +18,20 @@ interface Frame {
   high: number;    // at the bottom edge
 }
 
+/** World units of this pixel for one of its gap: where the bias scales with the texel, that is for a texel of texel_world. */
+function gapScale(light: Light, pixel: Pixel): number {
+  const { bias, texel_world, view } = light.json;
+  if (!bias.scales) return 1;
+  const at = { ...pixel.at, face: pixel.face };
+  return Math.max(texelWidth(view, 0, at), texelWidth(view, 1, at)) / texel_world;
+}
+
 /** The depth that the pixel's texel stores, along the face's axis, from its gap where that is a plain difference. */
 export function storedDepth(light: Light, pixel: Pixel): number {
   const { bias, view } = light.json;
   if (pixel.gap === -Infinity) return Infinity;
   const plain = bias.slope === 0 && bias.normal_offset === 0 && !bias.receiver_plane;
-  if (plain) return pixel.at.depth - pixel.gap / alongRay(view, pixel.face, pixel.at.u, pixel.at.v);
+  if (plain) return pixel.at.depth - (gapScale(light, pixel) * pixel.gap) / alongRay(view, pixel.face, pixel.at.u, pixel.at.v);
   return light.map.depth(pixel.face, Math.floor(pixel.at.u), Math.floor(pixel.at.v));
 }
 
@@ -31,7 +39,7 @@ export function storedDepth(light: Light, pixel: Pixel): number {
 function biasDepth(light: Light, pixel: Pixel, constant: number): number {
   const { view, bias } = light.json;
   const [u, v] = halfSlopes(view, pixel.face, pixel.at, pixel.position, pixel.normal);
-  return constant / alongRay(view, pixel.face, pixel.at.u, pixel.at.v) + (bias.slope === 0 ? 0 : bias.slope * (u + v));
+  return (gapScale(light, pixel) * constant) / alongRay(view, pixel.face, pixel.at.u, pixel.at.v) + (bias.slope === 0 ? 0 : bias.slope * (u + v));
 }
 
 function frameFor(light: Light, pixel: Pixel, stored: number, bias: number): Frame {

@@ -1,0 +1,103 @@
+#include "compare/bias_advice.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "compare/number_text.h"
+#include "compare/option_names.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double few_fraction = 1e-4;  // below 0.01 % a count says more than a share
+constexpr double clear_gain = 0.02;    // of the wrong pixels, so as to be worth another bias
+
+std::string bias_text(const LightComparison& light, double bias) {
+  const std::string world = plain_number(bias) + " world units";
+  const double texel = light.bias_texel_world;
+  return texel > 0.0 && std::isfinite(bias) ? fmt::format("{} ({})", world, texels_text(bias / texel))
+                                            : world;
+}
+
+std::string opposing_needs(const BestBias& best) {
+  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
+  return fmt::format(
+      " No constant bias can be right everywhere: {} lit pixel{} {} or more, {} shadowed pixel{} less than "
+      "{}.",
+      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_more_than), grouped(shadowed),
+      shadowed == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
+}
+
+// Why no constant bias is right everywhere.
+std::string contradiction(const BestBias& best) {
+  if (best.needs_less_than == -infinity)
+    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
+           "map.";
+  return opposing_needs(best);
+}
+
+// "none", "7 of them", "0.8 %".
+std::string rest_text(double fraction, const LightComparison& light) {
+  if (fraction == 0.0) return "none";
+  if (fraction >= few_fraction) return percent(fraction) + (light.error.fractional > 0 ? " wrong" : "");
+  return fmt::format("{:.0f} of them", fraction * static_cast<double>(light.pixels.compared));
+}
+
+std::string subject(const BiasKind& kind, const LightComparison& light) {
+  if (kind.of_slope) return fmt::format("A slope bias of {}", plain_number(kind.bias.slope));
+  if (kind.bias.receiver_plane) return "The receiver's plane";
+  if (kind.bias.adaptive) return "The adaptive bias";
+  if (kind.bias.normal_offset_texels != 0.0) return "A normal offset of one texel";
+  switch (kind.bias.unit) {
+    case raster::BiasUnit::automatic:
+      return "A constant bias of no more than rounding needs";
+    case raster::BiasUnit::texel:
+      return "A constant bias of " + texels_text(kind.bias.constant);
+    case raster::BiasUnit::world:
+      break;
+  }
+  return "A constant bias of " + bias_text(light, kind.bias.constant);
+}
+
+// Settings that do as well, where there is room beside the one named.
+std::string range_text(const BiasKind& kind) {
+  if (!kind.of_slope || !(kind.to > 1.2 * kind.bias.slope)) return {};
+  return std::isfinite(kind.to)
+             ? fmt::format("; {} to {} hardly differ", plain_number(kind.from), plain_number(kind.to))
+             : fmt::format("; more hardly differs from {} on", plain_number(kind.from));
+}
+
+// Of all kinds the best, and beside it what a constant alone comes to.
+std::string kinds_part(const LightComparison& light) {
+  const BiasKind& best = light.bias_kinds.front();
+  const double drawn = light.error.wrong_fraction;
+  if (light.error.wrong == 0) return {};
+  if (best.wrong_fraction >= (1.0 - clear_gain) * drawn) return " No other kind of bias does clearly better.";
+  std::string text =
+      fmt::format(" {} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias),
+                  range_text(best), rest_text(best.wrong_fraction, light));
+  for (const BiasKind& kind : light.bias_kinds)
+    if (kind.name == "constant bias" && best.wrong_fraction < (1.0 - clear_gain) * kind.wrong_fraction)
+      text += fmt::format(" A constant bias alone leaves {} at best.", rest_text(kind.wrong_fraction, light));
+  return text;
+}
+
+std::string constant_part(const LightComparison& light) {
+  const BestBias& best = light.best_bias;
+  if (best.wrong_fraction < light.error.wrong_fraction)
+    return fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world),
+                       rest_text(best.wrong_fraction, light));
+  if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction)
+    return " No other constant bias does better.";
+  return {};
+}
+
+}  // namespace
+
+std::string bias_advice(const LightComparison& light) {
+  const std::string text = light.bias_kinds.empty() ? constant_part(light) : kinds_part(light);
+  return light.best_bias.feasible ? text : text + contradiction(light.best_bias);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,179 @@
+#include "compare/bias_kinds.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/biased_test.h"
+#include "compare/pixel_list.h"
+#include "compare/sort_numbers.h"
+#include "compare/sweep/engine.h"
+#include "scene/light.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double few_pixels = 1e-5, few_wrong = 0.02;
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The compared pixels' gaps with one kind of bias but for its constant, in the order of the pixels.
+struct KindGaps {
+  const LadderInput& in;
+  const std::vector<std::uint32_t>& pixels;
+
+  std::vector<float> with(const raster::Bias& bias) const {
+    std::vector<float> gaps(pixels.size());
+    tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
+      const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
+      const Vec3 to_light = light_at(in.light, receiver.position).to_light;
+      std::size_t texel = 0;
+      const double gap = biased_gap(in.record, bias, to_light, receiver, pixels[i], texel);
+      gaps[i] = std::isnan(gap) ? -infinite : static_cast<float>(gap);
+    });
+    return gaps;
+  }
+};
+
+GapLists sorted_lists(const std::vector<float>& gaps, const std::vector<std::uint32_t>& pixels,
+                      const Image<float>& truth) {
+  GapLists lists;
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    (truth.data[pixels[i]] > 0.5f ? lists.lit : lists.shadowed).push_back(gaps[i]);
+  sort_numbers(std::span(lists.lit));
+  sort_numbers(std::span(lists.shadowed));
+  return lists;
+}
+
+/// The slope from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1 takes
+/// off.
+std::vector<float> slopes_needed(const std::vector<float>& plain, const std::vector<float>& sloped,
+                                 double constant) {
+  std::vector<float> needed(plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const double over = double{plain[i]} - constant, taken = double{plain[i]} - double{sloped[i]};
+    if (!(over > 0.0))
+      needed[i] = -infinite;
+    else
+      needed[i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
+  }
+  return needed;
+}
+
+double wrong_share(const GapLists& gaps, double setting) {
+  const BiasCurvePoint at = gaps.at(setting);
+  const auto count = static_cast<double>(gaps.lit.size() + gaps.shadowed.size());
+  return static_cast<double>(at.false_shadow + at.missed_shadow) / std::max(count, 1.0);
+}
+
+BiasKind of_constant(std::string_view name, const raster::MapOptions& map, const raster::LightRecord& record,
+                     const GapLists& gaps, double automatic) {
+  const BiasRange range = smallest_good_range(gaps);
+  BiasKind kind{name, map.bias, 0.0, false, range.from, range.to};
+  const bool may_be_automatic = map.bias.unit != raster::BiasUnit::world;
+  if (may_be_automatic && automatic >= range.from && automatic < range.to) {
+    kind.bias.constant = 1.0;
+    kind.bias.unit = raster::BiasUnit::automatic;
+    kind.wrong_fraction = wrong_share(gaps, automatic);
+  } else {
+    const double unit = raster::scales_bias(map) ? record.texel_world : 1.0;
+    kind.bias.constant = short_number_in(range.from / unit, range.to / unit);
+    kind.bias.unit = raster::scales_bias(map) ? raster::BiasUnit::texel : raster::BiasUnit::world;
+    kind.wrong_fraction = wrong_share(gaps, kind.bias.constant * unit);
+  }
+  return kind;
+}
+
+BiasKind of_slope(const raster::MapOptions& map, const GapLists& slopes, double automatic) {
+  const BiasRange range = smallest_good_range(slopes);
+  BiasKind kind{"slope bias", map.bias, 0.0, true, range.from, range.to};
+  const bool world = map.bias.unit == raster::BiasUnit::world;
+  kind.bias.constant = world ? automatic : 1.0;
+  kind.bias.unit = world ? raster::BiasUnit::world : raster::BiasUnit::automatic;
+  kind.bias.slope = range.from <= 1.0f && range.to > 1.0f ? 1.0 : short_number_in(range.from, range.to);
+  kind.wrong_fraction = wrong_share(slopes, kind.bias.slope);
+  return kind;
+}
+
+/// The options of a kind with the drawing's way to take a constant: only csm and lispsm have two.
+raster::MapOptions plain_options(const raster::MapOptions& drawn) {
+  raster::MapOptions map = drawn;
+  const bool two_ways =
+      drawn.technique == raster::Technique::csm || drawn.technique == raster::Technique::lispsm;
+  map.bias = {};
+  if (two_ways && drawn.bias.unit == raster::BiasUnit::world) map.bias.unit = raster::BiasUnit::world;
+  return map;
+}
+
+}  // namespace
+
+BiasRange smallest_good_range(const GapLists& gaps) {
+  const BestBias best = find_best_bias(gaps);
+  const auto count = static_cast<double>(gaps.lit.size() + gaps.shadowed.size());
+  const double least = best.wrong_fraction * count;
+  const auto allowed = static_cast<std::uint64_t>(least + std::max(few_pixels * count, few_wrong * least));
+  auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
+  auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), 0.0f);
+  BiasRange range{0.0f, infinite};
+  bool inside = false;
+  for (float start = 0.0f;;) {
+    const auto wrong =
+        static_cast<std::uint64_t>((gaps.lit.end() - lit) + (shadowed - gaps.shadowed.begin()));
+    if (wrong <= allowed && !inside) range.from = start, inside = true;
+    if (wrong > allowed && inside) {
+      range.to = start;
+      break;
+    }
+    const float next = std::min(lit == gaps.lit.end() ? infinite : *lit,
+                                shadowed == gaps.shadowed.end() ? infinite : *shadowed);
+    if (!(next < infinite)) break;
+    while (lit != gaps.lit.end() && *lit == next) ++lit;
+    while (shadowed != gaps.shadowed.end() && *shadowed == next) ++shadowed;
+    start = next;
+  }
+  return range;
+}
+
+double short_number_in(double from, double to) {
+  if (from <= 0.0) return 0.0;
+  for (int digits = 1; digits < 17; ++digits) {
+    const double unit = std::pow(10.0, std::floor(std::log10(from)) - (digits - 1));
+    const double up = std::stod(fmt::format("{:.{}e}", std::ceil(from / unit) * unit, digits - 1));
+    if (up >= from && up < to && up <= 1.25 * from) return up;
+  }
+  return from;
+}
+
+std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
+                                         const Image<Label>& labels) {
+  const raster::MapOptions map = plain_options(in.drawn.options.map);
+  if (!biases_follow_from_gaps(map) || in.record.map.depth.empty()) return {};
+  const std::vector<std::uint32_t> pixels =
+      pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
+  if (pixels.empty()) return {};
+  const KindGaps gaps{in, pixels};
+  const double automatic = raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world);
+  const std::vector<float> plain = gaps.with(map.bias);
+  std::vector<BiasKind> kinds;
+  raster::MapOptions tried = map;
+  tried.bias.slope = 1.0;
+  kinds.push_back(of_slope(
+      map, sorted_lists(slopes_needed(plain, gaps.with(tried.bias), automatic), pixels, truth), automatic));
+  kinds.push_back(
+      of_constant("constant bias", map, in.record, sorted_lists(plain, pixels, truth), automatic));
+  const auto add = [&](std::string_view name, auto set) {
+    tried = map;
+    set(tried.bias);
+    kinds.push_back(
+        of_constant(name, tried, in.record, sorted_lists(gaps.with(tried.bias), pixels, truth), automatic));
+  };
+  add("receiver plane", [](raster::Bias& bias) { bias.receiver_plane = true; });
+  add("normal offset", [](raster::Bias& bias) { bias.normal_offset_texels = 1.0; });
+  add("adaptive bias", [](raster::Bias& bias) { bias.adaptive = true; });
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const BiasKind& a, const BiasKind& b) { return a.wrong_fraction < b.wrong_fraction; });
+  return kinds;
+}
+
+}  // namespace gnomon::compare

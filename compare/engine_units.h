@@ -1,0 +1,24 @@
+// A bias in the units that engines ask for (docs/engine-units.md has the formulas and where they come from).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "raster/frame.h"
+#include "scene/scene.h"
+
+namespace gnomon::compare {
+
+struct EngineUnit {
+  std::string_view engine;      ///< "three.js"
+  std::string_view setting;     ///< "shadow.bias"
+  std::optional<double> value;  ///< none: it cannot be derived exactly
+  std::string formula;  ///< in the symbols of docs/engine-units.md; without a value, why there is none
+};
+
+/// What a record's light and map make of a bias (its slope, its normal offset and `constant_world`).
+std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_world, LightType light,
+                                     const raster::LightRecord& record, const World& world);
+
+}  // namespace gnomon::compare
