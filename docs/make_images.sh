@@ -20,7 +20,7 @@ pair() {
   name=$1 left=$2 right=$3
   shift 3
   "$program" compare "$@" --size 320x180 --runs 1 --quiet -o "$work/$name"
-  oiiotool "$work/$name/$left.png" "$work/$name/$right.png" --mosaic:pad=8 2x1 -o "$images/lesson-$name.png"
+  oiiotool --nosoftwareattrib "$work/$name/$left.png" "$work/$name/$right.png" --mosaic:pad=8 2x1 -o "$images/lesson-$name.png"
 }
 
 pair acne raster difference acne-floor --bias 0 --map-size 64
@@ -37,13 +37,13 @@ pair error-budget raytrace labels courtyard --map-size 512
 for technique in hard csm; do
   "$program" compare courtyard --map-size 512 --slope-bias 1 --bias 0.01 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
 done
-oiiotool "$work/map-hard/difference.png" "$work/map-csm/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-cascades.png"
+oiiotool --nosoftwareattrib "$work/map-hard/difference.png" "$work/map-csm/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-cascades.png"
 
 # Two biases of one scene.
 for bias in 0.25texel 4texel; do
   "$program" compare courtyard --bias $bias --size 320x180 --runs 1 --quiet -o "$work/bias-$bias"
 done
-oiiotool "$work/bias-0.25texel/difference.png" "$work/bias-4texel/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-bias.png"
+oiiotool --nosoftwareattrib "$work/bias-0.25texel/difference.png" "$work/bias-4texel/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-bias.png"
 
 # What two structures test for each pixel, in a scene that each of them suits.
 heat() {
@@ -53,5 +53,5 @@ for structure in grid kdtree; do
   heat stadium $structure triangles
   heat field $structure nodes
 done
-oiiotool "$work/stadium-grid.png" "$work/stadium-kdtree.png" "$work/field-grid.png" "$work/field-kdtree.png" \
+oiiotool --nosoftwareattrib "$work/stadium-grid.png" "$work/stadium-kdtree.png" "$work/field-grid.png" "$work/field-kdtree.png" \
   --mosaic:pad=8 2x2 -o "$images/structures.png"
