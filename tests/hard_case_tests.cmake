@@ -7,7 +7,7 @@ set(hard_cases
   28_smooth_normals 29_critical_angle 30_invisible_glass 31_depth_range 32_behind_light 33_outside_map
   34_texel_boundaries 35_cube_seams 36_bias_convergence 37_far_from_origin 38_image_sizes
   39_non_finite_radiance 40_shrinking_lights 41_extreme_bias
-  42_scale_invariance 43_coplanar_lights)
+  42_scale_invariance 43_coplanar_lights 44_stretched_triangles)
 
 add_executable(hard_case_test hard_case_test.cpp)
 target_link_libraries(hard_case_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt)

@@ -128,7 +128,7 @@ Expected<ExitCode> run_verify(const VerifyCommand& command) {
 Expected<void> store_cases(std::vector<int>& cases, const std::string& text) {
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(',', start), text.size());
-    const Expected<std::int64_t> number = parse_integer(text.substr(start, end - start), 1, 43);
+    const Expected<std::int64_t> number = parse_integer(text.substr(start, end - start), 1, 44);
     if (!number) return fail(number.error());
     const auto known = verify::all_cases();
     const bool exists =

@@ -1,4 +1,4 @@
-// The cases of case_invariance.cpp, declared apart from the others.
+// The cases of case_invariance.cpp and case_stretched.cpp, declared apart from the others.
 #pragma once
 
 #include "app/verify/run.h"
@@ -7,5 +7,6 @@ namespace gnomon::verify {
 
 void scale_invariance(Run& run);
 void coplanar_lights(Run& run);
+void stretched_triangles(Run& run);  // case_stretched.cpp
 
 }  // namespace gnomon::verify

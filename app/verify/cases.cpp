@@ -63,6 +63,8 @@ std::span<const Case> all_cases() {
       Case{42, "scale_invariance", "lengths times a power of two change no drawn shadow", scale_invariance},
       Case{43, "coplanar_lights", "a light in the planes of faces is drawn by izb as certain rays say",
            coplanar_lights},
+      Case{44, "stretched_triangles", "the nearer of two sheets 1e6 long and 1e-6 apart is met first",
+           stretched_triangles},
   };
   return cases;
 }

@@ -67,6 +67,12 @@ RationalTriangle rational_triangle(const Vec3& origin, const Vec3& direction,
   return {m.det != 0 && m.inside >= 0, m.t > 0, m.inside.get_d(), m.det.get_d()};
 }
 
+int rational_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& one,
+                   const std::array<Vec3, 3>& other) {
+  const Rational3 o(origin), d(direction);
+  return cmp(moeller_trumbore(o, d, one).t, moeller_trumbore(o, d, other).t);
+}
+
 bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point, const Vec3& light) {
   const Vec3 way = light - point.position;
   for (std::uint32_t id = 0; id < world.triangle_count(); ++id) {

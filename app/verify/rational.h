@@ -17,6 +17,10 @@ struct RationalTriangle {
 RationalTriangle rational_triangle(const Vec3& origin, const Vec3& direction,
                                    const std::array<Vec3, 3>& corners);
 
+/// The sign of one triangle's t minus another's on a line that meets both.
+int rational_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& one,
+                   const std::array<Vec3, 3>& other);
+
 /// Whether any triangle of the world but the point's own meets the open segment from the point, the mean of
 /// its triangle's corners with its weights, to `light`. Doubles decide first where they are far from doubt.
 bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point, const Vec3& light);

@@ -20,7 +20,7 @@ namespace gnomon::verify {
 class Run;
 
 struct Case {
-  int number;             ///< 1 ... 41
+  int number;             ///< 1 ... 44
   std::string_view name;  ///< lower case with underscores: also the name of its test
   std::string_view what;  ///< one line: what is asked of the tracer
   void (*run)(Run&);

@@ -57,6 +57,12 @@ int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 
   return (m.height - Dyadic(bound) * m.slope).sign() * m.slope.sign();
 }
 
+int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,
+                  const std::array<Vec3, 3>& b) {
+  const PlaneMeeting m = meet(origin, direction, a), n = meet(origin, direction, b);
+  return (m.height * n.slope - n.height * m.slope).sign() * m.slope.sign() * n.slope.sign();
+}
+
 double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
   const PlaneMeeting m = meet(origin, direction, c);
   return quotient(m.height, m.slope);
@@ -86,12 +92,11 @@ bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangl
   if (!sure && !line_meets(origin, direction, corners_of(triangle))) return false;
   TriangleHit t{};
   const double det = s.u + s.v + s.w, det_error = 4.0 * bound;
-  if (!finish_triangle(ray, s, t) || std::abs(det) < 4.0 * det_error) {
+  if (!finish_triangle(ray, triangle, s, t) || std::abs(det) < 4.0 * det_error) {
     t.t = exact_t(origin, direction, corners_of(triangle));
     if (!(det != 0.0)) t.b1 = t.b2 = 1.0 / 3.0;  // edge-on: any point of it
   }
   t.b1 = std::clamp(t.b1, 0.0, 1.0), t.b2 = std::clamp(t.b2, 0.0, 1.0 - t.b1);
-  hit.t = t.t;
   hit.barycentric = Vec2(t.b1, t.b2);
   // t is a mean of the corners' depths with weights known within det_error.
   const double z_size = std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])});
@@ -105,7 +110,31 @@ bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangl
     if (std::abs(t.t - end) > spread) return t.t < end;
     return compare_t(origin, direction, corners_of(triangle), end) < 0;
   };
-  return after(given_.min) && before(given_.max) && t.t < ray.t.max;
+  Taken candidate{corners_of(triangle), t.t, spread};
+  if (!after(given_.min) || !before(given_.max) || !comes_first(ray, candidate)) return false;
+  hit.t = candidate.t;
+  taken_ = candidate;
+  return true;
+}
+
+// Before the nearest hit so far, whose rounded t the ray's interval ends just above; of equals the caller
+// takes the lower id. Where rounding leaves the order open it is worked out exactly, and the candidate gets
+// a t on the right side of the other's.
+bool ExactArithmetic::comes_first(const RayFrame& ray, Taken& candidate) const {
+  const double end = ray.t.max;
+  if (!(end < given_.max)) return true;
+  const bool known = next_above(taken_.t) == end;
+  if (std::abs(candidate.t - end) > candidate.spread + (known ? taken_.spread : 0.0))
+    return candidate.t < end;
+  const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
+  const double nearest = std::nextafter(end, -infinity);
+  const int order = known ? compare_order(origin, direction, candidate.corners, taken_.corners)
+                          : compare_t(origin, direction, candidate.corners, nearest);
+  if (order > 0) return false;
+  const double given = candidate.t;
+  candidate.t = order == 0 ? nearest : std::min(given, std::nextafter(nearest, -infinity));
+  candidate.spread += std::abs(given - candidate.t);
+  return true;
 }
 
 }  // namespace gnomon::raytrace

@@ -20,11 +20,15 @@ bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3
 /// The sign of t - bound, t being where the line meets the triangle's plane; the line must meet the triangle.
 int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners, double bound);
 
-/// That t, rounded.
+/// The sign of a's t - b's t for two triangles that the line meets.
+int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,
+                  const std::array<Vec3, 3>& b);
+
+/// A triangle's t, rounded.
 double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners);
 
-/// Kernel policy: triangles by exact predicates, with the robust kernel as their filter; spheres and planes
-/// as the robust kernel has them. The ray is taken to be exactly what its doubles say.
+/// Kernel policy: triangles and their order along the ray by exact predicates, with the robust kernel as their
+/// filter; spheres and planes as the robust kernel has them. The ray is taken to be exactly what its doubles say.
 class ExactArithmetic {
  public:
   ExactArithmetic(const Structures&, const RayFrame& ray) : given_(ray.t) {}
@@ -34,8 +38,15 @@ class ExactArithmetic {
   }
 
  private:
+  struct Taken {
+    std::array<Vec3, 3> corners;
+    double t = -infinity, spread = 0.0;  ///< the true t is no farther from t than spread
+  };
   bool triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const;
+  bool comes_first(const RayFrame& ray, Taken& candidate) const;
   Interval given_;  ///< the ray's own; a walk for the closest hit shortens it by rounded values
+  /// The last triangle that was given as a hit: where it shortened the ray, the nearest.
+  mutable Taken taken_{};
 };
 
 }  // namespace gnomon::raytrace

@@ -22,11 +22,13 @@ std::optional<std::uint64_t> crossings(const World& world, std::uint32_t first, 
   std::uint64_t crossed = 0;
   for (std::uint32_t id = first; id < first + count; ++id) {
     const auto [a, b, c] = world.corners(id);
-    const ShearedTriangle s = shear(ray, {{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}});
+    const LeafPrimitive triangle{{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z}};
+    const ShearedTriangle s = shear(ray, triangle);
     const bool below = s.u < 0.0 || s.v < 0.0 || s.w<0.0, above = s.u> 0.0 || s.v > 0.0 || s.w > 0.0;
     if (below && above) continue;
     TriangleHit hit;
-    if (s.u == 0.0 || s.v == 0.0 || s.w == 0.0 || !finish_triangle(ray, s, hit)) return std::nullopt;
+    if (s.u == 0.0 || s.v == 0.0 || s.w == 0.0 || !finish_triangle(ray, triangle, s, hit))
+      return std::nullopt;
     crossed += hit.t > 0.0 ? 1 : 0;
   }
   return crossed;

@@ -112,12 +112,35 @@ struct TriangleHit {
   double t, b1, b2;
 };
 
-/// The hit of a triangle whose edge functions agree. t is a mean of the corners' with weights of one sign, so
-/// that it lies between them however thin the triangle; an edge-on triangle (det = 0) is a miss.
-inline bool finish_triangle(const RayFrame& ray, const ShearedTriangle& s, TriangleHit& hit) {
+/// Depth along kz at which the ray meets the plane of a triangle that is much longer than wide; `z`, the mean
+/// of the corners' depths, for any other. The mean's weights are known to rounding of the length squared over
+/// twice the area, so that depths of a triangle of length L and width W are off by L^2 / W roundings. The
+/// plane's equation loses no more than L roundings if the normal is made from the two shorter edges.
+inline double depth_in_plane(const RayFrame& ray, const LeafPrimitive& triangle, double z) {
+  constexpr double stretched = 16.0;  // length over width from which the plane is better in any position
+  const auto& v = triangle.v;
+  const auto corner = [&](std::size_t i) { return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]); };
+  const std::array<Vec3, 3> c{corner(0), corner(1), corner(2)};
+  const std::array<Vec3, 3> edge{c[2] - c[1], c[0] - c[2], c[1] - c[0]};  // opposite to each corner
+  std::array<double, 3> squared;
+  for (std::size_t i = 0; i < 3; ++i) squared[i] = glm::dot(edge[i], edge[i]);
+  std::size_t k = squared[0] >= squared[1] ? 0 : 1;
+  if (squared[2] > squared[k]) k = 2;
+  const Vec3 n = glm::cross(edge[(k + 1) % 3], edge[(k + 2) % 3]);
+  if (!(squared[k] * squared[k] > stretched * stretched * glm::dot(n, n))) return z;
+  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
+  const Vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
+  const double depth = glm::dot(n, c[k] - origin) / glm::dot(n, direction) * ray.direction[ray.kz];
+  return std::isfinite(depth) ? depth : z;
+}
+
+/// The hit of a triangle whose edge functions agree. Its depth lies between the corners' however thin the
+/// triangle; an edge-on triangle (det = 0) is a miss.
+inline bool finish_triangle(const RayFrame& ray, const LeafPrimitive& triangle, const ShearedTriangle& s,
+                            TriangleHit& hit) {
   const double det = s.u + s.v + s.w;
   if (!(det != 0.0)) return false;
-  const double z = (s.u * s.z[0] + s.v * s.z[1] + s.w * s.z[2]) / det;
+  const double z = depth_in_plane(ray, triangle, (s.u * s.z[0] + s.v * s.z[1] + s.w * s.z[2]) / det);
   const double z_min = std::min({s.z[0], s.z[1], s.z[2]}), z_max = std::max({s.z[0], s.z[1], s.z[2]});
   hit = {std::clamp(z, z_min, z_max) * ray.shear_z, s.v / det, s.w / det};
   return true;
@@ -126,7 +149,7 @@ inline bool finish_triangle(const RayFrame& ray, const ShearedTriangle& s, Trian
 inline bool intersect_triangle(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
   const ShearedTriangle s = shear(ray, triangle);
   if ((s.u < 0.0 || s.v < 0.0 || s.w < 0.0) && (s.u > 0.0 || s.v > 0.0 || s.w > 0.0)) return false;
-  return finish_triangle(ray, s, hit) && hit.t > ray.t.min && hit.t < ray.t.max;
+  return finish_triangle(ray, triangle, s, hit) && hit.t > ray.t.min && hit.t < ray.t.max;
 }
 
 /// |offset|^2 - r^2 with the squares' residuals added: exact to the last place where it nearly vanishes.
