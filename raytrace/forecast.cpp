@@ -1,11 +1,32 @@
 #include "raytrace/forecast.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "scene/light.h"
 
 namespace gnomon::raytrace {
 namespace {
 
 constexpr double grid_pixels = 8192.0;
+/// As many rays as they may cost; with more samples there are fewer pixels.
+constexpr double most_rays = 2e8;
+
+/// What a pixel may cost: rough surfaces split a ray into samples, and each of those asks for lights and for
+/// what they indirectly light.
+double rays_of_a_pixel(const Tracer& tracer, const EffectPlan& plan, const RaytraceOptions& options) {
+  const Scene& scene = *tracer.world().scene;
+  double lights = 1.0;
+  for (const Light& light : scene.lights)
+    lights += !plan.simulates(Effect::soft_shadow) ? 1.0
+              : !has_size(light)                   ? 1.0
+              : options.shadow_samples > 0         ? options.shadow_samples
+                                                   : light.shadow_samples;
+  const double glossy = plan.simulates(Effect::glossy) ? scene.glossy_samples : 1.0;
+  const double indirect = plan.simulates(Effect::indirect_light) ? scene.indirect_samples : 0.0;
+  return options.samples_per_pixel * glossy * (lights + indirect);
+}
 
 int coarse(int side, double step) {
   return std::max(1, static_cast<int>(std::lround(side / step)));
@@ -16,7 +37,8 @@ int coarse(int side, double step) {
 Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                        const RaytraceOptions& options) {
   const double pixels = static_cast<double>(options.size.pixels());
-  const double step = std::max(1.0, std::sqrt(pixels / grid_pixels));
+  const double chosen = std::clamp(most_rays / rays_of_a_pixel(tracer, plan, options), 16.0, grid_pixels);
+  const double step = std::max(1.0, std::sqrt(pixels / chosen));
   RaytraceOptions small = options;
   small.records = false, small.picture = true, small.runs = 1;
   small.size = {coarse(options.size.width, step), coarse(options.size.height, step)};

@@ -1,5 +1,6 @@
 // What a picture will cost in rays, effect by effect, before it is made: the same picture on a coarse grid of
-// pixels, its counts scaled up. The error is that of sampling areas on the grid: a few percent of each count.
+// pixels, its counts scaled up. The error is that of sampling areas on the grid: a few percent of each count,
+// more where a pixel costs so many samples that the grid is made coarser.
 #pragma once
 
 #include "raytrace/frame.h"
