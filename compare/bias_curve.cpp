@@ -84,7 +84,7 @@ BestBias find_best_bias(const GapLists& gaps) {
   const float middle = best_start + 0.5f * (best_end - best_start);
   const float near_start = std::min(1.1f * best_start, middle);
   best.constant_world = near_start < best_end ? near_start : best_start;
-  const std::uint64_t count = gaps.lit.size() + gaps.shadowed.size();
+  const std::uint64_t count = gaps.count();
   best.wrong_fraction = count == 0 ? 0.0 : double(least) / double(count);
   best.feasible = least == 0;
   find_proof(gaps, best);

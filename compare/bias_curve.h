@@ -12,6 +12,8 @@ namespace gnomon::compare {
 /// pixel counts as lit that sees more than half of it.
 struct GapLists {
   std::vector<float> lit, shadowed;
+  std::uint64_t lit_left_out = 0;  ///< lit pixels whose gap is not above 0, where they are not in the list
+  std::uint64_t count() const { return lit_left_out + lit.size() + shadowed.size(); }
 
   /// Exact counts at a constant bias (rounded to float, as the shader has it).
   BiasCurvePoint at(double bias) const;

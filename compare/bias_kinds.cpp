@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compare/biased_test.h"
@@ -11,6 +13,7 @@
 #include "compare/sort_numbers.h"
 #include "compare/sweep/engine.h"
 #include "scene/light.h"
+#include "scene/paging.h"
 
 namespace gnomon::compare {
 namespace {
@@ -18,52 +21,91 @@ namespace {
 constexpr double few_pixels = 1e-5, few_wrong = 0.02;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// The compared pixels' gaps with one kind of bias but for its constant, in the order of the pixels.
-struct KindGaps {
-  const LadderInput& in;
-  const std::vector<std::uint32_t>& pixels;
+/// What the hard test compares with a constant, by kind of bias; each with a setting of 1 or "on".
+enum Kind : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
 
-  std::vector<float> with(const raster::Bias& bias) const {
-    std::vector<float> gaps(pixels.size());
-    tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
-      const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
-      const Vec3 to_light = light_at(in.light, receiver.position).to_light;
-      std::size_t texel = 0;
-      const double gap = biased_gap(in.record, bias, to_light, receiver, pixels[i], texel);
-      gaps[i] = std::isnan(gap) ? -infinite : static_cast<float>(gap);
-    });
-    return gaps;
+raster::Bias bias_of(Kind kind, raster::Bias bias) {
+  if (kind == slope) bias.slope = 1.0;
+  if (kind == receiver_plane) bias.receiver_plane = true;
+  if (kind == adaptive) bias.adaptive = true;
+  if (kind == normal_offset) bias.normal_offset_texels = 1.0;
+  return bias;
+}
+
+/// The compared pixels' gaps with every kind of bias but for its constant, in the order of the pixels.
+using KindGaps = std::array<std::vector<float>, kind_count>;
+
+float gap_number(double gap) {
+  return std::isnan(gap) ? -infinite : static_cast<float>(gap);
+}
+
+/// All kinds but the normal offset look up the same texel.
+KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
+                       const std::vector<std::uint32_t>& pixels) {
+  const raster::LightRecord& record = in.record;
+  std::array<raster::Bias, kind_count> biases;
+  KindGaps gaps;
+  for (std::size_t k = 0; k < kind_count; ++k) {
+    biases[k] = bias_of(static_cast<Kind>(k), bias);
+    gaps[k] = paged_vector<float>(pixels.size());
   }
-};
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
+    const Vec3 to_light = light_at(in.light, receiver.position).to_light;
+    std::size_t texel = 0;
+    gaps[normal_offset][i] =
+        gap_number(biased_gap(record, biases[normal_offset], to_light, receiver, pixels[i], texel));
+    const auto lookup = biased_lookup(record, biases[plain], to_light, receiver, pixels[i]);
+    const auto depth = lookup ? stored_caster(record, lookup->key, texel) : std::nullopt;
+    for (std::size_t k = plain; k < normal_offset; ++k)
+      gaps[k][i] =
+          depth ? gap_number(gap_before(record, biases[k], receiver.normal, *lookup, *depth)) : -infinite;
+  });
+  return gaps;
+}
 
+/// Where a lit pixel's setting is not above 0 no setting does it harm: such pixels are only counted.
 GapLists sorted_lists(const std::vector<float>& gaps, const std::vector<std::uint32_t>& pixels,
                       const Image<float>& truth) {
   GapLists lists;
-  for (std::size_t i = 0; i < gaps.size(); ++i)
-    (truth.data[pixels[i]] > 0.5f ? lists.lit : lists.shadowed).push_back(gaps[i]);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const bool lit = truth.data[pixels[i]] > 0.5f;
+    if (lit && !(gaps[i] > 0.0f))
+      ++lists.lit_left_out;
+    else
+      (lit ? lists.lit : lists.shadowed).push_back(gaps[i]);
+  }
   sort_numbers(std::span(lists.lit));
   sort_numbers(std::span(lists.shadowed));
   return lists;
 }
 
-/// The slope from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1 takes
-/// off.
-std::vector<float> slopes_needed(const std::vector<float>& plain, const std::vector<float>& sloped,
-                                 double constant) {
-  std::vector<float> needed(plain.size());
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    const double over = double{plain[i]} - constant, taken = double{plain[i]} - double{sloped[i]};
+/// All kinds' lists, made side by side; of `slope` the slopes from which on a pixel is lit beside a constant:
+/// its gap less that, over what a slope of 1 takes off.
+std::array<GapLists, kind_count> lists_of_kinds(KindGaps gaps, const std::vector<std::uint32_t>& pixels,
+                                                const Image<float>& truth, double constant) {
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double over = double{gaps[plain][i]} - constant;
+    const double taken = double{gaps[plain][i]} - double{gaps[slope][i]};
     if (!(over > 0.0))
-      needed[i] = -infinite;
+      gaps[slope][i] = -infinite;
     else
-      needed[i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
+      gaps[slope][i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
   }
-  return needed;
+  std::array<GapLists, kind_count> lists;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, kind_count, 1),
+      [&](const auto& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k)
+          lists[k] = sorted_lists(gaps[k], pixels, truth);
+      },
+      tbb::simple_partitioner());
+  return lists;
 }
 
 double wrong_share(const GapLists& gaps, double setting) {
   const BiasCurvePoint at = gaps.at(setting);
-  const auto count = static_cast<double>(gaps.lit.size() + gaps.shadowed.size());
+  const auto count = static_cast<double>(gaps.count());
   return static_cast<double>(at.false_shadow + at.missed_shadow) / std::max(count, 1.0);
 }
 
@@ -110,7 +152,7 @@ raster::MapOptions plain_options(const raster::MapOptions& drawn) {
 
 BiasRange smallest_good_range(const GapLists& gaps) {
   const BestBias best = find_best_bias(gaps);
-  const auto count = static_cast<double>(gaps.lit.size() + gaps.shadowed.size());
+  const auto count = static_cast<double>(gaps.count());
   const double least = best.wrong_fraction * count;
   const auto allowed = static_cast<std::uint64_t>(least + std::max(few_pixels * count, few_wrong * least));
   auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
@@ -152,25 +194,18 @@ std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<floa
   const std::vector<std::uint32_t> pixels =
       pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
   if (pixels.empty()) return {};
-  const KindGaps gaps{in, pixels};
   const double automatic = raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world);
-  const std::vector<float> plain = gaps.with(map.bias);
-  std::vector<BiasKind> kinds;
-  raster::MapOptions tried = map;
-  tried.bias.slope = 1.0;
-  kinds.push_back(of_slope(
-      map, sorted_lists(slopes_needed(plain, gaps.with(tried.bias), automatic), pixels, truth), automatic));
-  kinds.push_back(
-      of_constant("constant bias", map, in.record, sorted_lists(plain, pixels, truth), automatic));
-  const auto add = [&](std::string_view name, auto set) {
-    tried = map;
-    set(tried.bias);
-    kinds.push_back(
-        of_constant(name, tried, in.record, sorted_lists(gaps.with(tried.bias), pixels, truth), automatic));
-  };
-  add("receiver plane", [](raster::Bias& bias) { bias.receiver_plane = true; });
-  add("normal offset", [](raster::Bias& bias) { bias.normal_offset_texels = 1.0; });
-  add("adaptive bias", [](raster::Bias& bias) { bias.adaptive = true; });
+  const auto lists = lists_of_kinds(gaps_of_kinds(in, map.bias, pixels), pixels, truth, automatic);
+  std::vector<BiasKind> kinds{of_slope(map, lists[slope], automatic)};
+  constexpr std::array<std::pair<std::string_view, Kind>, 4> others{{{"constant bias", plain},
+                                                                     {"receiver plane", receiver_plane},
+                                                                     {"normal offset", normal_offset},
+                                                                     {"adaptive bias", adaptive}}};
+  for (const auto& [name, kind] : others) {
+    raster::MapOptions tried = map;
+    tried.bias = bias_of(kind, map.bias);
+    kinds.push_back(of_constant(name, tried, in.record, lists[kind], automatic));
+  }
   std::stable_sort(kinds.begin(), kinds.end(),
                    [](const BiasKind& a, const BiasKind& b) { return a.wrong_fraction < b.wrong_fraction; });
   return kinds;

@@ -86,17 +86,21 @@ double gap_before(const raster::LightRecord& record, const raster::Bias& bias, c
   return gap;
 }
 
-double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
-                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key,
+                                    std::size_t& texel) {
   const LightView& view = record.map.view;
-  const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
-  if (!lookup) return -infinity;
-  const raytrace::TexelKey key = lookup->key;
   texel = record.map.texel_index(key.face(), key.column(), key.row());
   const double stored = record.map.depth[texel];
-  if (!holds_caster(view, stored)) return -infinity;
-  return gap_before(record, bias, receiver.normal, *lookup,
-                    depth_from_stored(view, key.face(), key.row() + 0.5, stored));
+  if (!holds_caster(view, stored)) return std::nullopt;
+  return depth_from_stored(view, key.face(), key.row() + 0.5, stored);
+}
+
+double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+  const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
+  if (!lookup) return -infinity;
+  const auto depth = stored_caster(record, lookup->key, texel);
+  return depth ? gap_before(record, bias, receiver.normal, *lookup, *depth) : -infinity;
 }
 
 }  // namespace gnomon::compare

@@ -142,7 +142,9 @@ class ExpectedGaps {
         bias_(bias),
         lookup_(lookup),
         map_(map),
-        surfaces_(surfaces) {}
+        surfaces_(surfaces),
+        depth_step_(depth_step(view_)),
+        near_steps_(view_.depth_range().min / depth_step_) {}
 
   std::uint32_t operator()(std::size_t i) const {
     const double size = position_steps * view_.size;
@@ -160,9 +162,8 @@ class ExpectedGaps {
     const double x = perspective ? (2.0 * u / size - 1.0) * f.half_extent.x : 0.0;
     const double y = perspective ? (2.0 * v / size - 1.0) * f.half_extent.y : 0.0;
     const double along = std::sqrt(1.0 + x * x + y * y), distance = signed_value(lookup_.distance[i]);
-    const double stored = (view_.depth_range().min / depth_step(view_) + depth) * along;
-    const double gap =
-        distance - stored + tilt(f, i, x, y) * (perspective ? distance : 1.0 / depth_step(view_));
+    const double stored = (near_steps_ + depth) * along;
+    const double gap = distance - stored + tilt(f, i, x, y) * (perspective ? distance : 1.0 / depth_step_);
     return std::abs(gap) < 1e9 ? integer(std::floor(gap + 0.5)) : endless;
   }
 
@@ -197,6 +198,7 @@ class ExpectedGaps {
   const LookupNumbers& lookup_;
   const MapNumbers& map_;
   const PixelSurfaces& surfaces_;
+  double depth_step_, near_steps_;
 };
 
 // In depth steps, upwards, but downwards where a bias of the curve lies between: `biases` ascending.
@@ -232,10 +234,8 @@ void add_lookup(Channels& channels, const LightComparison& light, const raster::
       std::make_shared<const std::vector<float>>(curve_biases(light, record.bias_constant_world));
   channels.add(
       "gap", n, {4, From::surface},
-      [&record, &bias, &surfaces, lookup, map, biases, step](std::size_t i) {
-        return gap_number(record.gap.data[i], step, *biases) -
-               ExpectedGaps(record, bias, *lookup, *map, surfaces)(i);
-      },
+      [&record, lookup, map, biases, step, expected = ExpectedGaps(record, bias, *lookup, *map, surfaces)](
+          std::size_t i) { return gap_number(record.gap.data[i], step, *biases) - expected(i); },
       "expected gap");
 }
 

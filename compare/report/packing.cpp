@@ -1,6 +1,6 @@
 #include "compare/report/packing.h"
 
-#include <unordered_map>
+#include <algorithm>
 
 #include "scene/files/deflate.h"
 
@@ -15,18 +15,29 @@ std::string make_alphabet() {
   return out;
 }
 
-std::uint32_t folded(std::uint32_t number, int bytes) {
-  const int spare = 32 - 8 * bytes;
+// What is left of a number of `bytes` bytes, so that small ones of either sign are small.
+template <int bytes>
+std::uint32_t folded(std::uint32_t number) {
+  constexpr int spare = 32 - 8 * bytes;
   const auto value = static_cast<std::int32_t>(number << spare) >> spare;
   return static_cast<std::uint32_t>(value) << 1 ^ static_cast<std::uint32_t>(value >> 31);
 }
 
-std::string planes(const std::vector<std::uint32_t>& numbers, int bytes) {
-  std::string out(numbers.size() * static_cast<std::size_t>(bytes), '\0');
-  std::size_t o = 0;
-  for (int plane = 0; plane < bytes; ++plane)
-    for (const std::uint32_t n : numbers) out[o++] = static_cast<char>(n >> (8 * plane) & 0xffu);
+template <int bytes>
+std::string planes(std::vector<std::uint32_t> numbers) {
+  const std::size_t count = numbers.size();
+  for (std::uint32_t& n : numbers) n = folded<bytes>(n);
+  std::string out(count * bytes, '\0');
+  for (int plane = 0; plane < bytes; ++plane) {
+    char* to = out.data() + count * static_cast<std::size_t>(plane);
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<char>(numbers[i] >> (8 * plane));
+  }
   return out;
+}
+
+std::string planes(std::vector<std::uint32_t> numbers, int bytes) {
+  if (bytes == 1) return planes<1>(std::move(numbers));
+  return bytes == 2 ? planes<2>(std::move(numbers)) : planes<4>(std::move(numbers));
 }
 
 }  // namespace
@@ -52,23 +63,26 @@ std::string dense_text(std::string_view bytes) {
 }
 
 Sources surface_sources(const std::vector<std::uint32_t>& surfaces) {
-  std::unordered_map<std::uint32_t, std::uint32_t> last;
+  constexpr std::uint32_t none = ~0u;
+  std::uint32_t most = 0;
+  for (const std::uint32_t surface : surfaces)
+    if (surface != none) most = std::max(most, surface);
+  std::vector<std::uint32_t> last(std::size_t{most} + 2, none);  // the last entry: of what is no surface
   Sources from(surfaces.size());
   for (std::uint32_t i = 0; i < from.size(); ++i) {
-    const auto [entry, is_new] = last.try_emplace(surfaces[i], i);
-    from[i] = !is_new ? entry->second : i > 0 ? i - 1 : 0;
-    entry->second = i;
+    std::uint32_t& before = last[surfaces[i] == none ? std::size_t{most} + 1 : surfaces[i]];
+    from[i] = before != none ? before : i > 0 ? i - 1 : 0;
+    before = i;
   }
   return from;
 }
 
 std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& options, const Sources* sources) {
-  for (std::size_t i = numbers.size(); i-- > 0;) {
-    const bool predicted = options.from != From::nothing && i > 0;
-    const std::size_t from = options.from == From::surface ? (*sources)[i] : i - 1;
-    numbers[i] = folded(numbers[i] - (predicted ? numbers[from] : 0u), options.bytes);
-  }
-  return dense_text(deflate(planes(numbers, options.bytes), options.level));
+  if (options.from == From::surface)
+    for (std::size_t i = numbers.size(); i-- > 1;) numbers[i] -= numbers[(*sources)[i]];
+  else if (options.from == From::previous)
+    for (std::size_t i = numbers.size(); i-- > 1;) numbers[i] -= numbers[i - 1];
+  return dense_text(deflate(planes(std::move(numbers), options.bytes), options.level));
 }
 
 }  // namespace gnomon::compare

@@ -12,6 +12,7 @@
 
 #include "compare/outputs.h"
 #include "compare/report/channels.h"
+#include "compare/report/colour_numbers.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
 #include "compare/report/light_channels.h"
@@ -23,8 +24,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double normal_steps = 32767.0;
-constexpr double colour_steps = 64.0;  // to an octave
-constexpr double darkest_octave = -24.0, brightest_octave = 24.0;
 constexpr double corner_bits = 20.0;
 
 Json vector3(const Vec3& v) {
@@ -62,32 +61,32 @@ Json rungs_json() {
 
 // --- what is seen at each pixel ---
 
-// The logarithm of linear light, before exposure; 0: black.
-std::uint32_t colour_number(double value) {
-  if (!(value > 0.0)) return 0;
-  const double octave = std::clamp(std::log2(value), darkest_octave, brightest_octave);
-  return rounded(1.0 + colour_steps * (octave - darkest_octave));
-}
-
 // A picture's colours differ less from each other, and from those of the other picture, than from pixel to
 // pixel.
 void add_pictures(Channels& channels, const ColorImage& drawn, const ColorImage& traced) {
   constexpr std::string_view rgb = "RGB";
-  const auto number = [](const ColorImage& image, std::size_t i, int k) {
-    return colour_number(double{image.data[i][k]});
+  using Numbers = std::array<std::vector<std::uint16_t>, 3>;
+  const auto raster = std::make_shared<const Numbers>(colour_numbers(drawn));
+  const auto rays = std::make_shared<const Numbers>(colour_numbers(traced));
+  const auto minus = [](const auto& numbers, const auto& taken, std::size_t i) {
+    return std::uint32_t{numbers[i]} - std::uint32_t{taken[i]};
   };
-  for (int k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < rgb.size(); ++k) {
+    const std::string name = fmt::format("raster{}", rgb[k]);
+    if (k == 0)
+      channels.add(name, drawn.data.size(), {2, From::previous},
+                   [raster](std::size_t i) { return std::uint32_t{raster->front()[i]}; });
+    else
+      channels.add(
+          name, drawn.data.size(), {2, From::previous},
+          [raster, minus, k](std::size_t i) { return minus((*raster)[k], (*raster)[k - 1], i); },
+          fmt::format("raster{}", rgb[k - 1]));
+  }
+  for (std::size_t k = 0; k < rgb.size(); ++k)
     channels.add(
-        fmt::format("raster{}", rgb[static_cast<std::size_t>(k)]), drawn.data.size(), {2, From::previous},
-        [&drawn, number, k](std::size_t i) {
-          return number(drawn, i, k) - (k > 0 ? number(drawn, i, k - 1) : 0u);
-        },
-        k > 0 ? fmt::format("raster{}", rgb[static_cast<std::size_t>(k) - 1]) : std::string());
-  for (int k = 0; k < 3; ++k)
-    channels.add(
-        fmt::format("raytraced{}", rgb[static_cast<std::size_t>(k)]), traced.data.size(), {2},
-        [&drawn, &traced, number, k](std::size_t i) { return number(traced, i, k) - number(drawn, i, k); },
-        fmt::format("raster{}", rgb[static_cast<std::size_t>(k)]));
+        fmt::format("raytraced{}", rgb[k]), traced.data.size(), {2},
+        [raster, rays, minus, k](std::size_t i) { return minus((*rays)[k], (*raster)[k], i); },
+        fmt::format("raster{}", rgb[k]));
 }
 
 void add_receiver(Channels& channels, const PixelSurfaces& surfaces) {

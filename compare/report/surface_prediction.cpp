@@ -88,13 +88,15 @@ PixelSurfaces pixel_surfaces(const Comparison& c, double normal_steps) {
   PixelSurfaces out;
   out.width = receivers.size.width;
   out.rays = pixel_rays(make_view(c.world->scene->camera, receivers.size));
-  for (const auto& receiver : receivers.data) {
+  out.primitives.resize(receivers.data.size());
+  for (auto& axis : out.normals) axis.resize(receivers.data.size());
+  tbb::parallel_for(std::size_t{0}, receivers.data.size(), [&](std::size_t i) {
+    const raytrace::SurfacePoint& receiver = receivers.data[i];
     const bool seen = receiver.primitive != no_id;
-    out.primitives.push_back(receiver.primitive);
+    out.primitives[i] = receiver.primitive;
     for (int k = 0; k < 3; ++k)
-      out.normals[static_cast<std::size_t>(k)].push_back(seen ? rounded(normal_steps * receiver.normal[k])
-                                                              : 0u);
-  }
+      out.normals[static_cast<std::size_t>(k)][i] = seen ? rounded(normal_steps * receiver.normal[k]) : 0u;
+  });
   out.sources = surface_sources(out.primitives);
   return out;
 }
