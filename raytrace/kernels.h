@@ -153,6 +153,7 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
     return arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit);
   });
   if (best.primitive == no_id) return std::nullopt;
+  if constexpr (requires { arithmetic.own_t(s, frame, best); }) best.t = arithmetic.own_t(s, frame, best);
   best.t /= frame.kernel_t_from_t;
   return best;
 }

@@ -25,3 +25,8 @@ add_test(NAME random_scenes_gl_test COMMAND random_scenes_gl_test 120)
 add_executable(exact_gmp_test exact_gmp_test.cpp)
 target_link_libraries(exact_gmp_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt TBB::tbb)
 add_test(NAME exact_gmp_test COMMAND exact_gmp_test 2e5)
+
+# robust against exact, and exact against rational numbers, on the same random scenes
+add_executable(precisions_agree_test precisions_agree_test.cpp)
+target_link_libraries(precisions_agree_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify fmt::fmt)
+add_test(NAME precisions_agree_test COMMAND precisions_agree_test 60)

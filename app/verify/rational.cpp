@@ -88,4 +88,75 @@ bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point
   return false;
 }
 
+namespace {
+
+/// The foot of the stored position.
+Rational3 place_on_plane(const Plane& plane, const raytrace::SurfacePoint& point) {
+  const Rational3 n(plane.normal), x(point.position);
+  const mpq_class height = dot(n, x - Rational3(plane.point)) / dot(n, n);
+  return {x.x - height * n.x, x.y - height * n.y, x.z - height * n.z};
+}
+
+/// The way from a point to a light: x + s d, 0 < s < 1, or without end.
+struct Way {
+  Rational3 x, d;
+  bool ends;
+  Rational3 at(const mpq_class& s) const { return {x.x + s * d.x, x.y + s * d.y, x.z + s * d.z}; }
+  bool holds(const mpq_class& s) const { return s > 0 && (!ends || s < 1); }
+};
+
+bool meets(const Way& way, const std::array<Vec3, 3>& corners) {
+  const Meeting m = moeller_trumbore(way.x, way.d, corners);
+  return m.det != 0 && m.inside >= 0 && way.holds(m.t);
+}
+
+bool meets(const Way& way, const Plane& plane) {
+  const Rational3 n(plane.normal);
+  const mpq_class slope = dot(n, way.d);
+  return slope != 0 && way.holds(dot(n, Rational3(plane.point) - way.x) / slope);
+}
+
+/// The least value of |x + s d - center|^2 - r^2 on the way tells, where both ends are outside; a way with
+/// one end inside crosses the surface once.
+bool meets(const Way& way, const Sphere& sphere) {
+  const Rational3 center(sphere.center);
+  const mpq_class reach = mpq_class(sphere.radius) * sphere.radius;
+  const auto power = [&](const mpq_class& s) -> mpq_class {
+    const Rational3 offset = way.at(s) - center;
+    return dot(offset, offset) - reach;
+  };
+  const bool from_inside = power(0) < 0;
+  if (from_inside) return !way.ends || power(1) > 0;
+  if (way.ends && power(1) < 0) return true;
+  const mpq_class middle = dot(center - way.x, way.d) / dot(way.d, way.d);
+  return way.holds(middle) && power(middle) <= 0;
+}
+
+}  // namespace
+
+std::optional<bool> rationally_shadowed(const World& world, const raytrace::SurfacePoint& point,
+                                        const Light& light) {
+  const auto* own_plane = world.is_triangle(point.primitive)
+                              ? nullptr
+                              : std::get_if<Plane>(&world.shape(point.primitive).geometry);
+  if (own_plane == nullptr && !world.is_triangle(point.primitive)) return std::nullopt;
+  const bool ends = light.type != LightType::directional;
+  const Rational3 zero(Vec3(0.0));
+  const Rational3 x = own_plane != nullptr ? place_on_plane(*own_plane, point) : exact_place(world, point);
+  const Way way{x, ends ? Rational3(light.position) - x : zero - Rational3(light.direction), ends};
+  for (std::uint32_t id = 0; id < world.primitive_count(); ++id) {
+    if (id == point.primitive) continue;
+    if (world.is_triangle(id)) {
+      if (meets(way, world.corners(id))) return true;
+      continue;
+    }
+    const auto& geometry = world.shape(id).geometry;
+    if (const auto* plane = std::get_if<Plane>(&geometry); plane != nullptr && meets(way, *plane))
+      return true;
+    if (const auto* sphere = std::get_if<Sphere>(&geometry); sphere != nullptr && meets(way, *sphere))
+      return true;
+  }
+  return false;
+}
+
 }  // namespace gnomon::verify

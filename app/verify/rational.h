@@ -21,6 +21,12 @@ RationalTriangle rational_triangle(const Vec3& origin, const Vec3& direction,
 int rational_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& one,
                    const std::array<Vec3, 3>& other);
 
+/// Whether any primitive of the world but the point's own triangle or plane meets the open segment from the
+/// point to a hard light (a directional one: the ray to infinity). Spheres and planes as they are given; no
+/// other shapes. nullopt: the point lies on no triangle and no plane.
+std::optional<bool> rationally_shadowed(const World& world, const raytrace::SurfacePoint& point,
+                                        const Light& light);
+
 /// Whether any triangle of the world but the point's own meets the open segment from the point, the mean of
 /// its triangle's corners with its weights, to `light`. Doubles decide first where they are far from doubt.
 bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point, const Vec3& light);

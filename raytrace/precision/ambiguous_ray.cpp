@@ -174,7 +174,17 @@ Meets DoubtfulRay::meet_sphere(std::uint32_t id) const {
   return a == Meets::no && b == Meets::no ? Meets::no : Meets::perhaps;
 }
 
+bool DoubtfulRay::clearly_rises() const {
+  const Vec3 n = from_.normal, d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
+  // Of a unit normal and of a direction that was made one.
+  const double rise = glm::dot(n, d) - error_gamma(32) * glm::length(d);
+  if (!std::isfinite(ray_.t.max)) return rise > 0.0;
+  return ray_.t.max * rise > 2.0 * glm::dot(glm::abs(n), error_);
+}
+
 bool DoubtfulRay::below_horizon(std::uint32_t id) const {
+  // A light in the tangent plane: which side of it the ray takes is a matter of rounding.
+  if (!clearly_rises()) return false;
   const Vec3 n = from_.normal;
   const double slack = glm::dot(glm::abs(n), from_.position_error);
   const auto is_below = [&](const Vec3& p, double radius) {

@@ -52,9 +52,9 @@ class DoubtfulRay {
   /// Any shape but a plane.
   Meets meet_shape(std::uint32_t id) const;
 
-  /// The ray leaves on the upper side of the tangent plane at its point, and nothing at or below that plane
-  /// (but for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a convex
-  /// body.
+  /// The ray surely leaves on the upper side of the tangent plane at its point, and nothing at or below that
+  /// plane (but for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a
+  /// convex body.
   bool below_horizon(std::uint32_t id) const;
   /// Nothing that lies wholly beyond the plane through the light, across the ray, can be in its way. The ray
   /// ends before the light by its own error bound; a body that the light touches from behind is told apart
@@ -62,6 +62,8 @@ class DoubtfulRay {
   bool beyond_light(std::uint32_t id) const;
 
  private:
+  /// The light lies above the tangent plane at the ray's point by more than both are known.
+  bool clearly_rises() const;
   struct Interval3 {  // of a ray parameter
     double lo, hi;
   };

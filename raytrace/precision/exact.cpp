@@ -17,7 +17,7 @@ constexpr double least_permanent = 1e-270;
 struct PlaneMeeting {
   Dyadic height, slope;  ///< t = height / slope
 };
-PlaneMeeting meet(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+PlaneMeeting meet_plane(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
   const Dyadic3 a(c[0]), normal = cross(Dyadic3(c[1]) - a, Dyadic3(c[2]) - a);
   return {dot(normal, a - Dyadic3(origin)), dot(normal, Dyadic3(direction))};
 }
@@ -53,18 +53,18 @@ bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3
 
 int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c, double bound) {
   if (std::isinf(bound)) return bound > 0.0 ? -1 : 1;
-  const PlaneMeeting m = meet(origin, direction, c);
+  const PlaneMeeting m = meet_plane(origin, direction, c);
   return (m.height - Dyadic(bound) * m.slope).sign() * m.slope.sign();
 }
 
 int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,
                   const std::array<Vec3, 3>& b) {
-  const PlaneMeeting m = meet(origin, direction, a), n = meet(origin, direction, b);
+  const PlaneMeeting m = meet_plane(origin, direction, a), n = meet_plane(origin, direction, b);
   return (m.height * n.slope - n.height * m.slope).sign() * m.slope.sign() * n.slope.sign();
 }
 
 double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
-  const PlaneMeeting m = meet(origin, direction, c);
+  const PlaneMeeting m = meet_plane(origin, direction, c);
   return quotient(m.height, m.slope);
 }
 
@@ -76,7 +76,8 @@ bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32
   return triangle(ray, leaf_at(s, index, room), hit);
 }
 
-bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
+std::optional<ExactArithmetic::Meeting> ExactArithmetic::meet(const RayFrame& ray,
+                                                              const LeafPrimitive& triangle) {
   const ShearedTriangle s = shear(ray, triangle);
   double size = 0.0, reach = 0.0;
   for (std::size_t i = 0; i < 9; ++i) reach = std::max(reach, std::abs(triangle.v[i] - ray.origin[i % 3]));
@@ -86,41 +87,49 @@ bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangl
   for (std::size_t i = 0; i < 3; ++i) size += std::abs(s.x[i]) + std::abs(s.y[i]);
   const double bound = 2.0 * error * (size + error) + DBL_MIN;
   const double low = std::min({s.u, s.v, s.w}), high = std::max({s.u, s.v, s.w});
-  if (low < -bound && high > bound) return false;
+  if (low < -bound && high > bound) return std::nullopt;
   const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
+  const std::array<Vec3, 3> corners = corners_of(triangle);
   const bool sure = low > bound || high < -bound;
-  if (!sure && !line_meets(origin, direction, corners_of(triangle))) return false;
+  if (!sure && !line_meets(origin, direction, corners)) return std::nullopt;
   TriangleHit t{};
   const double det = s.u + s.v + s.w, det_error = 4.0 * bound;
   if (!finish_triangle(ray, triangle, s, t) || std::abs(det) < 4.0 * det_error) {
-    t.t = exact_t(origin, direction, corners_of(triangle));
+    t.t = exact_t(origin, direction, corners);
     if (!(det != 0.0)) t.b1 = t.b2 = 1.0 / 3.0;  // edge-on: any point of it
   }
   t.b1 = std::clamp(t.b1, 0.0, 1.0), t.b2 = std::clamp(t.b2, 0.0, 1.0 - t.b1);
-  hit.barycentric = Vec2(t.b1, t.b2);
   // t is a mean of the corners' depths with weights known within det_error.
   const double z_size = std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])});
   const double spread = (2.0 * det_error / std::max(std::abs(det) - det_error, DBL_MIN) + error_gamma(16)) *
                         2.0 * z_size * std::abs(ray.shear_z);
-  const auto after = [&](double end) {
-    if (std::abs(t.t - end) > spread) return t.t > end;
-    return compare_t(origin, direction, corners_of(triangle), end) > 0;
+  return Meeting{corners, Vec2(t.b1, t.b2), t.t, spread};
+}
+
+bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
+  std::optional<Meeting> met = meet(ray, triangle);
+  if (!met) return false;
+  const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
+  const auto order = [&](double end) {
+    if (std::abs(met->t - end) > met->spread) return met->t < end ? -1 : 1;
+    return compare_t(origin, direction, met->corners, end);
   };
-  const auto before = [&](double end) {
-    if (std::abs(t.t - end) > spread) return t.t < end;
-    return compare_t(origin, direction, corners_of(triangle), end) < 0;
-  };
-  Taken candidate{corners_of(triangle), t.t, spread};
-  if (!after(given_.min) || !before(given_.max) || !comes_first(ray, candidate)) return false;
-  hit.t = candidate.t;
-  taken_ = candidate;
+  if (order(given_.min) <= 0 || order(given_.max) >= 0 || !comes_first(ray, *met)) return false;
+  hit.barycentric = met->barycentric, hit.t = met->t;
+  taken_ = *met;
   return true;
+}
+
+double ExactArithmetic::own_t(const Structures& s, const RayFrame& ray, const Hit& hit) const {
+  if (!moved_ || !s.world->is_triangle(hit.primitive)) return hit.t;
+  const std::optional<Meeting> met = meet(ray, leaf_primitive(*s.world, hit.primitive));
+  return met ? met->t : hit.t;
 }
 
 // Before the nearest hit so far, whose rounded t the ray's interval ends just above; of equals the caller
 // takes the lower id. Where rounding leaves the order open it is worked out exactly, and the candidate gets
 // a t on the right side of the other's.
-bool ExactArithmetic::comes_first(const RayFrame& ray, Taken& candidate) const {
+bool ExactArithmetic::comes_first(const RayFrame& ray, Meeting& candidate) const {
   const double end = ray.t.max;
   if (!(end < given_.max)) return true;
   const bool known = next_above(taken_.t) == end;
@@ -134,6 +143,7 @@ bool ExactArithmetic::comes_first(const RayFrame& ray, Taken& candidate) const {
   const double given = candidate.t;
   candidate.t = order == 0 ? nearest : std::min(given, std::nextafter(nearest, -infinity));
   candidate.spread += std::abs(given - candidate.t);
+  moved_ = moved_ || given != candidate.t;
   return true;
 }
 

@@ -37,16 +37,24 @@ class ExactArithmetic {
     return intersect_plane(s, ray, id, hit);
   }
 
+  /// The t of the nearest hit as its triangle alone gives it: on the walk it may have been moved to the right
+  /// side of another's, by which it would depend on the order of the walk.
+  double own_t(const Structures& s, const RayFrame& ray, const Hit& hit) const;
+
  private:
-  struct Taken {
+  struct Meeting {
     std::array<Vec3, 3> corners;
+    Vec2 barycentric{0.0};
     double t = -infinity, spread = 0.0;  ///< the true t is no farther from t than spread
   };
+  /// Where the line meets the triangle, wherever on the line.
+  static std::optional<Meeting> meet(const RayFrame& ray, const LeafPrimitive& triangle);
   bool triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const;
-  bool comes_first(const RayFrame& ray, Taken& candidate) const;
+  bool comes_first(const RayFrame& ray, Meeting& candidate) const;
   Interval given_;  ///< the ray's own; a walk for the closest hit shortens it by rounded values
   /// The last triangle that was given as a hit: where it shortened the ray, the nearest.
-  mutable Taken taken_{};
+  mutable Meeting taken_{};
+  mutable bool moved_ = false;  ///< some hit's t was
 };
 
 }  // namespace gnomon::raytrace
