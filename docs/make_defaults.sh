@@ -16,7 +16,7 @@ wrong() {
   }
   awk '{ if (match($0, /"wrong": [0-9]+/)) wrong += substr($0, RSTART + 9, RLENGTH - 9)
          if (match($0, /"compared": [0-9]+/)) compared += substr($0, RSTART + 12, RLENGTH - 12) }
-       END { printf "%.3f\n", compared > 0 ? 100 * wrong / compared : 0 }' "$work/result.json"
+       END { printf "%.3f\n", (compared > 0) ? 100 * wrong / compared : 0 }' "$work/result.json"
 }
 
 row() {

@@ -11,14 +11,19 @@
 namespace gnomon::raster {
 namespace {
 
+/// Of what mirrors or lets light through. A rasterizer without further rays has nothing to show for that share:
+/// it is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
+constexpr float matte_grey = 0.5f;
+
 MaterialData material_data(const Material& m) {
+  const float local = std::max(0.0f, 1.0f - m.mirror - m.transmission);  // as in raytrace/shading/shade.h
   const TextureTransform& t = m.texture_transform;
   const double c = std::cos(t.rotation);
   const double s = std::sin(t.rotation);
   MaterialData out{};
-  out.diffuse_and_alpha = Vec4f(m.diffuse, m.alpha);
-  out.specular_and_shininess = Vec4f(m.specular, m.shininess);
-  out.emission_and_local = Vec4f(m.emission, std::max(0.0f, 1.0f - m.mirror - m.transmission));
+  out.diffuse_and_alpha = Vec4f(local * m.diffuse, m.alpha);
+  out.specular_and_shininess = Vec4f(local * m.specular, m.shininess);
+  out.emission_and_matte = Vec4f(m.emission, (1.0f - local) * matte_grey);
   out.uv_matrix = Vec4f(glm::dvec4(c * t.scale.x, -s * t.scale.x, s * t.scale.y, c * t.scale.y));
   out.uv_offset_and_cutoff =
       Vec4f(Vec2f(t.offset), m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0f, 0.0f);

@@ -27,7 +27,7 @@ struct ShapeData {
 };
 
 struct MaterialData {
-  Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_local, uv_matrix, uv_offset_and_cutoff;
+  Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_matte, uv_matrix, uv_offset_and_cutoff;
   std::uint32_t diffuse_texture, unused0, unused1, unused2;
 };
 

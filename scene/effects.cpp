@@ -25,7 +25,8 @@ struct Remark {
   bool supported;
   std::string_view text;  ///< added to the reason of an effect that is called for
 };
-constexpr Remark simulated{true, ""}, traced_only{true, "; only the ray tracer shows it"};
+constexpr Remark simulated{true, ""}, traced_only{true, "; only the ray tracer shows it"},
+    plainly_drawn{true, "; only the ray tracer shows it, the rasterizer draws matte grey in its place"};
 
 // The first used material for which `needs` holds is the reason.
 EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& remark, std::string_view property,
@@ -82,7 +83,7 @@ EffectPlan plan_effects(const Scene& scene) {
   return {{
       shadow(scene, false),
       shadow(scene, true),
-      material(Effect::reflection, traced_only, "mirror or transmission > 0",
+      material(Effect::reflection, plainly_drawn, "mirror or transmission > 0",
                [](M m) { return m.mirror > 0.0f || m.transmission > 0.0f; }),
       material(Effect::refraction,
                Remark{true,

@@ -4,9 +4,9 @@
 const uint no_texture = 0xffffffffu;
 
 struct MaterialData {
-  vec4 diffuse_and_alpha;
+  vec4 diffuse_and_alpha;      // diffuse and specular are those of the share that neither mirrors nor transmits
   vec4 specular_and_shininess;
-  vec4 emission_and_local;   // w: the share of local shading, 1 - mirror - transmission
+  vec4 emission_and_matte;   // w: the grey that stands for what mirrors or transmits
   vec4 uv_matrix;            // columns of R * scale
   vec4 uv_offset_and_cutoff; // z: alpha below this is no hit; negative for opaque materials
   uint diffuse_texture;

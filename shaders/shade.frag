@@ -39,11 +39,11 @@ void main() {
   }
   Receiver r = receiver_at(primitive, gl_FragCoord.xy);
   MaterialData material = materials[r.material];
-  vec3 diffuse = surface_albedo(material, r.uv).rgb;
+  vec3 diffuse = surface_albedo(material, r.uv).rgb + material.emission_and_matte.w;
 #ifdef FIRST_LIGHT
-  radiance.rgb += camera.ambient.rgb * diffuse * material.emission_and_local.w;
+  radiance.rgb += camera.ambient.rgb * diffuse;
 #ifdef EMISSION
-  radiance.rgb += material.emission_and_local.rgb;
+  radiance.rgb += material.emission_and_matte.rgb;
 #endif
 #endif
 #ifndef NO_LIGHT
@@ -55,9 +55,8 @@ void main() {
 #endif
   float visibility = technique_visibility(test, r.position, r.normal, at.to_light);
   if (visibility > 0.0 && dot(r.normal, at.to_light) > 0.0)
-    radiance.rgb += material.emission_and_local.w * visibility *
-                    blinn_phong(diffuse, material.specular_and_shininess, at.irradiance, r.shading, at.to_light,
-                                r.to_eye);
+    radiance.rgb += visibility * blinn_phong(diffuse, material.specular_and_shininess, at.irradiance, r.shading,
+                                             at.to_light, r.to_eye);
 #ifdef RECORDS
   record = vec4(test.own.uv, test.own.distance, test.gap);
   flags = uint((test.outside ? flag_outside_map : 0) | (test.own.face << flag_face_shift));

@@ -143,12 +143,14 @@ std::string text_entry(std::string_view name, std::string_view text) {
   return text.empty() ? std::string() : entry(name, escaped(text));
 }
 
+// In the page itself, unless it has files beside it: these two are among them.
 std::string saving(const PageInput& in) {
   return fmt::format(
       R"(<p class="save"><a class="button" download="result.json" href="{}">Save result.json</a> <a
 class="button" download="result.csv" href="{}">Save result.csv</a></p>
 )",
-      data_uri("application/json", in.json), data_uri("text/csv", in.csv));
+      in.beside ? "result.json" : data_uri("application/json", in.json),
+      in.beside ? "result.csv" : data_uri("text/csv", in.csv));
 }
 
 }  // namespace

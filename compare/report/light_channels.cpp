@@ -258,10 +258,25 @@ void add_decisions(Channels& channels, const raster::LightRecord& record) {
                [&decision](std::size_t i) { return std::uint32_t{decision[i]}; });
 }
 
+// Glass that the map stores in the texel that a pixel looks up, other than the pixel's own surface.
+void add_stored_glass(Channels& channels, const raster::LightRecord& record, const PixelSurfaces& surfaces,
+                      const ShownMaterials& materials) {
+  if (!materials.any_glass()) return;
+  channels.add("stored_glass", surfaces.primitives.size(), {2, From::previous}, [&](std::size_t i) {
+    const Vec2f at = glm::floor(record.texel_uv.data[i]);
+    const auto size = static_cast<float>(record.map.view.size);
+    if (surfaces.primitives[i] == no_id || !(at.x >= 0.0f && at.y >= 0.0f && at.x < size && at.y < size))
+      return 0u;
+    const std::uint32_t stored = record.map.primitive[record.map.texel_index(
+        record.face.data[i], static_cast<int>(at.x), static_cast<int>(at.y))];
+    return stored == surfaces.primitives[i] ? 0u : materials.glass_of(stored);
+  });
+}
+
 }  // namespace
 
 nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer& packer,
-                                  const PixelSurfaces& surfaces) {
+                                  const PixelSurfaces& surfaces, const ShownMaterials& materials) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[index];
   const raster::LightRecord& record = drawn_record(c, light);
@@ -273,6 +288,7 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   add_lookup(channels, light, record, bias, map, surfaces);
   add_metrics(channels, light);
   add_decisions(channels, record);
+  add_stored_glass(channels, record, surfaces, materials);
   Json map_json{{"step", map->step}};
   map_json.update(packer.add({4, From::previous}, [map] { return map->depths; }));
   return {{"name", shown_light_name(c, index)},
@@ -285,6 +301,7 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
             {"slope", bias.slope},
             {"normal_offset", bias.normal_offset_texels},
             {"receiver_plane", bias.receiver_plane},
+            {"adaptive", bias.adaptive ? Json(record.rounding.adaptive_epsilon_world) : Json()},
             {"scales", raster::scales_bias(options)}}},
           {"texel_world", light.bias_texel_world},
           {"depth_step", depth_step(record.map.view)},

@@ -62,6 +62,22 @@ std::string raytraced_caption(const Comparison& c) {
                      timed("times_ms.primary_rays", c.raytraced.primary_rays));
 }
 
+// What the two pictures show differently by design.
+std::string raster_remark(const Comparison& c) {
+  const bool glass = c.plan.simulates(Effect::refraction);
+  if (!glass && !c.plan.simulates(Effect::reflection)) return "";
+  return glass
+             ? R"(<small class="remark">Drawn plainly: what reflects or is seen through is matte grey here, and to
+the shadow map glass is opaque.</small>)"
+             : R"(<small class="remark">Drawn plainly: what reflects is matte grey here.</small>)";
+}
+
+std::string raytraced_remark(const Comparison& c) {
+  if (!c.plan.simulates(Effect::refraction)) return "";
+  return R"(<small class="remark">Light passes through glass here. The comparison counts glass as opaque, as the
+map does: where glass alone casts a shadow, this picture is bright all the same.</small>)";
+}
+
 std::string figure(const PageInput& in, const EncodedPicture& encoded, std::string_view id,
                    std::string_view alt, const std::string& caption) {
   return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture(in, encoded, alt, id),
@@ -180,10 +196,11 @@ std::string overview_section(const PageInput& in) {
   out += fmt::format(R"(<div class="{}">
 )",
                      c.lights.empty() ? "pair" : "trio");
-  out += figure(in, in.pictures.raster, "picture-raster",
-                "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c));
+  out +=
+      figure(in, in.pictures.raster, "picture-raster",
+             "The scene as the rasterizer drew it, with shadow maps.", raster_caption(c) + raster_remark(c));
   out += figure(in, in.pictures.raytraced, "picture-raytraced",
-                "The same view ray traced, with exact shadows.", raytraced_caption(c));
+                "The same view ray traced, with exact shadows.", raytraced_caption(c) + raytraced_remark(c));
   if (!c.lights.empty()) out += label_figure(in, labelled_light(c));
   out += "</div>\n";
   for (std::size_t i = 0; i < c.lights.size(); ++i) out += card(in, i);

@@ -17,6 +17,7 @@
 #include "compare/report/html.h"
 #include "compare/report/light_channels.h"
 #include "compare/report/section_mesh.h"
+#include "compare/report/shown_materials.h"
 
 namespace gnomon::compare {
 namespace {
@@ -106,9 +107,13 @@ Json rays_json(const PixelRays& rays) {
 }
 
 // What all lights share: what is seen at each pixel, and both pictures.
-Json pixels_json(const Comparison& c, Packer& packer, const PixelSurfaces& surfaces) {
+Json pixels_json(const Comparison& c, Packer& packer, const PixelSurfaces& surfaces,
+                 const ShownMaterials& materials) {
   Channels channels(packer, &surfaces.sources);
   add_receiver(channels, surfaces);
+  if (!materials.empty())
+    channels.add("material", surfaces.primitives.size(), {2, From::surface},
+                 [&](std::size_t i) { return materials.of(surfaces.primitives[i]); });
   add_pictures(channels, c.raster.color, c.raytraced.color);
   return channels.json();
 }
@@ -210,12 +215,14 @@ PageData page_data(const PageInput& in) {
   };
   const SectionMesh mesh = section_mesh(*c.world);
   const PixelSurfaces surfaces = pixel_surfaces(c, normal_steps);
+  const ShownMaterials materials(*c.world);
   head["rays"] = rays_json(surfaces.rays);
+  head["materials"] = materials.list();
   out.head = head.dump();
-  add("pixels", [&] { return pixels_json(c, packer, surfaces); });
+  add("pixels", [&] { return pixels_json(c, packer, surfaces, materials); });
   add("geometry", [&] { return geometry_json(*c.world, mesh, packer); });
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, surfaces); });
+    add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, surfaces, materials); });
   packer.run();
   for (const Part& part : parts) out.parts.push_back({part.name, packer.filled(part.json, part.first)});
   return out;

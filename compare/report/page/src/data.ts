@@ -28,11 +28,19 @@ export interface LightJson {
   technique: string;
   gaps_decide: boolean;  // a pixel is drawn dark exactly when its gap exceeds the constant bias
   compares_depths: boolean;  // false: an exact technique, without a bias
-  bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean; scales: boolean };  // scales: gaps and constant are those of a texel of texel_world
+  bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean; adaptive: number | null; scales: boolean };
+  // adaptive: its slack, world units; scales: gaps and constant are those of a texel of texel_world
   texel_world: number;
   depth_step: number;
   channels: Record<string, Channel>;
   map: Packed & { step: number };
+}
+
+/** A material that the two pictures show differently: shares of the light that it mirrors and lets through. */
+export interface ShownMaterial {
+  name: string;
+  mirror: number;
+  transmission: number;
 }
 
 interface PageJson {
@@ -47,6 +55,7 @@ interface PageJson {
   exposure: number;  // linear factor of both pictures
   lights: number;
   rays: PixelRays;
+  materials: ShownMaterial[];  // those that mirror or transmit
 }
 
 interface GeometryJson {
@@ -116,7 +125,12 @@ export interface Pixel {
   position: Vec3;
   normal: Vec3;
   primitive: number;
+  material: ShownMaterial | null;     // its own, where that mirrors or transmits
+  storedGlass: ShownMaterial | null;  // what its texel holds, where that is other glass
 }
+
+const shownMaterial = (places: Numbers | undefined, index: number): ShownMaterial | null =>
+  page.materials[(places?.[index] ?? 0) - 1] ?? null;
 
 /** The stored map; depths in world units, infinity where nothing is stored. */
 export class DepthMap {
@@ -206,6 +220,8 @@ export class Light {
       position: add(ray.origin, ray.direction, distance),
       normal: ["nx", "ny", "nz"].map((n) => this.pixels.channels[n]![index]! / 32767) as unknown as Vec3,
       primitive: this.primitive(index),
+      material: shownMaterial(this.pixels.channels.material, index),
+      storedGlass: shownMaterial(this.channels.stored_glass, index),
     };
   }
 }

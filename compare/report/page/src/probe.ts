@@ -4,10 +4,10 @@ import { html, number } from "./svg";
 import { sectionAxis, sectionDrawing } from "./section_drawing";
 import type { LightState } from "./state";
 import { texelDrawing } from "./texel_drawing";
-import { decidingStep, story } from "./words";
+import { decidingStep, otherParts, remarks, story } from "./words";
 
 function ladder(pixel: Pixel): HTMLElement {
-  const deciding = pixel.label > 0 ? decidingStep(pixel.rungs) : 0, body = html("tbody");
+  const deciding = decidingStep(pixel), body = html("tbody");
   page.rungs.forEach((rung, k) => {
     const step = k === 0 ? 0 : pixel.rungs[k]! - pixel.rungs[k - 1]!;
     const row = html("tr", { class: k > 0 && k === deciding ? "deciding" : "" },
@@ -24,8 +24,9 @@ function ladder(pixel: Pixel): HTMLElement {
 }
 
 function facts(light: Light, pixel: Pixel): HTMLElement {
+  const parts = otherParts(light.json.bias), beyond = parts === "" ? "" : ` beyond ${parts}`;
   const rows: [string, string, string][] = [
-    ["gap", number(pixel.gap, 6), isFinite(pixel.gap) ? `world units, to ${number(light.json.depth_step, 1)}` : ""],
+    ["gap", number(pixel.gap, 6), isFinite(pixel.gap) ? `world units${beyond}, to ${number(light.json.depth_step, 1)}` : ""],
     ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length === 1 ? "u, v" : light.json.view.perspective ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : `u, v in cascade ${pixel.face + 1}`],
     ["distance", number(pixel.distance, 6), light.json.view.perspective ? "from the light" : "along the light, from the map's origin"],
     ["primitive", String(pixel.primitive), ""],
@@ -90,7 +91,8 @@ export class Probe {
     const swatch = html("span", { class: "dot-swatch" });
     swatch.style.background = words.colour;
     this.words.replaceChildren(html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
-      html("p", { class: "story" }, story(this.light, pixel, bias)), ...(pixel.seen ? [ladder(pixel), facts(this.light, pixel)] : []));
+      html("p", { class: "story" }, story(this.light, pixel, bias)),
+      ...(pixel.seen ? remarks(pixel).map((text) => html("p", { class: "remark" }, text)) : []), ...(pixel.seen ? [ladder(pixel), facts(this.light, pixel)] : []));
     this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
     const section = () => this.below.replaceChildren(drawable && this.scene

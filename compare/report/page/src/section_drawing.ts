@@ -5,6 +5,7 @@ import type { Geometry, Light, Pixel } from "./data";
 import { alongRay, halfSlopes, texelWidth } from "./light_view";
 import { sceneCut, type Curve } from "./scene_cut";
 import { counted, grouped, html, niceTicks, number, svg } from "./svg";
+import { otherParts } from "./words";
 
 const width = 1160, height = 420, left = 62, right = 12, top = 34, bottom = 46;
 
@@ -193,7 +194,7 @@ const isOutside = (position: number, size: number): boolean => position < 0 || p
 export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis: 0 | 1, halfWidth: number, bias: number, id: string): HTMLElement {
   const [t, across] = axis === 0 ? [pixel.at.u, pixel.at.v] : [pixel.at.v, pixel.at.u];
   const size = light.json.view.size, centre = Math.floor(t), line = `${axis === 0 ? "row" : "column"} ${Math.floor(across)}`;
-  const outside = isOutside(t, size) || isOutside(across, size);
+  const parts = otherParts(light.json.bias), outside = isOutside(t, size) || isOutside(across, size);
   // Of a pixel outside the map the scene beyond the map's edge is drawn.
   const from = outside ? centre - halfWidth : Math.max(0, centre - halfWidth), to = outside ? centre + halfWidth + 1 : Math.min(size, centre + halfWidth + 1);
   const { pixels, curves } = lineThrough(light, pixel, axis, scene, from, to);
@@ -213,6 +214,6 @@ export function sectionDrawing(light: Light, pixel: Pixel, scene: Geometry, axis
     svg("line", { class: "own-ray", x1: x, x2: x, y1: top, y2: y }), svg("circle", { class: "ring", cx: x, cy: y, r: 8 }));
   return html("figure", {}, html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": `Cross-section, ${light.json.name}` }, drawing as unknown as Node), legend(dots),
     html("figcaption", {}, `${outside ? "The pixel lies outside the map: no texel is asked about it. " : ""}Thin: the scene itself, cut exactly along the light rays through the pixel${scene.solidSectors > 0 ? `, curved solids other than spheres as meshes of ${scene.solidSectors} sectors or ${scene.solidSectors / 2} cells across` : ""}${scene.complete ? "" : " (some of it is too much for this page and left out)"}. ` +
-      `Thick steps: the depths stored in ${line}${light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""}. Shaded: shadow by the map, from the bias on. ` +
+      `Thick steps: the depths stored in ${line}${light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""}. Shaded: shadow by the map, from the ${parts === "" ? "" : "constant "}bias on${parts === "" ? "" : `; ${parts}, which every pixel has its own of, cannot be drawn here`}. ` +
       `Depth is drawn ${number(stretch, 2)} times as large as width. ${dots.length > mostMarks ? "Coloured bars, each split by what came out" : "Marks"}: the ${counted(dots.length, "pixel")} that look${dots.length === 1 ? "s" : ""} these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`));
 }

@@ -26,20 +26,35 @@ function gapScale(light: Light, pixel: Pixel): number {
   return Math.max(texelWidth(view, 0, at), texelWidth(view, 1, at)) / texel_world;
 }
 
-/** The depth that the pixel's texel stores, along the face's axis, from its gap where that is a plain difference. */
-export function storedDepth(light: Light, pixel: Pixel): number {
-  const { bias, view } = light.json;
-  if (pixel.gap === -Infinity) return Infinity;
-  const plain = bias.slope === 0 && bias.normal_offset === 0 && !bias.receiver_plane;
-  if (plain) return pixel.at.depth - (gapScale(light, pixel) * pixel.gap) / alongRay(view, pixel.face, pixel.at.u, pixel.at.v);
-  return light.map.depth(pixel.face, Math.floor(pixel.at.u), Math.floor(pixel.at.v));
+/** A part of the bias with its name, as depth along the face's axis. */
+interface BiasPart {
+  name: string;
+  depth: number;
 }
 
-/** The whole bias of this pixel along the ray: constant and slope part, as depth. */
-function biasDepth(light: Light, pixel: Pixel, constant: number): number {
-  const { view, bias } = light.json;
-  const [u, v] = halfSlopes(view, pixel.face, pixel.at, pixel.position, pixel.normal);
-  return (gapScale(light, pixel) * constant) / alongRay(view, pixel.face, pixel.at.u, pixel.at.v) + (bias.slope === 0 ? 0 : bias.slope * (u + v));
+/** What the bias of this pixel is made of: its constant first, then what follows the slope of the surface. */
+function biasParts(light: Light, pixel: Pixel, constant: number): BiasPart[] {
+  const { view, bias } = light.json, { u, v } = pixel.at;
+  const parts = [{ name: "constant", depth: (gapScale(light, pixel) * constant) / alongRay(view, pixel.face, u, v) }];
+  if (bias.slope !== 0) {
+    const [su, sv] = halfSlopes(view, pixel.face, pixel.at, pixel.position, pixel.normal);
+    parts.push({ name: "slope", depth: bias.slope * (su + sv) });
+  }
+  if (bias.adaptive !== null) {
+    const atCentre = planeDepth(view, pixel.face, Math.floor(u) + 0.5, Math.floor(v) + 0.5, pixel.position, pixel.normal);
+    parts.push({ name: "adaptive", depth: Math.max(0, pixel.at.depth - atCentre) + bias.adaptive });
+  }
+  return parts;
+}
+
+const total = (parts: BiasPart[]): number => parts.reduce((sum, part) => sum + part.depth, 0);
+
+/** The depth that the pixel's texel stores, along the face's axis: from its gap where that is a difference less parts known here. */
+export function storedDepth(light: Light, pixel: Pixel): number {
+  const { bias } = light.json;
+  if (pixel.gap === -Infinity) return Infinity;
+  if (bias.normal_offset === 0 && !bias.receiver_plane) return pixel.at.depth - total(biasParts(light, pixel, pixel.gap));
+  return light.map.depth(pixel.face, Math.floor(pixel.at.u), Math.floor(pixel.at.v));
 }
 
 function frameFor(light: Light, pixel: Pixel, stored: number, bias: number): Frame {
@@ -98,16 +113,26 @@ function receiverLine(light: Light, frame: Frame, pixel: Pixel): SVGElement {
   return svg("polyline", { class: "receiver", points: points.join(" ") });
 }
 
-// A distance along the depth axis with its name behind it, or `before` it.
-function bracket(frame: Frame, x: number, from: number, to: number, kind: string, text: string, before = false): SVGElement {
-  const a = Math.max(top, Math.min(frame.y(from), height - bottom)), b = Math.max(top, Math.min(frame.y(to), height - bottom));
-  const flip = before || x > width - 150;
-  return svg("g", { class: kind },
-    svg("path", { class: "bracket", d: `M${x - 4},${a}h8M${x},${a}V${b}M${x - 4},${b}h8` }),
-    svg("text", { x: flip ? x - 8 : x + 8, y: Math.max(top + 12, Math.min((a + b) / 2 + 4, height - bottom - 4)), class: flip ? "end" : "" }, text));
+// A distance along the depth axis with its name behind it, or `before` it; further lines of text below the name.
+function bracket(frame: Frame, x: number, from: number, to: number, kind: string, lines: string[], before = false): SVGElement {
+  const onto = (depth: number) => Math.max(top, Math.min(frame.y(depth), height - bottom)), a = onto(from), b = onto(to);
+  const flip = before || x > width - 150, last = 17 * (lines.length - 1);
+  const y = Math.max(top + 12, Math.min((a + b) / 2 + 4 - last / 2, height - bottom - 4 - last));
+  return svg("g", { class: kind }, svg("path", { class: "bracket", d: `M${x - 4},${a}h8M${x},${a}V${b}M${x - 4},${b}h8` }),
+    ...lines.map((line, i) => svg("text", { x: flip ? x - 8 : x + 8, y: y + 17 * i, class: flip ? "end" : "" }, line)));
 }
 
-function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: number, constant: number): SVGElement {
+// The whole bias, and what it is made of where that is more than a constant.
+function biasMark(light: Light, frame: Frame, pixel: Pixel, x: number, stored: number, parts: BiasPart[]): SVGElement {
+  const along = alongRay(light.json.view, pixel.face, pixel.at.u, pixel.at.v), text = (depth: number) => number(depth * along, 3);
+  const whole = `bias ${text(total(parts))}`;
+  const mark = bracket(frame, x, stored, stored + total(parts), "bias-mark", parts.length === 1 ? [whole] :
+    [`${whole}:`, ...parts.map(({ name, depth }, i) => `${i > 0 ? "+ " : ""}${name} ${text(depth)}`)]);
+  for (const split of parts.slice(0, -1)) mark.append(svg("path", { class: "bracket", d: `M${x - 3},${frame.y(stored + split.depth)}h6` }));
+  return mark;
+}
+
+function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, parts: BiasPart[]): SVGElement {
   const t = frame.axis === 0 ? pixel.at.u : pixel.at.v, own = Math.floor(t);
   const x = frame.x(t), y = frame.y(pixel.at.depth), group = svg("g"), right = frame.x(own + 1);
   const centre = frame.x(own + 0.5);
@@ -115,21 +140,22 @@ function marks(light: Light, frame: Frame, pixel: Pixel, stored: number, bias: n
   group.append(svg("line", { class: "own-ray", x1: x, x2: x, y1: top, y2: y }));
   if (light.json.bias.normal_offset > 0) group.append(movedPoint(light, frame, pixel));
   if (isFinite(stored)) {
-    if (stored < frame.low || stored > frame.high) group.append(offScale(frame, right, stored, pixel));
-    else group.append(bracket(frame, right + 8, stored, stored + bias, "bias-mark", `bias ${number(constant, 3)}`));
-    group.append(bracket(frame, frame.x(own) - 8, stored, pixel.at.depth, "gap-mark", `gap ${number(pixel.gap, 3)}`, true));
+    const away = (pixel.at.depth - stored) * alongRay(light.json.view, pixel.face, pixel.at.u, pixel.at.v);
+    if (stored < frame.low || stored > frame.high) group.append(offScale(frame, right, stored, away));
+    else if (isFinite(total(parts))) group.append(biasMark(light, frame, pixel, right + 8, stored, parts));
+    group.append(bracket(frame, frame.x(own) - 8, stored, pixel.at.depth, "gap-mark", [`${parts.length === 1 ? "gap" : "distance"} ${number(away, 3)}`], true));
   } else group.append(svg("text", { class: "note", x: right + 8, y: top + 20 }, "nothing stored here:"),
     svg("text", { class: "note", x: right + 8, y: top + 38 }, "never in shadow"));
   group.append(svg("circle", { class: "point", cx: x, cy: y, r: 5 }));
   return group;
 }
 
-function offScale(frame: Frame, x: number, stored: number, pixel: Pixel): SVGElement {
+function offScale(frame: Frame, x: number, stored: number, away: number): SVGElement {
   const above = stored < frame.low, y = above ? top + 4 : height - bottom - 4, d = above ? 14 : -14;
   const crowded = x + 16 + 230 > width, text = { x: crowded ? width - side : x + 16, class: crowded ? "end" : "" };
   return svg("g", { class: "note" },
     svg("path", { class: "bracket", d: `M${x + 6},${y + d}v${-d}m-4,${d / 2}l4,${-d / 2}l4,${d / 2}` }),
-    svg("text", { ...text, y: above ? y + 12 : y - 22 }, `stored: ${number(Math.abs(pixel.at.depth - stored), 3)} ${above ? "nearer the light" : "farther"},`),
+    svg("text", { ...text, y: above ? y + 12 : y - 22 }, `stored: ${number(Math.abs(away), 3)} ${above ? "nearer the light" : "farther"},`),
     svg("text", { ...text, y: above ? y + 30 : y - 4 }, "off this drawing"));
 }
 
@@ -143,16 +169,16 @@ function movedPoint(light: Light, frame: Frame, pixel: Pixel): SVGElement {
 }
 
 export function texelDrawing(light: Light, pixel: Pixel, constant: number, id: string): HTMLElement {
-  const stored = storedDepth(light, pixel), bias = biasDepth(light, pixel, constant);
-  const frame = frameFor(light, pixel, stored, isFinite(bias) ? bias : 0);
+  const stored = storedDepth(light, pixel), parts = biasParts(light, pixel, constant), bias = isFinite(total(parts)) ? total(parts) : 0;
+  const frame = frameFor(light, pixel, stored, bias);
   const clip = `${id}-clip`, dark = pixel.gap > Math.fround(constant);
   const drawing = svg("svg", { class: "light-space", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-labelledby": `${id}-title` },
-    svg("title", { id: `${id}-title` }, `Light-space drawing of pixel ${pixel.x}, ${pixel.y}: ${dark ? "in shadow" : "lit"} by the map`),
+    svg("title", { id: `${id}-title` }, `Light-space drawing of pixel ${pixel.x}, ${pixel.y}: ${dark ? "shadow" : "light"} by the map`),
     svg("defs", {}, svg("clipPath", { id: clip }, svg("rect", { x: side, y: top, width: width - 2 * side, height: height - top - bottom }))),
     svg("text", { class: "middle", x: width / 2, y: 16 }, "light"),
     ...[-60, -30, 30, 60].map((dx) => svg("path", { class: "light-ray", d: `M${width / 2 + dx},6v26m-3,-6l3,6l3,-6` })),
-    svg("g", { "clip-path": `url(#${clip})` }, steps(light, frame, pixel, stored, isFinite(bias) ? bias : 0), receiverLine(light, frame, pixel)),
-    marks(light, frame, pixel, stored, isFinite(bias) ? bias : 0, constant),
+    svg("g", { "clip-path": `url(#${clip})` }, steps(light, frame, pixel, stored, bias), receiverLine(light, frame, pixel)),
+    marks(light, frame, pixel, stored, parts),
     svg("text", { class: "middle", x: width / 2, y: height - 8 }, `texels along the map's ${frame.axis === 0 ? "u (columns)" : "v (rows)"}`));
   // The texel numbers stand below the clipped part.
   const numbers = drawing.querySelectorAll("g[clip-path] text");
@@ -160,7 +186,8 @@ export function texelDrawing(light: Light, pixel: Pixel, constant: number, id: s
   return html("figure", {}, drawing, html("figcaption", {},
     `To scale: a texel is ${number(frame.texel, 3)} wide here, depth has the same unit. Thick: stored depth. ` +
     `Dashed: stored depth and bias; what lies below it, the map takes for shadow. Slanted: the receiver's plane; ` +
-    `dotted: the ray through the texel's centre. The point is the pixel: ${dark ? "below the dashed line, so in shadow" : "not below the dashed line, so lit"}.` +
+    `dotted: the ray through the texel's centre. The point is the pixel: ${dark ? "below the dashed line, so the test takes it for shadowed" : "not below the dashed line, so the test takes it for lit"}.` +
+    (light.json.bias.normal_offset > 0 ? " Open circle: the point moved by the normal offset, which is what the map is asked about." : "") +
     (light.json.bias.receiver_plane ? " With receiver plane, the test compares the plane at the texel's centre." : "") +
     (light.map.step > 1 ? ` Neighbouring texels show the nearest depth of ${light.map.step} × ${light.map.step}.` : "")));
 }

@@ -1,30 +1,52 @@
 // One pixel's story in words: what the map stores, what the test makes of it, and which step made it wrong.
-import { page, wordsOf, type Light, type Pixel } from "./data";
+import { page, wordsOf, type Light, type LightJson, type Pixel, type ShownMaterial } from "./data";
 import { number } from "./svg";
 
-/** The step at which the visibility last became wrong (DESIGN.md, section 3), or 0 when it never did. */
-export function decidingStep(rungs: number[]): number {
-  let step = 0;
-  for (let k = 1; k < rungs.length; ++k) {
-    const wrong = (i: number) => Math.abs(rungs[i]! - rungs[0]!) > 0.5;
-    if (wrong(k) && !wrong(k - 1)) step = k;
-  }
-  return step;
+const precision = 2, precisionStep = 4, filterStep = 6;  // a label's value; rungs
+
+/** The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to; 0: the pixel is right. */
+export function decidingStep({ label, rungs }: Pixel): number {
+  if (label <= 0) return 0;
+  if (label === precision) return precisionStep;
+  const wrong = (k: number) => Math.abs(rungs[k]! - rungs[0]!) > 0.5;
+  const rises = rungs.flatMap((_, k) => (k > 0 && wrong(k) && !wrong(k - 1) ? [k] : []));
+  if (rungs[6]! < rungs[0]!) return rises.at(-1) ?? 0;
+  return wrong(5) ? rises[0] ?? 0 : filterStep;
 }
 
-const brightness = (v: number): string => (v > 0.5 ? "lit" : "in shadow");
+function wentWrong(pixel: Pixel): string {
+  const words = wordsOf(pixel.label), step = decidingStep(pixel);
+  if (pixel.label === precision) return `With the exact depth in place of the stored one it would be right: ${words.what}.`;
+  return `It went wrong on the step from V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+}
+
+// Of what mirrors or transmits only the surface's own light and shadow are compared; the picture shows more.
+const brightness = (pixel: Pixel, v: number): string =>
+  pixel.material ? (v > 0.5 ? "the light reaches the surface" : "the light does not reach the surface")
+                 : v > 0.5 ? "lit" : "in shadow";
+const testGives = (pixel: Pixel, dark: boolean): string =>
+  pixel.material ? `gives the surface ${dark ? "no light" : "the light"}` : `draws it ${dark ? "in shadow" : "lit"}`;
+
+/** What a bias is made of besides its constant, in words; empty where there is nothing. */
+export function otherParts({ slope, normal_offset: offset, receiver_plane: plane, adaptive }: LightJson["bias"]): string {
+  const parts = [slope !== 0 ? "the slope bias" : "", offset !== 0 ? "the normal offset" : "", plane ? "the receiver's plane" : "", adaptive !== null ? "the adaptive bias" : ""];
+  return parts.filter((part) => part !== "").join(" and ");
+}
 
 function mapTest(light: Light, pixel: Pixel, bias: number): string {
-  const texels = (d: number) => `${number(d / light.json.texel_world, 2)} texels`;
   const outside = [pixel.at.u, pixel.at.v].some((t) => t < 0 || t >= light.json.view.size);
   if (pixel.gap === -Infinity)
     return outside ? "The pixel lies outside the map, so the test lets it be lit." : "The map stores nothing where this pixel looks, so the test lets it be lit.";
-  const texel = `${Math.floor(pixel.at.u)}, ${Math.floor(pixel.at.v)}`;
+  const texel = `Texel ${Math.floor(pixel.at.u)}, ${Math.floor(pixel.at.v)}`, dark = pixel.gap > Math.fround(bias);
+  // The gap is what the other parts of the bias leave for its constant to cover.
+  const parts = otherParts(light.json.bias), allowed = `than ${parts} allow${/ and /.test(parts) ? "" : "s"} for`;
+  const constant = `the ${parts === "" ? "" : "constant "}bias of ${number(bias, 3)}`, distance = number(Math.abs(pixel.gap), 3);
   if (pixel.gap <= 0)
-    return `Texel ${texel} stores a depth ${number(-pixel.gap, 3)} behind this point, so the test draws it ${pixel.gap > Math.fround(bias) ? "in shadow" : "lit"} at the bias of ${number(bias, 3)}.`;
-  return `Texel ${texel} stores something ${number(pixel.gap, 3)} (${texels(pixel.gap)}) nearer the light. ` +
-    (pixel.gap > Math.fround(bias) ? `That is more than the bias of ${number(bias, 3)}: the test draws it in shadow.`
-                                   : `That is no more than the bias of ${number(bias, 3)}: the test draws it lit.`);
+    return (parts === "" ? `${texel} stores a depth ${distance} behind this point` : `${texel} stores nothing nearer the light ${allowed}`) +
+      `, so the test ${testGives(pixel, dark)} at ${constant}.`;
+  const texels = number(pixel.gap / light.json.texel_world, 2);
+  return `${texel} stores something ${distance} (${texels} texel${texels === "1" ? "" : "s"}) nearer the light${parts === "" ? "" : ` ${allowed}`}. ` +
+    `That is ${dark ? "more" : "no more"} than ${constant}: the test ${testGives(pixel, dark)}.`;
 }
 
 const decisions = [
@@ -44,25 +66,38 @@ function exactly(light: Light, pixel: Pixel, bias: number): string {
 
 /** Where more than the one texel decides: the single test (V5) first, then what the technique makes of it (V6). */
 function filtered(light: Light, pixel: Pixel, bias: number): string {
-  const [truth, single, drawn] = [pixel.rungs[0]!, pixel.rungs[5]!, pixel.rungs[6]!], words = wordsOf(pixel.label);
+  const [truth, single, drawn] = [pixel.rungs[0]!, pixel.rungs[5]!, pixel.rungs[6]!];
   const looked = isFinite(pixel.gap) ? `${mapTest(light, pixel, bias)} ` : "";
   const test = `${looked}A single test at this bias gives ${number(single, 3)}; ` +
     (drawn === single ? `${light.json.technique} changes nothing here: drawn ${number(drawn, 3)}.` : `${light.json.technique} reads more of the map than that and draws ${number(drawn, 3)}.`) +
     ` The exact rays give ${number(truth, 3)}.`;
-  if (pixel.label === 0) return `${test} So it is right to within one half.`;
-  const step = decidingStep(pixel.rungs);
-  return `${test} It went wrong on the step V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+  return `${test} ${pixel.label === 0 ? "So it is right to within one half." : wentWrong(pixel)}`;
 }
 
-export function story(light: Light, pixel: Pixel, bias: number): string {
-  const words = wordsOf(pixel.label);
-  if (pixel.label < 0) return `Not compared: ${words.what}.`;
+function compared(light: Light, pixel: Pixel, bias: number): string {
   if (!light.json.compares_depths) return exactly(light, pixel, bias);
   if (!light.json.gaps_decide) return filtered(light, pixel, bias);
   const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
-  const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel.rungs[0]!)}.`;
+  const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel, pixel.rungs[0]!)}.`;
   if (bias !== light.json.bias.constant) return `${test} With this bias it is drawn ${lit === drawn ? "right" : "wrong"}.`;
-  if (pixel.label === 0) return `${test} So it is right.`;
-  const step = decidingStep(pixel.rungs);
-  return `${test} It went wrong on the step V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+  return `${test} ${pixel.label === 0 ? "So it is right." : wentWrong(pixel)}`;
+}
+
+export function story(light: Light, pixel: Pixel, bias: number): string {
+  return pixel.label < 0 ? `Not compared: ${wordsOf(pixel.label).what}.` : compared(light, pixel, bias);
+}
+
+const named = ({ name }: ShownMaterial, kind: string): string => (name === "" ? kind : `${kind} (material “${name}”)`);
+
+/** What the pictures show here beside what is compared: mirrors and glass; empty for a plain surface in plain light. */
+export function remarks(pixel: Pixel): string[] {
+  const { material, storedGlass } = pixel, out: string[] = [];
+  if (material) {
+    const glass = material.transmission > 0, shows = glass ? "what is seen through it and mirrored in it" : "what is mirrored in it";
+    out.push(`This surface is ${named(material, glass ? "glass" : "a mirror")}. The ray-traced picture adds ${shows}, so it may be bright here without any light of its own; ` +
+      `the rasterizer draws matte grey in place of that.${glass ? " The map takes it for opaque." : ""} Compared is only the shadow on the surface itself.`);
+  }
+  if (storedGlass)
+    out.push(`The texel looked up holds ${named(storedGlass, "glass")}, which the map and the comparison take for opaque. In the ray-traced picture light passes through it, so this pixel may be bright there though its shadow is counted as full.`);
+  return out;
 }
