@@ -127,10 +127,11 @@ void add_manual(CLI::App& program) {
             const std::string chapter = manual_chapter(program, name);
             if (chapter.empty())
               throw CLI::ValidationError(
-                  "--manual", fmt::format("unknown chapter (got {}, allowed options, json)", name));
+                  "--manual",
+                  fmt::format("unknown chapter (got {}, allowed options, json, techniques)", name));
             throw CLI::CallForVersion(chapter, 0);
           },
-          "print a chapter of the manual as Markdown, and exit [options or json]")
+          "print a chapter of the manual as Markdown, and exit [options, json or techniques]")
       ->type_name("CHAPTER");
 }
 

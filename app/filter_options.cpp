@@ -2,19 +2,15 @@
 
 #include "app/option_kinds.h"
 #include "app/technique_options.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::app {
 namespace {
 
-constexpr std::pair<std::string_view, raster::FilterKernel> kernels[] = {
-    {"box", raster::FilterKernel::box},
-    {"hardware", raster::FilterKernel::hardware},
-    {"vogel", raster::FilterKernel::vogel},
-    {"optimised", raster::FilterKernel::optimised}};
 constexpr std::pair<std::string_view, bool> switches[] = {{"on", true}, {"off", false}};
 
 void add_pcf_options(CLI::App& command, raster::FilterOptions& filter) {
-  add_choice(command, "--filter-kernel", filter.kernel, kernels, "NAME",
+  add_choice(command, "--filter-kernel", filter.kernel, filter_kernels(), "NAME",
              "N x N texels alike, 2 x 2 bilinear, a disc turned at every pixel, or a sliding square");
   add_number(command, "--filter-radius", filter.radius_texels, {0.001, 64.0}, "texels",
              "half the kernel's width; box covers 2 floor(radius) + 1");
@@ -52,7 +48,13 @@ void add_filter_options(CLI::App& command, raster::FilterOptions& filter) {
 }
 
 std::span<const std::pair<std::string_view, raster::FilterKernel>> filter_kernels() {
-  return kernels;
+  static const auto choices = [] {
+    std::vector<std::pair<std::string_view, raster::FilterKernel>> all;
+    for (const auto& traits : raster::all_filter_kernel_traits())
+      all.emplace_back(traits.name, traits.kernel);
+    return all;
+  }();
+  return choices;
 }
 
 std::string filter_options_text(const raster::MapOptions& map) {
@@ -69,8 +71,7 @@ std::string filter_options_text(const raster::MapOptions& map) {
   const auto integer = [&](const char* name, int raster::FilterOptions::*field) {
     add(name, filter.*field, plain.*field, std::to_string(filter.*field));
   };
-  for (const auto& [name, kernel] : kernels)
-    if (kernel == filter.kernel) add("--filter-kernel", kernel, plain.kernel, std::string(name));
+  add("--filter-kernel", filter.kernel, plain.kernel, std::string(raster::traits_of(filter.kernel).name));
   number("--filter-radius", &raster::FilterOptions::radius_texels);
   add("--filter-plane", filter.receiver_plane, plain.receiver_plane, filter.receiver_plane ? "on" : "off");
   integer("--filter-samples", &raster::FilterOptions::samples);

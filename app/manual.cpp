@@ -9,6 +9,10 @@
 #include <sstream>
 
 #include "app/help.h"
+#include "app/technique_options.h"
+#include "app/values.h"
+#include "compare/option_names.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::app {
 
@@ -118,11 +122,92 @@ std::string json_chapter() {
       written_by_the_program, wrap(schema.value("description", std::string()), 0, page_width), keys.take());
 }
 
+std::string_view contents_text(raster::MapContents contents) {
+  switch (contents) {
+    case raster::MapContents::nearest_depth:
+      return "depth of the nearest surface";
+    case raster::MapContents::back_depth:
+      return "depth of the nearest surface that faces away from the light";
+    case raster::MapContents::midpoint_depth:
+      return "depth halfway between the two nearest surfaces";
+    case raster::MapContents::moments:
+      return "filtered moments of the depth";
+    case raster::MapContents::pixels:
+      return "list of the pixels that look it up";
+    case raster::MapContents::sheets:
+      return "connected pieces of surface";
+  }
+  return {};
+}
+
+std::string_view test_text(raster::ShadowTest test) {
+  switch (test) {
+    case raster::ShadowTest::single:
+      return "one comparison of depths";
+    case raster::ShadowTest::averaged:
+      return "mean of comparisons";
+    case raster::ShadowTest::moments:
+      return "bound from moments";
+    case raster::ShadowTest::exact:
+      return "exact, without a bias";
+  }
+  return {};
+}
+
+std::string_view texel_text(raster::TexelShape shape) {
+  switch (shape) {
+    case raster::TexelShape::of_light:
+      return "as the light sees";
+    case raster::TexelShape::cascades:
+      return "of one width in each cascade, along the camera";
+    case raster::TexelShape::warped:
+      return "wider with the distance to the camera";
+  }
+  return {};
+}
+
+std::string lights_text(raster::LightTypeSet lights) {
+  std::vector<std::string_view> names;
+  for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
+    if (lights.has(type)) names.push_back(compare::light_type_name(type));
+  return names.size() == 3 ? "all" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The options that this technique reads and not all of its kind, with their dashes.
+std::string options_text(raster::Technique technique) {
+  std::vector<std::string> names;
+  for (const std::string_view option : technique_options())
+    if (technique_reads(option, technique)) names.push_back(fmt::format("`--{}`", option));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string techniques_chapter() {
+  std::string text = fmt::format(
+      "{}# The techniques\n\nWhat `--technique` takes: what a texel of the map holds, how a pixel's "
+      "visibility "
+      "comes from it, which lights it\nis for, how wide its texels are, the slope bias where none is asked "
+      "for, "
+      "and the options that it reads of those\nthat not every technique reads (`options.md` says what they "
+      "do). "
+      "`pcf` reads some with some of its kernels alone.\n\n"
+      "| technique | texel holds | decides by | lights | texels | default slope bias | reads |\n"
+      "|---|---|---|---|---|---|---|\n",
+      written_by_the_program);
+  for (const raster::TechniqueTraits& t : raster::all_technique_traits()) {
+    const bool biased = raster::compares_depths(t.technique);
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", t.name, contents_text(t.contents),
+                        test_text(t.test), lights_text(t.lights), texel_text(t.texels),
+                        biased ? number_text(t.default_slope_bias) : "none", options_text(t.technique));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string manual_chapter(const CLI::App& program, std::string_view chapter) {
   if (chapter == "options") return options_chapter(program);
   if (chapter == "json") return json_chapter();
+  if (chapter == "techniques") return techniques_chapter();
   return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "app/suggest.h"
@@ -82,10 +83,10 @@ Expected<Enum> parse_choice(const std::string& text, Choices<Enum> choices) {
                                             choice_names<Enum>(choices, ", "), did_you_mean(text, names)));
 }
 
-template <class Enum, std::size_t N>
+/// `all` outlives the command.
+template <class Enum>
 void add_choice(CLI::App& command, const std::string& name, Enum& field,
-                const std::pair<std::string_view, Enum> (&choices)[N], const char* type, const char* what) {
-  const Choices<Enum> all(choices);
+                std::type_identity_t<Choices<Enum>> all, const char* type, const char* what) {
   std::string_view fallback;
   for (const auto& [text, value] : all) {
     if (value == field) fallback = text;

@@ -5,20 +5,13 @@
 #include "app/filter_options.h"
 #include "app/option_kinds.h"
 #include "app/technique_options.h"
+#include "raster/technique_traits.h"
 #include "scene/tessellate.h"
 
 namespace gnomon::app {
 
 namespace {
 
-constexpr std::pair<std::string_view, raster::Technique> techniques[] = {
-    {"hard", raster::Technique::hard},         {"pcf", raster::Technique::pcf},
-    {"pcss", raster::Technique::pcss},         {"vsm", raster::Technique::vsm},
-    {"esm", raster::Technique::esm},           {"evsm", raster::Technique::evsm},
-    {"msm", raster::Technique::msm},           {"second-depth", raster::Technique::second_depth},
-    {"midpoint", raster::Technique::midpoint}, {"csm", raster::Technique::csm},
-    {"lispsm", raster::Technique::lispsm},     {"cube", raster::Technique::cube},
-    {"izb", raster::Technique::izb},           {"hybrid", raster::Technique::hybrid}};
 constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
     {"d16", raster::DepthFormat::d16},
     {"d24", raster::DepthFormat::d24},
@@ -130,7 +123,7 @@ void add_map_size(CLI::App& command, int& texels) {
 
 void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_map_size(command, map.size);
-  add_choice(command, "--technique", map.technique, techniques, "NAME", "shadow test");
+  add_choice(command, "--technique", map.technique, all_techniques(), "NAME", "shadow test");
   add_bias_options(command, map.bias);
   add_choice(command, "--depth-format", map.depth_format, depth_formats, "NAME",
              "number format of the stored depth");
@@ -142,12 +135,18 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
 
 std::vector<std::string> technique_names() {
   std::vector<std::string> names;
-  for (const auto& [name, technique] : techniques) names.emplace_back(name);
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
+    names.emplace_back(traits.name);
   return names;
 }
 
-std::vector<std::pair<std::string, raster::Technique>> all_techniques() {
-  return {std::begin(techniques), std::end(techniques)};
+std::span<const std::pair<std::string_view, raster::Technique>> all_techniques() {
+  static const auto choices = [] {
+    std::vector<std::pair<std::string_view, raster::Technique>> all;
+    for (const auto& traits : raster::all_technique_traits()) all.emplace_back(traits.name, traits.technique);
+    return all;
+  }();
+  return choices;
 }
 
 void add_backend(CLI::App& command, raster::Backend& backend) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ void add_map_size(CLI::App& command, int& texels);
 void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.
 std::vector<std::string> technique_names();
-std::vector<std::pair<std::string, raster::Technique>> all_techniques();
+std::span<const std::pair<std::string_view, raster::Technique>> all_techniques();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// --shader-dir.
 void add_shader_dir(CLI::App& command, std::string& folder);

@@ -9,6 +9,7 @@
 #include "app/machine.h"
 #include "app/output_path.h"
 #include "compare/option_names.h"
+#include "raster/technique_traits.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -80,7 +81,7 @@ std::string render_json(const RenderRecord& record, const raster::RasterFrame& f
   json["shaders"] = Json::array();
   for (const raster::ReplacedShader& shader : frame.replaced_shaders)
     json["shaders"].push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
-  json["map"] = {{"technique", compare::technique_name(map.technique)},
+  json["map"] = {{"technique", raster::technique_name(map.technique)},
                  {"size", map.size},
                  {"depth_format", compare::depth_format_name(map.depth_format)},
                  {"cull", compare::cull_name(map.cull)}};

@@ -10,9 +10,9 @@
 
 #include "app/lesson_scene.h"
 #include "app/suggest.h"
-#include "compare/option_names.h"
 #include "hybrid/visibility.h"
 #include "raster/shader_folder.h"
+#include "raster/technique_traits.h"
 #include "raytrace/choose_tracer.h"
 #include "scene/load.h"
 #include "scene/stages.h"
@@ -91,7 +91,7 @@ Expected<void> check_shaders_used(const std::string& shader_folder, const raster
   for (const raster::ReplacedShader& shader : replaced) {
     if (std::find(used.begin(), used.end(), shader) != used.end()) continue;
     const std::string words = fmt::format("replaces nothing here: --technique {} reads {}",
-                                          compare::technique_name(map.technique), file);
+                                          raster::technique_name(map.technique), file);
     if (used.empty()) {
       Error error{ErrorKind::bad_input, words};
       error.file = folder->path_of(shader.name);

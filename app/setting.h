@@ -11,6 +11,7 @@ namespace gnomon::app {
 
 struct SettingOptions {
   compare::CompareOptions options;
+  std::string light;  ///< name of the one light to compare; empty: all
   PoseOptions poses;
 };
 

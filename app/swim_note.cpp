@@ -5,14 +5,12 @@
 
 #include <vector>
 
-#include "compare/option_names.h"
+#include "raster/technique_traits.h"
 #include "scene/light_view.h"
 
 namespace gnomon::app {
 
 namespace {
-
-using raster::Technique;
 
 /// The camera a hundredth of its distance to the right.
 Camera moved_aside(Camera camera) {
@@ -37,18 +35,17 @@ bool single_map_moves(const World& world, const Light& light, const raster::MapO
 }
 
 bool swims(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
-  if (light.type != LightType::directional) return false;  // its map stays with the light
-  switch (map.technique) {
-    case Technique::csm:
+  if (light.type != LightType::directional) return false;     // its map stays with the light
+  if (!raster::compares_depths(map.technique)) return false;  // whatever the map, the answer is the same
+  switch (raster::traits_of(map.technique).texels) {
+    case raster::TexelShape::cascades:
       return !map.cascades.snap || map.cascades.fit_samples;
-    case Technique::lispsm:
+    case raster::TexelShape::warped:
       return true;
-    case Technique::izb:
-    case Technique::hybrid:
-      return false;  // exact
-    default:
-      return single_map_moves(world, light, map, aspect);
+    case raster::TexelShape::of_light:
+      break;
   }
+  return single_map_moves(world, light, map, aspect);
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ std::string swim_note(const World& world, const raster::MapOptions& map, ImageSi
       "The map of {} follows the camera by parts of a texel ({}): its shadow edges swim when the camera "
       "moves; "
       "--technique csm moves by whole texels.",
-      fmt::join(names, ", "), compare::technique_name(map.technique));
+      fmt::join(names, ", "), raster::technique_name(map.technique));
 }
 
 }  // namespace gnomon::app

@@ -7,9 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/filter_options.h"
-#include "app/options.h"
-#include "compare/option_names.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::app {
 namespace {
@@ -17,101 +15,95 @@ namespace {
 using raster::FilterKernel;
 using raster::Technique;
 
-/// Sets of techniques and of pcf's kernels, a bit for each.
-using Set = std::uint32_t;
-
-template <class... Enum>
-constexpr Set set_of(Enum... members) {
-  return ((Set{1} << static_cast<unsigned>(members)) | ...);
-}
-template <class Enum>
-constexpr bool holds(Set set, Enum member) {
-  return (set & set_of(member)) != 0;
-}
-
-constexpr Set exact = set_of(Technique::izb, Technique::hybrid);  // no stored depth, so no bias
-constexpr Set all = (set_of(Technique::hybrid) << 1U) - 1U;
-constexpr Set depth = all & ~exact;
-constexpr Set moments = set_of(Technique::vsm, Technique::esm, Technique::evsm, Technique::msm);
-constexpr Set every_kernel =
-    set_of(FilterKernel::box, FilterKernel::hardware, FilterKernel::vogel, FilterKernel::optimised);
+using raster::FilterKernelTraits;
+using raster::MapOption;
+using raster::TechniqueTraits;
 
 struct Row {
-  std::string_view option;
-  Set techniques;
-  Set kernels = every_kernel;  ///< of pcf
+  std::string_view name;  ///< without "--"
+  MapOption option;
 };
-constexpr Row rows[] = {
-    {"bias", depth},
-    {"slope-bias", depth},
-    {"normal-offset", depth},
-    // pcf and pcss compare with the plane by default: filter-plane.
-    {"receiver-plane", depth & ~moments & ~set_of(Technique::pcf, Technique::pcss)},
-    {"adaptive-bias", depth & ~moments},
-    {"depth-format", depth},
-    {"cull", depth & ~set_of(Technique::second_depth)},
-    {"filter-kernel", set_of(Technique::pcf)},
-    {"filter-radius", set_of(Technique::pcf), every_kernel & ~set_of(FilterKernel::hardware)},
-    {"filter-plane", set_of(Technique::pcf, Technique::pcss)},
-    {"filter-samples", set_of(Technique::pcf, Technique::pcss), set_of(FilterKernel::vogel)},
-    {"blocker-samples", set_of(Technique::pcss)},
-    {"search-radius", set_of(Technique::pcss)},
-    {"blur-radius", moments},
-    {"mipmaps", moments},
-    {"bleeding-reduction", moments & ~set_of(Technique::esm)},
-    {"esm-exponent", set_of(Technique::esm)},
-    {"evsm-exponent", set_of(Technique::evsm)},
-    {"evsm-negative-exponent", set_of(Technique::evsm)},
-    {"moment-bias", set_of(Technique::msm)},
-    {"cascades", set_of(Technique::csm)},
-    {"cascade-lambda", set_of(Technique::csm)},
-    {"no-snap", set_of(Technique::csm)},
-    {"cascade-fit", set_of(Technique::csm)}};
+constexpr Row rows[] = {{"bias", MapOption::bias},
+                        {"slope-bias", MapOption::slope_bias},
+                        {"normal-offset", MapOption::normal_offset},
+                        {"receiver-plane", MapOption::receiver_plane},
+                        {"adaptive-bias", MapOption::adaptive_bias},
+                        {"depth-format", MapOption::depth_format},
+                        {"cull", MapOption::cull},
+                        {"filter-kernel", MapOption::filter_kernel},
+                        {"filter-radius", MapOption::filter_radius},
+                        {"filter-plane", MapOption::filter_plane},
+                        {"filter-samples", MapOption::filter_samples},
+                        {"blocker-samples", MapOption::blocker_samples},
+                        {"search-radius", MapOption::search_radius},
+                        {"blur-radius", MapOption::blur_radius},
+                        {"mipmaps", MapOption::mipmaps},
+                        {"bleeding-reduction", MapOption::bleeding_reduction},
+                        {"esm-exponent", MapOption::esm_exponent},
+                        {"evsm-exponent", MapOption::evsm_exponent},
+                        {"evsm-negative-exponent", MapOption::evsm_negative_exponent},
+                        {"moment-bias", MapOption::moment_bias},
+                        {"cascades", MapOption::cascades},
+                        {"cascade-lambda", MapOption::cascade_lambda},
+                        {"no-snap", MapOption::no_snap},
+                        {"cascade-fit", MapOption::cascade_fit}};
 
 const Row* row_of(std::string_view option) {
   const Row* found =
-      std::find_if(std::begin(rows), std::end(rows), [&](const Row& row) { return row.option == option; });
+      std::find_if(std::begin(rows), std::end(rows), [&](const Row& row) { return row.name == option; });
   return found == std::end(rows) ? nullptr : found;
 }
 
-std::string kernel_names(Set kernels) {
+/// "box, vogel": pcf's kernels that read the option.
+std::string kernels_reading(MapOption option) {
   std::vector<std::string_view> names;
-  for (const auto& [name, kernel] : filter_kernels())
-    if (holds(kernels, kernel)) names.push_back(name);
+  for (const FilterKernelTraits& kernel : raster::all_filter_kernel_traits())
+    if (!kernel.unread.has(option)) names.push_back(kernel.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string technique_text(const Row& row, Set techniques) {
+bool every_kernel_reads(MapOption option) {
+  const auto kernels = raster::all_filter_kernel_traits();
+  return std::none_of(kernels.begin(), kernels.end(),
+                      [&](const FilterKernelTraits& kernel) { return kernel.unread.has(option); });
+}
+
+/// The techniques that read the option, or those that do not.
+std::string techniques_text(MapOption option, bool reading) {
   std::vector<std::string> names;
-  for (const auto& [name, technique] : all_techniques()) {
-    if (!holds(techniques, technique)) continue;
-    const bool some = technique == Technique::pcf && row.kernels != every_kernel;
-    names.push_back(some ? fmt::format("{} ({})", name, kernel_names(row.kernels)) : name);
+  for (const TechniqueTraits& traits : raster::all_technique_traits()) {
+    if (traits.reads.has(option) != reading) continue;
+    const bool some = traits.technique == Technique::pcf && !every_kernel_reads(option);
+    names.push_back(some ? fmt::format("{} ({})", traits.name, kernels_reading(option))
+                         : std::string(traits.name));
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// What to type instead: the first technique that reads the option, with a kernel of pcf that does.
-std::string remedy(const Row& row, bool is_pcf) {
-  for (const auto& [name, technique] : all_techniques()) {
-    if (!holds(row.techniques, technique)) continue;
-    const std::string kernels = kernel_names(row.kernels);
+std::string remedy(MapOption option, bool is_pcf) {
+  for (const TechniqueTraits& traits : raster::all_technique_traits()) {
+    if (!traits.reads.has(option)) continue;
+    const std::string kernels = kernels_reading(option);
     const std::string kernel = "--filter-kernel " + kernels.substr(0, kernels.find(','));
-    if (technique != Technique::pcf || holds(row.kernels, FilterKernel::box)) {
-      return is_pcf && technique == Technique::pcf ? kernel : "--technique " + name;
-    }
+    const bool pcf = traits.technique == Technique::pcf;
+    if (!pcf || !raster::traits_of(FilterKernel::box).unread.has(option))
+      return is_pcf && pcf ? kernel : fmt::format("--technique {}", traits.name);
     return is_pcf ? kernel : "--technique pcf " + kernel;
   }
   return {};
 }
 
 std::string given_text(std::span<const Technique> techniques, std::span<const FilterKernel> kernels) {
+  std::vector<std::string_view> kernel_names;
+  for (const FilterKernelTraits& traits : raster::all_filter_kernel_traits())
+    if (std::find(kernels.begin(), kernels.end(), traits.kernel) != kernels.end())
+      kernel_names.push_back(traits.name);
   std::vector<std::string> names;
   for (const Technique technique : techniques) {
-    std::string name(compare::technique_name(technique));
-    Set used = 0;
-    for (const FilterKernel kernel : kernels) used |= set_of(kernel);
-    if (technique == Technique::pcf) name += " with --filter-kernel " + kernel_names(used);
+    std::string name(raster::technique_name(technique));
+    if (technique == Technique::pcf)
+      name += fmt::format(" with --filter-kernel {}", fmt::join(kernel_names, ", "));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   }
   return fmt::format("{}", fmt::join(names, ", "));
@@ -121,50 +113,57 @@ std::string given_text(std::span<const Technique> techniques, std::span<const Fi
 
 std::vector<std::string_view> technique_options() {
   std::vector<std::string_view> names;
-  for (const Row& row : rows) names.push_back(row.option);
+  for (const Row& row : rows) names.push_back(row.name);
   return names;
 }
 
-bool technique_reads(std::string_view option, Technique technique, FilterKernel kernel) {
+bool technique_reads(std::string_view option, const raster::MapOptions& map) {
   const Row* row = row_of(option);
-  if (row == nullptr) return true;
-  return holds(row->techniques, technique) && (technique != Technique::pcf || holds(row->kernels, kernel));
+  return row == nullptr || raster::reads_option(map, row->option);
+}
+
+bool technique_reads(std::string_view option, Technique technique) {
+  const Row* row = row_of(option);
+  return row == nullptr || raster::traits_of(technique).reads.has(row->option);
 }
 
 std::string readers_of(std::string_view option) {
   const Row* row = row_of(option);
   if (row == nullptr) return "all";
-  const std::string readers = technique_text(*row, row->techniques);
-  const std::string others = "all but " + technique_text(*row, all & ~row->techniques);
+  const std::string readers = techniques_text(row->option, true);
+  const std::string others = "all but " + techniques_text(row->option, false);
   return others.size() < readers.size() ? others : readers;
 }
 
 Expected<void> check_read(std::string_view option, std::span<const Technique> techniques,
                           std::span<const FilterKernel> kernels) {
   for (const Technique technique : techniques)
-    for (const FilterKernel kernel : kernels)
-      if (technique_reads(option, technique, kernel)) return {};
+    for (const FilterKernel kernel : kernels) {
+      raster::MapOptions map;
+      map.technique = technique, map.filter.kernel = kernel;
+      if (technique_reads(option, map)) return {};
+    }
   const bool pcf = std::find(techniques.begin(), techniques.end(), Technique::pcf) != techniques.end();
   Error error{ErrorKind::usage,
               fmt::format("belongs to {}; --technique is {}; did you mean {}?", readers_of(option),
-                          given_text(techniques, kernels), remedy(*row_of(option), pcf))};
+                          given_text(techniques, kernels), remedy(row_of(option)->option, pcf))};
   error.field = fmt::format("--{}", option);
   return fail(std::move(error));
 }
 
 void name_readers(CLI::App& command) {
   for (const Row& row : rows) {
-    CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.option));
+    CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.name));
     if (option != nullptr)
-      option->description(fmt::format("{}: {}", readers_of(row.option), option->get_description()));
+      option->description(fmt::format("{}: {}", readers_of(row.name), option->get_description()));
   }
 }
 
 void finish_map_options(const CLI::App& command, raster::MapOptions& map) {
   for (const Row& row : rows) {
-    const CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.option));
+    const CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.name));
     if (option == nullptr || option->count() == 0) continue;
-    const auto read = check_read(row.option, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
+    const auto read = check_read(row.name, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
     if (!read) throw CLI::ValidationError(read.error().field, read.error().reason);
   }
   const auto given = [&](const char* option) { return command.count(option) > 0; };

@@ -1,4 +1,4 @@
-// Which technique reads which option: one table, from which --help says whose an option is, and by which an
+// Which technique reads which option, by raster/technique_traits.h: --help says whose an option is, and an
 // option that the technique does not read is refused rather than ignored.
 #pragma once
 
@@ -19,11 +19,11 @@ namespace gnomon::app {
 /// Options that not every technique reads, without "--".
 std::vector<std::string_view> technique_options();
 
-/// Whether the technique (of pcf: with that kernel) reads the option; true for any option not of the table.
-bool technique_reads(std::string_view option, raster::Technique technique, raster::FilterKernel kernel);
-inline bool technique_reads(std::string_view option, const raster::MapOptions& map) {
-  return technique_reads(option, map.technique, map.filter.kernel);
-}
+/// Whether the options' technique, with their filter kernel, reads the option; true for any option not of the
+/// table.
+bool technique_reads(std::string_view option, const raster::MapOptions& map);
+/// With any of the filter kernels.
+bool technique_reads(std::string_view option, raster::Technique technique);
 
 /// "pcf (box, vogel, optimised)", "all but izb, hybrid": who reads an option of the table.
 std::string readers_of(std::string_view option);

@@ -8,6 +8,7 @@
 #include "app/setting.h"
 #include "app/values.h"
 #include "compare/option_names.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::app {
 
@@ -37,7 +38,7 @@ std::string family_name(const Values& values, raster::Technique technique) {
     name +=
         (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
   }
-  if (compare::is_exact(technique) && !kind) return std::string(compare::technique_name(technique));
+  if (!raster::compares_depths(technique) && !kind) return std::string(raster::technique_name(technique));
   if (kind) return name;
   return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
@@ -106,6 +107,19 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
   return families;
 }
 
+/// "csm and lispsm are for directional lights, cube for point lights".
+std::string technique_limits() {
+  std::string text;
+  for (const auto& [type, verb] : {std::pair{LightType::directional, " are"}, {LightType::point, ""}}) {
+    std::vector<std::string_view> names;
+    for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
+      if (traits.lights == raster::LightTypeSet(type)) names.push_back(traits.name);
+    text += fmt::format("{}{}{} for {} lights", text.empty() ? "" : ", ", fmt::join(names, " and "), verb,
+                        compare::light_type_name(type));
+  }
+  return text;
+}
+
 /// Without the techniques that have no map for a light compared.
 Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,
                                                      const Scene& scene,
@@ -118,10 +132,8 @@ Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFam
     if (drawn) out.push_back(family);
   }
   if (out.empty() && !families.empty())
-    return fail(
-        ErrorKind::usage,
-        "--technique: has no map for a light of this scene (csm and lispsm are for directional lights, "
-        "cube for point lights)");
+    return fail(ErrorKind::usage,
+                fmt::format("--technique: has no map for a light of this scene ({})", technique_limits()));
   return out;
 }
 

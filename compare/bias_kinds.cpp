@@ -12,6 +12,7 @@
 #include "compare/pixel_list.h"
 #include "compare/sort_numbers.h"
 #include "compare/sweep/engine.h"
+#include "raster/technique_traits.h"
 #include "scene/light.h"
 #include "scene/paging.h"
 
@@ -138,13 +139,12 @@ BiasKind of_slope(const raster::MapOptions& map, const GapLists& slopes, double 
   return kind;
 }
 
-/// The options of a kind with the drawing's way to take a constant: only csm and lispsm have two.
+/// The options of a kind with the drawing's way to take a constant: maps that follow the camera have two.
 raster::MapOptions plain_options(const raster::MapOptions& drawn) {
   raster::MapOptions map = drawn;
-  const bool two_ways =
-      drawn.technique == raster::Technique::csm || drawn.technique == raster::Technique::lispsm;
   map.bias = {};
-  if (two_ways && drawn.bias.unit == raster::BiasUnit::world) map.bias.unit = raster::BiasUnit::world;
+  if (raster::follows_camera(drawn.technique) && drawn.bias.unit == raster::BiasUnit::world)
+    map.bias.unit = raster::BiasUnit::world;
   return map;
 }
 

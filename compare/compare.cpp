@@ -6,21 +6,6 @@
 #include "scene/exposure.h"
 
 namespace gnomon::compare {
-namespace {
-
-Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name) {
-  std::vector<std::uint32_t> lights;
-  std::string known;
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    if (name.empty() || scene.lights[i].name == name) lights.push_back(i);
-    known += (i == 0 ? "" : ", ") + scene.lights[i].name;
-  }
-  if (!lights.empty()) return lights;
-  return fail(ErrorKind::usage,
-              "--light: the scene has no such light (got " + name + ", allowed " + known + ")");
-}
-
-}  // namespace
 
 Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,
                                                       const raster::RasterFrame& drawn,
@@ -42,14 +27,12 @@ Expected<std::vector<LightComparison>> compare_frames(const World& world, const 
 }
 
 Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
-                                   const CompareOptions& options, const Progress& progress) {
+                                   std::span<const std::uint32_t> lights, const CompareOptions& options,
+                                   const Progress& progress) {
   const auto report = [&](std::string_view stage, double done) {
     if (progress) progress(stage, done);
   };
   const Scene& scene = *world.scene;
-  auto lights = choose_lights(scene, options.light);
-  if (!lights) return tl::unexpected(lights.error());
-
   Comparison out;
   out.world = &world;
   out.threads =
@@ -58,7 +41,7 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
   report("shadow maps", 0.0);
   raster::RasterOptions drawing = options.raster;
   drawing.seed = options.raytrace.seed, drawing.shadow_samples = options.raytrace.shadow_samples;
-  auto drawn = renderer.render(drawing, *lights);
+  auto drawn = renderer.render(drawing, lights);
   if (!drawn) return tl::unexpected(drawn.error());
   out.raster = std::move(*drawn);
 
@@ -66,7 +49,7 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
   const raytrace::Tracer tracer(world, options.accel, options.precision);
   out.precision = options.precision;
   out.accel_build_ms = tracer.stats().build_ms;
-  out.raytraced = raytrace::trace_frame(tracer, out.plan, scene.camera, *lights, options.raytrace);
+  out.raytraced = raytrace::trace_frame(tracer, out.plan, scene.camera, lights, options.raytrace);
 
   report("comparing", 0.7);
   auto compared = compare_frames(world, tracer, out.raster, out.raytraced, options);

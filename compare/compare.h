@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,6 @@ struct CompareOptions {
   raytrace::RaytraceOptions raytrace;
   raytrace::Accel accel = raytrace::Accel::bvh;
   raytrace::Precision precision = raytrace::Precision::robust;
-  std::string light;  ///< name of the one light to compare; empty: all
   int bias_curve_points = 129;
   bool perceptual = true;  ///< FLIP and SSIM; NaN when left out
 };
@@ -25,9 +25,10 @@ struct CompareOptions {
 /// Called as work proceeds with a stage name and the share done in [0, 1].
 using Progress = std::function<void(std::string_view stage, double done)>;
 
-/// Renders and compares. The renderer must have been created for `world`.
+/// Renders and compares the lights of those indices. The renderer must have been created for `world`.
 Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
-                                   const CompareOptions& options, const Progress& progress = {});
+                                   std::span<const std::uint32_t> lights, const CompareOptions& options,
+                                   const Progress& progress = {});
 
 /// Compares two finished frames of the same world, camera and size (the viewer's entry).
 Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,

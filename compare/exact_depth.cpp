@@ -2,6 +2,7 @@
 
 #include "compare/biased_test.h"
 #include "compare/columns.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -13,7 +14,8 @@ double forward_depth(const LightView& view, int face, const Vec3& position) {
 // Infinite where the ray meets nothing; none where it meets the stored primitive nowhere.
 std::optional<double> depth_of_stored(const LadderInput& in, raytrace::TexelKey key, const CentreHit& first) {
   const raster::ShadowMap& map = in.record.map;
-  if (in.drawn.options.map.technique == raster::Technique::midpoint) return std::nullopt;
+  if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
+    return std::nullopt;
   if (in.drawn.options.map.cull == raster::Cull::none) return first.depth;
   const std::uint32_t stored = map.primitive[map.texel_index(key.face(), key.column(), key.row())];
   if (stored == no_id) return std::nullopt;

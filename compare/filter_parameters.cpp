@@ -6,27 +6,15 @@
 #include <cmath>
 
 #include "compare/number_text.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
 
 using raster::FilterKernel;
+using raster::MapOption;
 using raster::Technique;
 using Parameters = std::vector<std::pair<std::string, double>>;
-
-std::string_view kernel_name(FilterKernel kernel) {
-  switch (kernel) {
-    case FilterKernel::box:
-      return "box";
-    case FilterKernel::hardware:
-      return "hardware";
-    case FilterKernel::vogel:
-      return "vogel";
-    case FilterKernel::optimised:
-      return "optimised";
-  }
-  return "unknown";
-}
 
 // The square of texels around the receiver's own, or around the receiver.
 double pcf_reach(const raster::FilterOptions& filter) {
@@ -42,23 +30,10 @@ double pcf_reach(const raster::FilterOptions& filter) {
   return 0.0;
 }
 
-Parameters moment_parameters(const raster::MapOptions& map) {
-  const raster::FilterOptions& f = map.filter;
-  Parameters out{{"blur_radius_texels", f.blur_radius_texels}, {"mipmaps", f.mipmaps ? 1.0 : 0.0}};
-  if (map.technique != Technique::esm) out.emplace_back("bleeding_reduction", f.light_bleeding_reduction);
-  if (map.technique == Technique::esm) out.emplace_back("exponent", f.esm_exponent);
-  if (map.technique == Technique::evsm) {
-    out.emplace_back("exponent", f.evsm_positive_exponent);
-    out.emplace_back("negative_exponent", f.evsm_negative_exponent);
-  }
-  if (map.technique == Technique::msm) out.emplace_back("moment_bias", f.moment_bias);
-  return out;
-}
-
 }  // namespace
 
 std::string_view filter_kind(const raster::MapOptions& map) {
-  if (map.technique == Technique::pcf) return kernel_name(map.filter.kernel);
+  if (map.technique == Technique::pcf) return raster::traits_of(map.filter.kernel).name;
   if (map.technique == Technique::pcss) return "penumbra";
   return raster::uses_moments(map.technique) ? "moments" : "none";
 }
@@ -73,13 +48,24 @@ double filter_reach_texels(const raster::MapOptions& map, double level) {
 
 Parameters filter_parameters(const raster::MapOptions& map) {
   const raster::FilterOptions& f = map.filter;
-  if (map.technique == Technique::pcss)
-    return {{"samples", f.samples},
-            {"blocker_samples", f.blocker_samples},
-            {"search_radius_texels", f.search_radius_texels}};
-  if (raster::uses_moments(map.technique)) return moment_parameters(map);
-  if (map.technique == Technique::pcf && f.kernel == FilterKernel::vogel) return {{"samples", f.samples}};
-  return {};
+  const struct {
+    MapOption option;
+    const char* name;
+    double value;
+  } all[] = {{MapOption::filter_samples, "samples", double(f.samples)},
+             {MapOption::blocker_samples, "blocker_samples", double(f.blocker_samples)},
+             {MapOption::search_radius, "search_radius_texels", f.search_radius_texels},
+             {MapOption::blur_radius, "blur_radius_texels", double(f.blur_radius_texels)},
+             {MapOption::mipmaps, "mipmaps", f.mipmaps ? 1.0 : 0.0},
+             {MapOption::bleeding_reduction, "bleeding_reduction", f.light_bleeding_reduction},
+             {MapOption::esm_exponent, "exponent", f.esm_exponent},
+             {MapOption::evsm_exponent, "exponent", f.evsm_positive_exponent},
+             {MapOption::evsm_negative_exponent, "negative_exponent", f.evsm_negative_exponent},
+             {MapOption::moment_bias, "moment_bias", f.moment_bias}};
+  Parameters out;
+  for (const auto& [option, name, value] : all)
+    if (raster::reads_option(map, option)) out.emplace_back(name, value);
+  return out;
 }
 
 std::string filter_text(const raster::MapOptions& map) {

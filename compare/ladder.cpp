@@ -11,6 +11,7 @@
 #include "compare/exact_depth.h"
 #include "compare/labelling.h"
 #include "compare/pixel_list.h"
+#include "raster/technique_traits.h"
 #include "raytrace/sheets/shape_sheets.h"
 #include "scene/solid.h"
 #include "scene/stages.h"
@@ -130,7 +131,8 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
                   float flat) {
   const raster::ShadowMap& map = in.record.map;
   const std::size_t texel = map.texel_index(key.face(), key.column(), key.row());
-  if (in.drawn.options.map.technique == raster::Technique::midpoint) return flat;
+  if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
+    return flat;
   if (in.drawn.options.map.cull != raster::Cull::none &&
       (!centre.hit || map.primitive[texel] != centre.hit->primitive))
     return flat;
@@ -258,9 +260,7 @@ namespace {
 /// `out`: the lower rungs and what is to be compared.
 Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
   const TimedStage stage("labels");
-  const raster::Technique technique = in.drawn.options.map.technique;
-  if (technique == raster::Technique::hybrid || technique == raster::Technique::izb)
-    return climb_without_map(in, std::move(out));
+  if (!raster::compares_depths(in.drawn.options.map.technique)) return climb_without_map(in, std::move(out));
   tbb::parallel_for(std::size_t{0}, lower.outside.size(),
                     [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
   const std::size_t count = lower.groups.keys.size();

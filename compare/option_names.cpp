@@ -22,40 +22,6 @@ std::string_view light_type_name(LightType type) {
   return "unknown";
 }
 
-std::string_view technique_name(raster::Technique technique) {
-  switch (technique) {
-    case raster::Technique::hard:
-      return "hard";
-    case raster::Technique::pcf:
-      return "pcf";
-    case raster::Technique::pcss:
-      return "pcss";
-    case raster::Technique::vsm:
-      return "vsm";
-    case raster::Technique::esm:
-      return "esm";
-    case raster::Technique::evsm:
-      return "evsm";
-    case raster::Technique::msm:
-      return "msm";
-    case raster::Technique::second_depth:
-      return "second-depth";
-    case raster::Technique::midpoint:
-      return "midpoint";
-    case raster::Technique::csm:
-      return "csm";
-    case raster::Technique::lispsm:
-      return "lispsm";
-    case raster::Technique::cube:
-      return "cube";
-    case raster::Technique::izb:
-      return "izb";
-    case raster::Technique::hybrid:
-      return "hybrid";
-  }
-  return "unknown";
-}
-
 std::string_view depth_format_name(raster::DepthFormat format) {
   switch (format) {
     case raster::DepthFormat::d16:

@@ -4,13 +4,13 @@
 #include <string>
 #include <string_view>
 
-#include "raster/options.h"
+#include "raster/technique_traits.h"
 #include "scene/scene.h"
 
 namespace gnomon::compare {
 
 std::string_view light_type_name(LightType type);                ///< "directional", "point", "spot"
-std::string_view technique_name(raster::Technique technique);    ///< "hard", "second-depth"
+using raster::technique_name;                                    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
 /// "--slope-bias 1", "--receiver-plane --bias 0.002": what asks for a bias on the command line.
@@ -18,11 +18,5 @@ std::string bias_arguments(const raster::Bias& bias);
 /// "0.1.0", with the commit that the program was built from where that is known: "0.1.0+0123456789ab", and
 /// ".changed" after it where files differed from the commit.
 std::string_view program_version();
-
-/// Whether a stored depth is compared with the receiver's, with a bias; izb and hybrid decide exactly,
-/// without.
-constexpr bool compares_depths(raster::Technique technique) {
-  return technique != raster::Technique::izb && technique != raster::Technique::hybrid;
-}
 
 }  // namespace gnomon::compare

@@ -4,6 +4,6 @@
 set -eu
 program=${1:-build/release/app/gnomon}
 manual=$(cd "$(dirname "$0")" && pwd)/manual
-for chapter in options json; do
+for chapter in options json techniques; do
   "$program" --manual $chapter >"$manual/$chapter.md"
 done

@@ -2,18 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "raster/technique_traits.h"
+
 namespace gnomon::raster {
 
 bool has_map_for(Technique technique, LightType type) {
-  switch (technique) {
-    case Technique::csm:
-    case Technique::lispsm:
-      return type == LightType::directional;
-    case Technique::cube:
-      return type == LightType::point;
-    default:
-      return true;
-  }
+  return traits_of(technique).lights.has(type);
 }
 
 Expected<void> check_light(Technique technique, const Light& light) {
@@ -25,7 +19,7 @@ Expected<void> check_light(Technique technique, const Light& light) {
                           "chooses one",
                           cube ? "point" : "directional", types[static_cast<std::size_t>(light.type)],
                           light.name, cube ? "hard, pcf, izb" : "hard, pcf, cube (point lights), izb")};
-  error.field = technique == Technique::csm ? "technique csm" : cube ? "technique cube" : "technique lispsm";
+  error.field = fmt::format("technique {}", technique_name(technique));
   return fail(std::move(error));
 }
 

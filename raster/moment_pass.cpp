@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "raster/technique_traits.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -15,8 +16,8 @@ namespace {
 constexpr int cube_mip_levels = 3;  // above level 0; each doubles the border that seamless lookups need
 
 GLenum moment_format(Technique technique) {
-  if (technique == Technique::esm) return GL_R32F;
-  return technique == Technique::vsm ? GL_RG32F : GL_RGBA32F;
+  const int floats = traits_of(technique).floats_per_texel;
+  return floats == 1 ? GL_R32F : floats == 2 ? GL_RG32F : GL_RGBA32F;
 }
 
 std::uint64_t bytes_per_texel(GLenum format) {

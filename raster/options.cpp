@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "raster/options_check.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::raster {
 namespace {
@@ -77,16 +78,16 @@ Expected<void> check_size(std::string field, std::string_view unit, int size, in
 }  // namespace
 
 bool uses_moments(Technique technique) {
-  return technique == Technique::vsm || technique == Technique::esm || technique == Technique::evsm ||
-         technique == Technique::msm;
+  return traits_of(technique).contents == MapContents::moments;
 }
 
 MapOptions effective_options(const MapOptions& options) {
   MapOptions out = options;
-  const bool filters = options.technique == Technique::pcf || options.technique == Technique::pcss;
+  const TechniqueTraits& traits = traits_of(options.technique);
+  const bool filters = traits.reads.has(MapOption::filter_plane);
   out.bias.receiver_plane =
       options.bias.receiver_plane || (filters && options.filter.receiver_plane && !options.bias.adaptive);
-  if (options.technique == Technique::second_depth) out.cull = Cull::front;
+  if (traits.contents == MapContents::back_depth) out.cull = Cull::front;
   return out;
 }
 
@@ -119,15 +120,12 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
 
 Bias default_bias(const MapOptions& map) {
   Bias bias = MapOptions{}.bias;
-  MapOptions plain = map;
-  plain.bias = {};
-  if (effective_options(plain).bias.receiver_plane) bias.slope = 0.0;
+  if (map.filter.receiver_plane) bias.slope = traits_of(map.technique).default_slope_bias;
   return bias;
 }
 
 bool scales_bias(const MapOptions& map) {
-  return (map.technique == Technique::csm || map.technique == Technique::lispsm) &&
-         map.bias.unit != BiasUnit::world;
+  return follows_camera(map.technique) && map.bias.unit != BiasUnit::world;
 }
 
 double texel_world(const LightView& view, const World& world) {

@@ -18,17 +18,16 @@
 #include "raster/shader_folder.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"
+#include "raster/technique_traits.h"
 #include "scene/stages.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
 namespace {
 
-// izb and hybrid draw a depth map for the records alone.
+// Exact techniques draw a depth map for the records alone.
 bool hands_on_map(const RasterOptions& options) {
-  const bool for_records =
-      options.map.technique == Technique::izb || options.map.technique == Technique::hybrid;
-  return options.analysis && (options.map_contents || for_records);
+  return options.analysis && (options.map_contents || !compares_depths(options.map.technique));
 }
 
 class GlRenderer final : public Renderer {
@@ -216,9 +215,8 @@ Expected<void> GlRenderer::time_pass(std::string_view repeats, int runs, Times& 
 // for itself. Only frames with whole records are kept, so that who asks for times alone gets new ones.
 std::optional<RasterOptions> map_key(const RasterOptions& options, std::size_t lights) {
   const Technique technique = options.map.technique;
-  const bool of_camera = technique == Technique::csm || technique == Technique::lispsm;
-  const bool own_map = technique == Technique::izb || technique == Technique::hybrid;
-  if (of_camera || own_map || lights != 1 || !options.analysis || !options.map_contents) return std::nullopt;
+  if (follows_camera(technique) || !compares_depths(technique)) return std::nullopt;
+  if (lights != 1 || !options.analysis || !options.map_contents) return std::nullopt;
   RasterOptions key = options;
   key.map.bias = {};
   return key;

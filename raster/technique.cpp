@@ -1,4 +1,4 @@
-// The one place that knows every technique by name.
+// Which shader each technique is drawn by, and which pass of its own it has.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "raster/moment_pass.h"
 #include "raster/technique_pass.h"
 #include "raster/technique_shader.h"
+#include "raster/technique_traits.h"
 #include "scene/light.h"
 
 namespace gnomon::raster {
@@ -55,8 +56,8 @@ std::vector<std::string> moment_defines(const MapOptions& options, const Light& 
   return {kind, define("MOMENT_BORDER", moment_border(filter, light.type))};
 }
 
-TechniqueShader moment_technique(const char* name, const MapOptions& options, const Light& light) {
-  TechniqueShader shader{name, moment_defines(options, light)};
+TechniqueShader moment_technique(const MapOptions& options, const Light& light) {
+  TechniqueShader shader{std::string(technique_name(options.technique)), moment_defines(options, light)};
   if (!options.filter.mipmaps) return shader;
   shader.defines.emplace_back("MIPMAPS");
   shader.defines.push_back(define("MAX_LEVEL", moment_max_level(options.filter, light.type, options.size)));
@@ -80,13 +81,10 @@ TechniqueShader technique_shader(const MapOptions& options, const Light& light) 
     case Technique::pcss:
       return pcss_shader(options.filter, light);
     case Technique::vsm:
-      return moment_technique("vsm", options, light);
     case Technique::esm:
-      return moment_technique("esm", options, light);
     case Technique::evsm:
-      return moment_technique("evsm", options, light);
     case Technique::msm:
-      return moment_technique("msm", options, light);
+      return moment_technique(options, light);
     case Technique::hybrid:
       return {"external", {"EXTERNAL"}};
     case Technique::izb:

@@ -134,12 +134,12 @@ TEST(Documents, CommandsAreTheProgramsOwn) {
 }
 
 TEST(Documents, ChaptersOfTheProgramAreCurrent) {
-  for (const std::string chapter : {"options", "json"}) {
+  for (const std::string chapter : {"options", "json", "techniques"}) {
     const std::string path = test::source_dir() + "/docs/manual/" + chapter + ".md";
     EXPECT_EQ(read_file(path), run_gnomon({"--manual", chapter}).out)
         << path << " is not what the program writes; run docs/make_manual.sh";
   }
-  expect_one_line(run_gnomon({"--manual", "labels"}), 2, "(got labels, allowed options, json)");
+  expect_one_line(run_gnomon({"--manual", "labels"}), 2, "(got labels, allowed options, json, techniques)");
 }
 
 TEST(Documents, LinksLeadSomewhere) {

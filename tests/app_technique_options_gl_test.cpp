@@ -132,7 +132,7 @@ TEST(TechniqueOptions, WhatATechniqueReadsChangesTheDrawingAndNothingElseDoes) {
   for (const auto& [name, technique] : app::all_techniques()) {
     if (technique == raster::Technique::hybrid) continue;  // it has no shader of its own: hybrid/
     Drawings& drawings = raster::has_map_for(technique, LightType::directional) ? under_sun : under_lamp;
-    expect_as_the_table_says(drawings, name, technique);
+    expect_as_the_table_says(drawings, std::string(name), technique);
   }
 }
 
@@ -160,7 +160,7 @@ TEST(TechniqueOptions, TheCommandLineRefusesWhatIsNotRead) {
   for (const char* command : {"raster", "compare", "view"})
     for (const auto& [name, technique] : app::all_techniques())
       for (const Choice& choice : choices) {
-        Words words{command, "no-such-scene.json", "--technique", name};
+        Words words{command, "no-such-scene.json", "--technique", std::string(name)};
         for (const std::string& word : option_words(choice)) words.push_back(word);
         const bool kernel = technique == raster::Technique::pcf && choice.kernel != std::string("box");
         if (kernel) words.insert(words.end(), {"--filter-kernel", choice.kernel});
@@ -172,7 +172,8 @@ TEST(TechniqueOptions, TheCommandLineRefusesWhatIsNotRead) {
         if (reads) continue;
         const std::string text = "--" + std::string(choice.option) + ": belongs to ";
         EXPECT_NE(outcome.error.find(text), std::string::npos) << outcome.error;
-        EXPECT_NE(outcome.error.find("; --technique is " + name), std::string::npos) << outcome.error;
+        EXPECT_NE(outcome.error.find("; --technique is " + std::string(name)), std::string::npos)
+            << outcome.error;
         EXPECT_NE(outcome.error.find("; did you mean --"), std::string::npos) << outcome.error;
       }
 }

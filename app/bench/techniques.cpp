@@ -83,13 +83,14 @@ Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Bac
   TechniqueTable table{loaded.scene->name, base.size, base.map.size, {}, 0.0};
   const auto techniques = all_techniques();
   for (const auto& [name, technique] : techniques) {
-    progress(name, static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
+    progress(std::string(name),
+             static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
     compare::Setting setting = setting_for(loaded, base);
     setting.raster.map.technique = technique;
     setting.raster.map.bias = raster::default_bias(setting.raster.map);
     const auto comparison = engine.compare(setting);
     if (comparison) {
-      table.rows.push_back(measure(name, **comparison));
+      table.rows.push_back(measure(std::string(name), **comparison));
       table.rays_ms = ray_ms(**comparison);
     } else if (comparison.error().kind == ErrorKind::usage) {
       TechniqueRow& row = table.rows.emplace_back();

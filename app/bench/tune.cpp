@@ -8,8 +8,8 @@
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/tune_families.h"
-#include "compare/option_names.h"
 #include "compare/tune/full_grid.h"
+#include "raster/technique_traits.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -54,7 +54,7 @@ Expected<compare::GridCheck> check_scene(const LoadedScene& loaded, const TuneBe
   options.goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, bench.max_error};
   options.sizes = grid_sizes((*renderer)->info().max_map_size);
   for (const OptionFamily& family : *fitting) {
-    const std::string technique(compare::technique_name(family.tuned.map.technique));
+    const std::string technique(raster::technique_name(family.tuned.map.technique));
     const auto& named = bench.techniques;
     if (named.empty() || std::find(named.begin(), named.end(), technique) != named.end())
       options.families.push_back(family.tuned);

@@ -62,7 +62,7 @@ constexpr double bytes_per_pixel_and_light = 57.0;
 
 Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
                                                  Console& console) {
-  const auto lights = choose_lights(*loaded.scene, command.setting.options.light);
+  const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
   for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
   for (const std::string& note :
@@ -79,7 +79,7 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   auto comparison =
-      compare::compare_world(*loaded.world, **renderer, command.setting.options,
+      compare::compare_world(*loaded.world, **renderer, *lights, command.setting.options,
                              [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!comparison) return comparison;
   const auto used = check_shaders_used(command.shader_folder, comparison->raster, *loaded.scene, console);
@@ -225,7 +225,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   const auto posed =
-      apply_poses(command.setting.poses, command.setting.options.light, *loaded->scene, *loaded->world);
+      apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
   auto comparison = render_and_compare(command, *loaded, console);
   if (!comparison) return fail(comparison.error());

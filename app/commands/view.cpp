@@ -35,8 +35,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_size(*app, options->compare.raster.size);
   add_tessellate(*app, options->tessellate);
   add_map_options(*app, options->compare.raster.map);
-  app->add_option("--light", options->compare.light,
-                  "begin with this light [a light's name; default the first]")
+  app->add_option("--light", options->light, "begin with this light [a light's name; default the first]")
       ->type_name("NAME");
   add_shader_dir(*app, options->shader_folder);
   add_pose_options(*app, options->poses);

@@ -5,30 +5,13 @@
 #include "app/verify/case_invariance.h"
 #include "app/verify/drawn_world.h"
 #include "app/verify/random_scene.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::verify {
 
 namespace {
 
 using raster::Technique;
-
-struct NamedTechnique {
-  const char* name;
-  Technique technique;
-};
-constexpr std::array<NamedTechnique, 13> techniques{{{"hard", Technique::hard},
-                                                     {"pcf", Technique::pcf},
-                                                     {"pcss", Technique::pcss},
-                                                     {"vsm", Technique::vsm},
-                                                     {"esm", Technique::esm},
-                                                     {"evsm", Technique::evsm},
-                                                     {"msm", Technique::msm},
-                                                     {"second-depth", Technique::second_depth},
-                                                     {"midpoint", Technique::midpoint},
-                                                     {"csm", Technique::csm},
-                                                     {"lispsm", Technique::lispsm},
-                                                     {"cube", Technique::cube},
-                                                     {"izb", Technique::izb}}};
 
 void scale(Scene& scene, double factor) {
   for (Mesh& mesh : scene.meshes)
@@ -47,12 +30,6 @@ Scene invariant_scene(LightType type, Random random) {
   scene.lights = {light};
   scene.camera.eye = {3.5, 2.5, 4.0}, scene.camera.target = {0.0, 0.5, 0.0};
   return scene;
-}
-
-bool has_technique(Technique technique, LightType type) {
-  if (technique == Technique::cube) return type == LightType::point;
-  const bool of_views = technique == Technique::csm || technique == Technique::lispsm;
-  return !of_views || type == LightType::directional;
 }
 
 raster::RasterOptions options_of(Technique technique) {
@@ -79,11 +56,13 @@ void scale_invariance(Run& run) {
     scale(large, 0x1p24), scale(small, 0x1p-20);
     DrawnWorld here(given), there(std::move(large)), tiny(std::move(small));
     if (!here.ready()) return skip_without_context(run, here, "lengths times 2^24 and 2^-20");
-    for (const auto& [name, technique] : techniques) {
-      if (!has_technique(technique, type)) continue;
+    for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
+      const Technique technique = traits.technique;
+      // Nothing of the hybrid is drawn: it asks the tracer.
+      if (!traits.lights.has(type) || technique == Technique::hybrid) continue;
       const auto options = options_of(technique);
       const auto a = here.draw(options), b = there.draw(options), c = tiny.draw(options);
-      const std::string row = std::string(type_name) + ", " + name;
+      const std::string row = std::string(type_name) + ", " + std::string(traits.name);
       if (!a || !b || !c) {
         run.sample_each(row, 1, [](std::uint64_t, Tally& tally) { tally.check(false); });
         continue;

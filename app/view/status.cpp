@@ -8,6 +8,7 @@
 #include "app/values.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::app {
 
@@ -46,7 +47,7 @@ void add_map(std::string& text, const raster::MapOptions& map) {
   const raster::MapOptions plain;
   add_if(text, true, "--map-size", std::to_string(map.size));
   add_if(text, map.technique != plain.technique, "--technique",
-         std::string(compare::technique_name(map.technique)));
+         std::string(raster::technique_name(map.technique)));
   // What is set for another technique stays set, but compare would refuse it.
   const auto add = [&](bool wanted, std::string_view key, const std::string& value) {
     add_if(text, wanted && technique_reads(key.substr(2), map), key, value);
@@ -96,7 +97,7 @@ std::vector<std::string> other_turned_lights(const ViewState& state) {
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene) {
   std::string text = fmt::format("{} | {}", scene, picture_name(state.picture));
   if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
-  text += fmt::format(" | {} {}² | {}", compare::technique_name(state.setup.map.technique),
+  text += fmt::format(" | {} {}² | {}", raster::technique_name(state.setup.map.technique),
                       state.setup.map.size, bias_words(state.setup.map.bias, readings));
   return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
                             compared_words(readings.compared));

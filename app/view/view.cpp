@@ -36,7 +36,7 @@ Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Sce
 
 /// The state that the command line asks for.
 Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& loaded) {
-  const auto lights = choose_lights(*loaded.scene, options.compare.light);
+  const auto lights = choose_lights(*loaded.scene, options.light);
   if (!lights) return fail(lights.error());
   ViewState state;
   state.given = given_scene(*loaded.scene, *loaded.world);
@@ -44,7 +44,7 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
   state.setup.light = lights->front();
   state.setup.map = options.compare.raster.map;
   state.setup.size = options.compare.raster.size;
-  const auto poses = resolve_poses(options.poses, options.compare.light, *loaded.world);
+  const auto poses = resolve_poses(options.poses, options.light, *loaded.world);
   if (!poses) return fail(poses.error());
   state.setup.camera = poses->camera;
   if (poses->light_pose) state.setup.lights[poses->light] = poses->light_pose;

@@ -13,6 +13,7 @@ namespace gnomon::app {
 struct ViewOptions {
   std::string scene;                ///< a path or the name of a built-in scene
   std::string camera;               ///< of the scene's cameras; empty: the first
+  std::string light;                ///< name of the light to compare first; empty: the first
   compare::CompareOptions compare;  ///< raster.size is the window's first size
   std::string shader_folder;        ///< replacements of shaders/ files; empty: none
   PoseOptions poses;

@@ -8,6 +8,7 @@
 
 #include "compare/sort_numbers.h"
 #include "compare/sweep/engine_impl.h"
+#include "raster/technique_traits.h"
 #include "scene/exposure.h"
 
 namespace gnomon::compare {
@@ -27,15 +28,15 @@ bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& 
   return rebiased == b && raster::scales_bias(a.map) == raster::scales_bias(b.map);
 }
 
-bool is_midpoint(const raster::MapOptions& map) {
-  return map.technique == raster::Technique::midpoint;
+bool stores_midpoints(const raster::MapOptions& map) {
+  return raster::traits_of(map.technique).contents == raster::MapContents::midpoint_depth;
 }
 
 // Two drawings stored the same map and show the same primitives at the same places: the lower rungs agree.
 bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light) {
   const raster::LightRecord &x = a.lights[light], &y = b.lights[light];
   return a.options.map.cull == b.options.map.cull &&
-         is_midpoint(a.options.map) == is_midpoint(b.options.map) && x.light == y.light &&
+         stores_midpoints(a.options.map) == stores_midpoints(b.options.map) && x.light == y.light &&
          x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
          x.map.primitive == y.map.primitive && x.texel_uv.data == y.texel_uv.data &&
          x.face.data == y.face.data && a.primitive.data == b.primitive.data;
@@ -59,17 +60,7 @@ double raster_ms(const raster::RasterFrame& frame) {
 }  // namespace
 
 bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  switch (map.technique) {
-    case raster::Technique::hard:
-    case raster::Technique::second_depth:
-    case raster::Technique::midpoint:
-    case raster::Technique::cube:
-    case raster::Technique::csm:
-    case raster::Technique::lispsm:
-      return true;
-    default:
-      return false;
-  }
+  return raster::traits_of(map.technique).test == raster::ShadowTest::single;
 }
 
 raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {

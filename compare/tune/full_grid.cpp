@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "raster/technique_traits.h"
+
 namespace gnomon::compare {
 namespace {
 
@@ -63,7 +65,7 @@ Expected<void> FullGrid::draw_all(const std::vector<raster::Bias>& biases, GridC
     for (const int size : options_.sizes) {
       const raster::MapOptions& map = options_.families[family].map;
       std::vector<raster::Bias> own{map.bias};
-      if (!biases_follow_from_gaps(map) && !is_exact(map.technique)) {
+      if (!biases_follow_from_gaps(map) && raster::compares_depths(map.technique)) {
         own.clear();
         for (const raster::Bias& bias : biases) {
           own.push_back(map.bias);

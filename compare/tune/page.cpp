@@ -7,6 +7,7 @@
 #include "compare/number_text.h"
 #include "compare/report/html.h"
 #include "compare/report/sections.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -25,7 +26,7 @@ std::string verdict(const TunePageInput& in) {
   const Attempt& a = attempt_of(winner);
   const std::string answer = fmt::format(
       "{}, {} \u00d7 {} texels{}. Compared as below it gives {}, in {}.", winner.family.name, a.size, a.size,
-      is_exact(winner.family.map.technique) ? std::string() : ", bias " + plain_number(a.bias_world),
+      compares_depths(winner.family.map.technique) ? ", bias " + plain_number(a.bias_world) : std::string(),
       figure_words(a.figures, in.goal.measure()), milliseconds(a.time_ms));
   const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
   if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
@@ -73,7 +74,7 @@ class="n">{}</td>{}<td class="n">{}</td><td class="run"><code>{}</code></td></tr
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
-      a.size, is_exact(family.family.map.technique) ? "\u2013" : plain_number(a.bias_world),
+      a.size, compares_depths(family.family.map.technique) ? plain_number(a.bias_world) : "\u2013",
       figure_cells(in.goal.measure(), a.figures), milliseconds(a.time_ms), escaped(in.commands[i]));
 }
 

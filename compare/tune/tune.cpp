@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "compare/tune/tuner.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -19,10 +20,6 @@ constexpr double agreed = 0.8;
 constexpr int curve_points = 129;
 
 }  // namespace
-
-bool is_exact(raster::Technique technique) {
-  return technique == raster::Technique::izb || technique == raster::Technique::hybrid;
-}
 
 namespace {
 
@@ -144,7 +141,7 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
 }
 
 Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
-  if (is_exact(family.map.technique)) return draw(family, size, family.map.bias, nullptr);
+  if (!raster::compares_depths(family.map.technique)) return draw(family, size, family.map.bias, nullptr);
   return biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
                                              : attempt_by_trial(family, size);
 }
@@ -238,7 +235,7 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
 
 Expected<FamilyResult> Tuner::search(const TuneFamily& family) {
   tried_before_ = false;
-  auto found = is_exact(family.map.technique) ? walk_down(family) : bisect(family);
+  auto found = !raster::compares_depths(family.map.technique) ? walk_down(family) : bisect(family);
   if (found && found->answer) least_cost_ = std::min(least_cost_, found->answer->cost);
   return found;
 }
@@ -248,7 +245,7 @@ Expected<void> Tuner::search_all(TuneResult& result) {
   result.families.resize(options_.families.size());
   for (const bool exact : {true, false})
     for (std::size_t i = 0; i < options_.families.size(); ++i) {
-      if (is_exact(options_.families[i].map.technique) != exact) continue;
+      if (raster::compares_depths(options_.families[i].map.technique) == exact) continue;
       auto found = search(options_.families[i]);
       if (!found) return fail(found.error());
       result.families[i] = std::move(*found);

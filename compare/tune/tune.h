@@ -101,9 +101,6 @@ struct TuneResult {
 /// Called before each drawing with the family and the size.
 using TuneProgress = std::function<void(const TuneFamily& family, int size, std::uint64_t renders)>;
 
-/// Has no bias, and is right wherever its rays are: izb, hybrid.
-bool is_exact(raster::Technique technique);
-
 /// How many biases a technique is tried with whose gaps do not tell them, and which: multiples of the bias of
 /// its family, and of the best bias of hard shadows at the same size.
 inline constexpr std::array<double, 2> tried_closed_forms{1.0, 0.25}, tried_of_hard{1.0, 2.0};

@@ -12,6 +12,7 @@
 #include "minimal_program.h"
 #include "must.h"
 #include "raster/renderer.h"
+#include "raster/technique_traits.h"
 #include "scene/load.h"
 #include "scene/timing.h"
 
@@ -68,17 +69,14 @@ int run(const std::string& name, int turns) {
     fmt::print(stderr, "{}: needs a directional light and no analytic shapes\n", name);
     return 1;
   }
-  const std::pair<const char*, raster::Technique> techniques[] = {
-      {"hard", raster::Technique::hard}, {"pcf", raster::Technique::pcf},
-      {"pcss", raster::Technique::pcss}, {"vsm", raster::Technique::vsm},
-      {"esm", raster::Technique::esm},   {"evsm", raster::Technique::evsm},
-      {"msm", raster::Technique::msm},   {"midpoint", raster::Technique::midpoint},
-      {"csm", raster::Technique::csm},   {"lispsm", raster::Technique::lispsm},
-      {"izb", raster::Technique::izb}};
   fmt::print("{:8} {:>10} {:>12} {:>7}\n", "", "Gnomon ms", "minimal ms", "ratio");
-  for (const auto& [label, technique] : techniques) {
-    const Frames ms = race(world, technique, turns);
-    fmt::print("{:8} {:10.2f} {:12.2f} {:7.3f}\n", label, ms.ours, ms.minimal, ms.ours / ms.minimal);
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
+    const bool minimal_has_it = traits.lights.has(LightType::directional) &&
+                                traits.technique != raster::Technique::second_depth &&
+                                traits.technique != raster::Technique::hybrid;
+    if (!minimal_has_it) continue;
+    const Frames ms = race(world, traits.technique, turns);
+    fmt::print("{:8} {:10.2f} {:12.2f} {:7.3f}\n", traits.name, ms.ours, ms.minimal, ms.ours / ms.minimal);
     std::fflush(stdout);
   }
   return 0;

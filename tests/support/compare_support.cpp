@@ -1,5 +1,7 @@
 #include "support/compare_support.h"
 
+#include "support/every_light.h"
+
 namespace gnomon::test {
 
 Compared run_comparison(Scene scene, const compare::CompareOptions& options,
@@ -18,7 +20,7 @@ Compared run_comparison(Scene scene, const compare::CompareOptions& options,
     ADD_FAILURE() << renderer.error().message();
     return out;
   }
-  auto result = compare::compare_world(*out.world, **renderer, options);
+  auto result = compare::compare_world(*out.world, **renderer, every_light(*out.scene), options);
   if (!result) {
     ADD_FAILURE() << result.error().message();
     return out;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "compare/compare.h"
+#include "support/every_light.h"
 
 namespace gnomon::test {
 
@@ -28,7 +29,7 @@ struct OneWorld {
 
   /// Camera and lights are those that `scene` has now.
   compare::Comparison compare(const compare::CompareOptions& options) {
-    auto result = compare::compare_world(world, *renderer, options);
+    auto result = compare::compare_world(world, *renderer, every_light(scene), options);
     if (!result) throw std::runtime_error(result.error().message());
     return std::move(*result);
   }

@@ -32,7 +32,7 @@ MODELS = [
 # Keys of result.json that say when, where, by what or how fast; `_ms` besides.
 NOT_RESULTS = {"command", "version", "commit", "machine", "threads", "times_ms", "time_budget", "process"}
 # Attributes of EXR headers and chunks of PNG files that do the same.
-NOT_CHANNELS = {b"capDate", b"DateTime", b"Software", b"ImageDescription", b"comments", b"history"}
+NOT_CHANNELS = {b"gnomon_command", b"gnomon_version", b"capDate", b"DateTime", b"Software", b"ImageDescription", b"comments", b"history"}
 NOT_PIXELS = {b"tEXt", b"iTXt", b"zTXt", b"tIME"}
 
 RUNS = {

@@ -1,0 +1,133 @@
+// What each technique is: one table, which the shader's choice, the command line, the comparison, the tuner, the
+// viewer, the manual and the report page read. A new technique adds a row here, a case to technique_shader()
+// and, where it draws something of its own, a TechniquePass.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "raster/options.h"
+
+namespace gnomon::raster {
+
+/// What a texel of the technique's map holds.
+enum class MapContents : std::uint8_t {
+  nearest_depth,   ///< of the surface nearest to the light
+  back_depth,      ///< of the nearest surface that faces away from the light
+  midpoint_depth,  ///< halfway between the two nearest surfaces
+  moments,         ///< the depth's moments, filtered
+  pixels,          ///< the list of the pixels that look it up
+  sheets           ///< the connected pieces of surface in its column (DESIGN.md section 3)
+};
+
+/// How the visibility of a pixel comes from the map.
+enum class ShadowTest : std::uint8_t {
+  single,    ///< shadowed iff its gap to one stored depth exceeds the bias
+  averaged,  ///< the mean of such tests
+  moments,   ///< an upper bound of the share of unshadowed texels
+  exact      ///< against the triangles themselves: no stored depth is compared, and there is no bias
+};
+
+/// How wide a texel is, and what the map follows.
+enum class TexelShape : std::uint8_t {
+  of_light,  ///< the light alone decides: one width, or one that grows with the distance to the light
+  cascades,  ///< follows the camera: one width in each of several maps
+  warped     ///< follows the camera: a width that grows with the distance to it
+};
+
+/// The options that not every technique reads, by their names on the command line.
+enum class MapOption : std::uint8_t {
+  bias,
+  slope_bias,
+  normal_offset,
+  receiver_plane,
+  adaptive_bias,
+  depth_format,
+  cull,
+  filter_kernel,
+  filter_radius,
+  filter_plane,
+  filter_samples,
+  blocker_samples,
+  search_radius,
+  blur_radius,
+  mipmaps,
+  bleeding_reduction,
+  esm_exponent,
+  evsm_exponent,
+  evsm_negative_exponent,
+  moment_bias,
+  cascades,
+  cascade_lambda,
+  no_snap,
+  cascade_fit
+};
+
+/// A set of the members of an enumeration of at most 32, a bit for each.
+template <class Enum>
+class EnumSet {
+ public:
+  constexpr EnumSet() = default;
+  template <class... Members>
+  constexpr explicit EnumSet(Members... members) : bits_(((1U << static_cast<unsigned>(members)) | ...)) {}
+  constexpr bool has(Enum member) const { return (bits_ >> static_cast<unsigned>(member) & 1U) != 0; }
+  constexpr EnumSet operator|(EnumSet other) const { return of_bits(bits_ | other.bits_); }
+  constexpr EnumSet without(EnumSet other) const { return of_bits(bits_ & ~other.bits_); }
+  bool operator==(const EnumSet&) const = default;
+
+ private:
+  static constexpr EnumSet of_bits(std::uint32_t bits) {
+    EnumSet set;
+    set.bits_ = bits;
+    return set;
+  }
+  std::uint32_t bits_ = 0;
+};
+using MapOptionSet = EnumSet<MapOption>;
+using LightTypeSet = EnumSet<LightType>;
+
+struct TechniqueTraits {
+  Technique technique;
+  std::string_view name;  ///< on the command line and in files
+  MapContents contents;
+  int floats_per_texel;  ///< of what the shader looks up; 0: lists of any length
+  ShadowTest test;
+  LightTypeSet lights;  ///< those that it has a map for
+  TexelShape texels;
+  /// The slope bias where no bias is asked for and the filter has its default plane (default_bias()); without
+  /// effect where the test is exact.
+  double default_slope_bias;
+  MapOptionSet reads;
+};
+
+/// One row for each technique, in the order of the enumeration.
+std::span<const TechniqueTraits> all_technique_traits();
+const TechniqueTraits& traits_of(Technique technique);
+
+struct FilterKernelTraits {
+  FilterKernel kernel;
+  std::string_view name;
+  MapOptionSet unread;  ///< options of pcf that this kernel does not read
+};
+std::span<const FilterKernelTraits> all_filter_kernel_traits();
+const FilterKernelTraits& traits_of(FilterKernel kernel);
+
+inline std::string_view technique_name(Technique technique) {
+  return traits_of(technique).name;
+}
+
+/// Whether a stored depth is compared with the receiver's, with a bias.
+inline bool compares_depths(Technique technique) {
+  return traits_of(technique).test != ShadowTest::exact;
+}
+
+/// The map is fitted to what the camera sees.
+inline bool follows_camera(Technique technique) {
+  return traits_of(technique).texels != TexelShape::of_light;
+}
+
+/// Whether the options' technique, with their filter kernel, reads one of them.
+bool reads_option(const MapOptions& map, MapOption option);
+
+}  // namespace gnomon::raster
