@@ -160,6 +160,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_scenes(*program, invocation);
   add_shaders(*program, invocation);
   add_sweep(*program, invocation);
+  add_export(*program, invocation);
   add_merge(*program, invocation);
   add_tune(*program, invocation);
   add_verify(*program, invocation);

@@ -28,6 +28,7 @@ void add_raster(CLI::App& program, Invocation& invocation);
 void add_raytrace(CLI::App& program, Invocation& invocation);
 void add_plan(CLI::App& program, Invocation& invocation);
 void add_scenes(CLI::App& program, Invocation& invocation);
+void add_export(CLI::App& program, Invocation& invocation);
 void add_merge(CLI::App& program, Invocation& invocation);
 void add_shaders(CLI::App& program, Invocation& invocation);
 void add_sweep(CLI::App& program, Invocation& invocation);

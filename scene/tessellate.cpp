@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/files/defaults.h"
 #include "scene/solid.h"
 #include "scene/surface_nets.h"
 
@@ -145,6 +146,40 @@ Mesh tessellated(const Shape& shape, int n) {
     }
   }
   return mesh;
+}
+
+Scene cut_planes(Scene scene) {
+  Aabb bounds = scene_bounds(scene);
+  bounds.grow(scene.camera.eye);
+  bounds.grow(scene.camera.target);
+  const auto half = static_cast<float>(bounds.diagonal());
+  for (const Shape& shape : scene.shapes) {
+    const auto* plane = std::get_if<Plane>(&shape.geometry);
+    if (plane == nullptr) continue;
+    Vec3 tangent, bitangent;
+    orthonormal_basis(plane->normal, tangent, bitangent);
+    const Vec3 middle(glm::dot(tangent, bounds.center() - plane->point),
+                      glm::dot(bitangent, bounds.center() - plane->point), 0.0);
+    Mesh mesh;
+    mesh.name = shape.name;
+    for (const Vec2f corner :
+         {Vec2f(-half, -half), Vec2f(half, -half), Vec2f(half, half), Vec2f(-half, half)}) {
+      mesh.positions.emplace_back(corner, 0.0);
+      mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+      mesh.uvs.push_back(corner + Vec2f(middle));
+    }
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const Vec3 center = plane->point + middle.x * tangent + middle.y * bitangent;
+    const Mat4 world_from_object(Vec4(tangent, 0.0), Vec4(bitangent, 0.0), Vec4(plane->normal, 0.0),
+                                 Vec4(center, 1.0));
+    scene.instances.push_back(
+        {shape.name, static_cast<std::uint32_t>(scene.meshes.size()), world_from_object, shape.material});
+    scene.meshes.push_back(std::move(mesh));
+    scene.notes.push_back(fmt::format("The infinite plane '{}' ends as a square with sides of {:.4g}.",
+                                      shape.name, 2.0 * static_cast<double>(half)));
+  }
+  std::erase_if(scene.shapes, [](const Shape& s) { return std::holds_alternative<Plane>(s.geometry); });
+  return scene;
 }
 
 Scene tessellate_shapes(Scene scene, int n) {

@@ -15,6 +15,10 @@ inline constexpr int min_tessellation = 3, max_tessellation = 256;
 /// a cell are lost. A note says what was done.
 Scene tessellate_shapes(Scene scene, int n);
 
+/// Every infinite plane becomes a square mesh of the same name and material, around what is finite and the
+/// camera: its half side is the diagonal of the box around these. A note says where it ends.
+Scene cut_planes(Scene scene);
+
 /// One shape; requires that it is no plane.
 Mesh tessellated(const Shape& shape, int n);
 

@@ -8,3 +8,7 @@ add_dependencies(app_test gnomon_program)
 # The lessons' own commands, and the fault that each of them shows.
 gnomon_test(lesson_faults_gl_test SOURCES lesson_faults_gl_test.cpp app_process.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 add_dependencies(lesson_faults_gl_test gnomon_program)
+
+# The conformance suite that gnomon export writes.
+gnomon_test(export_suite_test SOURCES export_suite_test.cpp LIBS gnomon::app gnomon::scene)
+target_include_directories(export_suite_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

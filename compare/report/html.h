@@ -14,7 +14,6 @@ namespace gnomon::compare {
 std::string escaped(std::string_view text);
 /// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break).
 std::string flowing(std::string_view text);
-std::string base64(std::string_view bytes);
 std::string data_uri(std::string_view mime, std::string_view bytes);
 /// Appends JSON text that may stand inside <script>: no '<' is left in it.
 void append_script_safe(std::string& html, std::string_view json);

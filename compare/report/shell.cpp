@@ -5,6 +5,7 @@
 #include <embedded/report.h>
 
 #include "compare/report/html.h"
+#include "scene/files/base64.h"
 #include "scene/files/sha256.h"
 
 namespace gnomon::compare {

@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <set>
 
 #include "scene/files/defaults.h"
 #include "scene/files/formats.h"
 #include "scene/files/gltf_check.h"
+#include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
 #include "scene/files/read_file.h"
@@ -122,12 +124,20 @@ Mat4 local_matrix(const tinygltf::Node& node) {
   return matrix;
 }
 
+// What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
+Vec3 unit(const Vec3& v) {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  return std::abs(glm::dot(v, v) - 1.0) <= rounding ? v : glm::normalize(v);
+}
+
 class SceneBuilder {
  public:
-  SceneBuilder(LoadedFile& loaded, const tinygltf::Model& model, std::vector<Mesh> meshes)
+  SceneBuilder(LoadedFile& loaded, const tinygltf::Model& model, const GltfExtras& extras,
+               std::vector<Mesh> meshes)
       : loaded_(loaded),
         scene_(loaded.scene),
         model_(model),
+        extras_(extras),
         meshes_(std::move(meshes)),
         our_mesh_(meshes_.size(), no_id) {}
 
@@ -143,7 +153,10 @@ class SceneBuilder {
     if (!model_.animations.empty()) note("Animations are not played.");
     if (instanced_) note("EXT_mesh_gpu_instancing is not supported: those meshes are shown once.");
     const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
-    for (NamedCamera& named : loaded_.cameras) place_target(named.camera, bounds);
+    for (std::size_t i = 0; i < loaded_.cameras.size(); ++i) {
+      place_target(loaded_.cameras[i].camera, bounds);
+      extras_.read_camera(gltf_cameras_[i], loaded_.cameras[i].camera);
+    }
   }
 
  private:
@@ -218,10 +231,11 @@ class SceneBuilder {
                  : !from.name.empty() ? from.name
                                       : fmt::format("camera-{}", loaded_.cameras.size());
     named.camera.eye = Vec3(world[3]);
-    named.camera.target = named.camera.eye + glm::normalize(forward);
-    named.camera.up = glm::normalize(up);
+    named.camera.target = named.camera.eye + unit(forward);
+    named.camera.up = unit(up);
     named.camera.vertical_fov = from.perspective.yfov;
     loaded_.cameras.push_back(std::move(named));
+    gltf_cameras_.push_back(static_cast<std::size_t>(node.camera));
   }
 
   // Straight ahead, as far away as the middle of the scene is: what a viewer turns around.
@@ -246,20 +260,22 @@ class SceneBuilder {
       return note(fmt::format("A light of unknown type '{}' was skipped.", from.type));
     const Vec3 direction = Vec3(world * Vec4(0.0, 0.0, -1.0, 0.0));
     if (!(glm::length(direction) > 0.0)) return note("A light whose node flattens it was skipped.");
-    light.direction = glm::normalize(direction);
+    light.direction = unit(direction);
     light.position = Vec3(world[3]);
     const Vec3 tint = from.color.size() >= 3 ? Vec3(from.color[0], from.color[1], from.color[2]) : Vec3(1.0);
     light.intensity = Vec3f(tint * from.intensity);
     if (from.range > 0.0) ranged_ = true;
     if (light.type == LightType::spot) set_cone(light, from);
     light.name = unique_name(!node.name.empty() ? node.name : !from.name.empty() ? from.name : from.type);
+    extras_.read_light(index, light);
     scene_.lights.push_back(std::move(light));
   }
 
   void set_cone(Light& light, const tinygltf::Light& from) {
     constexpr double widest = 0.5 * pi - 1e-3;  // our spots end before a right angle
     light.outer_angle = std::clamp(from.spot.outerConeAngle, 1e-3, widest);
-    light.inner_angle = std::clamp(from.spot.innerConeAngle, 0.0, std::max(0.0, light.outer_angle - 1e-4));
+    light.inner_angle = std::max(0.0, from.spot.innerConeAngle);
+    if (light.inner_angle >= light.outer_angle) light.inner_angle = std::max(0.0, light.outer_angle - 1e-4);
     if (light.outer_angle != from.spot.outerConeAngle || light.inner_angle != from.spot.innerConeAngle)
       note(fmt::format("The cone of a spot light was narrowed to half-angles of {:.3f} and {:.3f} degrees.",
                        light.inner_angle * 180.0 / pi, light.outer_angle * 180.0 / pi));
@@ -277,8 +293,10 @@ class SceneBuilder {
   LoadedFile& loaded_;
   Scene& scene_;
   const tinygltf::Model& model_;
+  const GltfExtras& extras_;
   std::vector<Mesh> meshes_;
-  std::vector<std::uint32_t> our_mesh_;  // of a glTF mesh, once an instance uses it
+  std::vector<std::uint32_t> our_mesh_;    // of a glTF mesh, once an instance uses it
+  std::vector<std::size_t> gltf_cameras_;  // of loaded_.cameras
   int flattened_ = 0;
   bool orthographic_ = false, ranged_ = false, skinned_ = false, instanced_ = false;
 };
@@ -287,13 +305,19 @@ Expected<LoadedFile> build(const tinygltf::Model& model, CheckedGltf checked, co
   LoadedFile loaded;
   loaded.is_model = true;
   loaded.scene.notes = std::move(checked.notes);
+  JsonErrors errors{checked.document};
+  const GltfExtras extras(errors, checked.document.root);
   const auto sets = add_gltf_materials(loaded.scene, model, file);
   if (!sets) return fail(sets.error());
+  for (std::size_t i = 0; i < loaded.scene.materials.size(); ++i)
+    extras.read_material(i, loaded.scene.materials[i]);
   const auto default_material = static_cast<std::uint32_t>(loaded.scene.materials.size());
   loaded.scene.materials.push_back(model_material("default"));
   auto meshes = read_gltf_meshes(loaded.scene, model, *sets, default_material, file);
   if (!meshes) return fail(meshes.error());
-  SceneBuilder(loaded, model, std::move(meshes->meshes)).run();
+  SceneBuilder(loaded, model, extras, std::move(meshes->meshes)).run();
+  extras.read_scene(loaded.scene);
+  if (errors.first) return fail(std::move(*errors.first));
   if (loaded.scene.instances.empty() && !meshes->skipped_points)
     return fail(gltf_error(file, "", "the file has no triangles"));
   if (loaded.scene.instances.empty())

@@ -22,10 +22,14 @@ constexpr NumberRange buffer_range{1.0, largest_integer, false, false, true};
 constexpr NumberRange count_range{1.0, 4294967295.0, false, false, true};
 constexpr double largest_empty_accessor = 16777216.0;  // elements that no data stands behind
 
-const std::vector<std::string_view> known_extensions_list{
-    "KHR_lights_punctual",  "KHR_materials_transmission",      "KHR_materials_ior",
-    "KHR_materials_volume", "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_mesh_quantization"};
+const std::vector<std::string_view> known_extensions_list{"KHR_lights_punctual",
+                                                          "KHR_materials_transmission",
+                                                          "KHR_materials_ior",
+                                                          "KHR_materials_volume",
+                                                          "KHR_materials_emissive_strength",
+                                                          "KHR_materials_specular",
+                                                          "KHR_texture_transform",
+                                                          "KHR_mesh_quantization"};
 
 // Counts of the file's lists, for checking indices into them.
 struct Counts {

@@ -85,10 +85,13 @@ class MaterialReader {
   }
 
  private:
-  // Both renderers see surfaces from both sides, and so do the lights.
+  // Both renderers see surfaces from both sides, and so do the lights. A body of glass is seen from inside
+  // whatever its file says.
   void note_single_sided() {
-    const auto count = std::count_if(model_.materials.begin(), model_.materials.end(),
-                                     [](const tinygltf::Material& m) { return !m.doubleSided; });
+    const auto count =
+        std::count_if(model_.materials.begin(), model_.materials.end(), [](const tinygltf::Material& m) {
+          return !m.doubleSided && !m.extensions.contains("KHR_materials_volume");
+        });
     if (count > 0)
       scene_.notes.push_back(
           fmt::format("Single-sided materials are taken as two-sided, seen and casting shadows from behind "
@@ -108,7 +111,7 @@ class MaterialReader {
     const Vec3f base = glm::clamp(color(pbr.baseColorFactor), 0.0f, 1.0f);
     const auto rough = metallic_roughness(from);
     if (!rough) return fail(rough.error());
-    map_surface(m, base, base_texture.mean, rough->x, rough->y);
+    map_surface(m, base, base_texture.mean, dielectric_specular(from), rough->x, rough->y);
     map_emission(from, m);
     map_transmission(from, m);
     map_alpha(from, m, base_texture.has_alpha);
@@ -117,12 +120,21 @@ class MaterialReader {
     return m;
   }
 
-  void map_surface(Material& m, const Vec3f& base, const Vec3f& texture_mean, double metallic,
-                   double roughness) {
+  // Of the surface of a dielectric with an index of refraction of 1.5, times KHR_materials_specular.
+  Vec3f dielectric_specular(const tinygltf::Material& from) {
+    const tinygltf::Value* specular = extension(from.extensions, "KHR_materials_specular");
+    if (has(specular, "specularTexture") || has(specular, "specularColorTexture"))
+      unused_["Specular textures are"].insert(from.name);
+    const Vec3f tint = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}));
+    return glm::clamp(0.04f * tint, 0.0f, 1.0f) * fraction(number(specular, "specularFactor", 1.0));
+  }
+
+  void map_surface(Material& m, const Vec3f& base, const Vec3f& texture_mean, const Vec3f& dielectric,
+                   double metallic, double roughness) {
     const auto metal = static_cast<float>(metallic);
     const double a = std::max(roughness * roughness, 0.01);
     m.diffuse = base * (1.0f - metal);
-    m.specular = glm::mix(Vec3f(0.04f), base * texture_mean, metal);
+    m.specular = glm::mix(dielectric, base * texture_mean, metal);
     m.shininess = static_cast<float>(std::max(1.0, 2.0 / (a * a) - 2.0));
     if (metallic <= 0.9) return;
     if (roughness < 0.1)
@@ -206,7 +218,7 @@ class MaterialReader {
     for (const auto& [key, value] : from.extensions)
       if (key.starts_with("KHR_materials_") && !is_listed(key) && key != "KHR_materials_transmission" &&
           key != "KHR_materials_ior" && key != "KHR_materials_volume" &&
-          key != "KHR_materials_emissive_strength")
+          key != "KHR_materials_emissive_strength" && key != "KHR_materials_specular")
         unused_[key + " is"].insert(name);
   }
 

@@ -1,7 +1,7 @@
 // glTF materials, mapped to Blinn-Phong with mirror and transmission. With base, metallic and roughness from
 // pbrMetallicRoughness (a metallicRoughnessTexture enters by its mean), a = max(roughness^2, 0.01):
 //   diffuse      base (1 - metallic), times the base colour texture
-//   specular     mix(0.04, base, metallic); of a textured metal, base times the texture's mean
+//   specular     mix(0.04 KHR_materials_specular, base, metallic); of a textured metal, base times its mean
 //   shininess    2 / a^2 - 2, at least 1: the exponent whose lobe is as wide (Walter et al. 2007, "Microfacet
 //   Models
 //                for Refraction through Rough Surfaces", EGSR, section 5.2)

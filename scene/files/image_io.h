@@ -32,6 +32,8 @@ Rgb8Image display_image(const ColorImage& linear, double exposure);
 
 /// A PNG in memory (for embedding) and on disk.
 Expected<std::string> encode_png(const Rgb8Image& image);
+/// The texels as they are stored; with alpha where one of them is not opaque.
+Expected<std::string> encode_png(const Texture& texture);
 Expected<void> write_png(const std::string& path, const Rgb8Image& image);
 
 /// A named 32-bit float channel, row 0 at the top.

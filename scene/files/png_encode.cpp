@@ -1,9 +1,10 @@
 // PNG files of 8 bits: the container by libpng, the pixels' stream by libdeflate. Pictures of at most 256
-// colours get a palette, the rest is RGB. No filters: rendered pictures come out as large as with them. Not
+// colours get a palette, the rest is RGB or, where texels are not opaque, RGBA. No filters: rendered pictures come out as large as with them. Not
 // through OpenImageIO, whose loading alone takes longer than encoding does (image_library.h).
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <optional>
@@ -68,12 +69,11 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 }
 
 /// libpng's errors jump back to here, over nothing that would have to be destroyed.
-bool write_chunks(png_structp png, png_infop info, const ImageSize& size,
+bool write_chunks(png_structp png, png_infop info, const ImageSize& size, int color_type,
                   const std::vector<png_color>& colours, const std::string& pixels) {
   if (setjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf))) != 0) return false;
   png_set_IHDR(png, info, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height), 8,
-               colours.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+               color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
   if (!colours.empty()) png_set_PLTE(png, info, colours.data(), static_cast<int>(colours.size()));
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
@@ -86,26 +86,43 @@ bool write_chunks(png_structp png, png_infop info, const ImageSize& size,
   return true;
 }
 
+/// `pixels`: compressed.
+Expected<std::string> contain(const ImageSize& size, int color_type, const std::vector<png_color>& colours,
+                              const std::string& pixels) {
+  Container out;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &out, fail_writing, nullptr);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info != nullptr) png_set_write_fn(png, &out, append, nullptr);
+  const bool written = info != nullptr && write_chunks(png, info, size, color_type, colours, pixels);
+  png_destroy_write_struct(&png, &info);
+  if (!written) return fail(ErrorKind::internal, fmt::format("libpng: {}", out.error));
+  return std::move(out.bytes);
+}
+
 }  // namespace
 
 Expected<std::string> encode_png(const Rgb8Image& image) {
   if (image.size.width <= 0 || image.size.height <= 0)
     return fail(ErrorKind::internal, "cannot encode an image without pixels");
   static_assert(sizeof(image.data[0]) == 3);
-  const std::optional<Paletted> few = paletted(image);
-  const std::string pixels =
-      deflate(few ? rows_of(few->places.data(), image.size, 1)
-                  : rows_of(reinterpret_cast<const char*>(image.data.data()), image.size, 3),
-              few ? palette_level : level);
-  Container out;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &out, fail_writing, nullptr);
-  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  if (info != nullptr) png_set_write_fn(png, &out, append, nullptr);
-  const bool written = info != nullptr && write_chunks(png, info, image.size,
-                                                       few ? few->colours : std::vector<png_color>(), pixels);
-  png_destroy_write_struct(&png, &info);
-  if (!written) return fail(ErrorKind::internal, fmt::format("libpng: {}", out.error));
-  return std::move(out.bytes);
+  if (const std::optional<Paletted> few = paletted(image))
+    return contain(image.size, PNG_COLOR_TYPE_PALETTE, few->colours,
+                   deflate(rows_of(few->places.data(), image.size, 1), palette_level));
+  return contain(image.size, PNG_COLOR_TYPE_RGB, {},
+                 deflate(rows_of(reinterpret_cast<const char*>(image.data.data()), image.size, 3), level));
+}
+
+Expected<std::string> encode_png(const Texture& texture) {
+  static_assert(sizeof(texture.texels[0]) == 4);
+  if (std::any_of(texture.texels.begin(), texture.texels.end(),
+                  [](const glm::u8vec4& t) { return t.a != 255; }))
+    return contain(texture.size, PNG_COLOR_TYPE_RGB_ALPHA, {},
+                   deflate(rows_of(reinterpret_cast<const char*>(texture.texels.data()), texture.size, 4),
+                           palette_level));
+  Rgb8Image image(texture.size);
+  std::transform(texture.texels.begin(), texture.texels.end(), image.data.begin(),
+                 [](const glm::u8vec4& t) { return glm::u8vec3(t); });
+  return encode_png(image);
 }
 
 }  // namespace gnomon

@@ -1,0 +1,117 @@
+// gnomon export: a scene as glTF 2.0, for other renderers.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/lesson_scene.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/session.h"
+#include "app/suite/write.h"
+#include "app/values.h"
+#include "scene/files/gltf_writer.h"
+#include "scene/files/write_file.h"
+#include "scene/stages.h"
+#include "scene/tessellate.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct ExportCommand {
+  std::string scene, camera, file, suite;
+  ImageSize size{640, 360};  ///< of the suite's masks
+  int tessellate = 64;       ///< sectors, in [min_tessellation, max_tessellation]
+  bool quiet = false;
+};
+
+Expected<ExitCode> export_suite(const ExportCommand& command, Console& console) {
+  if (!command.scene.empty() || !command.file.empty())
+    return fail(ErrorKind::usage, "export: --suite has scenes of its own (give no SCENE and no -o)");
+  if (const auto writable = check_output_folder(command.suite); !writable) return fail(writable.error());
+  if (const auto written = write_suite(command.suite, command.size, console); !written)
+    return fail(written.error());
+  console.message(fmt::format("suite: {}/README.md", command.suite));
+  return ExitCode::done;
+}
+
+Expected<ExitCode> run_export(ExportCommand& command) {
+  Console console(command.quiet);
+  if (!command.suite.empty()) return export_suite(command, console);
+  if (command.scene.empty()) return fail(ErrorKind::usage, "export: SCENE is required, or --suite DIR");
+  if (command.file.empty()) command.file = default_output(command.scene) + ".glb";
+  if (const auto known = check_extension("-o", command.file, ".glb .gltf"); !known)
+    return fail(known.error());
+  if (const auto writable = check_output_file(command.file); !writable) return fail(writable.error());
+  auto loaded = load(command.scene, console, command.tessellate, command.camera);
+  if (!loaded) return fail(loaded.error());
+  if (const std::string asked = scene_settings_text(scene_of_lesson(command.scene)); !asked.empty())
+    console.note("glTF has no place for what the scene asks for: give " + asked + " yourself");
+  loaded->scene->notes.clear();
+  const Scene scene = cut_planes(std::move(*loaded->scene));
+  const auto gltf = write_gltf(scene, command.file.ends_with(".glb"));
+  if (!gltf) return fail(gltf.error());
+  for (const std::string& note : scene.notes) console.note(note);
+  for (const std::string& note : gltf->notes) console.note(note);
+  const TimedStage writing("write");
+  const OutputGuard whole_outputs;
+  if (const auto made = make_folder_for(command.file); !made) return fail(made.error());
+  if (const auto written = write_file(command.file, gltf->bytes); !written) return fail(written.error());
+  console.message(fmt::format("scene: {}", command.file));
+  return ExitCode::done;
+}
+
+void add_sectors(CLI::App& app, int& sectors) {
+  add_checked(
+      app, "--tessellate", "N",
+      fmt::format("make triangles of the exact shapes, which glTF has not: N sectors around, N/2 rings, "
+                  "N^3 cells of an implicit surface [sectors, {} to {}; default {}]",
+                  min_tessellation, max_tessellation, sectors),
+      [&sectors](const std::string& text) -> Expected<void> {
+        const auto value = parse_integer(text, min_tessellation, max_tessellation);
+        if (!value) return fail(value.error());
+        sectors = static_cast<int>(*value);
+        return {};
+      });
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "export", "Write a scene as glTF 2.0, so that another renderer can draw it and be judged.");
+  app->footer(
+      "gnomon export courtyard -o courtyard.glb\n"
+      "gnomon export shapes --tessellate 128 -o shapes.gltf\n"
+      "gnomon export model.obj --camera front -o model.glb\n"
+      "gnomon export --suite suite");
+  const auto command = std::make_shared<ExportCommand>();
+  add_scene(*app, command->scene);
+  app->get_option("SCENE")->required(false);
+  add_output(*app, "-o,--output", command->file, "FILE",
+             ".glb, or .gltf with everything inside [default out/NAME.glb]");
+  add_sectors(*app, command->tessellate);
+  add_camera(*app, command->camera);
+  app->add_option(
+         "--suite", command->suite,
+         "write the conformance suite into this folder instead: a dozen scenes with true masks and a "
+         "README")
+      ->type_name("DIR");
+  add_checked(*app, "--size", "WxH",
+              fmt::format("size of the suite's masks [pixels, 1x1 to {0}x{0}; default {1}x{2}]",
+                          max_image_side, command->size.width, command->size.height),
+              [command](const std::string& text) -> Expected<void> {
+                const auto size = parse_size(text);
+                if (!size) return fail(size.error());
+                command->size = *size;
+                return {};
+              });
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_export(*command); }; });
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,293 @@
+// Scenes written as glTF and read again: the same positions, cameras, lights, materials and truth.
+#include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
+
+#include "gltf_support.h"
+#include "raytrace/frame.h"
+#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_writer.h"
+#include "scene/tessellate.h"
+#include "scene/world.h"
+
+namespace gnomon::gltf_test {
+namespace {
+
+Scene without_shapes(Scene scene) {
+  return cut_planes(tessellate_shapes(std::move(scene), 24));
+}
+
+Scene reread(const Scene& scene, bool binary) {
+  const TemporaryFolder folder;
+  const auto file = write_gltf(scene, binary);
+  EXPECT_TRUE(file) << file.error().message();
+  auto again = load_scene(folder.put(binary ? "s.glb" : "s.gltf", file->bytes));
+  if (again) return std::move(*again);
+  ADD_FAILURE() << scene.name << ": " << again.error().message();
+  return {};
+}
+
+/// Triangles object by object, and in these by material: the order in which a file keeps them.
+std::vector<std::uint32_t> in_file_order(const World& world) {
+  std::vector<std::uint32_t> out(world.triangle_count());
+  std::iota(out.begin(), out.end(), 0u);
+  std::stable_sort(out.begin(), out.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(world.triangle_object[a], world.triangle_material[a]) <
+           std::pair(world.triangle_object[b], world.triangle_material[b]);
+  });
+  return out;
+}
+
+/// All positions are floats, and can be equal to the last bit.
+bool holds_floats(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes)
+    for (const Vec3& p : mesh.positions)
+      if (Vec3(Vec3f(p)) != p) return false;
+  return true;
+}
+
+void expect_same_triangles(const Scene& before, const World& a, const World& b) {
+  const std::vector<std::uint32_t> x = in_file_order(a), y = in_file_order(b);
+  ASSERT_EQ(x.size(), y.size());
+  double farthest = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    ASSERT_EQ(a.triangle_material[x[i]], b.triangle_material[y[i]]);
+    const auto p = a.corners(x[i]), q = b.corners(y[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      farthest = std::max(farthest, glm::distance(p[k], q[k]));
+      largest = std::max(largest, glm::length(p[k]));
+    }
+  }
+  // Rounding to a float moves a coordinate by at most 2^-24 of the largest, a point by the root of three times.
+  EXPECT_LE(farthest, holds_floats(before) ? 0.0 : largest * std::ldexp(std::sqrt(3.0), -24));
+}
+
+void expect_same_material(const Material& a, const Material& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.diffuse, b.diffuse) << a.name;
+  EXPECT_EQ(a.specular, b.specular) << a.name;
+  EXPECT_EQ(a.shininess, b.shininess) << a.name;
+  EXPECT_EQ(a.emission, b.emission) << a.name;
+  EXPECT_EQ(a.mirror, b.mirror) << a.name;
+  EXPECT_EQ(a.transmission, b.transmission) << a.name;
+  EXPECT_EQ(a.ior, b.ior) << a.name;
+  EXPECT_EQ(a.absorption, b.absorption) << a.name;
+  EXPECT_EQ(a.roughness, b.roughness) << a.name;
+  EXPECT_EQ(a.priority, b.priority) << a.name;
+  EXPECT_EQ(a.thin, b.thin) << a.name;
+  EXPECT_EQ(a.diffuse_texture == no_id, b.diffuse_texture == no_id) << a.name;
+  EXPECT_EQ(a.texture_transform.offset, b.texture_transform.offset) << a.name;
+  EXPECT_EQ(a.texture_transform.scale, b.texture_transform.scale) << a.name;
+  EXPECT_EQ(a.texture_transform.rotation, b.texture_transform.rotation) << a.name;
+  EXPECT_EQ(a.alpha_mode, b.alpha_mode) << a.name;
+  EXPECT_EQ(a.alpha, b.alpha) << a.name;
+  EXPECT_EQ(a.alpha_cutoff, b.alpha_cutoff) << a.name;
+}
+
+void expect_same_but_geometry(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.lights, b.lights);
+  EXPECT_EQ(a.ambient, b.ambient);
+  EXPECT_EQ(a.background, b.background);
+  EXPECT_EQ(a.exposure, b.exposure);
+  EXPECT_EQ(a.max_depth, b.max_depth);
+  EXPECT_EQ(a.glossy_samples, b.glossy_samples);
+  EXPECT_EQ(a.indirect_samples, b.indirect_samples);
+  ASSERT_LE(a.materials.size(), b.materials.size());  // the reader adds one for meshes without
+  for (std::size_t i = 0; i < a.materials.size(); ++i) expect_same_material(a.materials[i], b.materials[i]);
+  for (std::size_t i = 0; i < a.materials.size(); ++i) {
+    if (a.materials[i].diffuse_texture == no_id || b.materials[i].diffuse_texture == no_id) continue;
+    const Texture &x = a.textures[a.materials[i].diffuse_texture],
+                  &y = b.textures[b.materials[i].diffuse_texture];
+    EXPECT_EQ(x.texels, y.texels) << x.name;
+    EXPECT_TRUE(x.nearest == y.nearest && x.repeat_s == y.repeat_s && x.repeat_t == y.repeat_t) << x.name;
+  }
+}
+
+raytrace::RayTracedFrame traced(const Scene& scene, const World& world) {
+  const raytrace::Tracer tracer(world, raytrace::Accel::bvh, raytrace::Precision::robust);
+  std::vector<std::uint32_t> lights(scene.lights.size());
+  for (std::uint32_t i = 0; i < lights.size(); ++i) lights[i] = i;
+  raytrace::RaytraceOptions options;
+  options.size = {160, 90};
+  options.picture = false;
+  options.shadow_samples = 4;
+  return trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+}
+
+class EveryBuiltinScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryBuiltinScene, ComesBackAsItWas) {
+  const Scene before = without_shapes(*load_scene(GetParam()));
+  const Scene after = reread(before, true);
+  expect_same_but_geometry(before, after);
+  EXPECT_EQ(before.instances.size(), after.instances.size());
+  const World world = make_world(before), again = make_world(after);
+  expect_same_triangles(before, world, again);
+  const auto truth = traced(before, world), truth_again = traced(after, again);
+  ASSERT_EQ(truth.lights.size(), truth_again.lights.size());
+  for (std::size_t l = 0; l < truth.lights.size(); ++l) {
+    EXPECT_EQ(truth.lights[l].verdict.data, truth_again.lights[l].verdict.data);
+    EXPECT_EQ(truth.lights[l].visibility.data, truth_again.lights[l].visibility.data);
+  }
+}
+
+std::vector<std::string> builtin_names() {
+  std::vector<std::string> out;
+  for (const BuiltinScene& scene : builtin_scenes()) out.emplace_back(scene.name);
+  return out;
+}
+std::string test_name(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(GltfWriter, EveryBuiltinScene, testing::ValuesIn(builtin_names()), test_name);
+
+/// A triangle, a material, a sun and a camera.
+Scene small() {
+  Scene scene;
+  scene.name = "small";
+  scene.materials.resize(1);
+  scene.materials[0].name = "grey";
+  Mesh mesh;
+  mesh.name = "triangle";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  scene.meshes = {mesh};
+  scene.instances = {{"one", 0, Mat4(1.0), 0}};
+  scene.lights.resize(1);
+  scene.lights[0].name = "sun";
+  return scene;
+}
+
+Json json_of(const Scene& scene) {
+  const auto file = write_gltf(scene, false);
+  EXPECT_TRUE(file);
+  return Json::parse(file->bytes);
+}
+
+TEST(GltfWriter, TheSameSceneGivesTheSameBytes) {
+  const Scene scene = *load_scene("floating-box");
+  for (const bool binary : {false, true})
+    EXPECT_EQ(write_gltf(scene, binary)->bytes, write_gltf(scene, binary)->bytes);
+  const std::string bytes = write_gltf(scene, true)->bytes;
+  const auto chunks = read_glb(bytes, "s.glb");
+  ASSERT_TRUE(chunks) << chunks.error().message();
+  EXPECT_EQ(bytes.size() % 4, 0u);
+}
+
+TEST(GltfWriter, InstancesShareTheirMesh) {
+  Scene scene = small();
+  scene.instances.push_back({"two", 0, glm::translate(Mat4(1.0), Vec3(0.1, 0.2, 0.3)), 0});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].name = "other";
+  scene.instances.push_back({"three", 0, glm::scale(Mat4(1.0), Vec3(-1.0, 1.0, 1.0)), 1});
+  const Json json = json_of(scene);
+  EXPECT_EQ(json["meshes"].size(), 2u);  // one for each material, of the same buffers
+  EXPECT_EQ(json["bufferViews"].size(), 2u);
+  const Scene again = reread(scene, true);
+  ASSERT_EQ(again.instances.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again.instances[i].name, scene.instances[i].name);
+    EXPECT_EQ(again.instances[i].world_from_object, scene.instances[i].world_from_object);
+  }
+}
+
+TEST(GltfWriter, MeshesFarFromTheirOriginKeepTheirDigits) {
+  Scene scene = small();
+  for (Vec3& p : scene.meshes[0].positions) p = 0.3 * p + Vec3(1e6, 0.0, -2e6);
+  const World before = make_world(scene), after = make_world(reread(scene, true));
+  for (std::size_t i = 0; i < 3;
+       ++i)  // floats at 2e6 are 0.25 apart; those around the triangle's middle 1.2e-8
+    EXPECT_LT(glm::distance(before.positions[i], after.positions[i]), 3e-8);
+}
+
+TEST(GltfWriter, ShearIsPutIntoTheMesh) {
+  Scene scene = small();
+  scene.meshes[0].normals.assign(3, Vec3f(0, 0, 1));
+  Mat4 shear(1.0);
+  shear[2] = Vec4(0.5, 0.25, 1.0, 0.0);
+  shear[3] = Vec4(3.0, 2.0, 1.0, 1.0);
+  scene.meshes[0].positions[2] = {0, 1, 2};
+  scene.instances[0].world_from_object = shear;
+  const World before = make_world(scene), after = make_world(reread(scene, true));
+  EXPECT_EQ(before.positions, after.positions);  // binary fractions
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(before.normals[i], after.normals[i]), 1e-6f);
+  EXPECT_EQ(write_gltf(scene, true)->notes.size(), 1u);
+}
+
+TEST(GltfWriter, TrianglesWithoutNormalsStayFlat) {
+  Scene scene = small();
+  Mesh& mesh = scene.meshes[0];
+  mesh.positions.push_back({1, 1, 0});
+  mesh.normals = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1}, {0, 0, 1}};
+  mesh.triangles.push_back({1, 3, 2});
+  const World after = make_world(reread(scene, true));
+  ASSERT_EQ(after.triangle_count(), 2u);
+  EXPECT_EQ(after.normals[after.triangles[0][0]], Vec3f(0.0f));
+  EXPECT_EQ(after.normals[after.triangles[1][0]], Vec3f(0, 0, 1));
+}
+
+TEST(GltfWriter, LightsOfEverySizeComeBack) {
+  Scene scene = small();
+  Light spot{.name = "spot", .type = LightType::spot, .position = {0.1, 3.0, 0.7}};
+  spot.direction = glm::normalize(Vec3(0.3, -1.0, 0.2));
+  spot.intensity = {0.1f, 20.3f, 7.7f};
+  spot.inner_angle = 0.49999, spot.outer_angle = 0.5;
+  spot.extent = RectangleLight{{0.1, 0.0, 0.0}, {0.0, 0.0, 0.3}};
+  Light disc = spot;
+  disc.name = "disc";
+  disc.extent = DiscLight{0.25, glm::normalize(Vec3(1, -2, 3))};
+  disc.shadow_samples = 17;
+  Light point{.name = "point", .type = LightType::point, .position = {1e5, 2.0, 3.0}};
+  point.extent = SphereLight{0.125};
+  point.intensity = Vec3f(0.0f);
+  scene.lights[0].extent = SunDisc{0.0093};
+  scene.lights.insert(scene.lights.end(), {spot, disc, point});
+  const Scene again = reread(scene, true);
+  ASSERT_EQ(again.lights.size(), scene.lights.size());
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light &a = again.lights[i], &b = scene.lights[i];
+    EXPECT_EQ(a.position, b.position) << b.name;
+    EXPECT_EQ(a.direction, b.direction) << b.name;
+    EXPECT_EQ(a.intensity, b.intensity) << b.name;
+    EXPECT_EQ(a.inner_angle, b.inner_angle) << b.name;
+    EXPECT_EQ(a.outer_angle, b.outer_angle) << b.name;
+    EXPECT_TRUE(a.extent == b.extent) << b.name;
+    EXPECT_TRUE(a == b) << b.name;
+  }
+  EXPECT_EQ(write_gltf(scene, true)->notes.size(), 4u);
+}
+
+TEST(GltfWriter, ExtrasOfOthersAreNotRead) {
+  const TemporaryFolder folder;
+  Scene scene = small();
+  scene.lights[0].extent = SunDisc{0.0093};
+  Json json = json_of(scene);
+  const auto read = [&] { return *load_scene(folder.put("s.gltf", json.dump())); };
+  EXPECT_TRUE(std::holds_alternative<SunDisc>(read().lights[0].extent));
+  json["cameras"][0]["extras"]["gnomon"]["target"] = {7, 7, 7};  // no longer where the node looks
+  EXPECT_NEAR(glm::distance(glm::normalize(read().camera.target - read().camera.eye),
+                            glm::normalize(scene.camera.target - scene.camera.eye)),
+              0.0, 1e-12);
+  json["materials"][0]["extras"]["gnomon"]["shininess"] = -1;
+  const auto wrong = load_scene(folder.put("s.gltf", json.dump()));
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().field, "materials[0].shininess");
+  json["asset"]["generator"] = "another program";
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(read().lights[0].extent));
+}
+
+TEST(GltfWriter, ATextureWithAlphaComesBack) {
+  Scene scene = small();
+  scene.meshes[0].uvs = {{0, 0}, {1, 0}, {0, 1}};
+  scene.textures.push_back({"leaf", {2, 1}, {{255, 0, 10, 0}, {1, 2, 3, 200}}, true, true, false, true});
+  scene.materials[0].diffuse_texture = 0;
+  scene.materials[0].alpha_mode = AlphaMode::mask;
+  scene.materials[0].alpha_cutoff = 0.3f;
+  scene.materials[0].texture_transform = {{0.1, 0.2}, {3.0, 0.7}, 0.4};
+  for (const bool binary : {false, true}) expect_same_but_geometry(scene, reread(scene, binary));
+}
+
+}  // namespace
+}  // namespace gnomon::gltf_test
