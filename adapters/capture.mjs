@@ -1,0 +1,108 @@
+// Draws a glTF scene with a WebGL engine in headless Chromium and writes a capture for `gnomon judge`:
+//   node adapters/capture.mjs ENGINE SCENE -o DIR [--size 640x360] [--light NAME] [--NAME VALUE ...]
+// ENGINE is a file of adapters/engines; every further option is one of that engine's own (see its head).
+// Writes DIR/capture.json, the pictures that it names, and DIR/picture.png, what the engine itself shows.
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, dirname, join, relative, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { exr } from "./exr.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const importMap = JSON.stringify({ imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/" } });
+const stop = (text) => { console.error(`capture: ${text}`); process.exit(2); };
+
+function readArguments() {
+  const { values, positionals } = parseArgs({ strict: false, allowPositionals: true, options: {
+    output: { type: "string", short: "o" }, size: { type: "string", default: "640x360" }, light: { type: "string" },
+  } });
+  const known = new Set(["output", "size", "light"]), settings = {};
+  const rest = [];
+  // What follows an option that this script does not know is its value: parseArgs leaves it among the words.
+  const words = process.argv.slice(2);
+  for (let i = 0; i < words.length; ++i) {
+    const name = words[i].replace(/^--/, "");
+    if (words[i].startsWith("--") && !known.has(name)) settings[name] = Number.isNaN(Number(words[i + 1])) ? words[++i] : Number(words[++i]);
+    else if (words[i].startsWith("-")) ++i;
+    else rest.push(words[i]);
+  }
+  const size = /^(\d+)x(\d+)$/.exec(values.size) || stop(`--size: got ${values.size}, allowed WxH`);
+  if (rest.length !== 2 || !values.output || positionals.length === 0) stop("usage: ENGINE SCENE -o DIR [--size WxH] [--light NAME] [--NAME VALUE ...]");
+  return { engine: rest[0], scene: resolve(rest[1]), folder: values.output, light: values.light, width: Number(size[1]), height: Number(size[2]), settings };
+}
+
+/** A page that may read this folder and the scene's, as http://capture/, and nothing else. */
+async function openPage(job) {
+  const { chromium } = await import("playwright-core").catch(() => stop("the packages are missing: npm install --prefix adapters"));
+  const executablePath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync) || stop("no chromium-headless-shell or chromium in /usr/bin");
+  const browser = await chromium.launch({ executablePath, args: ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+  const page = await browser.newPage({ viewport: { width: job.width, height: job.height } });
+  page.on("pageerror", (error) => stop(`the page failed: ${error.message}`));
+  page.on("console", (message) => message.type() === "error" && console.error(`${job.engine}: ${message.text()}`));
+  const types = { js: "text/javascript", mjs: "text/javascript", html: "text/html", wasm: "application/wasm", glb: "model/gltf-binary" };
+  await page.route("**/*", (route) => {
+    const path = decodeURIComponent(new URL(route.request().url()).pathname);
+    if (path === "/") return route.fulfill({ contentType: "text/html", body: `<!doctype html><script type="importmap">${importMap}</script><body style="margin:0"><canvas></canvas>` });
+    const file = path.startsWith("/scene/") ? join(dirname(job.scene), path.slice(7)) : join(here, path);
+    if (!existsSync(file)) return route.fulfill({ status: 404 });
+    return route.fulfill({ contentType: types[file.split(".").pop()] || "application/octet-stream", body: readFileSync(file) });
+  });
+  await page.goto("http://capture/");
+  return { browser, page };
+}
+
+/** Runs the engine's module in the page. Its arrays come back as base64 text. */
+async function draw(page, job) {
+  const task = { scene: `http://capture/scene/${basename(job.scene)}`, light: job.light, width: job.width, height: job.height, settings: job.settings };
+  return page.evaluate(async ({ engine, task }) => {
+    const module = await import(`http://capture/engines/${engine}.js`);
+    const result = await module.capture(document.querySelector("canvas"), task);
+    const encode = (value) => {
+      if (!(value instanceof Float32Array)) return value;
+      const bytes = new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+      let text = "";
+      for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+      return { floats: btoa(text) };
+    };
+    return JSON.parse(JSON.stringify(result, (key, value) => encode(value)));
+  }, { engine: job.engine, task });
+}
+
+const floats = ({ floats: text }) => { const bytes = Buffer.from(text, "base64"); return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4); };
+
+/** result: {renderer, light, visibility, covered, position [x, y, z], map [{texels, size, ...}], bias, filter, picture}. */
+function write(job, result) {
+  mkdirSync(job.folder, { recursive: true });
+  const put = (name, width, height, channels) => {
+    writeFileSync(join(job.folder, name), exr(width, height, Object.fromEntries(Object.entries(channels).map(([c, values]) => [c, floats(values)]))));
+    return name;
+  };
+  const { covered: A } = result;
+  const [X, Y, Z] = result.position;
+  const capture = {
+    schema: "gnomon/capture/1", renderer: result.renderer, scene: relative(job.folder, job.scene), light: result.light, size: [job.width, job.height],
+    visibility: put("visibility.exr", job.width, job.height, { V: result.visibility, A }),
+    position: put("position.exr", job.width, job.height, { X, Y, Z, A }),
+  };
+  if (result.map) {
+    capture.map = result.map.map(({ texels, size, ...layer }, i) => ({ depth: put(`map-${i}.exr`, size, size, { Z: texels }), ...layer }));
+    Object.assign(capture, { bias: result.bias, filter: result.filter });
+  }
+  writeFileSync(join(job.folder, "capture.json"), JSON.stringify(capture, null, 1) + "\n");
+  if (result.picture) writeFileSync(join(job.folder, "picture.png"), Buffer.from(result.picture.split(",")[1], "base64"));
+}
+
+const job = readArguments();
+if (!existsSync(job.scene)) stop(`${job.scene}: no such file`);
+if (!existsSync(join(here, "engines", `${job.engine}.js`))) stop(`no such engine (got ${job.engine}): see adapters/engines`);
+const { browser, page } = await openPage(job);
+try {
+  const result = await draw(page, job);
+  write(job, result);
+  console.error(`${result.renderer.name} ${result.renderer.version}: ${join(job.folder, "capture.json")}`);
+} catch (error) {
+  console.error(`capture: ${error.message}`);
+  process.exitCode = 1;
+} finally {
+  await browser.close();
+}
