@@ -55,7 +55,7 @@ async function checkCells(page) {
     assert.equal(countColour(difference, [86, 180, 233]), light.error.missed_shadow, `missed shadow in cell ${cell}`);
     assert.equal(await page.locator(".cell-command").textContent(), command);
     const title = await page.locator("#cell h2").textContent();
-    for (const [axis, value] of Object.entries(axes)) assert.ok(title.includes(`${axis} ${value}`), `${title} lacks ${axis} ${value}`);
+    for (const [axis, value] of Object.entries(axes)) assert.ok(title.includes(`${axis.replaceAll("_", " ")} ${value}`), `${title} lacks ${axis} ${value}`);
   }
   return all.length;
 }
@@ -139,6 +139,7 @@ async function checkUrl() {
 async function checkWithoutScripts(folderName, options = {}) {
   const page = await open(folderName, { javaScriptEnabled: false, ...options });
   assert.match(await page.locator(".verdict").first().textContent(), /cells have errors between .* worth having/);
+  assert.ok((await page.locator(".headline li a[href^='#cell-']").count()) >= 1, "no best cell is named");
   assert.equal(await page.locator("#cell:visible").count(), 0);
   assert.equal(await page.locator(".cells tbody tr").count(), 18);
   for (const image of await page.locator(".grid img").all()) assert.ok(await image.evaluate((e) => e.complete));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/sweep/headline.h"
+#include "compare/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {
@@ -49,16 +50,29 @@ TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128),
                                        cell(2, 0.01, 90.0, 1.0, 256)};
   const Headline said = sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::wrong, 0.05});
-  ASSERT_EQ(said.lines.size(), 4u);
-  EXPECT_EQ(said.lines[0],
-            "Cheapest with at most 5.0 % wrong: cell 1 (map_size 128) with 2.0 % wrong, mean error 2.0 % in "
+  const std::vector<std::string> lines = said.lines();
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0],
+            "Cheapest with at most 5.0 % wrong: cell 1 (map size 128) with 2.0 % wrong, mean error 2.0 %, "
             "12 ms.");
-  EXPECT_TRUE(said.lines[1].starts_with("Best for error: cell 2 ")) << said.lines[1];
-  EXPECT_TRUE(said.lines[2].starts_with("Best for time: cell 0 ")) << said.lines[2];
-  EXPECT_TRUE(said.lines[3].starts_with("Best for both (least product of error and time): cell 1 "))
-      << said.lines[3];
+  EXPECT_TRUE(lines[1].starts_with("Best for error: cell 2 ")) << lines[1];
+  EXPECT_TRUE(lines[2].starts_with("Best for time: cell 0 ")) << lines[2];
+  EXPECT_TRUE(lines[3].starts_with("Best for both (least product of error and time): cell 1 ")) << lines[3];
   EXPECT_TRUE(said.limit_met);
   EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::mean, 0.005}).limit_met);
+}
+
+TEST(SweepWords, ShortenLongNumbersAndNothingElse) {
+  EXPECT_EQ(axis_words("map_size"), "map size");
+  EXPECT_EQ(label_words_of("peter_panning"), "peter-panning");
+  EXPECT_EQ(label_words_of(""), "");
+  for (const auto& [value, words] : {std::pair("0.00869565217391", "0.008696"),
+                                     {"0.0333333333333texel", "0.03333texel"},
+                                     {"0.125", "0.125"},
+                                     {"2048", "2048"},
+                                     {"second-depth", "second-depth"},
+                                     {"", ""}})
+    EXPECT_EQ(value_words(value), words);
 }
 
 }  // namespace

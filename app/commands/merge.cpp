@@ -34,7 +34,7 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
                               merged->cells, merged->cells == 1 ? "" : "s", command.shards.size(),
                               command.shards.size() == 1 ? "" : "s"));
   if (!command.quiet)
-    for (const std::string& line : merged->page.headline.lines) print_data(line + "\n");
+    for (const std::string& line : merged->page.headline.lines()) print_data(line + "\n");
   return ExitCode::done;
 }
 

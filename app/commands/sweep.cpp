@@ -94,14 +94,17 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
   if (auto made = make_cells(shop, journal); !made) return made;
   const compare::EngineWork& work = engine.work();
-  console.message(fmt::format("{} drawn, {} more from their gaps, {} traced, {} climbed", work.renders,
-                              work.derived, work.truths, work.lower_climbs));
+  console.message(fmt::format("{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
+                              work.derived > 0
+                                  ? fmt::format(", {} more worked out from drawings of others", work.derived)
+                                  : std::string(),
+                              work.truths == 1 ? std::string("once") : fmt::format("{} times", work.truths)));
   return {};
 }
 
 ExitCode announce(const SweepCommand& command, const compare::Headline& headline) {
   if (!command.quiet)
-    for (const std::string& line : headline.lines) print_data(line + "\n");
+    for (const std::string& line : headline.lines()) print_data(line + "\n");
   return headline.limit_met ? ExitCode::done : ExitCode::threshold_exceeded;
 }
 

@@ -25,6 +25,15 @@ bool ChartLabels::is_free(const Box& box) const {
   });
 }
 
+void ChartLabels::keep_line_free(double x0, double y0, double x1, double y1) {
+  constexpr double step = 6.0, half_width = 2.0;
+  const int steps = static_cast<int>(std::hypot(x1 - x0, y1 - y0) / step) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = x0 + (x1 - x0) * i / steps, y = y0 + (y1 - y0) * i / steps;
+    keep_free(x - half_width, y - half_width, x + half_width, y + half_width);
+  }
+}
+
 std::string ChartLabels::place(double x, double y, std::string_view name) {
   constexpr double glyph = 7.2, ascent = 11.0, descent = 4.0, gap = 13.0;  // of 13 px text, and to the point
   if (std::find(names_.begin(), names_.end(), name) != names_.end()) return {};
@@ -55,15 +64,20 @@ std::string ChartLabels::place(double x, double y, std::string_view name) {
 }
 
 std::vector<double> log_ticks(double min, double max) {
-  const bool powers_only = max / min > 300.0;
-  std::vector<double> ticks;
-  const int first = static_cast<int>(std::floor(std::log10(min)));
-  for (int exponent = first; std::pow(10.0, exponent) <= max; ++exponent) {
-    const double power = std::pow(10.0, exponent);
-    for (const double digit : {1.0, 2.0, 5.0})
-      if ((digit == 1.0 || !powers_only) && power * digit >= min && power * digit <= max)
-        ticks.push_back(power * digit);
-  }
+  const auto at = [min, max](const std::vector<double>& digits) {
+    std::vector<double> ticks;
+    for (int exponent = static_cast<int>(std::floor(std::log10(min))); std::pow(10.0, exponent) <= max;
+         ++exponent)
+      for (const double digit : digits)
+        if (const double v = digit * std::pow(10.0, exponent); v >= min && v <= max) ticks.push_back(v);
+    return ticks;
+  };
+  if (max / min > 300.0) return at({1.0});
+  constexpr std::size_t enough = 3;
+  std::vector<double> ticks = at({1.0, 2.0, 5.0});
+  if (ticks.size() < enough) ticks = at({1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0});
+  if (ticks.size() < enough)
+    ticks = at({1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5, 8, 8.5, 9, 9.5});
   return ticks;
 }
 

@@ -27,6 +27,8 @@ class ChartLabels {
   std::string place(double x, double y, std::string_view name);
   /// Room that names keep off.
   void keep_free(double x0, double y0, double x1, double y1) { taken_.push_back({x0, y0, x1, y1}); }
+  /// A straight line that names keep off.
+  void keep_line_free(double x0, double y0, double x1, double y1);
 
  private:
   struct Box {
@@ -37,7 +39,7 @@ class ChartLabels {
   std::vector<std::string> names_;
 };
 
-/// 1, 2 and 5 times the powers of ten inside; powers alone when the range is long.
+/// 1, 2 and 5 times the powers of ten inside; powers alone when the range is long, more when it is short.
 std::vector<double> log_ticks(double min, double max);
 
 /// What the scale takes for none: well below the least error that there is.

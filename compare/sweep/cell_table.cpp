@@ -7,6 +7,7 @@
 #include "compare/number_text.h"
 #include "compare/report/html.h"
 #include "compare/sweep/page.h"
+#include "compare/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 std::string shown(double value) {
   return std::isfinite(value) ? plain_number(value) : std::string("\u2013");
 }
+
+constexpr const char *mostly = "mostly", *command = "command";  // the columns of words
 
 // <td> with the number that sorting goes by.
 std::string number_cell(double value, const std::string& text) {
@@ -29,13 +32,13 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
       on_front ? " <abbr title=\"worth having\">\u2605</abbr>" : "");
   for (const auto& [name, value] : cell.axes) {
     const bool idle = std::find(cell.no_effect.begin(), cell.no_effect.end(), name) != cell.no_effect.end();
-    out += fmt::format("<td class=\"n\" data-sort=\"{0}\">{0}{1}</td>", escaped(value),
-                       idle ? " (no effect)" : "");
+    out += fmt::format("<td class=\"n\" data-sort=\"{}\">{}{}</td>", escaped(value),
+                       escaped(value_words(value)), idle ? " (no effect)" : "");
   }
   out += number_cell(cell.wrong_fraction, percent(cell.wrong_fraction));
   out += number_cell(double(cell.false_shadow), grouped(cell.false_shadow));
   out += number_cell(double(cell.missed_shadow), grouped(cell.missed_shadow));
-  out += fmt::format("<td>{}</td>", escaped(cell.main_label));
+  out += fmt::format("<td>{}</td>", escaped(label_words_of(cell.main_label)));
   out += number_cell(cell.mean_absolute, percent(cell.mean_absolute));
   out += number_cell(cell.rms, shown(cell.rms));
   if (perceptual) out += number_cell(cell.flip, shown(cell.flip)) + number_cell(cell.ssim, shown(cell.ssim));
@@ -51,17 +54,21 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
 std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
   const bool perceptual = std::isfinite(cells.front().flip);
   std::vector<std::string> columns{"cell"};
-  for (const auto& [name, value] : cells.front().axes) columns.push_back(name);
-  for (const char* name : {"wrong", "false shadow", "missed shadow", "mostly", "mean error", "RMS"})
+  for (const auto& [name, value] : cells.front().axes) columns.push_back(axis_words(name));
+  for (const char* name : {"wrong", "false shadow", "missed shadow", mostly, "mean error", "RMS error"})
     columns.emplace_back(name);
   if (perceptual) columns.emplace_back("FLIP"), columns.emplace_back("SSIM");
-  for (const char* name : {"edge RMS, texels", "time", "texels", "map", "command"})
+  for (const char* name : {"edge error, texels", "time", "texels drawn", "map memory", command})
     columns.emplace_back(name);
   std::string out =
-      "<section id=\"cells\" aria-labelledby=\"cells-title\"><h2 id=\"cells-title\">Cells</h2>\n<div "
+      "<section id=\"cells\" aria-labelledby=\"cells-title\"><h2 id=\"cells-title\">Cells</h2>\n<p "
+      "class=\"hint\">Each cell is one combination of settings. \u2605: worth "
+      "having. Time is that of map and shading; errors of visibility are between 0 and 1.</p>\n<div "
       "class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Table of cells\"><table "
       "class=\"cells\"><thead><tr>";
-  for (const std::string& name : columns) out += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
+  for (const std::string& name : columns)
+    out += fmt::format("<th scope=\"col\"{}>{}</th>", name == mostly || name == command ? "" : " class=\"n\"",
+                       escaped(name));
   out += "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < cells.size(); ++i)
     out += table_row(cells[i], std::find(front.begin(), front.end(), i) != front.end(), perceptual);

@@ -103,9 +103,13 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
     const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer));
     labels.keep_free(x - 7, y - 7, x + 7, y + 7);
   }
-  for (const std::size_t i : front) {
-    const double x = plot.x(cells[i].raster_ms), y = plot.y(cells[i].error());
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const CellSummary& cell = cells[front[k]];
+    const double x = plot.x(cell.raster_ms), y = plot.y(cell.error());
     labels.keep_free(x - 6, y - 6, x + 6, y + 6);
+    if (k == 0) continue;
+    const CellSummary& before = cells[front[k - 1]];
+    labels.keep_line_free(plot.x(before.raster_ms), plot.y(before.error()), x, y);
   }
   for (const RayPoint& tracer : tracers) out += diamond(plot, tracer, labels);
   out += front_names(plot, cells, front, labels);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "compare/number_text.h"
 #include "compare/report/html.h"
 #include "compare/sweep/cell_files.h"
 #include "compare/sweep/page.h"
+#include "compare/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 constexpr std::size_t max_grids = 24;
 
 using Values = std::vector<std::string>;
+using CellNumbers = std::set<std::size_t>;
 
 struct Layout {
   std::size_t row_axis = 0, column_axis = 0;
@@ -34,11 +37,12 @@ std::string rest_of(const CellSummary& cell, const Layout& layout) {
   std::string text;
   for (std::size_t k = 0; k < cell.axes.size(); ++k)
     if (k != layout.row_axis && k != layout.column_axis)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", cell.axes[k].first, cell.axes[k].second);
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axis_words(cell.axes[k].first),
+                          value_words(cell.axes[k].second));
   return text;
 }
 
-std::string cell_html(const SweepPageInput& in, const CellSummary& cell) {
+std::string cell_html(const SweepPageInput& in, const CellSummary& cell, bool on_front) {
   const auto pictures = in.pictures.find(cell.cell);
   const std::string share = percent(cell.wrong_fraction);
   std::string picture;
@@ -46,31 +50,31 @@ std::string cell_html(const SweepPageInput& in, const CellSummary& cell) {
     picture = fmt::format("<img loading=\"lazy\" alt=\"{} wrong\" src=\"{}\">", escaped(share),
                           in.beside ? fmt::format("thumbnails/{}.png", cell_name(cell.cell))
                                     : data_uri("image/png", pictures->second.thumbnail));
-  return fmt::format("<td><a href=\"#cell-{}\">{}<span>{}</span></a></td>", cell.cell, picture,
-                     escaped(share));
+  return fmt::format("<td><a href=\"#cell-{}\">{}<span>{}{}</span></a></td>", cell.cell, picture,
+                     escaped(share), on_front ? " \u2605" : "");
 }
 
 std::string grid_html(const SweepPageInput& in, const std::vector<const CellSummary*>& cells,
-                      const Layout& layout, const std::string& rest) {
-  const std::string row_name = cells.front()->axes[layout.row_axis].first;
-  const std::string column_name = cells.front()->axes[layout.column_axis].first;
+                      const Layout& layout, const std::string& rest, const CellNumbers& best) {
+  const std::string row_name = axis_words(cells.front()->axes[layout.row_axis].first);
+  const std::string column_name = axis_words(cells.front()->axes[layout.column_axis].first);
   const bool one_axis = layout.row_axis == layout.column_axis;
   std::string out = fmt::format(
       "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Grid: {0}\"><table "
       "class=\"grid\"><caption>{0}</caption><thead><tr>",
       escaped(rest.empty() ? (one_axis ? column_name : row_name + " by " + column_name) : rest));
-  if (!one_axis) out += fmt::format("<td>{} \\ {}</td>", escaped(row_name), escaped(column_name));
+  if (!one_axis) out += fmt::format("<td>{} \u2193 {} \u2192</td>", escaped(row_name), escaped(column_name));
   for (const std::string& value : layout.columns)
-    out += fmt::format("<th scope=\"col\">{}</th>", escaped(value));
+    out += fmt::format("<th scope=\"col\">{}</th>", escaped(value_words(value)));
   out += "</tr></thead><tbody>";
   for (const std::string& row : one_axis ? Values{""} : layout.rows) {
-    out += one_axis ? "<tr>" : fmt::format("<tr><th scope=\"row\">{}</th>", escaped(row));
+    out += one_axis ? "<tr>" : fmt::format("<tr><th scope=\"row\">{}</th>", escaped(value_words(row)));
     for (const std::string& column : layout.columns) {
       const auto found = std::find_if(cells.begin(), cells.end(), [&](const CellSummary* cell) {
         return cell->axes[layout.column_axis].second == column &&
                (one_axis || cell->axes[layout.row_axis].second == row);
       });
-      out += found == cells.end() ? "<td></td>" : cell_html(in, **found);
+      out += found == cells.end() ? "<td></td>" : cell_html(in, **found, best.contains((*found)->cell));
     }
     out += "</tr>";
   }
@@ -79,7 +83,9 @@ std::string grid_html(const SweepPageInput& in, const std::vector<const CellSumm
 
 }  // namespace
 
-std::string thumbnail_grids(const SweepPageInput& in) {
+std::string thumbnail_grids(const SweepPageInput& in, const std::vector<std::size_t>& front) {
+  CellNumbers best;
+  for (const std::size_t i : front) best.insert(in.cells[i].cell);
   // Of a long axis only the cells with a thumbnail are shown.
   std::vector<CellSummary> cells;
   for (const CellSummary& cell : in.cells)
@@ -102,7 +108,7 @@ std::string thumbnail_grids(const SweepPageInput& in) {
   }
   std::string out;
   for (std::size_t i = 0; i < groups.size() && i < max_grids; ++i)
-    out += grid_html(in, groups[i], layout, rests[i]);
+    out += grid_html(in, groups[i], layout, rests[i], best);
   if (groups.size() > max_grids)
     out += fmt::format("<p class=\"hint\">{} more combinations are in the table.</p>\n",
                        groups.size() - max_grids);

@@ -6,20 +6,18 @@
 #include <cmath>
 
 #include "compare/number_text.h"
+#include "compare/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {
 
-std::string time_words(const CellSummary& cell) {
-  return std::isfinite(cell.raster_ms) ? " in " + milliseconds(cell.raster_ms) : std::string();
-}
-
-std::string cell_words(const CellSummary& cell, ErrorMeasure measure) {
+HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measure) {
   ErrorFigures pooled;
   pooled.wrong_fraction = cell.wrong_fraction, pooled.mean_absolute = cell.mean_absolute;
   pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
-  return fmt::format("cell {} ({}) with {}{}", cell.cell, axes_words(cell), figure_words(pooled, measure),
-                     time_words(cell));
+  std::string figures = figure_words(pooled, measure);
+  if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
+  return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 
 // Of what lies on the front the least product of error and time: a step along it that halves the one and
@@ -55,10 +53,9 @@ void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, He
   const CellSummary* best = cheapest_within(cells, limit);
   out.limit_met = best != nullptr;
   if (best != nullptr)
-    out.lines.push_back(
-        fmt::format("Cheapest with {}: {}.", limit_words(limit), cell_words(*best, limit.measure)));
+    out.items.push_back(item(fmt::format("Cheapest with {}", limit_words(limit)), *best, limit.measure));
   else
-    out.lines.push_back(fmt::format("No cell has {}.", limit_words(limit)));
+    out.items.push_back({fmt::format("No cell has {}", limit_words(limit)), {}, {}, {}});
 }
 
 }  // namespace
@@ -66,8 +63,16 @@ void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, He
 std::string axes_words(const CellSummary& cell) {
   std::string out;
   for (const auto& [name, value] : cell.axes)
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", axis_words(name), value_words(value));
   return out.empty() ? "the only cell" : out;
+}
+
+std::vector<std::string> Headline::lines() const {
+  std::vector<std::string> out;
+  for (const HeadlineItem& i : items)
+    out.push_back(i.cell ? fmt::format("{}: cell {} ({}) with {}.", i.title, *i.cell, i.setting, i.figures)
+                         : i.title + ".");
+  return out;
 }
 
 Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
@@ -79,18 +84,18 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   if (front.empty()) {
     const auto least = std::min_element(cells.begin(), cells.end(),
                                         [](const auto& a, const auto& b) { return a.error() < b.error(); });
-    out.lines.push_back(fmt::format("Least error: {}.", cell_words(*least, measure)));
+    out.items.push_back(item("Least error", *least, measure));
     return out;
   }
   const std::size_t fastest = front.front(), best = front.back();
   if (fastest == best) {
-    out.lines.push_back(fmt::format("Best for error and for time: {}.", cell_words(cells[best], measure)));
+    out.items.push_back(item("Best for error and for time", cells[best], measure));
     return out;
   }
-  out.lines.push_back(fmt::format("Best for error: {}.", cell_words(cells[best], measure)));
-  out.lines.push_back(fmt::format("Best for time: {}.", cell_words(cells[fastest], measure)));
-  out.lines.push_back(fmt::format("Best for both (least product of error and time): {}.",
-                                  cell_words(cells[balanced(cells, front)], measure)));
+  out.items.push_back(item("Best for error", cells[best], measure));
+  out.items.push_back(item("Best for time", cells[fastest], measure));
+  out.items.push_back(
+      item("Best for both (least product of error and time)", cells[balanced(cells, front)], measure));
   return out;
 }
 

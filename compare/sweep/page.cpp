@@ -23,27 +23,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "24 cells have errors between 0.1 % and 12 %; …"
+// "The 24 cells have errors between 0.1 % and 12 %; …"
 std::string sentence(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
   const auto [least, most] = std::minmax_element(
       cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.error() < b.error(); });
   if (cells.size() == 1)
     return fmt::format("The one cell leaves {} wrong, with a mean error of {}.",
                        percent(cells[0].wrong_fraction), percent(cells[0].mean_absolute));
-  std::string text = fmt::format("{} cells have errors between {} and {}.", grouped(cells.size()),
+  std::string text = fmt::format("The {} cells have errors between {} and {}.", grouped(cells.size()),
                                  percent(least->error()), percent(most->error()));
-  if (!front.empty())
+  if (front.size() == 1)
+    text += " One of them is worth having (\u2605): none has a smaller error, and none is clearly faster.";
+  else if (!front.empty())
     text += fmt::format(
-        " {} of them {} worth having: no cell with a smaller error is as fast, as far as the "
-        "times can tell.",
-        front.size(), front.size() == 1 ? "is" : "are");
+        " {} of them are worth having (\u2605): every cell with a smaller error takes clearly longer.",
+        front.size());
   return text;
 }
 
 std::string headline_list(const Headline& headline) {
-  if (headline.lines.empty()) return {};
+  if (headline.items.empty()) return {};
   std::string items;
-  for (const std::string& line : headline.lines) items += "<li>" + escaped(line) + "</li>\n";
+  for (const HeadlineItem& item : headline.items)
+    items += item.cell ? fmt::format(
+                             "<li><span class=\"eyebrow\">{}</span> <a href=\"#cell-{}\">{}</a> "
+                             "<span>{}</span></li>\n",
+                             escaped(item.title), *item.cell, flowing(item.setting), flowing(item.figures))
+                       : fmt::format("<li>{}.</li>\n", escaped(item.title));
   return "<ul class=\"headline\">\n" + items + "</ul>\n";
 }
 
@@ -92,9 +98,9 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
   }
   if (const std::string chart = size_chart(cells); !chart.empty())
     out += "<h3>Error against map size</h3>\n<figure>" + scroll_region("Error against map size", chart) +
-           "<figcaption>The best cell of each technique and size. An error that is all sampling falls along "
-           "the dotted "
-           "line.</figcaption></figure>\n";
+           "<figcaption>The best cell of each technique and size. Where the map's sampling is all that is "
+           "wrong, "
+           "the error falls along the dotted line: half of it at twice the size.</figcaption></figure>\n";
   return out + ray_table(rays) + "</section>\n";
 }
 
@@ -115,7 +121,8 @@ std::string provenance(const SweepHeader& header) {
   for (const auto& [name, value] : json.at("options").items())
     out += fact("--" + name, value.is_string() ? value.get<std::string>() : value.dump());
   for (const char* key : {"runs", "seed", "exposure"})
-    if (json.contains(key) && !json.at(key).is_null()) out += fact(key, json.at(key).dump());
+    if (json.contains(key) && !json.at(key).is_null())
+      out += fact(key == std::string_view("runs") ? "Runs of each pass" : key, json.at(key).dump());
   for (const Json& axis : json.value("axes", Json::array())) {
     const Json& values = axis.at("values");
     std::string list;
@@ -123,7 +130,7 @@ std::string provenance(const SweepHeader& header) {
     if (values.size() > 12)
       list = fmt::format("{} values from {} to {}", values.size(), values.front().get<std::string>(),
                          values.back().get<std::string>());
-    out += fact("Axis --" + axis.at("name").get<std::string>(), list);
+    out += fact("Swept: --" + axis.at("name").get<std::string>(), list);
   }
   return out +
          "</dl>\n<p class=\"save\"><a class=\"button\" href=\"sweep.csv\">sweep.csv</a> <a class=\"button\" "
@@ -131,14 +138,14 @@ std::string provenance(const SweepHeader& header) {
          "href=\"sweep_times.jsonl\">sweep_times.jsonl</a></p></section>\n";
 }
 
-std::string grid_section(const SweepPageInput& in) {
-  const std::string grids = thumbnail_grids(in);
+std::string grid_section(const SweepPageInput& in, const std::vector<std::size_t>& front) {
+  const std::string grids = thumbnail_grids(in, front);
   if (grids.empty()) return {};
   return "<section id=\"grid\" aria-labelledby=\"grid-title\"><h2 id=\"grid-title\">Grid</h2>\n<p "
          "class=\"hint\">The ray-traced picture in grey; <b class=\"false-text\">orange</b>: drawn dark, "
          "truly "
          "lit; <b class=\"missed-text\">blue</b>: drawn lit, truly dark. The number is the share of wrong "
-         "pixels.</p>\n<div id=\"grids\">" +
+         "pixels; \u2605: worth having.</p>\n<div id=\"grids\">" +
          grids + "</div></section>\n";
 }
 
@@ -207,7 +214,7 @@ href="#provenance">Provenance</a></li>)";
       "class=\"verdict\">{}</p>\n{}</section>\n",
       escaped(scene), beside_line(in), escaped(sentence(in.cells, front)),
       headline_list(sweep_headline(in.cells, front, in.limit)));
-  shell.main += grid_section(in) + cell_section() + cost_charts(in.cells, front, in.rays) +
+  shell.main += grid_section(in, front) + cell_section() + cost_charts(in.cells, front, in.rays) +
                 cell_table(in.cells, front) + provenance(in.header);
   shell.data = sweep_page_data(in, front);
   shell.beside = in.beside;

@@ -35,7 +35,8 @@ struct SweepPageInput {
 std::string sweep_page(const SweepPageInput& input);
 
 /// Tables of thumbnails, one per combination of the other axes: rows by the first axis, columns by the last.
-std::string thumbnail_grids(const SweepPageInput& input);
+/// `front` as below.
+std::string thumbnail_grids(const SweepPageInput& input, const std::vector<std::size_t>& front);
 /// The table of all cells; `front`: indices of those on the Pareto front.
 std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front);
 /// What the page's script reads, and the parts of it that hold the cells' pictures.

@@ -6,6 +6,7 @@
 #include "compare/number_text.h"
 #include "compare/report/page_data.h"
 #include "compare/sweep/page.h"
+#include "compare/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {
@@ -17,17 +18,19 @@ std::string cell_line(const CellSummary& cell) {
   std::string text = percent(cell.wrong_fraction) + " wrong, mean error " + percent(cell.mean_absolute) +
                      ": false shadow " + grouped(cell.false_shadow) + ", missed shadow " +
                      grouped(cell.missed_shadow);
-  if (!cell.main_label.empty()) text += ", mostly " + cell.main_label;
+  if (!cell.main_label.empty()) text += ", mostly " + label_words_of(cell.main_label);
   if (std::isfinite(cell.raster_ms)) text += "; " + milliseconds(cell.raster_ms) + " for map and shading";
   return text;
 }
 
 Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front) {
   Json values = Json::array();
-  for (const auto& [name, value] : cell.axes) values.push_back(value);
+  Json shown = Json::array();
+  for (const auto& [name, value] : cell.axes) values.push_back(value), shown.push_back(value_words(value));
   const auto pictures = in.pictures.find(cell.cell);
   return {{"cell", cell.cell},
           {"values", std::move(values)},
+          {"shown", std::move(shown)},
           {"wrong", cell.wrong_fraction},
           {"front", on_front},
           {"line", cell_line(cell)},

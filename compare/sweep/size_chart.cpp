@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -32,7 +33,7 @@ std::string drawing(const LogPlot& plot, const Line& line, std::string_view stro
     fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", x, y);
     dots +=
         cell_point(*cell, fill, x, y, 4.0,
-                   fmt::format("{}, {:g} texels: {} wrong", cell->technique, size, percent(cell->error())));
+                   fmt::format("{}, {:g} texels: error {}", cell->technique, size, percent(cell->error())));
   }
   return fmt::format("<polyline class=\"curve {}\" points=\"{}\"/>", stroke, points) + dots;
 }
@@ -48,7 +49,8 @@ std::string sampling_slope(const LogPlot& plot, const std::map<std::string, Line
   const double end_size = start * first / lowest;
   return fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
                      plot.x(first), plot.y(start), plot.x(end_size), plot.y(lowest)) +
-         labels.place(plot.x(end_size), plot.y(lowest), "slope \u22121");
+         labels.place(plot.x(std::sqrt(first * end_size)), plot.y(std::sqrt(start * lowest)),
+                      "half at twice the size");
 }
 
 }  // namespace
@@ -65,11 +67,15 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   const LogPlot plot{sizes.front() / 1.1, sizes.back() * 1.1, least, std::max(4.0 * least, 1.5 * most)};
   std::string out = chart_frame(plot, sizes, "texels on a side"), names;
   ChartLabels labels;
-  for (const auto& [name, line] : lines)
+  for (const auto& [name, line] : lines) {
+    const CellSummary* before = nullptr;
     for (const auto& [size, cell] : line) {
       const double x = plot.x(size), y = plot.y(cell->error());
       labels.keep_free(x - 5, y - 5, x + 5, y + 5);
+      if (before != nullptr) labels.keep_line_free(plot.x(before->map_size), plot.y(before->error()), x, y);
+      before = cell;
     }
+  }
   if (lines.size() > 1)
     for (const auto& [name, line] : lines)
       names += labels.place(plot.x(line.rbegin()->first), plot.y(line.rbegin()->second->error()), name);

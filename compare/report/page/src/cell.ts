@@ -9,6 +9,7 @@ import { isolatedLabel, painted, rgbOf } from "./pictures";
 export interface CellJson {
   cell: number;
   values: string[];  // by axis
+  shown: string[];   // the same as people read them
   wrong: number;
   front: boolean;
   line: string;

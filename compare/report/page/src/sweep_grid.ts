@@ -10,7 +10,7 @@ interface Axis {
 }
 
 /** "map_size": a key of the result; in words: "map size". */
-const inWords = (axis: string): string => axis.replaceAll("_", " ");
+export const inWords = (axis: string): string => axis.replaceAll("_", " ");
 
 const distinct = (cells: CellJson[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
 
@@ -71,8 +71,8 @@ export class SweepGrid {
     const used = (axis: Axis, k: number) => axis.values.filter((value) => k < 0 || cells.some((cell) => cell.values[k] === value));
     const at = new Map(cells.map((cell) => [`${rows >= 0 ? cell.values[rows] : ""}|${cell.values[columns]}`, cell]));
     const head = html("tr", {}, ...(rows >= 0 ? [html("td", {}, `${inWords(down.name)} ↓ ${inWords(across.name)} →`)] : []),
-      ...used(across, columns).map((value) => html("th", { scope: "col" }, value)));
-    const body = used(down, rows).map((row) => html("tr", {}, ...(rows >= 0 ? [html("th", { scope: "row" }, row)] : []),
+      ...used(across, columns).map((value) => html("th", { scope: "col", title: value }, this.shown(columns, value))));
+    const body = used(down, rows).map((row) => html("tr", {}, ...(rows >= 0 ? [html("th", { scope: "row", title: row }, this.shown(rows, row))] : []),
       ...used(across, columns).map((value) => {
         const cell = at.get(`${row}|${value}`);
         return html("td", {}, ...(cell ? [this.link(cell)] : []));
@@ -80,10 +80,14 @@ export class SweepGrid {
     return html("table", { class: "grid" }, html("caption", {}, rows >= 0 ? `${inWords(down.name)} by ${inWords(across.name)}` : inWords(across.name)), html("thead", {}, head), html("tbody", {}, ...body));
   }
 
+  private shown(axis: number, value: string): string {
+    return this.cells.find((cell) => cell.values[axis] === value)!.shown[axis]!;
+  }
+
   private link(cell: CellJson): HTMLAnchorElement {
     let link = this.links.get(cell.cell);
     if (!link) {
-      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${number(100 * cell.wrong, 2)} %`));
+      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${number(100 * cell.wrong, 2)} %${cell.front ? " ★" : ""}`));
       this.links.set(cell.cell, link);
     }
     if (cell.cell === this.state.cell) link.setAttribute("aria-current", "true");

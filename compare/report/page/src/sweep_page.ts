@@ -5,7 +5,7 @@ import { wordsOf } from "./data";
 import { pageData } from "./parts";
 import { initialSweep, readSweep, saveSweep, type SweepState } from "./state";
 import { grouped, html } from "./svg";
-import { SweepGrid } from "./sweep_grid";
+import { inWords, SweepGrid } from "./sweep_grid";
 import { SweepTable } from "./sweep_table";
 import { Viewer, type Source } from "./viewer";
 
@@ -73,7 +73,7 @@ class SweepPage {
   }
 
   private nameOf(cell: Cell): string {
-    return this.json.axes.map((axis, k) => `${axis} ${cell.json.values[k]}`).join(", ") || "the only cell";
+    return this.json.axes.map((axis, k) => `${inWords(axis)} ${cell.json.shown[k]}`).join(", ") || "the only cell";
   }
 
   private async open(number: number, scroll = false): Promise<void> {
