@@ -1,8 +1,11 @@
-// Draws a glTF scene with a WebGL engine in headless Chromium and writes a capture for `gnomon judge`:
+// Draws a glTF scene with an engine and writes a capture for `gnomon judge`:
 //   node adapters/capture.mjs ENGINE SCENE -o DIR [--size 640x360] [--light NAME] [--NAME VALUE ...]
-// ENGINE is a file of adapters/engines; every further option is one of that engine's own (see its head).
+// ENGINE is a file of adapters/engines: a page's module, run in headless Chromium with WebGL 2, or a script for Blender.
+// Every further option is one of that engine's own (see its head).
 // Writes DIR/capture.json, the pictures that it names, and DIR/picture.png, what the engine itself shows.
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { basename, dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -52,9 +55,10 @@ async function openPage(job) {
 }
 
 /** Runs the engine's module in the page. Its arrays come back as base64 text. */
-async function draw(page, job) {
+async function drawInPage(job) {
+  const { browser, page } = await openPage(job);
   const task = { scene: `http://capture/scene/${basename(job.scene)}`, light: job.light, width: job.width, height: job.height, settings: job.settings };
-  return page.evaluate(async ({ engine, task }) => {
+  const result = await page.evaluate(async ({ engine, task }) => {
     const module = await import(`http://capture/engines/${engine}.js`);
     const result = await module.capture(document.querySelector("canvas"), task);
     const encode = (value) => {
@@ -65,12 +69,25 @@ async function draw(page, job) {
       return { floats: btoa(text) };
     };
     return JSON.parse(JSON.stringify(result, (key, value) => encode(value)));
-  }, { engine: job.engine, task });
+  }, { engine: job.engine, task }).finally(() => browser.close());
+  return result;
+}
+
+function drawInBlender(job) {
+  const folder = mkdtempSync(join(tmpdir(), "capture-")), task = join(folder, "task.json"), result = join(folder, "result.json");
+  writeFileSync(task, JSON.stringify(job));
+  const script = join(here, "engines", `${job.engine}.py`);
+  const run = spawnSync("blender", ["--background", "--factory-startup", "--python-exit-code", "1", "--python", script, "--", task, result], { encoding: "utf8" });
+  if (run.error) throw new Error(`blender cannot be run: ${run.error.message}`);
+  if (run.status !== 0) throw new Error(`blender failed: ${`${run.stdout}${run.stderr}`.trim().split("\n").slice(-3).join(" | ")}`);
+  const drawn = JSON.parse(readFileSync(result, "utf8"));
+  rmSync(folder, { recursive: true });
+  return drawn;
 }
 
 const floats = ({ floats: text }) => { const bytes = Buffer.from(text, "base64"); return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4); };
 
-/** result: {renderer, light, visibility, covered, position [x, y, z], map [{texels, size, ...}], bias, filter, picture}. */
+/** result: {renderer, light, visibility | shadowed and unshadowed, covered, position [x, y, z], map [{texels, size, ...}], bias, filter, picture}. */
 function write(job, result) {
   mkdirSync(job.folder, { recursive: true });
   const put = (name, width, height, channels) => {
@@ -81,7 +98,9 @@ function write(job, result) {
   const [X, Y, Z] = result.position;
   const capture = {
     schema: "gnomon/capture/1", renderer: result.renderer, scene: relative(job.folder, job.scene), light: result.light, size: [job.width, job.height],
-    visibility: put("visibility.exr", job.width, job.height, { V: result.visibility, A }),
+    ...(result.visibility
+      ? { visibility: put("visibility.exr", job.width, job.height, { V: result.visibility, A }) }
+      : { shadowed: put("shadowed.exr", job.width, job.height, { Y: result.shadowed }), unshadowed: put("unshadowed.exr", job.width, job.height, { Y: result.unshadowed }) }),
     position: put("position.exr", job.width, job.height, { X, Y, Z, A }),
   };
   if (result.map) {
@@ -94,15 +113,13 @@ function write(job, result) {
 
 const job = readArguments();
 if (!existsSync(job.scene)) stop(`${job.scene}: no such file`);
-if (!existsSync(join(here, "engines", `${job.engine}.js`))) stop(`no such engine (got ${job.engine}): see adapters/engines`);
-const { browser, page } = await openPage(job);
+const isIn = (extension) => existsSync(join(here, "engines", `${job.engine}.${extension}`));
+if (!isIn("js") && !isIn("py")) stop(`no such engine (got ${job.engine}): see adapters/engines`);
 try {
-  const result = await draw(page, job);
+  const result = isIn("py") ? drawInBlender(job) : await drawInPage(job);
   write(job, result);
   console.error(`${result.renderer.name} ${result.renderer.version}: ${join(job.folder, "capture.json")}`);
 } catch (error) {
-  console.error(`capture: ${error.message}`);
+  console.error(`capture: ${error.message.split("\n")[0]}`);
   process.exitCode = 1;
-} finally {
-  await browser.close();
 }

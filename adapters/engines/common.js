@@ -17,3 +17,12 @@ export function channel(pixels, width, height, c, { flip = true, stride = 4 } = 
     for (let x = 0; x < width; ++x) out[y * width + x] = pixels[((flip ? height - 1 - y : y) * width + x) * stride + c];
   return out;
 }
+
+/** A library that is a plain script. */
+export function loadScript(path) {
+  return new Promise((done, failed) => {
+    const script = document.createElement("script");
+    Object.assign(script, { src: path, onload: done, onerror: () => failed(new Error(`${path} is missing: npm install --prefix adapters`)) });
+    document.head.append(script);
+  });
+}
