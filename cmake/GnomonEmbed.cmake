@@ -61,5 +61,5 @@ std::string_view ${space}(std::string_view file_name) {
 }  // namespace gnomon::embedded
 ")
   target_sources(${target} PRIVATE "${dir}/${space}.S" "${dir}/${space}.cpp")
-  target_include_directories(${target} PUBLIC "${dir}")
+  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${dir}>")
 endfunction()

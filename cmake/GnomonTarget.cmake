@@ -3,7 +3,7 @@
 
 add_library(gnomon_flags INTERFACE)
 target_compile_features(gnomon_flags INTERFACE cxx_std_20)
-target_include_directories(gnomon_flags INTERFACE "${PROJECT_SOURCE_DIR}")
+target_include_directories(gnomon_flags INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gnomon>")
 # Contraction to FMA makes a watertight triangle test leak (see raytrace/shapes/intersect.h).
 target_compile_options(gnomon_flags INTERFACE -ffp-contract=off)
 target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)

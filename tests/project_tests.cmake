@@ -18,3 +18,13 @@ add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_c
 add_test(NAME project_package_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_package_test.sh" "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/package")
 set_tests_properties(project_package_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+
+# The installed libraries, and the example that uses them.
+add_test(NAME project_library_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_library_test.sh"
+  "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/library" "${PROJECT_SOURCE_DIR}")
+set_tests_properties(project_library_test PROPERTIES TIMEOUT 300)
+
+# docs/notebook.md, block by block, where Python has pandas.
+add_test(NAME docs_notebook_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/docs_notebook_test.py"
+  "$<TARGET_FILE:gnomon_program>" "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/notebook")
+set_tests_properties(docs_notebook_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
