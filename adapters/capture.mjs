@@ -12,7 +12,7 @@ import { parseArgs } from "node:util";
 import { exr } from "./exr.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const importMap = JSON.stringify({ imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/" } });
+const importMap = JSON.stringify({ imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/", playcanvas: "/node_modules/playcanvas/build/playcanvas.mjs" } });
 const stop = (text) => { console.error(`capture: ${text}`); process.exit(2); };
 
 function readArguments() {
@@ -87,21 +87,21 @@ function drawInBlender(job) {
 
 const floats = ({ floats: text }) => { const bytes = Buffer.from(text, "base64"); return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4); };
 
-/** result: {renderer, light, visibility | shadowed and unshadowed, covered, position [x, y, z], map [{texels, size, ...}], bias, filter, picture}. */
+/** result: {renderer, light, visibility | shadowed and unshadowed, covered and position [x, y, z] or neither, map [{texels, size, ...}],
+    bias, filter, picture}. */
 function write(job, result) {
   mkdirSync(job.folder, { recursive: true });
   const put = (name, width, height, channels) => {
     writeFileSync(join(job.folder, name), exr(width, height, Object.fromEntries(Object.entries(channels).map(([c, values]) => [c, floats(values)]))));
     return name;
   };
-  const { covered: A } = result;
-  const [X, Y, Z] = result.position;
+  const { covered: A, position: [X, Y, Z] = [] } = result;
   const capture = {
     schema: "gnomon/capture/1", renderer: result.renderer, scene: relative(job.folder, job.scene), light: result.light, size: [job.width, job.height],
     ...(result.visibility
       ? { visibility: put("visibility.exr", job.width, job.height, { V: result.visibility, A }) }
       : { shadowed: put("shadowed.exr", job.width, job.height, { Y: result.shadowed }), unshadowed: put("unshadowed.exr", job.width, job.height, { Y: result.unshadowed }) }),
-    position: put("position.exr", job.width, job.height, { X, Y, Z, A }),
+    ...(X && { position: put("position.exr", job.width, job.height, { X, Y, Z, A }) }),
   };
   if (result.map) {
     capture.map = result.map.map(({ texels, size, ...layer }, i) => ({ depth: put(`map-${i}.exr`, size, size, { Z: texels }), ...layer }));
