@@ -49,9 +49,11 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   BiasedLookup out;
   out.position = receiver.position;
   out.at = project_to_face(view, record.face.data[pixel], receiver.position);
-  if (bias.normal_offset_texels > 0.0) {
+  const double given = record.captured ? record.captured->normal_offset_world : 0.0;
+  if (bias.normal_offset_texels > 0.0 || given > 0.0) {
     const double sine = glm::length(glm::cross(receiver.normal, to_light));
-    out.position += receiver.normal * (bias.normal_offset_texels * texel_world_size(view, out.at) * sine);
+    const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
+    out.position += receiver.normal * (texels + given);
     out.at = project_to_texel(view, out.position);
     if (!out.at.inside) return std::nullopt;
     out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
@@ -61,8 +63,33 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   return out;
 }
 
+namespace {
+
+/// As another renderer tests its own map: a difference of stored numbers.
+double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                    const BiasedLookup& lookup, double caster_depth) {
+  const LightView& view = record.map.view;
+  const TexelCoordinate& at = lookup.at;
+  const int face = lookup.key.face();
+  const double u = lookup.key.column() + 0.5, v = lookup.key.row() + 0.5;
+  const double slope =
+      bias.slope != 0.0 ? bias.slope * texel_depth_slope(view, at, lookup.position, normal) : 0.0;
+  if (record.captured->distances) {
+    const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
+    return (at.distance - caster_depth / along) * record.captured->unit_world - slope;
+  }
+  const double own = stored_from_depth(view, face, v, at.depth);
+  const double before = stored_from_depth(view, face, v, at.depth - slope * at.depth / at.distance);
+  const double caster = stored_from_depth(view, face, v, caster_depth);
+  const double behind = view.reversed ? caster - own : own - caster;
+  return (behind - std::abs(own - before)) * record.captured->unit_world;
+}
+
+}  // namespace
+
 double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                   const BiasedLookup& lookup, double caster_depth) {
+  if (record.captured) return captured_gap(record, bias, normal, lookup, caster_depth);
   const LightView& view = record.map.view;
   const TexelCoordinate& at = lookup.at;
   const int face = lookup.key.face();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,9 +47,10 @@ enum class Label : std::int8_t {
   blur,
   light_size,
   outside_map,
-  custom_shader
+  custom_shader,
+  unexplained
 };
-inline constexpr std::size_t class_count = 11;  ///< the wrong ones, acne … custom_shader
+inline constexpr std::size_t class_count = 12;  ///< the wrong ones, acne … unexplained
 std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
 inline bool is_wrong(Label label) {
   return static_cast<int>(label) > 0;
@@ -184,7 +186,7 @@ struct LightComparison {
   PixelCounts pixels;
   ErrorStats error;
   std::array<BudgetStep, cause_count> budget{};
-  std::array<std::uint64_t, class_count> classes{};  ///< acne … custom_shader; they sum to error.wrong
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … unexplained; they sum to error.wrong
   RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
@@ -215,8 +217,12 @@ struct MachineInfo {
   int cores = 0;
 };
 
+struct Judged;
+
 struct Comparison {
   const World* world = nullptr;
+  /// Another renderer's picture and map stand in `raster` (compare/judge/judged.h); null: Gnomon's own.
+  std::shared_ptr<const Judged> judged;
   std::string command;  ///< as the user could type it again
   std::uint64_t seed = 0;
   int threads = 0;

@@ -47,6 +47,8 @@ std::string_view label_name(Label label) {
       return "outside_map";
     case Label::custom_shader:
       return "custom_shader";
+    case Label::unexplained:
+      return "unexplained";
   }
   return "unknown";
 }
@@ -85,6 +87,8 @@ glm::u8vec3 label_colour(Label label) {
       return {0x88, 0x22, 0x55};  // wine (Tol)
     case Label::custom_shader:
       return {0x66, 0x33, 0x33};  // dark red (Tol, "dark")
+    case Label::unexplained:
+      return {0x00, 0x00, 0x00};
   }
   return {0, 0, 0};
 }

@@ -209,6 +209,27 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
   }
 }
 
+// Another renderer's picture without its map.
+bool lacks_map(const LadderInput& in) {
+  return in.record.captured && in.record.captured->unit_world == 0.0;
+}
+
+// Of a picture alone the light's size is known, and that the rest is what some map made of it.
+Climb climb_unexplained(const LadderInput& in, Climb out) {
+  const Image<Label> climbed = labels_climbed(in, out.labels);
+  tbb::parallel_for(std::size_t{0}, out.labels.data.size(), [&](std::size_t i) {
+    if (!is_compared(climbed.data[i])) return;
+    out.rungs[0].data[i] = true_visibility(in, i);
+    out.rungs[1].data[i] = point_rung(in, i);
+    const float drawn = in.record.visibility.data[i];
+    for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
+    if (!drawn_wrong(in, out, i)) return;
+    const bool of_point = std::abs(drawn - out.rungs[1].data[i]) <= 0.5f;
+    out.labels.data[i] = of_point ? Label::light_size : Label::unexplained;
+  });
+  return out;
+}
+
 // A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: all of
 // its rungs are what it drew.
 Climb climb_without_map(const LadderInput& in, Climb out) {
@@ -281,6 +302,11 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
 }
 
 Climb climb(const LadderInput& in, Image<Label> sorted) {
+  if (lacks_map(in)) {
+    Climb start{{}, std::move(sorted)};
+    for (Image<float>& rung : start.rungs) rung = Image<float>(start.labels.size, 1.0f);
+    return climb_unexplained(in, std::move(start));
+  }
   LowerClimb lower(in, std::move(sorted));
   Climb start{std::move(lower.rungs), std::move(lower.sorted)};
   return climb_on(lower, in, std::move(start));

@@ -55,6 +55,16 @@ bool has_one_texel_size(const LightView& view) {
   return view.projection == LightProjection::orthographic && view.face_count == 1 && view.face(0).warp == 0.0;
 }
 
+// On another renderer's map, too, Gnomon's own kinds are tried.
+std::vector<BiasKind> kinds_of_bias(const LadderInput& in, const Image<float>& truth,
+                                    const Image<Label>& labels) {
+  if (!in.record.captured) return compare_bias_kinds(in, truth, labels);
+  raster::LightRecord record = in.record;
+  record.captured.reset();
+  return compare_bias_kinds(
+      {in.world, in.tracer, in.topology, in.light, in.drawn, record, in.traced, in.truth}, truth, labels);
+}
+
 std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& labels) {
   const LightView& view = in.record.map.view;
   std::vector<double> sizes;
@@ -147,11 +157,12 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   out.texel_world = map.texel_world;
   out.theory = map.theory;
   out.bias_texel_world = in.record.texel_world;
-  if (in.drawn.custom_shader) return out;  // what it draws does not follow from the gaps
+  // What such a shader draws does not follow from the gaps, and without a map there are none.
+  if (in.drawn.custom_shader || (in.record.captured && in.record.captured->unit_world == 0.0)) return out;
   const TimedStage curve("curve");
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);
-  if (options.perceptual) out.bias_kinds = compare_bias_kinds(in, truth, out.labels);
+  if (options.perceptual) out.bias_kinds = kinds_of_bias(in, truth, out.labels);
   out.bias_curve = draw_bias_curve(gaps, out.bias_texel_world, in.record.bias_constant_world,
                                    out.best_bias.constant_world, options.bias_curve_points);
   return out;

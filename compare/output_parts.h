@@ -27,6 +27,23 @@ inline bool draws_bias(const Comparison& c) {
   return compares_depths(c.raster.options.map.technique) && (!custom || custom->reads_bias);
 }
 
+/// Another renderer's picture, whose depth map is not known.
+inline bool lacks_map(const Comparison& c) {
+  return !c.raster.lights.empty() && c.raster.lights.front().captured &&
+         c.raster.lights.front().captured->unit_world == 0.0;
+}
+/// Without the map there are two steps: light size, and all the rest.
+inline std::size_t known_steps(const Comparison& c) {
+  return lacks_map(c) ? 2 : cause_count;
+}
+inline std::string_view step_name(const Comparison& c, Cause cause) {
+  return lacks_map(c) && cause == Cause::sampling ? "unexplained" : cause_name(cause);
+}
+/// "hard"; "unknown" where another renderer's map is not known.
+inline std::string_view drawn_technique(const Comparison& c) {
+  return lacks_map(c) ? "unknown" : technique_name(c.raster.options.map.technique);
+}
+
 /// A light's name as a part of a file name, unique among the lights compared.
 std::string light_file_part(const Comparison& comparison, const LightComparison& light);
 /// Where one light's channels go: `path` itself, or with "-NAME" before the extension when there are several

@@ -40,11 +40,12 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image
   out.depth_map_step = step_for_width(map, folder_width);
   out.depth_map_small_step = step_for_width(map, page_width);
   const int small_step = out.depth_map_small_step, full_step = out.depth_map_step;
-  jobs.push_back({&out.depth_map, [&map, full_step] {
-                    return full_step == 1 ? depth_map_picture(map)
-                                          : depth_map_picture(reduced_map(map, full_step));
-                  }});
-  if (small_step != full_step)
+  if (!lacks_map(c))
+    jobs.push_back({&out.depth_map, [&map, full_step] {
+                      return full_step == 1 ? depth_map_picture(map)
+                                            : depth_map_picture(reduced_map(map, full_step));
+                    }});
+  if (small_step != full_step && !lacks_map(c))
     jobs.push_back({&out.depth_map_small,
                     [&map, small_step] { return depth_map_picture(reduced_map(map, small_step)); }});
   jobs.push_back({&out.difference, [&drawn, &light] { return difference_picture(drawn, light); }});

@@ -8,6 +8,7 @@
 
 #include "compare/engine_units.h"
 #include "compare/filter_parameters.h"
+#include "compare/judge/judged.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -149,8 +150,9 @@ Json custom_shader_json(const raster::RasterFrame& drawn) {
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  Json json{{"technique", technique_name(map.technique)},
-            {"size", record.map.view.size},
+  const bool known = !lacks_map(c);
+  Json json{{"technique", drawn_technique(c)},
+            {"size", known ? Json(record.map.view.size) : Json(nullptr)},
             {"faces", record.map.view.face_count},
             {"depth_format", depth_format_name(record.map.format)},
             {"cull", cull_name(map.cull)},
@@ -192,10 +194,10 @@ Json error_json(const ErrorStats& e) {
           {"ssim_compared", number(e.ssim_compared)}};
 }
 
-Json budget_json(const LightComparison& light) {
+Json budget_json(const Comparison& c, const LightComparison& light) {
   Json json = Json::array();
-  for (std::size_t k = 0; k < cause_count; ++k)
-    json.push_back({{"cause", cause_name(static_cast<Cause>(k))},
+  for (std::size_t k = 0; k < known_steps(c); ++k)
+    json.push_back({{"cause", step_name(c, static_cast<Cause>(k))},
                     {"signed", number(light.budget[k].signed_mean)},
                     {"absolute", number(light.budget[k].absolute_mean)},
                     {"darkened", number(light.budget[k].darkened())},
@@ -323,7 +325,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"map", map_json(c, light)},
              {"pixels", pixels_json(light.pixels)},
              {"error", error_json(light.error)},
-             {"budget", budget_json(light)},
+             {"budget", budget_json(c, light)},
              {"ladder", ladder_json(light)},
              {"classes", classes_json(light)},
              {"right_by_accident", {{"shadowed", light.accidents.shadowed}, {"lit", light.accidents.lit}}},
@@ -416,6 +418,55 @@ void add_threshold(const Comparison& c, Json& json) {
                         {"failed", std::any_of(c.lights.begin(), c.lights.end(), fails)}};
 }
 
+Json agreement_json(const std::vector<Agreement>& all) {
+  Json json = Json::array();
+  for (const Agreement& one : all) json.push_back({{"of", one.what}, {"share", number(one.share)}});
+  return json;
+}
+
+Json identified_json(const Identified& i) {
+  return {{"technique", i.technique},
+          {"options", i.options},
+          {"map_size", i.map_size},
+          {"bias_world", number(i.bias_world)},
+          {"bias_texels", number(i.bias_texels)},
+          {"explained", number(i.explained)},
+          {"model_error", number(i.model_error)},
+          {"picture_error", number(i.picture_error)},
+          {"renders", i.renders}};
+}
+
+// Of a picture that another renderer drew.
+Json judged_json(const Judged& j) {
+  Json settings = Json::object(), mended = Json::array(), advice = Json::array();
+  for (const auto& [key, value] : j.settings) settings[key] = value;
+  for (const Mended& m : j.mended)
+    mended.push_back({{"what", m.what},
+                      {"evidence", m.evidence},
+                      {"before", number(m.before)},
+                      {"after", number(m.after)}});
+  for (const Advice& a : j.advice)
+    advice.push_back({{"setting", a.setting},
+                      {"now", number(a.now)},
+                      {"instead", number(a.instead)},
+                      {"unit", a.unit},
+                      {"wrong_now", number(a.wrong_now)},
+                      {"wrong_instead", number(a.wrong_instead)},
+                      {"feasible", a.feasible}});
+  return {{"capture", j.capture},
+          {"renderer", {{"name", j.renderer}, {"version", j.version}, {"settings", std::move(settings)}}},
+          {"map", j.has_map},
+          {"positions", j.has_positions},
+          {"ratio", j.of_ratio},
+          {"agreement", agreement_json(j.agreement)},
+          {"mended", std::move(mended)},
+          {"biased_is_drawn", j.has_map ? number(j.biased_is_drawn) : Json(nullptr)},
+          {"unit_world", j.has_map ? number(j.unit_world) : Json(nullptr)},
+          {"identified", j.identified ? identified_json(*j.identified) : Json(nullptr)},
+          {"advice", std::move(advice)},
+          {"notes", j.notes}};
+}
+
 Json result_object(const Comparison& c, double report_ms, double total_ms) {
   Json lights = Json::array();
   for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
@@ -483,6 +534,7 @@ std::string dumped(const Json& json, int indent) {
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
   Json json = result_object(c, report_ms, total_ms);
+  if (c.judged) json["judged"] = judged_json(*c.judged);
   add_threshold(c, json);
   return dumped(json, 2);
 }
@@ -491,6 +543,7 @@ std::string result_line(const Comparison& c, const AxisValues& axes,
                         const std::vector<std::string>& no_effect) {
   Json json = result_object(c, 0.0, 0.0);
   drop_times(json);
+  if (c.judged) json["judged"] = judged_json(*c.judged);
   json["axes"] = axes_object(axes);
   if (!no_effect.empty()) json["no_effect"] = no_effect;
   return dumped(json, -1);

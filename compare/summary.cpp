@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/filter_parameters.h"
+#include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -62,9 +63,11 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
   const double texel = light.bias_texel_world;
-  std::string text = fmt::format(
-      "{}, {} x {}{} texels", technique_name(map.technique), record.map.view.size, record.map.view.size,
-      record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
+  if (lacks_map(c)) return "not known";
+  std::string text =
+      fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
+                  technique_name(map.technique), record.map.view.size, record.map.view.size,
+                  record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
   if (!compares_depths(map.technique)) return text;
   text += fmt::format(", {}", depth_format_name(record.map.format));
   if (!draws_bias(c)) return text + ", shader of --shader-dir";
@@ -128,14 +131,14 @@ std::string accidents_line(const RightByAccident& a) {
 }
 
 // What each step took and what it added.
-std::string budget_line(const LightComparison& light) {
+std::string budget_line(const Comparison& c, const LightComparison& light) {
   std::string text;
   double sum = 0.0;
   for (std::size_t k = 0; k < cause_count; ++k) {
     const BudgetStep& step = light.budget[k];
     sum += step.signed_mean;
     if (!(step.absolute_mean > 0.0)) continue;
-    text += spoken(cause_name(static_cast<Cause>(k)));
+    text += spoken(step_name(c, static_cast<Cause>(k)));
     if (step.darkened() > 0.0) text += ' ' + signed_number(-step.darkened());
     if (step.lightened() > 0.0) text += ' ' + signed_number(step.lightened());
     text += ", ";
@@ -197,9 +200,10 @@ std::string exact_shadows_line(const raytrace::LightTruth& truth) {
 void add_times(Page& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
-  page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
-                                 median_text(drawn.map_pass), median_text(drawn.shade_pass)));
-  page.field("", exact_shadows_line(truth));
+  if (!c.judged)
+    page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
+                                   median_text(drawn.map_pass), median_text(drawn.shade_pass)));
+  page.field(c.judged ? "time" : "", exact_shadows_line(truth));
 }
 
 void add_light(Page& page, const Comparison& c, const LightComparison& light) {
@@ -219,10 +223,10 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by chance", accidents_line(light.accidents));
-    page.field("budget", budget_line(light));
+    page.field("budget", budget_line(c, light));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
-    add_theory(page, light.theory);
+    if (!lacks_map(c)) add_theory(page, light.theory);
   }
   add_times(page, c, light);
 }
@@ -235,6 +239,8 @@ std::string summary_table(const Comparison& c, bool colour) {
   page.heading(fmt::format("{}: {} x {} pixels, {}, {}", one_line(c.world->scene->name), size.width,
                            size.height, counted(c.world->triangle_count(), "triangle"),
                            counted(c.world->shapes.size(), "shape")));
+  if (c.judged)
+    for (const auto& [name, value] : judged_lines(c)) page.field(name, value);
   for (const LightComparison& light : c.lights) add_light(page, c, light);
   page.blank();
   page.field("whole", fmt::format("{} on {} thread{}; primary rays {}; peak memory {}",

@@ -61,6 +61,15 @@ double automatic_bias_world(const BiasRounding& rounding, const LightView& view,
 double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const LightView& view,
                            const World& world);
 
+/// How another renderer tests a map that it drew: by stored numbers, and in its own units.
+struct CapturedTest {
+  /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
+  /// numbers times this, as the renderer itself tests. 0: its map is not known, and the record's is empty.
+  double unit_world = 1.0;
+  double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal, whatever the light's angle
+  bool distances = false;  ///< the renderer stores distances from the light, not the depths of its matrix
+};
+
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
 /// The images, map.depth and map.primitive are empty unless RasterOptions::analysis.
 struct LightRecord {
@@ -87,6 +96,7 @@ struct LightRecord {
   /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
   Times map_pass, shade_pass;
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
+  std::optional<CapturedTest> captured;   ///< another renderer's map
 };
 
 /// A file of the user's that was compiled in place of the program's own (--shader-dir).

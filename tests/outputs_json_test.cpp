@@ -104,7 +104,7 @@ TEST(ResultJson, KeepsTheOrderAndNamesOfTheContract) {
   for (const auto& step : json["lights"][0]["budget"]) causes.push_back(step["cause"]);
   EXPECT_EQ(classes, (std::vector<std::string>{"acne", "precision", "peter_panning", "light_leak", "aliasing",
                                                "missed_feature", "false_feature", "blur", "light_size",
-                                               "outside_map", "custom_shader"}));
+                                               "outside_map", "custom_shader", "unexplained"}));
   EXPECT_EQ(causes,
             (std::vector<std::string>{"light_size", "sampling", "slope", "precision", "bias", "filter"}));
 }

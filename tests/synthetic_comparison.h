@@ -40,6 +40,8 @@ inline std::array<float, rung_count> synthetic_ladder(Label label, bool lit) {
       return {v, w, w, w, w, w, w};
     case Label::custom_shader:
       return {v, v, v, v, v, v, w};
+    case Label::unexplained:
+      return {v, v, w, w, w, w, w};
     default:
       return {v, v, v, v, v, v, v};
   }

@@ -62,6 +62,11 @@ constexpr std::array<LabelText, 5 + class_count> labels{{
      "that of the "
      "hard test with the map, and the rest is the shader's.",
      "Whatever the shader is meant to show."},
+    {"unexplained", "U", "another renderer drew this, and its depth map was not given",
+     "A capture without its depth map shows where the shadow is wrong, not which step of the depth test "
+     "made it so.",
+     "A capture with the map, its matrix and its bias; or `gnomon judge --identify`, which looks for the "
+     "setting that comes nearest."},
 }};
 
 constexpr std::array<StepText, cause_count> steps{{

@@ -20,7 +20,7 @@ std::string ladder_step(const LightBlock& b, std::size_t k) {
   const BudgetStep& step = b.light.budget[k];
   return fmt::format(
       R"(<td>{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)",
-      step_text(static_cast<Cause>(k)).name,
+      lacks_map(b.in.comparison) && k == 1 ? "unexplained" : step_text(static_cast<Cause>(k)).name,
       keyed_decrease(b.key(fmt::format("budget.{}.darkened", k)), step.darkened()),
       keyed(b.key(fmt::format("budget.{}.lightened", k)), step.lightened(), signed_number(step.lightened())),
       keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean, signed_number(step.signed_mean)),
@@ -175,7 +175,8 @@ std::string ladder_block(const LightBlock& b) {
 )",
         k, rung.name, rung.what,
         keyed(b.key(fmt::format("ladder.{}.mean", k)), means[k], fmt::format("{:.4f}", means[k])),
-        k == 0 ? "<td></td><td></td><td></td><td></td><td></td>" : ladder_step(b, k - 1));
+        k == 0 || k > known_steps(b.in.comparison) ? "<td></td><td></td><td></td><td></td><td></td>"
+                                                   : ladder_step(b, k - 1));
   }
   const std::string table = fmt::format(
       R"(<table class="ladder"><thead><tr><th scope="col">visibility</th><th scope="col" class="n">mean</th>
@@ -215,8 +216,9 @@ std::string facts_block(const LightBlock& b) {
   };
   return R"(<h3>How far, how visible</h3>
 <dl class="facts">
-)" + edge_facts(b) +
-         detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) + texel_fact(b) + theory_facts(b) +
+)" + (lacks_map(b.in.comparison) ? "" : edge_facts(b)) +
+         detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) +
+         (lacks_map(b.in.comparison) ? "" : texel_fact(b) + theory_facts(b)) +
          fact("FLIP", fact_value(b, "error.flip", error.flip),
               "how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 "
               "entirely" +
@@ -233,6 +235,7 @@ std::string facts_block(const LightBlock& b) {
 }
 
 std::string depth_map_block(const LightBlock& b) {
+  if (lacks_map(b.in.comparison)) return "";
   const LightPictures& pictures = b.in.pictures.lights[b.index];
   const LightView& view = drawn_record(b.in.comparison, b.light).map.view;
   const int step = pictures.depth_map_small_step;

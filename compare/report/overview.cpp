@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -44,6 +45,11 @@ std::string shadow_time(const Comparison& c, std::string_view pass,
 
 std::string raster_caption(const Comparison& c) {
   if (c.lights.empty()) return "<b>Rasterizer</b>, shadow maps";
+  if (c.judged)
+    return fmt::format("<b>{}</b>{}{}", escaped(c.judged->renderer), c.judged->version.empty() ? "" : " ",
+                       escaped(c.judged->version)) +
+           (c.judged->of_ratio ? ", with its shadow"
+                               : ": what it drew of the light, white lit and black shadowed");
   const LightComparison& first = c.lights.front();
   const bool is_hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
   return fmt::format("<b>{}</b>, {}{}: {} for the {}{}, {} to shade with {}",
@@ -86,8 +92,10 @@ std::string figure(const PageInput& in, const EncodedPicture& encoded, std::stri
 
 std::string map_text(const Comparison& c) {
   const raster::MapOptions& map = c.raster.options.map;
-  std::string text = fmt::format("{} shadows, map {}\u202f\u00d7\u202f{}", technique_name(map.technique),
-                                 map.size, map.size);
+  if (lacks_map(c)) return "a shadow whose map is not known";
+  const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
+  std::string text = fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how,
+                                 technique_name(map.technique), map.size, map.size);
   if (!compares_depths(map.technique)) return text;
   text += fmt::format(" {}", depth_format_name(map.depth_format));
   if (!draws_bias(c)) return text + ", shader of --shader-dir";
@@ -123,6 +131,11 @@ aria-hidden="true">·</span> {} triangle{}, {} shape{}</p>
       keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s", beside);
 }
 
+// A step's name in words.
+std::string_view step_words(const Comparison& c, std::size_t k) {
+  return lacks_map(c) && k == 1 ? "unexplained" : step_text(static_cast<Cause>(k)).name;
+}
+
 std::string card(const PageInput& in, std::size_t i) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[i];
@@ -140,7 +153,7 @@ darkens the picture and lightens it, as mean visibility. Pale: what later steps 
 pixels that are left.</p>
 {}</div>
 )",
-                budget_table(light, i));
+                budget_table(c, i));
   return fmt::format(R"(<div class="card"><div>{}<p class="verdict">{}</p></div>{}</div>
 )",
                      title, flowing(verdict_sentence(c, light)), budget);
@@ -150,8 +163,8 @@ pixels that are left.</p>
 
 namespace {
 
-std::string budget_row(const BudgetStep& step, std::size_t k, std::size_t index, double compared,
-                       double scale) {
+std::string budget_row(std::string_view name_of_step, const BudgetStep& step, std::size_t k,
+                       std::size_t index, double compared, double scale) {
   const auto key = [&](std::string_view name) {
     return light_key(index, fmt::format("budget.{}.{}", k, name));
   };
@@ -160,14 +173,15 @@ std::string budget_row(const BudgetStep& step, std::size_t k, std::size_t index,
   return fmt::format(
       R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td><td class="n">{}</td></tr>
 )",
-      step_text(static_cast<Cause>(k)).name, two_sided_bar({step.darkened(), step.lightened()}, left, scale),
+      name_of_step, two_sided_bar({step.darkened(), step.lightened()}, left, scale),
       keyed_decrease(key("darkened"), step.darkened()),
       keyed(key("lightened"), step.lightened(), signed_number(step.lightened())));
 }
 
 }  // namespace
 
-std::string budget_table(const LightComparison& light, std::size_t index) {
+std::string budget_table(const Comparison& c, std::size_t index) {
+  const LightComparison& light = c.lights[index];
   const auto compared = static_cast<double>(light.pixels.compared);
   const TwoSides left{static_cast<double>(light.error.false_shadow) / compared,
                       static_cast<double>(light.error.missed_shadow) / compared};
@@ -177,7 +191,7 @@ std::string budget_table(const LightComparison& light, std::size_t index) {
   for (std::size_t k = 0; k < cause_count; ++k)
     if (light.budget[k].absolute_mean > 0.0 ||
         light.budget[k].false_shadow + light.budget[k].missed_shadow > 0)
-      rows += budget_row(light.budget[k], k, index, compared, scale);
+      rows += budget_row(step_words(c, k), light.budget[k], k, index, compared, scale);
   return fmt::format(
       R"(<table class="budget"><thead><tr><th scope="col">step</th><td class="wide"></td><th
 scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>

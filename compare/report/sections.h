@@ -42,6 +42,6 @@ std::string viewer_block(const std::string& options, std::string_view id, std::s
 /// page.
 std::string scroll_region(std::string_view label, std::string_view content);
 /// The budget as a waterfall that adds up: one row per step that changes anything, and the sum.
-std::string budget_table(const LightComparison& light, std::size_t index);
+std::string budget_table(const Comparison& comparison, std::size_t index);
 
 }  // namespace gnomon::compare

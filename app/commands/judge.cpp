@@ -1,0 +1,243 @@
+// gnomon judge: what another renderer drew, in the place of Gnomon's own picture. Its folder is that of compare.
+#include "compare/judge/judge.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "app/judge_options.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/result_output.h"
+#include "compare/judge/identify.h"
+#include "compare/judge/page.h"
+#include "compare/judge/several.h"
+#include "compare/report/page.h"
+#include "scene/stages.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct JudgeCommand {
+  std::vector<std::string> captures;
+  CaptureOptions parts;
+  compare::JudgeOptions options;
+  ResultOutput output;
+  bool identify = false;
+  std::string suite;
+  raster::Backend backend = raster::Backend::automatic;
+  std::optional<std::optional<double>> exposure;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string command_line;
+};
+
+struct JudgedScene {
+  LoadedScene loaded;
+  compare::Comparison comparison;
+};
+
+Expected<compare::Capture> capture_of(const JudgeCommand& command, const std::string& path) {
+  compare::Capture capture;
+  if (!path.empty()) {
+    auto read = compare::read_capture(path);
+    if (!read) return read;
+    capture = std::move(*read);
+  }
+  auto whole = with_options(std::move(capture), command.parts);
+  if (!whole) return whole;
+  if (const auto sound = compare::check_capture(*whole); !sound) return fail(sound.error());
+  return whole;
+}
+
+Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Console& console) {
+  if (judged.comparison.judged->has_map) {
+    console.note("--identify looks for nothing: the capture has its map");
+    return {};
+  }
+  auto renderer = make_renderer(command.backend, judged.loaded);
+  if (!renderer) return fail(renderer.error());
+  return compare::identify(
+      judged.comparison, **renderer,
+      {command.options.accel, command.options.precision, command.options.bias_curve_points},
+      [&](std::string_view stage, double done) { console.progress(stage, done); });
+}
+
+Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capture& capture,
+                                Console& console) {
+  JudgedScene out;
+  auto loaded = load(capture.scene, console, 0, capture.camera);
+  if (!loaded) return fail(loaded.error());
+  out.loaded = std::move(*loaded);
+  if (command.exposure) out.loaded.scene->exposure = *command.exposure;
+  auto comparison =
+      compare::judge_capture(capture, *out.loaded.scene, *out.loaded.world, command.options,
+                             [&](std::string_view stage, double done) { console.progress(stage, done); });
+  if (!comparison) return fail(comparison.error());
+  out.comparison = std::move(*comparison);
+  if (command.identify)
+    if (const auto done = identify_map(command, out, console); !done) return fail(done.error());
+  out.comparison.command = command.command_line;
+  out.comparison.seed = command.seed;
+  out.comparison.machine = machine_info();
+  out.comparison.fail_above = command.output.fail_above;
+  out.comparison.load_ms = out.loaded.load_ms;
+  out.comparison.peak_memory_bytes = peak_memory_bytes();
+  for (const compare::Mended& mended : out.comparison.judged->mended)
+    console.note(fmt::format("{}: {:.2f} % of the {} agree, undone {:.2f} %", mended.what,
+                             100.0 * mended.before, mended.evidence, 100.0 * mended.after));
+  for (const std::string& note : out.comparison.judged->notes) console.note(note);
+  return out;
+}
+
+Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, Console& console) {
+  const Stopwatch total;
+  const auto capture = capture_of(command, path);
+  if (!capture) return fail(capture.error());
+  if (command.output.folder.empty() && !only_prints_json(command.output))
+    command.output.folder = default_output(path.empty() ? capture->scene : path);
+  if (const auto writable = check_outputs(command.output); !writable) return fail(writable.error());
+  auto judged = judge_one(command, *capture, console);
+  if (!judged) return fail(judged.error());
+  judged->comparison.total_ms = total.elapsed_ms();
+  console.progress("writing", 1.0);
+  if (only_prints_json(command.output))
+    return print_result(command.output, judged->comparison, judged->loaded, console);
+  const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
+  return write_folder(command.output, judged->comparison, judged->loaded, total, console, &introduction);
+}
+
+/// "wall" of wall/capture.json, "wall" of wall.json.
+std::string name_of(const std::string& path) {
+  const std::filesystem::path file(path);
+  const bool generic = file.stem() == "capture" && file.has_parent_path();
+  return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
+                 : file.stem().string();
+}
+
+/// Its own folder below the common one.
+Expected<ExitCode> judge_next(JudgeCommand& command, const std::string& path, const std::string& name,
+                              compare::JudgedSet& set, Console& console) {
+  const Stopwatch total;
+  const auto capture = capture_of(command, path);
+  if (!capture) return fail(capture.error());
+  auto judged = judge_one(command, *capture, console);
+  if (!judged) return fail(judged.error());
+  judged->comparison.total_ms = total.elapsed_ms();
+  set.add(name, judged->comparison);
+  const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
+  ResultOutput output = command.output;
+  output.folder += "/" + name, output.quiet = true;
+  return write_folder(output, judged->comparison, judged->loaded, total, console, &introduction);
+}
+
+Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
+  if (command.output.folder.empty()) command.output.folder = "out/judge";
+  if (!command.output.json.empty() || !command.output.aov.empty())
+    return fail(ErrorKind::usage, "judge: --json and --aov are of one capture; several write judge.jsonl");
+  if (const auto writable = check_outputs(command.output); !writable) return fail(writable.error());
+  compare::JudgedSet set;
+  ExitCode code = ExitCode::done;
+  std::optional<Error> refused;
+  std::map<std::string, int> names;
+  for (const std::string& path : command.captures) {
+    std::string name = name_of(path);
+    if (const int before = names[name]++; before > 0) name += fmt::format("-{}", before + 1);
+    const auto judged = judge_next(command, path, name, set, console);
+    if (judged && *judged != ExitCode::done) code = *judged;
+    if (judged) continue;
+    if (judged.error().kind != ErrorKind::bad_input) return fail(judged.error());
+    if (refused) console.message(refused->message());
+    refused = judged.error();
+    set.add_refused(name, refused->message());
+  }
+  if (const auto written = compare::write_judged_set(set, command.output.folder); !written)
+    return fail(written.error());
+  if (!command.output.quiet) print_data(compare::judged_table(set));
+  console.message("report: " + command.output.folder + "/report.html");
+  if (refused) return fail(*refused);
+  return code;
+}
+
+/// Every capture.json of a folder and of those directly below it, by name.
+Expected<std::vector<std::string>> captures_below(const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> found;
+  const auto add = [&](const std::filesystem::path& file) {
+    if (std::filesystem::is_regular_file(file)) found.push_back(file.string());
+  };
+  add(std::filesystem::path(folder) / "capture.json");
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.is_directory()) add(entry.path() / "capture.json");
+  if (error || found.empty())
+    return fail(ErrorKind::bad_input, fmt::format("--suite: no capture.json in {} or its folders", folder));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Expected<ExitCode> run_judge(JudgeCommand& command) {
+  Console console(command.output.quiet);
+  const ThreadLimit thread_limit(command.threads);
+  command.options.raytrace.seed = command.seed;
+  if (command.captures.empty() && command.suite.empty() && !command.parts.any)
+    return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");
+  if (!command.suite.empty()) {
+    auto found = captures_below(command.suite);
+    if (!found) return fail(found.error());
+    command.captures.insert(command.captures.end(), found->begin(), found->end());
+  }
+  if (command.captures.size() > 1 || !command.suite.empty()) return judge_several(command, console);
+  return judge_single(command, command.captures.empty() ? "" : command.captures.front(), console);
+}
+
+void add_options(CLI::App& app, JudgeCommand& command) {
+  app.add_option("capture", command.captures,
+                 "captures (gnomon/capture/1, docs/judge.md) [may be left out where the options say it all]")
+      ->type_name("CAPTURE.json");
+  add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
+  app.add_option(
+         "--suite", command.suite,
+         "judge every capture.json in this folder and in those below it, such as captures of the scenes that "
+         "gnomon export --suite wrote [default off]")
+      ->type_name("DIR");
+  app.add_flag(
+      "--fix", command.options.fix,
+      "undo what is wrong with the picture's conventions (named, with the agreement before and after) "
+      "[default: exit code 3]");
+  app.add_flag(
+      "--identify", command.identify,
+      "of a capture without its map: find the setting of Gnomon's own that comes nearest to the picture, "
+      "and label by it [default off]");
+  add_backend(app, command.backend);
+  add_capture_options(app, command.parts);
+  add_samples(app, command.options.raytrace.shadow_samples);
+  add_tracer_options(app, command.options.accel, command.options.precision);
+  add_threads(app, command.threads, "threads of the ray tracer");
+  add_exposure(app, command.exposure);
+  add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
+  add_result_limits(app, command.output);
+}
+
+}  // namespace
+
+void add_judge(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "judge",
+      "Take the shadow that another renderer drew, and report where it differs from the truth and why.");
+  app->footer(
+      "gnomon judge capture.json -o report\n"
+      "gnomon judge capture.json --fix --fail-above 1%\n"
+      "gnomon judge a.json b.json -o verdicts      one table, the worst first\n"
+      "gnomon judge --renderer mine --scene model.glb --size 640x360 --visibility shadow.png");
+  const auto command = std::make_shared<JudgeCommand>();
+  command->command_line = invocation.command_line;
+  add_options(*app, *command);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_judge(*command); }; });
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,28 @@
+// Every part of a capture as an option of `judge`.
+#pragma once
+
+#include "compare/judge/capture.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::app {
+
+/// Parts given on the command line; they take the place of the file's.
+struct CaptureOptions {
+  compare::Capture given;
+  std::vector<std::string> map_files, map_matrices;
+  std::optional<compare::StoredDepth> map_convention;
+  std::optional<compare::RowOrder> map_rows;
+  std::optional<ImageSize> size;
+  bool any = false;
+};
+
+void add_capture_options(CLI::App& app, CaptureOptions& options);
+
+/// The capture with the options' parts in place of its own. Error (usage) where matrices and layers do not go
+/// together.
+Expected<compare::Capture> with_options(compare::Capture capture, const CaptureOptions& options);
+
+}  // namespace gnomon::app

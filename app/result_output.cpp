@@ -1,0 +1,155 @@
+#include "app/result_output.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "compare/number_text.h"
+#include "compare/report/page.h"
+#include "compare/time_budget.h"
+#include "scene/files/write_file.h"
+#include "scene/stages.h"
+
+namespace gnomon::app {
+namespace {
+
+Expected<std::string> read_back(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file || bytes.empty())
+    return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
+  return bytes;
+}
+
+/// --json hands out the same bytes as the folder's result.json.
+Expected<void> write_json(const ResultOutput& output) {
+  if (output.json.empty()) return {};
+  const Expected<std::string> json = read_back(output.folder + "/result.json");
+  if (!json) return fail(json.error());
+  if (output.json == "-") {
+    print_data(*json);
+    return {};
+  }
+  if (const auto made = make_folder_for(output.json); !made) return made;
+  return write_file(output.json, *json);
+}
+
+/// All but result.json.
+Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
+                                            Console& console, const compare::PageIntroduction* introduction) {
+  auto written = compare::write_all_but_result(comparison, output.folder, output.report_max_mb, introduction);
+  if (!written) return fail(written.error());
+  if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
+  if (!output.aov.empty()) {
+    const TimedStage stage("write");
+    if (const auto made = make_folder_for(output.aov); !made) return fail(made.error());
+    if (const auto saved = compare::write_aov(comparison, output.aov); !saved) return fail(saved.error());
+  }
+  return written;
+}
+
+/// Holds one light against --fail-above; the words say what is too much.
+bool passes(const compare::Threshold& threshold, const std::string& light,
+            const compare::ErrorFigures& figures, Console& console) {
+  const std::string limit = compare::threshold_text(threshold);
+  if (compare::exceeds(threshold, figures)) {
+    console.message(fmt::format("light {}: {}; that is more than --fail-above {}", light,
+                                compare::figure_words(figures, threshold.measure), limit));
+    return false;
+  }
+  if (!compare::too_uncertain(threshold, figures)) return true;
+  console.message(fmt::format(
+      "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
+      "{} allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
+      "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
+      light, compare::grouped(compare::unknown_pixels(figures, threshold.measure)),
+      compare::grouped(figures.compared + figures.uncertain), limit));
+  return false;
+}
+
+ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
+  ExitCode code = ExitCode::done;
+  if (!output.fail_above) return code;
+  for (const compare::LightComparison& light : comparison.lights)
+    if (!passes(*output.fail_above, comparison.world->scene->lights[light.light].name,
+                compare::figures_of(light), console))
+      code = ExitCode::threshold_exceeded;
+  return code;
+}
+
+/// Before result.json is written, so that what it takes is in its time budget.
+void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
+  const TimedStage stage("exit");
+  comparison = {};
+  loaded = {};
+}
+
+}  // namespace
+
+Expected<void> check_outputs(const ResultOutput& output) {
+  if (!output.aov.empty()) {
+    if (const auto known = check_extension("--aov", output.aov, ".exr"); !known) return known;
+    if (const auto writable = check_output_file(output.aov); !writable) return writable;
+  }
+  if (const auto writable = check_output_file(output.json); !writable) return writable;
+  return output.folder.empty() ? Expected<void>() : check_output_folder(output.folder);
+}
+
+bool only_prints_json(const ResultOutput& output) {
+  return output.json == "-" && output.folder.empty() && output.aov.empty();
+}
+
+ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
+                      Console& console) {
+  const ExitCode code = judge_lights(output, comparison, console);
+  std::string json = compare::result_json(comparison);
+  give_back(comparison, loaded);
+  print_data(compare::with_time_budget(std::move(json)));
+  return code;
+}
+
+Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
+                                LoadedScene& loaded, const Stopwatch& total, Console& console,
+                                const compare::PageIntroduction* introduction) {
+  std::optional<OutputGuard> whole_outputs(std::in_place);
+  auto written = write_all(output, comparison, console, introduction);
+  if (!written) return fail(written.error());
+  std::string summary = compare::summary_table(comparison, stdout_takes_colour());
+  const ExitCode code = judge_lights(output, comparison, console);
+  give_back(comparison, loaded);
+  if (const auto result = compare::write_result(*written, output.folder); !result)
+    return fail(result.error());
+  if (const auto json = write_json(output); !json) return fail(json.error());
+  whole_outputs.reset();
+  if (const StageLog* log = StageLog::current())
+    summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
+  if (!output.quiet && output.json != "-") print_data(summary);
+  console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)", output.folder,
+                              total.elapsed_ms() / 1000.0, static_cast<double>(peak_memory_bytes()) / 1e6));
+  return code;
+}
+
+void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder) {
+  add_output(app, "-o,--output", output.folder, "DIR",
+             "folder for report.html, result.json, result.csv and the pictures [default " + default_folder +
+                 "; none with --json - alone]");
+}
+
+void add_result_limits(CLI::App& app, ResultOutput& output) {
+  add_report_max_mb(app, output.report_max_mb);
+  add_threshold(app, "--fail-above", output.fail_above,
+                "exit with 1 when the error of any light is more than this, or so many pixels are uncertain",
+                "never");
+  add_output(app, "--aov", output.aov, "FILE.exr",
+             "also write every per-pixel number as 32-bit channels, one file per light [default off]");
+  add_json(app, output.json, "the result");
+  add_quiet(app, output.quiet);
+}
+
+}  // namespace gnomon::app

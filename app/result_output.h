@@ -1,0 +1,41 @@
+// Where the result of a comparison goes: the folder with its page, result.json on stdout or in a file, the
+// channels; and the exit code that --fail-above asks for.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/invocation.h"
+#include "app/session.h"
+#include "compare/outputs.h"
+#include "scene/timing.h"
+
+namespace gnomon::app {
+
+struct ResultOutput {
+  std::string folder, json, aov;
+  std::optional<compare::Threshold> fail_above;
+  double report_max_mb = compare::default_report_max_mb;
+  bool quiet = false;
+};
+
+/// -o; `default_folder` as its help says it.
+void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder);
+/// --report-max-mb, --fail-above, --aov, --json, --quiet.
+void add_result_limits(CLI::App& app, ResultOutput& output);
+
+/// Error where one cannot be written, before anything is worked out.
+Expected<void> check_outputs(const ResultOutput& output);
+/// Nothing but the result on stdout was asked for: no folder is written.
+bool only_prints_json(const ResultOutput& output);
+
+/// --json - alone: the result goes to stdout and nowhere else. Both give scene and comparison back before the
+/// time budget is taken.
+ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
+                      Console& console);
+/// `introduction`: what stands before the comparison on the page.
+Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
+                                LoadedScene& loaded, const Stopwatch& total, Console& console,
+                                const compare::PageIntroduction* introduction = nullptr);
+
+}  // namespace gnomon::app

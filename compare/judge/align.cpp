@@ -1,0 +1,178 @@
+#include "compare/judge/align.h"
+
+#include <fmt/format.h>
+
+#include "scene/files/image_io.h"
+#include "scene/stages.h"
+
+namespace gnomon::compare {
+namespace {
+
+/// Right captures agree on more than 0.98 of each (the rest are a rasterizer's own pixels along edges); half a
+/// pixel off leaves 0.7 to 0.85 of the silhouettes and none of the positions.
+constexpr double least_geometry = 0.93;
+/// A suspect must agree clearly better, and undo most of what did not agree.
+constexpr double least_gain = 0.03, most_left = 0.5;
+/// Of shadows: above it nobody is suspected; below it nothing can be told from chance.
+constexpr double good_shadows = 0.95, no_shadows = 0.6;
+constexpr std::size_t few_samples = 50;
+
+std::string percent(double share) {
+  return fmt::format("{:.2f} %", 100.0 * share);
+}
+
+bool mends(double before, double after) {
+  return after > before + least_gain && 1.0 - after < most_left * (1.0 - before);
+}
+
+std::optional<double> share_of(const Evidence& evidence, bool geometric) {
+  if (!geometric) return evidence.visibility;
+  const auto found = evidence.geometry();
+  if (!found) return std::nullopt;
+  return found->share;
+}
+
+struct Found {
+  Suspect suspect;
+  double share = 0.0, tie = 0.0;
+};
+
+/// The suspect that agrees best; of alike ones the one whose shadows do.
+std::optional<Found> best_suspect(const EvidenceInput& in, const Samples& samples,
+                                  const std::vector<Suspect>& suspects, bool geometric, bool all) {
+  std::optional<Found> best;
+  for (const Suspect& suspect : suspects) {
+    if (!all && suspect.geometric != geometric) continue;
+    const Evidence evidence = gather(in, samples, suspect);
+    const auto share = share_of(evidence, geometric);
+    if (!share) continue;
+    const double tie = evidence.visibility.value_or(0.0);
+    const bool alike = best && std::abs(*share - best->share) < 0.002;
+    if (!best || (alike ? tie > best->tie + 0.002 : *share > best->share)) best = Found{suspect, *share, tie};
+  }
+  return best;
+}
+
+/// A camera that sees what the view does; none where no camera can.
+std::optional<Camera> camera_of(const Camera& camera, const View& view) {
+  Camera out = camera;
+  const double reach = std::max(1e-6, glm::length(camera.target - camera.eye));
+  out.eye = view.eye, out.target = view.eye + reach * view.forward, out.up = view.up;
+  out.vertical_fov = 2.0 * std::atan(view.tan_half_y);
+  const View made = make_view(out, view.size);
+  const bool same = glm::dot(made.right, view.right) > 1.0 - 1e-9 &&
+                    std::abs(made.tan_half_x - view.tan_half_x) < 1e-9 * view.tan_half_x;
+  if (!same) return std::nullopt;
+  return out;
+}
+
+class Aligner {
+ public:
+  Aligner(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures, Judged& judged)
+      : in_(in), scene_(scene), sight_(sight), pictures_(pictures), judged_(judged) {
+    const Light& light = scene.lights[in.light];
+    suspects_ = usual_suspects({scene.camera, in.capture.size, !pictures.position.data.empty(),
+                                !pictures.depth.data.empty(), light.type != LightType::point});
+    samples_ = choose_samples(input(), in.frame);
+  }
+
+  Expected<Aligned> run() {
+    if (const auto geometry = check_geometry(); !geometry) return fail(geometry.error());
+    if (const auto shadows = check_shadows(); !shadows) return fail(shadows.error());
+    if (const auto encoding = check_encoding(); !encoding) return fail(encoding.error());
+    judged_.agreement = gather(input(), samples_, {}).all();
+    return out_;
+  }
+
+ private:
+  EvidenceInput input() const { return {in_.tracer, in_.light, pictures_, sight_}; }
+  Expected<void> check_geometry();
+  Expected<void> check_shadows();
+  Expected<void> check_encoding();
+  Expected<void> mend(const Mended& mended, const Suspect* suspect);
+
+  const AlignInput& in_;
+  Scene& scene_;
+  Sight& sight_;
+  CapturedPictures& pictures_;
+  Judged& judged_;
+  std::vector<Suspect> suspects_;
+  Samples samples_;
+  Aligned out_;
+};
+
+Expected<void> Aligner::mend(const Mended& mended, const Suspect* suspect) {
+  if (!in_.fix)
+    return capture_error(
+        in_.capture, "",
+        fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)", mended.what,
+                    percent(mended.before), mended.evidence, percent(mended.after)));
+  judged_.mended.push_back(mended);
+  if (suspect == nullptr) {
+    for (float& v : pictures_.visibility.data) v = linear_from_srgb(v);
+    return {};
+  }
+  undo(*suspect, pictures_, sight_);
+  if (suspect->light_turned) {
+    Light& light = scene_.lights[in_.light];
+    light.direction = -light.direction;
+    out_.trace_again = true;
+  }
+  if (suspect->shift != Vec2(0.0)) out_.everywhere = true;
+  if (!suspect->view) return {};
+  if (const auto camera = camera_of(scene_.camera, *suspect->view)) {
+    scene_.camera = *camera;
+    out_.trace_again = true;
+  } else {
+    out_.everywhere = true;
+  }
+  return {};
+}
+
+Expected<void> Aligner::check_geometry() {
+  const auto now = gather(input(), samples_, {}).geometry();
+  if (!now || now->share >= least_geometry) return {};
+  const auto best = best_suspect(input(), samples_, suspects_, true, false);
+  if (best && best->share >= least_geometry && mends(now->share, best->share))
+    return mend({best->suspect.what, now->what, now->share, best->share}, &best->suspect);
+  return capture_error(
+      in_.capture, "",
+      fmt::format("the picture does not show this scene as Gnomon sees it: {} of the {} agree, and no usual "
+                  "difference of conventions mends that (nearest: {}, {})",
+                  percent(now->share), now->what, best ? best->suspect.what : "none",
+                  best ? percent(best->share) : "-"));
+}
+
+Expected<void> Aligner::check_shadows() {
+  const Evidence now = gather(input(), samples_, {});
+  if (!now.visibility || now.lit < few_samples || now.shadowed < few_samples) return {};
+  if (*now.visibility >= good_shadows) return {};
+  const bool alone = !now.geometry();
+  const auto best = best_suspect(input(), samples_, suspects_, false, alone);
+  if (best && best->share > no_shadows + least_gain && mends(*now.visibility, best->share))
+    return mend({best->suspect.what, "shadows", *now.visibility, best->share}, &best->suspect);
+  if (*now.visibility >= no_shadows) return {};
+  const std::string words = fmt::format(
+      "the shadows agree with the truth no better than chance would ({}), and no usual difference "
+      "of conventions mends that",
+      percent(*now.visibility));
+  if (alone) return capture_error(in_.capture, "", words + ": is it this scene, camera and light?");
+  judged_.notes.push_back(words);
+  return {};
+}
+
+Expected<void> Aligner::check_encoding() {
+  if (out_.trace_again || out_.everywhere) return {};  // the frame is not of this sight
+  const auto found = find_srgb(pictures_, in_.frame);
+  return found ? mend(*found, nullptr) : Expected<void>();
+}
+
+}  // namespace
+
+Expected<Aligned> align(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures,
+                        Judged& judged) {
+  const TimedStage stage("alignment");
+  return Aligner(in, scene, sight, pictures, judged).run();
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,32 @@
+// Whether a capture shows the scene as Gnomon sees it, and which of the usual differences of conventions it is
+// if not. A comparison of two different pictures would be worth nothing.
+#pragma once
+
+#include "compare/judge/evidence.h"
+
+namespace gnomon::compare {
+
+struct AlignInput {
+  const Capture& capture;
+  const raytrace::Tracer& tracer;
+  std::uint32_t light = 0;
+  const raytrace::RayTracedFrame& frame;  ///< traced with the scene's camera
+  bool fix = false;
+};
+
+struct Aligned {
+  bool everywhere = false;   ///< the sight is another than the scene's camera's
+  bool trace_again = false;  ///< camera or light were changed
+};
+
+/// Looks at silhouettes, positions or depths first, then at the shadows. What does not agree and is mended by
+/// a usual suspect is named in `judged`, and undone in scene, sight and pictures. Error (bad input) with the
+/// agreement before and after: a suspect fits and `fix` is false, or nothing fits.
+Expected<Aligned> align(const AlignInput& input, Scene& scene, Sight& sight, CapturedPictures& pictures,
+                        Judged& judged);
+
+/// The visibility is sRGB-encoded: its greys, decoded, fit the truth around them far better. None where they
+/// do not, or there are too few.
+std::optional<Mended> find_srgb(const CapturedPictures& pictures, const raytrace::RayTracedFrame& frame);
+
+}  // namespace gnomon::compare

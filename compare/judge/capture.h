@@ -1,0 +1,81 @@
+// A capture: what another renderer drew of one light's shadow, as its file says (capture.schema.json). What
+// the file names is read by capture_pictures.h and captured_map.h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/image.h"
+#include "scene/math.h"
+
+namespace gnomon::compare {
+
+/// What a depth buffer of the camera holds.
+enum class PixelDepth : std::uint8_t { view_z, distance, zero_to_one, reversed };
+/// What the light's matrix makes of depth, and what a texel of its map holds.
+enum class StoredDepth : std::uint8_t { zero_to_one, minus_one_to_one, reversed, distance };
+enum class RowOrder : std::uint8_t { top_down, bottom_up };
+enum class FilterName : std::uint8_t { none, pcf, pcss, vsm, esm, evsm, msm };
+
+inline constexpr std::array<std::string_view, 4> pixel_depth_names{"view_z", "distance", "zero_to_one",
+                                                                   "reversed"};
+inline constexpr std::array<std::string_view, 4> stored_depth_names{"zero_to_one", "minus_one_to_one",
+                                                                    "reversed", "distance"};
+inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
+inline constexpr std::array<std::string_view, 7> filter_names{"none", "pcf",  "pcss", "vsm",
+                                                              "esm",  "evsm", "msm"};
+
+struct CapturedDepth {
+  std::string file;
+  std::optional<PixelDepth> convention;
+  std::optional<double> near, far;  ///< world units, of zero_to_one and reversed
+};
+
+struct CapturedLayer {
+  std::string depth;  ///< file
+  std::optional<StoredDepth> convention;
+  std::optional<RowOrder> rows;
+  std::optional<Mat4> clip_from_world;
+};
+
+struct CapturedBias {
+  double constant_depth = 0.0;  ///< stored numbers; positive takes shadow away
+  double slope = 0.0;           ///< as raster::Bias::slope
+  double normal_offset_world = 0.0;
+};
+
+struct CapturedFilter {
+  FilterName kind = FilterName::none;
+  double radius_texels = 1.5;  ///< in (0, 64]
+};
+
+/// Files are as they can be opened: joined with the capture's folder.
+struct Capture {
+  std::string path;  ///< of the capture; empty when options alone say it
+  std::string renderer, version;
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::string scene;          ///< file or built-in scene
+  std::string camera, light;  ///< name, or place in the list from 0; empty: the first, the only one
+  ImageSize size;             ///< 0 x 0: not said
+  std::string visibility, shadowed, unshadowed, position;
+  std::optional<CapturedDepth> depth;
+  std::vector<CapturedLayer> map;
+  std::optional<CapturedBias> bias;
+  std::optional<CapturedFilter> filter;
+};
+
+/// Errors (bad input) name file, line, column and field. Whether the parts go together is check_capture's.
+Expected<Capture> read_capture(const std::string& path);
+
+/// Says what is missing or contradicts: ErrorKind::bad_input with the field.
+Expected<void> check_capture(const Capture& capture);
+
+/// An error of a field of this capture.
+tl::unexpected<Error> capture_error(const Capture& capture, std::string field, std::string reason);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,66 @@
+// What a comparison says beyond the rest when another renderer drew the picture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::compare {
+
+/// One figure of agreement between the capture and Gnomon's own view of the scene.
+struct Agreement {
+  std::string what;    ///< "silhouettes", "positions", "depths", "visibility"
+  double share = 1.0;  ///< in [0, 1]
+};
+
+/// What was wrong with the capture's conventions, and what --fix did about it.
+struct Mended {
+  std::string what;                  ///< "the picture is upside down"
+  std::string evidence;              ///< "silhouettes"
+  double before = 0.0, after = 0.0;  ///< shares of what agrees
+};
+
+/// The nearest setting of Gnomon's own to a picture whose map is not known.
+struct Identified {
+  std::string technique;  ///< as --technique
+  std::string options;    ///< "--technique pcf --map-size 1024 --bias 0.01"
+  int map_size = 0;
+  double bias_world = 0.0, bias_texels = 0.0;
+  double explained = 0.0;  ///< share of the capture's error that the model's has, too; in [0, 1]
+  double model_error = 0.0, picture_error = 0.0;  ///< mean |model - picture|, mean |truth - picture|
+  int renders = 0;
+};
+
+/// A number that the renderer's user can type in, in the renderer's own units.
+struct Advice {
+  std::string setting;  ///< "bias.constant_depth"
+  double now = 0.0, instead = 0.0;
+  std::string unit;                             ///< "stored depth", "world units"
+  double wrong_now = 0.0, wrong_instead = 0.0;  ///< shares of the compared pixels
+  bool feasible = false;                        ///< with it every compared pixel is right
+};
+
+struct Judged {
+  std::string capture;  ///< its path; empty when options said it
+  std::string renderer, version;
+  std::vector<std::pair<std::string, std::string>> settings;
+  bool has_map = false, has_positions = false, of_ratio = false;
+  std::vector<Agreement> agreement;  ///< after what was mended
+  std::vector<Mended> mended;
+  std::optional<Identified> identified;
+  std::vector<Advice> advice;
+  std::vector<std::string> notes;
+  /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on
+  /// the borders of texels.
+  double biased_is_drawn = 0.0;
+  double unit_world = 0.0;  ///< world units that 1 of the map's stored numbers counts for
+};
+
+struct Comparison;
+
+/// What is said of the capture, as names and values for a terminal and the page: "drawn by", "agreement",
+/// "advice", ...
+std::vector<std::pair<std::string, std::string>> judged_lines(const Comparison& comparison);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,135 @@
+// Captures that cannot be judged: one line that names the field, an error of bad input, and no result.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "compare/judge/judge.h"
+#include "scene/files/image_io.h"
+#include "scene/files/write_file.h"
+#include "scene/load.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+
+constexpr ImageSize picture{64, 36};
+
+std::string folder() {
+  const std::string path = testing::TempDir() + "/gnomon-bad-captures";
+  std::filesystem::create_directories(path);
+  return path;
+}
+
+std::string image(const std::string& name, ImageSize size, const std::vector<std::string>& channels,
+                  float value = 1.0f) {
+  std::vector<Channel> all;
+  for (const std::string& channel : channels)
+    all.push_back({channel, std::vector<float>(size.pixels(), value)});
+  EXPECT_TRUE(write_exr(folder() + "/" + name, size, all));
+  return folder() + "/" + name;
+}
+
+Capture good() {
+  Capture capture;
+  capture.renderer = "test";
+  capture.scene = "floating-box";
+  capture.size = picture;
+  capture.visibility = image("good.exr", picture, {"V"});
+  return capture;
+}
+
+std::string refusal(const Capture& capture) {
+  auto scene = load_scene(capture.scene);
+  EXPECT_TRUE(scene);
+  const World world = make_world(*scene);
+  const auto judged = compare::judge_capture(capture, *scene, world, {});
+  EXPECT_FALSE(judged);
+  if (judged) return "judged";
+  EXPECT_EQ(judged.error().kind, ErrorKind::bad_input);
+  const std::string message = judged.error().message();
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  return message;
+}
+
+void expect_named(const Capture& capture, const std::string& words) {
+  const std::string message = refusal(capture);
+  EXPECT_NE(message.find(words), std::string::npos) << message;
+}
+
+compare::CapturedLayer layer(const Mat4& matrix) {
+  compare::CapturedLayer out;
+  out.depth = image("map.exr", {8, 8}, {"Z"});
+  out.convention = compare::StoredDepth::zero_to_one;
+  out.rows = compare::RowOrder::top_down;
+  out.clip_from_world = matrix;
+  return out;
+}
+
+TEST(BadCaptures, OfPicturesNameThePicture) {
+  Capture capture = good();
+  capture.visibility = folder() + "/none.exr";
+  expect_named(capture, "visibility: no such file");
+  capture.visibility = image("small.exr", {32, 18}, {"V"});
+  expect_named(capture, "visibility: is of another size (got 32 x 18, the capture says 64 x 36)");
+  capture.visibility = image("rgb.exr", picture, {"R", "G", "B"});
+  expect_named(capture, "visibility: has 3 channels where one is wanted");
+  capture.visibility = image("nan.exr", picture, {"V"}, std::numeric_limits<float>::quiet_NaN());
+  expect_named(capture, "visibility: 2304 pixels of channel V are not finite");
+  capture.visibility = image("wide.exr", picture, {"V"}, 3.0f);
+  expect_named(capture, "visibility: values beyond their range");
+}
+
+TEST(BadCaptures, OfMapsNameTheField) {
+  Capture capture = good();
+  capture.map = {layer(Mat4(0.0))};
+  expect_named(capture, "map[0].clip_from_world: is singular");
+  capture.map = {layer(Mat4(1.0))};
+  expect_named(capture, "map[0].clip_from_world: looks along");
+  Mat4 sheared(1.0);
+  sheared[1][0] = 0.5;
+  capture.map = {layer(sheared)};
+  expect_named(capture, "map[0].clip_from_world: shears");
+  capture.map = {layer(Mat4(1.0))};
+  capture.map[0].rows.reset();
+  expect_named(capture, "map[0].rows: is missing");
+}
+
+TEST(BadCaptures, ThatContradictNameTheField) {
+  Capture capture = good();
+  capture.bias = compare::CapturedBias{};
+  expect_named(capture, "bias: says nothing without map");
+  capture = good();
+  capture.shadowed = capture.visibility;
+  expect_named(capture, "visibility: cannot stand beside");
+  capture = good();
+  capture.depth = compare::CapturedDepth{capture.visibility, compare::PixelDepth::zero_to_one, 0.1, {}};
+  expect_named(capture, "depth.far: is missing; zero_to_one needs it");
+  capture.depth->convention = compare::PixelDepth::view_z;
+  expect_named(capture, "depth.near: does not go with view_z");
+  capture = good();
+  capture.light = "moon";
+  expect_named(capture, "light: the scene has no such light (got moon");
+}
+
+TEST(BadCaptures, OfAnotherSceneAreRefused) {
+  Capture capture = good();
+  // Something drawn all over, at one place.
+  capture.position = image("elsewhere.exr", picture, {"X", "Y", "Z"}, 123.0f);
+  expect_named(capture, "does not show this scene");
+}
+
+TEST(BadCaptures, WithUnknownKeysAreRefusedWithLineAndColumn) {
+  const std::string file = folder() + "/capture.json";
+  ASSERT_TRUE(write_file(file,
+                         "{\"schema\": \"gnomon/capture/1\", \"renderer\": {\"name\": \"x\"},\n"
+                         " \"scene\": \"fence\", \"size\": [64, 36], \"visibilty\": \"v.exr\"}\n"));
+  const auto read = compare::read_capture(file);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message().find(":2:39: visibilty: unknown key"), std::string::npos)
+      << read.error().message();
+  EXPECT_NE(read.error().message().find("did you mean"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon::test

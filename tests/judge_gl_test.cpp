@@ -1,0 +1,251 @@
+// gnomon judge on captures that Gnomon made of its own pictures: with the map the same ladder, right ones pass,
+// each wrong convention is named, bad ones are refused in one line.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "compare/judge/captured_map.h"
+#include "compare/judge/judged.h"
+#include "scene/files/image_io.h"
+#include "support/capture_support.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+using raster::Technique;
+
+constexpr ImageSize picture{192, 108};
+
+std::string folder_for(const std::string& name) {
+  return testing::TempDir() + "/gnomon-judge-" + name;
+}
+
+raster::MapOptions hard_map(int size, Technique technique = Technique::hard) {
+  raster::MapOptions map;
+  map.technique = technique, map.size = size;
+  map.bias = {.constant = 0.02, .unit = raster::BiasUnit::world};
+  map.filter.receiver_plane = false;
+  return map;
+}
+
+std::string reason(const Verdict& verdict) {
+  return verdict.result ? std::string("judged") : verdict.result.error().message();
+}
+
+// Pixels that fall on a texel's border may look up either: of 20,000 pixels a few.
+constexpr double border_share = 0.003;
+
+void expect_same_ladder(const Compared& drawn, const Verdict& judged) {
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
+  EXPECT_GT(judged.result->judged->biased_is_drawn, 1.0 - border_share);
+  // The rasterizer's own edges, which the capture hides behind the ray tracer's positions, are silhouettes.
+  const double allowed = border_share * static_cast<double>(own.pixels.compared);
+  EXPECT_NEAR(double(own.pixels.compared), double(its.pixels.compared), allowed);
+  for (std::size_t k = 0; k < compare::class_count; ++k)
+    EXPECT_NEAR(double(own.classes[k]), double(its.classes[k]), allowed)
+        << compare::label_name(static_cast<compare::Label>(k + 1));
+  for (std::size_t k = 0; k < compare::rung_count; ++k)
+    EXPECT_NEAR(own.rung_mean[k], its.rung_mean[k], border_share) << "V" << k;
+  EXPECT_NEAR(own.best_bias.wrong_fraction, its.best_bias.wrong_fraction, border_share);
+}
+
+TEST(JudgeLadder, OfASunIsThatOfItsOwnMap) {
+  const Compared drawn = draw_builtin("courtyard", picture, hard_map(256));
+  const Capture capture = self_capture(drawn, folder_for("sun"), {.map = true});
+  expect_same_ladder(drawn, judge(capture));
+  const auto read = compare::read_capture(write_json(capture, folder_for("sun")));
+  ASSERT_TRUE(read) << read.error().message();
+  expect_same_ladder(drawn, judge(*read));
+}
+
+// Distances are compared along the texel's ray, Gnomon's own depths along the receiver's: a texel of 128 is
+// 0.7 degrees wide, so that acne's stripes differ by a few pixels in a hundred.
+TEST(JudgeLadder, OfAPointLightsCubeToo) {
+  const Compared drawn = draw_builtin("sphere-plane", picture, hard_map(128));
+  const Verdict judged = judge(self_capture(drawn, folder_for("cube"), {.map = true}));
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_GT(judged.result->judged->biased_is_drawn, 0.95);
+  const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
+  for (const std::size_t rung : {0U, 1U, 2U, 3U, 6U})
+    EXPECT_NEAR(own.rung_mean[rung], its.rung_mean[rung], border_share) << "V" << rung;
+}
+
+TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
+  const Compared drawn = draw_builtin("courtyard", picture, hard_map(128));
+  const Verdict judged = judge(self_capture(drawn, folder_for("plain"), {}));
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::LightComparison& light = judged.result->lights[0];
+  EXPECT_NEAR(double(light.error.wrong), double(drawn.light().error.wrong),
+              border_share * double(light.pixels.compared));
+  EXPECT_GT(light.error.wrong, 0U);
+  EXPECT_EQ(light.classes[static_cast<std::size_t>(compare::Label::unexplained) - 1], light.error.wrong);
+  EXPECT_NEAR(light.budget[1].signed_mean, light.rung_mean[6] - light.rung_mean[0], 1e-12);
+}
+
+// ---- conventions ----
+
+struct Convention {
+  std::string name;  ///< a part of what must be named
+  CaptureParts parts;
+  std::function<void(Capture&, const Compared&)> wrong;
+};
+
+void flip(const std::string& file, bool x, bool y) {
+  spoil(file, [&](ChannelImage& image) {
+    for (Channel& channel : image.channels) {
+      const std::vector<float> from = channel.values;
+      const int w = image.size.width, h = image.size.height;
+      for (int j = 0; j < h; ++j)
+        for (int i = 0; i < w; ++i)
+          channel.values[std::size_t(j * w + i)] =
+              from[std::size_t((y ? h - 1 - j : j) * w + (x ? w - 1 - i : i))];
+    }
+  });
+}
+
+void map_places(const Capture& capture, const Mat3& captured_from_scene) {
+  spoil(capture.position, [&](ChannelImage& image) {
+    for (std::size_t i = 0; i < image.size.pixels(); ++i) {
+      std::array<float*, 3> c{};
+      for (Channel& channel : image.channels)
+        if (channel.name != "A") c[std::size_t(channel.name[0] - 'X')] = &channel.values[i];
+      const Vec3 p = captured_from_scene * Vec3(*c[0], *c[1], *c[2]);
+      for (int k = 0; k < 3; ++k) *c[std::size_t(k)] = static_cast<float>(p[k]);
+    }
+  });
+}
+
+/// The scene drawn by another camera or light than the file's.
+Capture drawn_otherwise(const Compared& drawn, const std::string& name,
+                        const std::function<void(Scene&)>& change, const CaptureParts& parts) {
+  Scene scene = *drawn.scene;
+  change(scene);
+  compare::CompareOptions options = test_options(picture, 512);
+  options.raster.map = drawn.result.raster.options.map;
+  options.perceptual = false;
+  const Compared other = run_comparison(std::move(scene), options);
+  return self_capture(other, folder_for(name), parts);
+}
+
+const std::vector<Convention>& conventions() {
+  const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  static const std::vector<Convention> all{
+      {"upside down",
+       {},
+       [](Capture& c, const Compared&) { flip(c.visibility, false, true), flip(c.position, false, true); }},
+      {"mirrored",
+       {},
+       [](Capture& c, const Compared&) { flip(c.visibility, true, false), flip(c.position, true, false); }},
+      {"upside down",
+       {.positions = false, .mask = true},
+       [](Capture& c, const Compared&) { flip(c.visibility, false, true); }},
+      {"half a pixel",
+       {},
+       [](Capture& c, const Compared& d) {
+         const View view = make_view(d.scene->camera, picture);
+         const raytrace::Tracer tracer(*d.world, raytrace::Accel::bvh);
+         spoil(c.position, [&](ChannelImage& image) {
+           for (int j = 0; j < picture.height; ++j)
+             for (int i = 0; i < picture.width; ++i) {
+               const Ray ray = pixel_ray(view, i + 1.0, j + 1.0);
+               const auto hit = tracer.closest_hit(ray);
+               const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
+               for (Channel& ch : image.channels)
+                 ch.values[std::size_t(j * picture.width + i)] =
+                     ch.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[ch.name[0] - 'X']);
+             }
+         });
+       }},
+      {"field of view",
+       {.positions = false, .mask = true},
+       [](Capture& c, const Compared& d) {
+         c = drawn_otherwise(d, "fov",
+                             [](Scene& s) {
+                               const double aspect = double(picture.width) / picture.height;
+                               s.camera.vertical_fov =
+                                   2.0 * std::atan(std::tan(0.5 * s.camera.vertical_fov) / aspect);
+                             },
+                             {.positions = false, .mask = true});
+       }},
+      {"aspect",
+       {},
+       [](Capture& c, const Compared& d) {
+         View view = make_view(d.scene->camera, picture);
+         view.tan_half_x = view.tan_half_y * 4.0 / 3.0;
+         const raytrace::Tracer tracer(*d.world, raytrace::Accel::bvh);
+         spoil(c.position, [&](ChannelImage& image) {
+           for (int j = 0; j < picture.height; ++j)
+             for (int i = 0; i < picture.width; ++i) {
+               const Ray ray = pixel_ray(view, i + 0.5, j + 0.5);
+               const auto hit = tracer.closest_hit(ray);
+               const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
+               for (Channel& ch : image.channels)
+                 ch.values[std::size_t(j * picture.width + i)] =
+                     ch.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[ch.name[0] - 'X']);
+             }
+         });
+       }},
+      {"sRGB",
+       {},
+       [](Capture& c, const Compared&) {
+         spoil(c.visibility, [](ChannelImage& image) {
+           for (float& v : image.channels[0].values) v = srgb_from_linear(v);
+         });
+       }},
+      {"z-up", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, z, -y)); }},
+      {"left-handed", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, y, -z)); }},
+      {"centimetres", {}, [](Capture& c, const Compared&) { map_places(c, Mat3(100.0)); }},
+      {"shines the other way", {.positions = true}, [](Capture& c, const Compared& d) {
+         c = drawn_otherwise(d, "light",
+                             [&](Scene& s) {
+                               Light& light = s.lights[d.light().light];
+                               light.direction = -light.direction;
+                             },
+                             {});
+       }}};
+  return all;
+}
+
+class JudgeConventions : public testing::TestWithParam<const char*> {};
+
+TEST_P(JudgeConventions, AreNamedAndMended) {
+  raster::MapOptions soft = hard_map(256, Technique::pcf);
+  soft.bias = {.constant = 1.0, .slope = 1.0};
+  soft.filter.radius_texels = 2.5;
+  const Compared drawn = draw_builtin(GetParam(), picture, soft);
+  for (const Convention& convention : conventions()) {
+    Capture capture = self_capture(drawn, folder_for(std::string("wrong-") + GetParam()), convention.parts);
+    convention.wrong(capture, drawn);
+    const Verdict refused = judge(capture);
+    EXPECT_FALSE(refused.result) << convention.name;
+    EXPECT_NE(reason(refused).find(convention.name), std::string::npos)
+        << convention.name << ": " << reason(refused);
+    compare::JudgeOptions fixing;
+    fixing.fix = true;
+    const Verdict mended = judge(capture, fixing);
+    ASSERT_TRUE(mended.result) << convention.name << ": " << reason(mended);
+    EXPECT_EQ(mended.result->judged->mended.size(), 1U) << convention.name;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(OnThreeScenes, JudgeConventions, testing::Values("courtyard", "fence", "teapot"));
+
+TEST(JudgeAlignment, DoesNotSuspectRightCaptures) {
+  int judged = 0;
+  for (const char* scene : {"courtyard", "fence", "teapot", "whitted"})
+    for (const Technique technique :
+         {Technique::hard, Technique::pcf, Technique::vsm, Technique::esm, Technique::second_depth}) {
+      raster::MapOptions map = hard_map(judged % 2 == 0 ? 128 : 512, technique);
+      if (judged % 3 == 0) map.bias = {.constant = 1.0, .slope = 1.0};
+      const Compared drawn = draw_builtin(scene, picture, map);
+      CaptureParts parts{.positions = judged % 2 == 0, .mask = judged % 4 == 1};
+      const Verdict verdict = judge(self_capture(drawn, folder_for("right"), parts));
+      EXPECT_TRUE(verdict.result) << scene << ": " << reason(verdict);
+      ++judged;
+    }
+  EXPECT_EQ(judged, 20);
+}
+
+}  // namespace
+}  // namespace gnomon::test
