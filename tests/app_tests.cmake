@@ -12,3 +12,7 @@ add_dependencies(lesson_faults_gl_test gnomon_program)
 # The conformance suite that gnomon export writes.
 gnomon_test(export_suite_test SOURCES export_suite_test.cpp LIBS gnomon::app gnomon::scene)
 target_include_directories(export_suite_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
+# gnomon grade, on shaders with known faults.
+gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp app_process.cpp LIBS nlohmann_json::nlohmann_json)
+add_dependencies(grade_gl_test gnomon_program)

@@ -1,0 +1,175 @@
+// gnomon grade: a class's shadow shaders against a rubric.
+#include "app/grade/grade.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "app/console.h"
+#include "app/grade/kits.h"
+#include "app/grade/page.h"
+#include "app/grade/results.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct GradeCommand {
+  std::string rubric;
+  std::vector<std::string> students;
+  std::string folder, json, csv, kit_folder;
+  int jobs = 0;
+  bool quiet = false;
+  std::string command_line;
+};
+
+/// A folder for drawings, gone with all that is in it at the end.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::error_code error;
+    std::string name = (std::filesystem::temp_directory_path(error) / "gnomon-grade-XXXXXX").string();
+    if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~WorkFolder() {
+    std::error_code none;
+    if (!path_.empty()) std::filesystem::remove_all(path_, none);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const std::string& path() const { return path_; }  ///< empty: it could not be made
+
+ private:
+  std::string path_;
+};
+
+Expected<ExitCode> write_new_kit(const GradeCommand& command, Console& console) {
+  const std::string name = command.rubric.empty() ? grade::kit_names().front() : command.rubric;
+  if (!grade::is_kit(name))
+    return fail(ErrorKind::usage,
+                fmt::format("--new: no such rubric of the program's own (got {}, allowed {})", name,
+                            fmt::join(grade::kit_names(), ", ")));
+  if (!command.students.empty()) return fail(ErrorKind::usage, "--new: takes no students");
+  if (const auto made = make_output_folder(command.kit_folder); !made) return fail(made.error());
+  const OutputGuard whole_outputs;
+  if (const auto written = grade::write_kit(name, command.kit_folder); !written) return fail(written.error());
+  console.message(fmt::format("{}: the steps are in {}/README.md", name, command.kit_folder));
+  return ExitCode::done;
+}
+
+Expected<grade::Rubric> find_rubric(const GradeCommand& command, const std::string& work_folder) {
+  if (command.rubric.empty())
+    return fail(ErrorKind::usage, fmt::format("a rubric is needed: a file, or one of the program's own ({})",
+                                              fmt::join(grade::kit_names(), ", ")));
+  if (!grade::is_kit(command.rubric)) return grade::read_rubric(command.rubric);
+  const std::string folder = work_folder + "/.kit";
+  if (const auto written = grade::write_kit(command.rubric, folder); !written) return fail(written.error());
+  return grade::read_rubric(folder + "/rubric.json");
+}
+
+Expected<void> check_outputs(const GradeCommand& command) {
+  for (const std::string* path : {&command.json, &command.csv})
+    if (auto writable = check_output_file(*path); !writable) return writable;
+  return command.folder.empty() ? Expected<void>() : check_output_folder(command.folder);
+}
+
+Expected<void> write_text(const std::string& path, const std::string& text) {
+  if (path.empty()) return {};
+  if (path == "-") {
+    print_data(text);
+    return {};
+  }
+  if (const auto made = make_folder_for(path); !made) return made;
+  return write_file(path, text);
+}
+
+Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result, Console& console) {
+  const OutputGuard whole_outputs;
+  if (!command.folder.empty()) {
+    if (const auto made = make_output_folder(command.folder); !made) return made;
+    if (const auto written = grade::write_pages(result, command.folder); !written) return written;
+    console.message(fmt::format("pages: {}/index.html", command.folder));
+  }
+  if (const auto written = write_text(command.json, grade::grade_json(result)); !written) return written;
+  return write_text(command.csv, grade::grade_csv(result));
+}
+
+/// The students, or without any the program's own shader: a rubric is tried before a class is graded with it.
+Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& command,
+                                                      const grade::Rubric& rubric,
+                                                      const std::string& work_folder, Console& console) {
+  const auto students = grade::find_students(command.students);
+  if (!students) return fail(students.error());
+  auto grades = grade::grade_class(rubric, *students, work_folder,
+                                   {command.jobs, [&](double done) { console.progress("grading", done); }});
+  if (!grades) return fail(grades.error());
+  if (students->empty()) return std::vector{grades->own};
+  for (std::size_t i = 0; i < rubric.checks.size(); ++i)
+    if (grades->own.checks[i].points < rubric.checks[i].points)
+      console.note(fmt::format("the program's own shader does not pass \"{}\" ({})", rubric.checks[i].name,
+                               grades->own.checks[i].reason));
+  return std::move(grades->students);
+}
+
+Expected<ExitCode> run_grade(const GradeCommand& command) {
+  Console console(command.quiet);
+  if (!command.kit_folder.empty()) return write_new_kit(command, console);
+  if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
+  const WorkFolder work;
+  if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
+  const auto rubric = find_rubric(command, work.path());
+  if (!rubric) return fail(rubric.error());
+  const auto students = grade_all(command, *rubric, work.path(), console);
+  if (!students) return fail(students.error());
+  const grade::ClassResult result{*rubric, *students, command.command_line};
+  console.clear_progress();
+  const bool prints_data = command.json == "-" || command.csv == "-";
+  if (!command.quiet && !prints_data) print_data(grade::grade_table(result));
+  if (const auto written = write_all(command, result, console); !written) return fail(written.error());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_grade(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand("grade",
+                                         "Grade students' shadow shaders against a rubric: points, the "
+                                         "reason for each one lost, and the picture that shows it.");
+  app->footer(
+      "gnomon grade --new homework                       a rubric, scenes and a shader to fill in\n"
+      "gnomon grade homework/rubric.json class -o grades     every folder in class/ is a student\n"
+      "gnomon grade first-shadow-map anna bert --json -\n"
+      "gnomon grade my-rubric.json                       does the program's own shader pass it?");
+  const auto command = std::make_shared<GradeCommand>();
+  command->command_line = invocation.command_line;
+  app->add_option("RUBRIC", command->rubric,
+                  fmt::format("a rubric's file (gnomon/rubric/1), or one of the program's own: {}",
+                              fmt::join(grade::kit_names(), ", ")));
+  app->add_option("STUDENTS", command->students,
+                  "folders with a student's shaders, or with such folders in them; none: the program's own "
+                  "shader is graded");
+  add_output(*app, "-o,--output", command->folder, "DIR",
+             "folder for a page for each student, index.html, grades.json and grades.csv [default: none]");
+  add_output(*app, "--csv", command->csv, "FILE|-", "also write the points as CSV [default: none]");
+  add_output(*app, "--new", command->kit_folder, "DIR",
+             "instead write what a class needs to begin: the rubric, its scenes, and the shader with its "
+             "steps to fill in");
+  app->add_option("--jobs", command->jobs,
+                  "students graded at a time; 0: one for each processor [0 to 256; default 0]")
+      ->check(CLI::Range(0, 256))
+      ->type_name("N");
+  add_json(*app, command->json, "the points and reasons");
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_grade(*command); }; });
+}
+
+}  // namespace gnomon::app

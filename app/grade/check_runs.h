@@ -1,0 +1,47 @@
+// The drawings of one student (or of the program's own shader), each made once however many checks look at it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "app/grade/figures.h"
+#include "app/grade/rubric.h"
+#include "app/grade/student.h"
+
+namespace gnomon::app::grade {
+
+/// A drawing, or why there is none.
+struct Drawing {
+  std::optional<RunResult> result;
+  std::string failure;  ///< one line
+  bool timed_out = false;
+  int exit_code = 0;
+};
+
+class CheckRuns {
+ public:
+  /// `shaders`: the student's folder; empty for the program's own. Drawings lie below `folder`.
+  CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
+
+  /// Error (resources): no process.
+  Expected<const Drawing*> draw(const Run& run);
+  /// Once more, with the usual number of timed passes, to be called when nothing else runs.
+  Expected<Drawing> draw_timed(const Run& run);
+  /// "gnomon compare …", which draws it again.
+  std::string command(const Run& run) const;
+
+ private:
+  bool needs_values(const Run& run) const;
+  Expected<Drawing> make(const Run& run, const std::string& folder, bool timed, bool values) const;
+
+  struct Made {
+    Run run;
+    Drawing drawing;
+  };
+  const Rubric* rubric_;
+  std::string shaders_, folder_;
+  std::deque<Made> made_;  ///< what was handed out stays where it is
+};
+
+}  // namespace gnomon::app::grade

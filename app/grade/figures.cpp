@@ -1,0 +1,124 @@
+#include "app/grade/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "compare/comparison.h"
+#include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon::app::grade {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+double figure_of_light(const json& light, std::string_view name) {
+  const double compared = std::max(1.0, light.at("pixels").at("compared").get<double>());
+  const json& error = light.at("error");
+  if (name == "wrong") return error.at("wrong_fraction").get<double>();
+  if (name == "false_shadow") return error.at("false_shadow").get<double>() / compared;
+  if (name == "missed_shadow") return error.at("missed_shadow").get<double>() / compared;
+  if (name == "mean_error") return error.at("mean_absolute").get<double>();
+  if (name == "detachment") return light.at("detachment").at("mean_texels").get<double>();
+  if (name == "edge") return light.at("edges").at("rms_texels").get<double>();
+  return light.at("classes").at(std::string(name)).get<double>() / compared;
+}
+
+RunResult figures_in(const json& result, const std::string& folder) {
+  RunResult run{folder, std::vector<double>(measures().size(), 0.0), 0.0};
+  for (const json& light : result.at("lights")) {
+    for (std::size_t i = 0; i < run.figures.size(); ++i)
+      run.figures[i] = std::max(run.figures[i], figure_of_light(light, measures()[i].name));
+    const auto runs = light.at("times_ms").at("shade_pass").at("runs").get<std::vector<double>>();
+    run.shading_ms += *std::min_element(runs.begin(), runs.end());
+  }
+  return run;
+}
+
+std::vector<std::string> value_files(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("values") && name.ends_with(".exr")) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Of one light.
+Expected<std::uint64_t> count_different(const std::string& a, const std::string& b) {
+  constexpr float half_a_step = 0.5f / 255.0f;
+  const auto first = read_channels(a);
+  if (!first) return fail(first.error());
+  const auto second = read_channels(b);
+  if (!second) return fail(second.error());
+  const Channel *drawn = first->find("drawn.V"), *other = second->find("drawn.V"),
+                *label = first->find("class.V");
+  if (drawn == nullptr || other == nullptr || label == nullptr || !(first->size == second->size))
+    return fail(Error{ErrorKind::internal, "holds no visibility to compare", a});
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < drawn->values.size(); ++i)
+    if (label->values[i] >= 0.0f && !(std::fabs(drawn->values[i] - other->values[i]) <= half_a_step)) ++count;
+  return count;
+}
+
+}  // namespace
+
+std::string values_folder(const std::string& folder) {
+  return folder + ".values";
+}
+
+Expected<RunResult> read_run_result(const std::string& folder) {
+  const std::string path = folder + "/result.json";
+  const auto text = read_file(path);
+  if (!text) return fail(text.error());
+  try {
+    return figures_in(json::parse(*text), folder);
+  } catch (const json::exception& wrong) {
+    return fail(Error{ErrorKind::internal, wrong.what(), path});
+  }
+}
+
+double figure_of(const RunResult& result, const Measure& measure) {
+  for (std::size_t i = 0; i < measures().size(); ++i)
+    if (measures()[i].name == measure.name) return result.figures[i];
+  return 0.0;
+}
+
+Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) {
+  std::uint64_t count = 0;
+  const std::string first = values_folder(a.folder), second = values_folder(b.folder);
+  const std::vector<std::string> names = value_files(first);
+  if (names != value_files(second) || names.empty())
+    return fail(Error{ErrorKind::internal, "holds other lights than the program's own drawing", a.folder});
+  for (const std::string& name : names) {
+    const auto of_light = count_different(first + "/" + name, second + "/" + name);
+    if (!of_light) return of_light;
+    count += *of_light;
+  }
+  return count;
+}
+
+std::vector<std::string> pictures_of(const RunResult& result) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(result.folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".png") &&
+        (name == "raster.png" || name == "raytrace.png" || name.starts_with("labels")))
+      names.push_back(name);
+  }
+  std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    return std::pair(a.starts_with("labels"), a) < std::pair(b.starts_with("labels"), b);
+  });
+  return names;
+}
+
+}  // namespace gnomon::app::grade

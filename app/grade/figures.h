@@ -1,0 +1,36 @@
+// What a run of `gnomon compare` left behind: figures of its result.json and its pictures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/grade/rubric.h"
+#include "scene/expected.h"
+
+namespace gnomon::app::grade {
+
+/// Where a run's --aov files (values*.exr) lie: beside its folder.
+std::string values_folder(const std::string& folder);
+
+/// A finished run's folder, read.
+struct RunResult {
+  std::string folder;
+  std::vector<double> figures;  ///< as measures() lists them: the worst of the lights
+  double shading_ms = 0.0;      ///< the shortest of the shading passes, summed over the lights
+};
+
+/// Errors: the folder holds no result of this version.
+Expected<RunResult> read_run_result(const std::string& folder);
+
+/// The figure of that name.
+double figure_of(const RunResult& result, const Measure& measure);
+
+/// Compared pixels whose drawn visibility differs between two runs of the same scene by more than one half of an
+/// 8-bit step, over all lights (values_folder).
+Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b);
+
+/// raster.png, raytrace.png and the labels' pictures that there are, by file name.
+std::vector<std::string> pictures_of(const RunResult& result);
+
+}  // namespace gnomon::app::grade

@@ -1,0 +1,246 @@
+#include "app/grade/grade.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <thread>
+
+#include "app/grade/check_runs.h"
+#include "app/grade/excerpt.h"
+#include "compare/number_text.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon::app::grade {
+
+namespace {
+
+/// What all students share.
+struct Class {
+  const Rubric& rubric;
+  std::string work_folder;
+  CheckRuns own;  ///< the program's shader
+  std::mutex own_mutex{};
+  std::shared_mutex quiet{};  ///< held alone by a drawing that is timed
+};
+
+std::string measured(double value, Measure::Unit unit) {
+  return unit == Measure::Unit::share ? compare::percent(value) : compare::texels_text(value);
+}
+
+struct Judgement {
+  bool passed = false;
+  std::string reason;
+};
+
+Judgement judge_figure(const Check& check, const RunResult& result) {
+  const double value = figure_of(result, check.measure);
+  const bool passed = value <= check.limit;
+  const bool is_label = check.measure.words == "pixels with this label";
+  const std::string words =
+      is_label ? fmt::format("{} pixels", check.measure.name) : std::string(check.measure.words);
+  return {passed, fmt::format("{}: {} ({} {} allowed)", words, measured(value, check.measure.unit),
+                              passed ? "up to" : "no more than", measured(check.limit, check.measure.unit))};
+}
+
+Expected<Judgement> judge_equality(const Check& check, const RunResult& result, const Run& run, Class& of) {
+  const std::lock_guard lock(of.own_mutex);
+  const auto own = of.own.draw(run);
+  if (!own) return fail(own.error());
+  const auto different = count_different(result, *(*own)->result);
+  if (!different) return fail(different.error());
+  const bool passed = static_cast<double>(*different) <= check.limit;
+  return Judgement{
+      passed,
+      fmt::format("{} pixel{} from the program's own drawing ({} {} allowed)", compare::grouped(*different),
+                  *different == 1 ? " differs" : "s differ", passed ? "up to" : "no more than", check.limit)};
+}
+
+Expected<Judgement> judge_time(const Check& check, const Run& run, CheckRuns& runs, Class& of) {
+  const std::unique_lock alone(of.quiet);
+  const auto theirs = runs.draw_timed(run);
+  if (!theirs) return fail(theirs.error());
+  if (!theirs->result) return Judgement{false, theirs->failure};
+  const std::lock_guard lock(of.own_mutex);
+  const auto own = of.own.draw_timed(run);
+  if (!own) return fail(own.error());
+  if (!own->result) return fail(ErrorKind::internal, own->failure);
+  const double ratio = theirs->result->shading_ms / own->result->shading_ms;
+  const bool passed = ratio <= check.limit;
+  return Judgement{passed, fmt::format("{} of shading, {:.2f} times the program's own ({} {} times allowed)",
+                                       compare::milliseconds(theirs->result->shading_ms), ratio,
+                                       passed ? "up to" : "no more than", check.limit)};
+}
+
+Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& result, CheckRuns& runs,
+                          Class& of) {
+  switch (check.kind) {
+    case CheckKind::draws:
+      return Judgement{true, "it compiles and draws"};
+    case CheckKind::at_most:
+      return judge_figure(check, result);
+    case CheckKind::equals:
+      return judge_equality(check, result, run, of);
+    case CheckKind::time:
+      return judge_time(check, run, runs, of);
+  }
+  return fail(ErrorKind::internal, "unknown kind of check");
+}
+
+std::string caption_of(const std::string& file) {
+  if (file == "raster.png") return "drawn with this shader";
+  if (file == "raytrace.png") return "the truth, ray traced";
+  return "where it is wrong, and why";
+}
+
+std::vector<Picture> load_pictures(const RunResult& result) {
+  std::vector<Picture> pictures;
+  for (const std::string& name : pictures_of(result))
+    if (auto png = read_file(result.folder + "/" + name))
+      pictures.push_back({caption_of(name), std::move(*png)});
+  return pictures;
+}
+
+/// One student, or the program's own shader.
+class Grader {
+ public:
+  /// `shaders`: where the drawings' shaders lie; empty for the program's own.
+  Grader(Class& of, const std::string& shaders, CheckRuns& runs)
+      : class_(of), shaders_(shaders), runs_(runs) {}
+
+  Expected<CheckResult> grade(const Check& check) {
+    CheckResult result;
+    result.command = runs_.command(check.runs.front());
+    for (const Run& run : check.runs) {
+      const auto judgement = try_run(check, run, result);
+      if (!judgement) return fail(judgement.error());
+      if (result.reason.empty() || !judgement->passed) result.reason = judgement->reason;
+      if (judgement->passed) continue;
+      result.command = runs_.command(run);
+      return result;
+    }
+    result.points = check.points;
+    result.pictures.clear();
+    return result;
+  }
+
+ private:
+  Expected<Judgement> try_run(const Check& check, const Run& run, CheckResult& result) {
+    if (hangs_) return Judgement{false, "not tried: a drawing before it did not end in time"};
+    const auto drawing = draw(run);
+    if (!drawing) return fail(drawing.error());
+    if (!(*drawing)->result) {
+      hangs_ = (*drawing)->timed_out;
+      result.excerpt = excerpt_at((*drawing)->failure, shaders_);
+      return Judgement{false, (*drawing)->failure};
+    }
+    auto judgement = judge(check, run, *(*drawing)->result, runs_, class_);
+    if (judgement && !judgement->passed) result.pictures = load_pictures(*(*drawing)->result);
+    return judgement;
+  }
+  Expected<const Drawing*> draw(const Run& run) {
+    const std::shared_lock beside_others(class_.quiet);
+    return runs_.draw(run);
+  }
+
+  Class& class_;
+  std::string shaders_;
+  CheckRuns& runs_;
+  bool hangs_ = false;
+};
+
+/// Why a check is not looked at; empty where it is.
+std::string missing_need(const Rubric& rubric, const Check& check, const std::vector<CheckResult>& earlier) {
+  for (const std::size_t needed : check.needs)
+    if (earlier[needed].points < rubric.checks[needed].points)
+      return fmt::format("not looked at before \"{}\" has its points", rubric.checks[needed].name);
+  return {};
+}
+
+Expected<StudentResult> grade_checks(Class& of, const std::string& name, const std::string& shaders,
+                                     CheckRuns& runs) {
+  StudentResult result{name, {}};
+  Grader grader(of, shaders, runs);
+  for (const Check& check : of.rubric.checks) {
+    if (std::string first = missing_need(of.rubric, check, result.checks); !first.empty()) {
+      result.checks.push_back({0.0, std::move(first), {}, {}, {}});
+      continue;
+    }
+    auto graded = grader.grade(check);
+    if (!graded) return fail(graded.error());
+    result.checks.push_back(std::move(*graded));
+  }
+  return result;
+}
+
+Expected<StudentResult> grade_student(Class& of, const Student& student) {
+  if (const std::string why_not = refusal(student, of.rubric); !why_not.empty())
+    return StudentResult{student.name, {of.rubric.checks.size(), CheckResult{0.0, why_not, {}, {}, {}}}};
+  const std::string folder = of.work_folder + "/" + student.name;
+  CheckRuns runs(of.rubric, student.folder, folder);
+  auto result = grade_checks(of, student.name, student.folder, runs);
+  std::error_code none;
+  std::filesystem::remove_all(folder, none);  // a class of drawings would fill the disk
+  return result;
+}
+
+/// What the program itself cannot draw is the rubric's fault.
+Expected<void> check_drawings(Class& of) {
+  for (const Check& check : of.rubric.checks) {
+    for (const Run& run : check.runs) {
+      const auto drawing = of.own.draw(run);
+      if (!drawing) return fail(drawing.error());
+      if (!(*drawing)->result)
+        return fail(ErrorKind::bad_input, fmt::format("check \"{}\": {}: {}", check.name, of.own.command(run),
+                                                      (*drawing)->failure));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+double StudentResult::points() const {
+  double sum = 0.0;
+  for (const CheckResult& check : checks) sum += check.points;
+  return sum;
+}
+
+Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
+                             const std::string& work_folder, const GradeOptions& options) {
+  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/.own")};
+  if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
+  auto own = grade_checks(of, "the program's own shader", "", of.own);
+  if (!own) return fail(own.error());
+  std::vector<std::optional<Expected<StudentResult>>> graded(students.size());
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
+  std::mutex progress_mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < students.size(); i = next++) {
+      graded[i] = grade_student(of, students[i]);
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      if (options.progress)
+        options.progress(static_cast<double>(done) / static_cast<double>(students.size()));
+    }
+  };
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t jobs = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : processors;
+  std::vector<std::thread> workers;
+  for (std::size_t i = 1; i < std::min(students.size(), jobs); ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  Grades grades{std::move(*own), {}};
+  for (auto& result : graded) {
+    if (!*result) return fail(result->error());
+    grades.students.push_back(std::move(**result));
+  }
+  return grades;
+}
+
+}  // namespace gnomon::app::grade

@@ -1,0 +1,51 @@
+// Grades a class: every student's shaders against every check of a rubric. Each drawing is a process of its own
+// (`gnomon compare`, which anybody can repeat), so that nothing that a shader does reaches the grader.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/grade/rubric.h"
+#include "app/grade/student.h"
+#include "scene/expected.h"
+
+namespace gnomon::app::grade {
+
+struct Picture {
+  std::string caption;
+  std::string png;  ///< bytes
+};
+
+struct CheckResult {
+  double points = 0.0;            ///< all of the check's, or 0
+  std::string reason;             ///< what was measured, or why there are no points; one line
+  std::string command;            ///< that draws it again; of the run that lost the points, else of the first
+  std::vector<Picture> pictures;  ///< where points were lost and something was drawn
+  std::string excerpt;            ///< lines of the student's file around an error; may be empty
+};
+
+struct StudentResult {
+  std::string name;
+  std::vector<CheckResult> checks;  ///< in the rubric's order
+  double points() const;
+};
+
+struct GradeOptions {
+  int jobs = 0;  ///< students at a time; 0: as many as there are processors
+  /// Called from any thread, one call at a time.
+  std::function<void(double done)> progress;
+};
+
+struct Grades {
+  StudentResult
+      own;  ///< the program's own shader, as if it were handed in: whether a rubric asks what is possible
+  std::vector<StudentResult> students;  ///< in their order
+};
+
+/// `work_folder` exists and is empty; drawings are made below it. Error (bad input): a scene or an option of the
+/// rubric that the program does not take.
+Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
+                             const std::string& work_folder, const GradeOptions& options);
+
+}  // namespace gnomon::app::grade

@@ -1,0 +1,118 @@
+#include "app/grade/page.h"
+
+#include <embedded/grade_page.h>
+#include <fmt/format.h>
+
+#include <cctype>
+#include <sstream>
+
+#include "compare/report/html.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app::grade {
+
+namespace {
+
+using compare::escaped;
+using compare::flowing;
+
+std::string page(const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, "
+      "initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      escaped(title), embedded::grade_page("page.css"), body);
+}
+
+std::string figures_html(const CheckResult& result) {
+  if (result.pictures.empty()) return {};
+  std::string html = "<div class=\"pictures\">\n";
+  for (const Picture& picture : result.pictures)
+    html += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                        compare::data_uri("image/png", picture.png), escaped(picture.caption),
+                        escaped(picture.caption));
+  return html + "</div>\n";
+}
+
+std::string excerpt_html(const std::string& excerpt) {
+  if (excerpt.empty()) return {};
+  std::string html = "<pre>";
+  std::istringstream lines(excerpt);
+  for (std::string line; std::getline(lines, line);) html += escaped(line) + "\n";
+  return html + "</pre>\n";
+}
+
+std::string check_html(const Check& check, const CheckResult& result) {
+  const bool full = result.points >= check.points;
+  std::string html = fmt::format(
+      "<article>\n<header><h2>{}</h2><span class=\"{}\">{}</span></header>\n<p>{}</p>\n", escaped(check.name),
+      full ? "full" : "lost", points_text(result.points, check.points), flowing(result.reason));
+  if (full) return html + "</article>\n";
+  html += excerpt_html(result.excerpt);
+  html += figures_html(result);
+  if (!check.hint.empty() && !result.command.empty()) html += fmt::format("<p>{}</p>\n", flowing(check.hint));
+  if (!result.command.empty())
+    html += fmt::format("<p class=\"quiet\">See it yourself: <code>{}</code></p>\n", escaped(result.command));
+  return html + "</article>\n";
+}
+
+std::string class_row(const ClassResult& result, const StudentResult& student) {
+  std::string row = fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td>{:g}</td>",
+                                escaped(page_name(student)), escaped(student.name), student.points());
+  for (std::size_t i = 0; i < student.checks.size(); ++i)
+    row += fmt::format("<td class=\"{}\">{:g}</td>",
+                       student.checks[i].points < result.rubric.checks[i].points ? "lost" : "full",
+                       student.checks[i].points);
+  return row + "</tr>\n";
+}
+
+}  // namespace
+
+std::string page_name(const StudentResult& student) {
+  std::string name;
+  for (const char c : student.name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    name += plain ? std::string(1, c) : fmt::format("_{:02x}", static_cast<unsigned char>(c));
+  }
+  return (name == "index" ? "index_" : name) + ".html";
+}
+
+std::string student_page(const Rubric& rubric, const StudentResult& student) {
+  std::string body =
+      fmt::format("<main>\n<h1>{}: {}</h1>\n<p class=\"sum\">{} points</p>\n", escaped(student.name),
+                  escaped(rubric.title), points_text(student.points(), rubric.points()));
+  if (!rubric.text.empty()) body += fmt::format("<p>{}</p>\n", flowing(rubric.text));
+  for (std::size_t i = 0; i < student.checks.size(); ++i)
+    body += check_html(rubric.checks[i], student.checks[i]);
+  return page(student.name + ": " + rubric.title, body + "</main>\n");
+}
+
+std::string class_page(const ClassResult& result) {
+  std::string body = fmt::format(
+      "<main>\n<h1>{}</h1>\n<p>{:g} points are to be had. A student's name opens the page to hand "
+      "out.</p>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"Points\">\n<table>\n<thead><tr><th scope=\"col\">Student</th><th "
+      "scope=\"col\">Points</th>",
+      escaped(result.rubric.title), result.rubric.points());
+  for (const Check& check : result.rubric.checks)
+    body += fmt::format("<th scope=\"col\">{} <span class=\"quiet\">({:g})</span></th>", escaped(check.name),
+                        check.points);
+  body += "</tr></thead>\n<tbody>\n";
+  for (const StudentResult& student : result.students) body += class_row(result, student);
+  body += "</tbody>\n</table>\n</div>\n";
+  body +=
+      fmt::format("<p class=\"quiet\">Made by <code>{}</code></p>\n</main>\n", escaped(result.command_line));
+  return page(result.rubric.title, body);
+}
+
+Expected<void> write_pages(const ClassResult& result, const std::string& folder) {
+  for (const StudentResult& student : result.students)
+    if (auto written = write_file(folder + "/" + page_name(student), student_page(result.rubric, student));
+        !written)
+      return written;
+  if (auto written = write_file(folder + "/grades.json", grade_json(result)); !written) return written;
+  if (auto written = write_file(folder + "/grades.csv", grade_csv(result)); !written) return written;
+  return write_file(folder + "/index.html", class_page(result));
+}
+
+}  // namespace gnomon::app::grade

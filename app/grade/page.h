@@ -1,0 +1,19 @@
+// Pages to hand out: one for each student, and a table of the class. They need no server and no network.
+#pragma once
+
+#include <string>
+
+#include "app/grade/results.h"
+#include "scene/expected.h"
+
+namespace gnomon::app::grade {
+
+std::string student_page(const Rubric& rubric, const StudentResult& student);
+std::string class_page(const ClassResult& result);
+/// The student's page as a file's name, "anna.html".
+std::string page_name(const StudentResult& student);
+
+/// DIR/index.html, DIR/grades.json, DIR/grades.csv and every student's page.
+Expected<void> write_pages(const ClassResult& result, const std::string& folder);
+
+}  // namespace gnomon::app::grade

@@ -1,0 +1,26 @@
+// What a class was given, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/grade/grade.h"
+
+namespace gnomon::app::grade {
+
+struct ClassResult {
+  const Rubric& rubric;
+  const std::vector<StudentResult>& students;
+  std::string command_line;
+};
+
+/// gnomon/grade/1 (grade.schema.json).
+std::string grade_json(const ClassResult& result);
+/// One row for each student: name, points, of, and the points of each check.
+std::string grade_csv(const ClassResult& result);
+/// One paragraph for each student: points, and every check that lost some, with the reason.
+std::string grade_table(const ClassResult& result);
+/// "17.5 of 20".
+std::string points_text(double points, double of);
+
+}  // namespace gnomon::app::grade

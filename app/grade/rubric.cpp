@@ -1,0 +1,203 @@
+#include "app/grade/rubric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/options.h"
+#include "app/shell.h"
+#include "compare/comparison.h"
+#include "raster/shader_folder.h"
+#include "scene/files/json_reader.h"
+#include "scene/files/read_file.h"
+#include "scene/load.h"
+
+namespace gnomon::app::grade {
+
+namespace {
+
+constexpr NumberRange seconds_range{0.0, 3600.0, true};
+constexpr NumberRange memory_range{1024.0, 1e6};
+constexpr NumberRange pixels_range{0.0, 1e9, false, false, true};
+
+const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time"};
+
+/// Options that a rubric may not set: the grader decides what is written, and with which shaders.
+const std::vector<std::string_view> kept_options = {"output", "json",  "shader-dir", "aov",       "technique",
+                                                    "quiet",  "trace", "fail-above", "no-report", "threads"};
+
+std::vector<std::string_view> measure_names() {
+  std::vector<std::string_view> names;
+  for (const Measure& measure : measures()) names.push_back(measure.name);
+  return names;
+}
+
+/// "0.1%" as a share, "0.5texel" in texels.
+double read_limit(const JsonNode& node, Measure::Unit unit) {
+  const std::string text = node.as_string();
+  const std::string_view suffix = unit == Measure::Unit::share ? "%" : "texel";
+  const double scale = unit == Measure::Unit::share ? 0.01 : 1.0;
+  std::string_view number = text;
+  if (number.ends_with(suffix)) number.remove_suffix(suffix.size());
+  const auto value = parse_decimal(number);
+  if (number.size() < text.size() && value && *value >= 0.0) return *value * scale;
+  node.wrong("is no limit of this measure", unit == Measure::Unit::share
+                                                ? "a percentage >= 0, such as \"0.1%\""
+                                                : "texels >= 0, such as \"0.5texel\"");
+  return 0.0;
+}
+
+std::string scene_path(const JsonNode& node, const std::string& folder) {
+  const std::string name = node.as_string();
+  const auto scenes = builtin_scenes();
+  if (std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; }))
+    return name;
+  const auto path = resolve_path(folder, name, true);
+  if (!path) {
+    node.error(path.error().reason);
+    return {};
+  }
+  std::error_code none;
+  if (!std::filesystem::exists(*path, none)) node.error("no such scene: neither a file nor a built-in one");
+  return *path;
+}
+
+Run read_run(const JsonNode& node, const std::string& folder) {
+  const JsonObject object(node, {"scene", "options"});
+  Run run;
+  if (const auto scene = object.require("scene")) run.scene = scene_path(*scene, folder);
+  const auto options = object.find("options");
+  if (!options) return run;
+  if (!options->is(JsonValue::Type::object)) {
+    options->wrong("is no set of options", "an object of strings, such as {\"bias\": \"0.5texel\"}");
+    return run;
+  }
+  for (const JsonMember& member : options->value().members) {
+    const JsonNode value(node.errors(), member.value, options->path() + "." + member.key);
+    if (std::find(kept_options.begin(), kept_options.end(), member.key) != kept_options.end())
+      value.error("is not for a rubric to set");
+    run.options.emplace_back(member.key, value.as_string());
+  }
+  return run;
+}
+
+/// Names of checks that stand above.
+std::vector<std::size_t> read_needs(const JsonNode& node, const std::vector<Check>& earlier) {
+  std::vector<std::string_view> names;
+  for (const Check& check : earlier) names.push_back(check.name);
+  std::vector<std::size_t> needs;
+  for (const JsonNode& name : node.as_array()) {
+    if (names.empty()) name.error("names no check that stands above this one");
+    if (!names.empty()) needs.push_back(name.as_choice(names));
+  }
+  return needs;
+}
+
+Check read_check(const JsonNode& node, const std::string& folder, const std::vector<Check>& earlier) {
+  const JsonObject object(
+      node, {"name", "points", "kind", "measure", "at_most", "pixels", "times", "needs", "hint", "runs"});
+  Check check;
+  if (const auto name = object.require("name")) check.name = name->as_string();
+  if (const auto points = object.require("points")) check.points = points->as_number(positive_number);
+  if (const auto kind = object.require("kind")) check.kind = static_cast<CheckKind>(kind->as_choice(kinds));
+  check.hint = object.string("hint");
+  if (const auto needs = object.find("needs")) check.needs = read_needs(*needs, earlier);
+  const bool is_figure = check.kind == CheckKind::at_most;
+  for (const char* key : {"measure", "at_most"})
+    if (!is_figure) object.forbid(key, "applies to checks of the kind at_most");
+  if (check.kind != CheckKind::equals) object.forbid("pixels", "applies to checks of the kind equals");
+  if (check.kind != CheckKind::time) object.forbid("times", "applies to checks of the kind time");
+  if (is_figure) {
+    if (const auto measure = object.require("measure"))
+      check.measure = measures()[measure->as_choice(measure_names())];
+    if (const auto limit = object.require("at_most")) check.limit = read_limit(*limit, check.measure.unit);
+  }
+  if (check.kind == CheckKind::equals)
+    if (const auto pixels = object.require("pixels")) check.limit = pixels->as_number(pixels_range);
+  if (check.kind == CheckKind::time)
+    if (const auto times = object.require("times")) check.limit = times->as_number(positive_number);
+  if (const auto runs = object.require("runs")) {
+    for (const JsonNode& run : runs->as_array()) check.runs.push_back(read_run(run, folder));
+    if (check.runs.empty()) runs->error("is empty");
+  }
+  return check;
+}
+
+std::vector<std::string> read_hand_in(const JsonNode& node) {
+  std::vector<std::string_view> names;
+  for (const raster::ShaderFile& file : raster::own_shaders()) names.push_back(file.name);
+  std::vector<std::string> files;
+  for (const JsonNode& file : node.as_array()) files.emplace_back(names[file.as_choice(names)]);
+  if (files.empty()) node.error("is empty");
+  return files;
+}
+
+Rubric read_root(const JsonNode& node, const std::string& folder) {
+  const JsonObject object(node, {"schema", "title", "text", "technique", "hand_in", "limits", "checks"});
+  Rubric rubric;
+  if (const auto schema = object.require("schema")) schema->as_choice({"gnomon/rubric/1"});
+  if (const auto title = object.require("title")) rubric.title = title->as_string();
+  rubric.text = object.string("text");
+  const std::vector<std::string> names = technique_names();
+  if (const auto technique = object.require("technique"))
+    rubric.technique = names[technique->as_choice({names.begin(), names.end()})];
+  if (const auto hand_in = object.require("hand_in")) rubric.hand_in = read_hand_in(*hand_in);
+  if (const auto limits = object.find("limits")) {
+    const JsonObject of(*limits, {"seconds", "memory_mb"});
+    rubric.limits.seconds = of.number("seconds", rubric.limits.seconds, seconds_range);
+    rubric.limits.memory_mb = of.number("memory_mb", rubric.limits.memory_mb, memory_range);
+  }
+  if (const auto checks = object.require("checks")) {
+    for (const JsonNode& check : checks->as_array())
+      rubric.checks.push_back(read_check(check, folder, rubric.checks));
+    if (rubric.checks.empty()) checks->error("is empty");
+  }
+  return rubric;
+}
+
+}  // namespace
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all = [] {
+    using enum Measure::Unit;
+    std::vector<Measure> list = {{"wrong", share, "wrong pixels"},
+                                 {"false_shadow", share, "false shadows"},
+                                 {"missed_shadow", share, "missed shadows"},
+                                 {"mean_error", share, "a mean error"},
+                                 {"detachment", texels, "shadows that start too far away"},
+                                 {"edge", texels, "shadow edges off their place (root mean square)"}};
+    for (std::size_t i = 1; i <= compare::class_count; ++i)
+      list.push_back({compare::label_name(static_cast<compare::Label>(i)), share, "pixels with this label"});
+    return list;
+  }();
+  return all;
+}
+
+double Rubric::points() const {
+  double sum = 0.0;
+  for (const Check& check : checks) sum += check.points;
+  return sum;
+}
+
+Expected<Rubric> read_rubric(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return fail(text.error());
+  const auto document = parse_json(*text, path);
+  if (!document) return fail(document.error());
+  JsonErrors errors{*document};
+  Rubric rubric = read_root(JsonNode(errors, document->root, ""), folder_of(path));
+  if (errors.first) return fail(*errors.first);
+  return rubric;
+}
+
+std::string run_text(const Run& run) {
+  std::string text = shell_quoted(run.scene);
+  for (const auto& [name, value] : run.options) {
+    text += fmt::format(" --{}", name);
+    if (!value.empty()) text += fmt::format(" {}", shell_quoted(value));
+  }
+  return text;
+}
+
+}  // namespace gnomon::app::grade

@@ -1,0 +1,27 @@
+// What was handed in: one folder for each student.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/grade/rubric.h"
+#include "scene/expected.h"
+
+namespace gnomon::app::grade {
+
+struct Student {
+  std::string name;    ///< the folder's own
+  std::string folder;  ///< as given
+};
+
+/// Each path is a student's folder, or a folder of such folders (those in it, by name). A folder with a shader
+/// in it, or with no folder in it, is a student's own. Errors (usage): no such folder; two students of one
+/// name.
+Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths);
+
+/// Why nothing of the folder is drawn with; empty where all is well: a link (which could name a file outside
+/// of it), more than 4 MiB of shaders, a shader that is not to be handed in, or none that differs from the
+/// program's own.
+std::string refusal(const Student& student, const Rubric& rubric);
+
+}  // namespace gnomon::app::grade

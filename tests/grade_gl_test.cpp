@@ -1,0 +1,236 @@
+// gnomon grade: shaders with a known fault lose exactly the points that the fault costs, the right one has them all, and
+// nothing that a shader does reaches the grader.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app_process.h"
+#include "tests/support/places.h"
+
+namespace gnomon::app_test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// The shipped shader with its steps filled in.
+std::string solution() {
+  const std::string skeleton =
+      read_file(gnomon::test::source_dir() + "/app/grade/kits/first-shadow-map/technique/hard.glsl");
+  return skeleton.substr(0, skeleton.find("  // TODO 1")) +
+         read_file(gnomon::test::source_dir() + "/tests/data/grade/steps.glsl");
+}
+
+struct Edit {
+  std::string from, to;
+};
+/// Checks that lose their points, by a letter: Compiles, Shadows, Light, Acne, Panning, Texel, Outside, spot (K), lamp (M),
+/// Quick. A check that needs a lost one is lost with it.
+struct Fault {
+  std::string name;
+  std::vector<Edit> edits;
+  std::string lost;
+};
+
+constexpr std::string_view letters = "CSLAPTOKMQ";
+
+const std::string test_line = "return gap > light.bias.x ? 0.0 : 1.0";
+const std::string border = "greaterThanEqual(place, vec2(size)))) return 1.0";
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all = {
+      {"right", {}, ""},
+      {"given-gap", {{"return gap >", "return test.gap >"}}, ""},
+      {"no-bias", {{"> light.bias.x", "> 0.0"}}, "ATKM"},
+      {"negative-bias", {{"> light.bias.x", "> -light.bias.x"}}, "LAPTOKMQ"},
+      {"double-bias", {{"> light.bias.x", "> 2.0 * light.bias.x"}}, "PT"},
+      {"huge-bias", {{"> light.bias.x", "> 10.0 * light.bias.x"}}, "PT"},
+      {"flipped-comparison", {{"? 0.0 : 1.0", "? 1.0 : 0.0"}}, "SLAPTOKMQ"},
+      {"flipped-depth", {{"(texel, stored)", "(texel, 1.0 - stored)"}}, "APTKM"},
+      {"stored-as-depth", {{"depth_from_stored(texel, stored)", "stored"}}, "APTKM"},
+      {"one-texel-right", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(1, 0)"}}, "TK"},
+      {"one-texel-up", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(0, 1)"}}, "PTK"},
+      {"rounded-texel", {{"floor(place)", "floor(place + 0.5)"}}, "TK"},
+      {"no-divide", {{"  view /= p.z;\n", ""}}, "KM"},
+      {"no-border",
+       {{"if (any(lessThan(place, vec2(0.0))) || any(" + border, "if (size < 0.0) return 1.0"}},
+       "O"},
+      {"dark-border", {{border, "greaterThanEqual(place, vec2(size)))) return 0.0"}}, "O"},
+      {"wrong-axes",
+       {{"dot(light.right[face].xyz, offset), dot(light.up[face]",
+         "dot(light.up[face].xyz, offset), dot(light.right[face]"}},
+       "ATKM"},
+      {"upside-down", {{"dot(light.up[face].xyz", "-dot(light.up[face].xyz"}}, "ATKM"},
+      {"mirrored", {{"vec2 view = p.xy", "vec2 view = vec2(-p.x, p.y)"}}, "SAPTOKMQ"},
+      {"no-origin", {{"position - light.origin_and_warp[face].xyz", "position"}}, "TOKM"},
+      {"one-view", {{"cube_face(position - light.origin_and_size.xyz)", "0"}}, "M"},
+      {"one-layer", {{"(floor(place)), face)", "(floor(place)), 0)"}}, "M"},
+      {"half-a-map", {{"0.5) * size", "0.5) * 0.5 * size"}}, "LAPTOKMQ"},
+      {"always-lit", {{test_line, "return 1.0"}}, "SAPTOKMQ"},
+      {"always-dark", {{test_line, "return 0.0"}}, "LAPTOKMQ"},
+      {"half-dark", {{"? 0.0 : 1.0", "? 0.3 : 1.0"}}, "T"},
+      {"writes-nan", {{test_line, "return 0.0 / (size - size)"}}, "CSLAPTOKMQ"},
+      {"writes-two", {{"? 0.0 : 1.0", "? 0.0 : 2.0"}}, "CSLAPTOKMQ"},
+      {"does-not-compile", {{"float gap =", "flaot gap ="}}, "CSLAPTOKMQ"},
+      {"no-function", {{"float technique_visibility", "float my_visibility"}}, "CSLAPTOKMQ"},
+      {"slow",
+       {{test_line,
+         "float sum = 0.0;\n  for (int i = 0; i < 2000; ++i) sum += texelFetch(depth_map, texel + ivec3(i % "
+         "2, 0, 0), 0).r;\n"
+         "  if (sum < -1.0) return 0.0;\n  " +
+             test_line}},
+       "Q"},
+  };
+  return all;
+}
+
+class Grade : public ::testing::Test {
+ protected:
+  ProcessResult gnomon(const Words& words) const { return run_gnomon(words, {.folder = folder.path()}); }
+  void hand_in(const std::string& student, const std::string& text,
+               const std::string& file = "technique/hard.glsl") const {
+    const fs::path path = folder / ("class/" + student + "/" + file);
+    fs::create_directories(path.parent_path());
+    write_text(path.string(), text);
+  }
+  /// A rubric of one quick check, and what goes into it.
+  void write_rubric(const std::string& members) const {
+    write_text(folder / "rubric.json", R"({"schema": "gnomon/rubric/1", "title": "One", "technique": "hard",
+      "hand_in": ["technique/hard.glsl"], )" +
+                                           members + "}");
+  }
+  TemporaryFolder folder;
+};
+
+const std::string one_check =
+    R"("checks": [{"name": "draws", "points": 1, "kind": "draws",
+      "runs": [{"scene": "acne-floor", "options": {"size": "64x36", "map-size": "64"}}]}])";
+
+std::string with_edits(std::string text, const Fault& fault) {
+  for (const Edit& edit : fault.edits) {
+    const std::size_t at = text.find(edit.from);
+    EXPECT_NE(at, std::string::npos) << fault.name << ": " << edit.from;
+    if (at != std::string::npos) text.replace(at, edit.from.size(), edit.to);
+  }
+  return text;
+}
+
+std::string lost_by(const json& student) {
+  std::string lost;
+  for (std::size_t i = 0; i < student["checks"].size(); ++i)
+    if (student["checks"][i]["points"] < student["checks"][i]["of"]) lost += letters.at(i);
+  return lost;
+}
+
+TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
+  for (const Fault& fault : faults()) hand_in(fault.name, with_edits(solution(), fault));
+  const ProcessResult graded = gnomon(
+      {"grade", "first-shadow-map", "class", "--json", "-", "--csv", "grades.csv", "-o", "pages", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const json result = json::parse(graded.out);
+  ASSERT_EQ(result["students"].size(), faults().size());
+  std::map<std::string, json> students;
+  for (const json& student : result["students"]) students[student["name"]] = student;
+  for (const Fault& fault : faults())
+    EXPECT_EQ(lost_by(students[fault.name]), fault.lost) << students[fault.name].dump(2);
+  EXPECT_EQ(students["right"]["points"], 20);
+  // The page of a lost point shows it; a page is one file.
+  const std::string page = read_file(folder / "pages/double-bias.html");
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(page.find("--shader-dir class/double-bias"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_NE(read_file(folder / "pages/does-not-compile.html").find("flaot gap"), std::string::npos);
+  EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,15,20,"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "pages/index.html"));
+}
+
+TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
+  write_rubric(R"("limits": {"seconds": 2}, )" + one_check);
+  hand_in(
+      "endless",
+      with_edits(solution(),
+                 {"endless",
+                  {{test_line,
+                    "for (int i = 0; i < 60000; ++i)\n    for (int j = 0; j < 60000; ++j)\n      stored = "
+                    "texelFetch(depth_map, texel + ivec3(int(stored * 3.0) % 2, 0, 0), 0).r;\n  "
+                    "if (stored < -1.0) return 0.5;\n  " +
+                        test_line}},
+                  ""}));
+  hand_in("linked", "", "notes.txt");
+  fs::create_directories(folder / "class/linked/technique");
+  fs::create_symlink("/etc/passwd", folder / "class/linked/technique/hard.glsl");
+  hand_in("other", solution());
+  hand_in("other", "void main() {}\n", "shade.frag");
+  hand_in("outside", "#include \"../../right/technique/hard.glsl\"\n");
+  fs::create_directories(folder / "class/nothing");
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--json", "-", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const std::map<std::string, std::string> reasons = {{"endless", "did not end within 2 s"},
+                                                      {"linked", "technique/hard.glsl is a link"},
+                                                      {"other", "shade.frag is not to be handed in"},
+                                                      {"outside", "no such shader"},
+                                                      {"nothing", "nothing was handed in"}};
+  const json result = json::parse(graded.out);
+  ASSERT_EQ(result["students"].size(), reasons.size());
+  for (const json& student : result["students"]) {
+    EXPECT_EQ(student["points"], 0);
+    const std::string reason = student["checks"][0]["reason"];
+    EXPECT_NE(reason.find(reasons.at(student["name"])), std::string::npos) << student.dump(2);
+  }
+}
+
+TEST_F(Grade, KitsAreWholeAndTheirOwnShadersPass) {
+  for (const std::string kit : {"first-shadow-map", "percentage-closer-filtering"}) {
+    ASSERT_EQ(gnomon({"grade", "--new", kit, kit}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / (kit + "/README.md")));
+  }
+  write_text(folder / "first-shadow-map/student/technique/hard.glsl", "my work\n");
+  expect_one_line(gnomon({"grade", "--new", "first-shadow-map"}), 4, "is there already and differs");
+  const ProcessResult own = gnomon({"grade", "percentage-closer-filtering/rubric.json"});
+  EXPECT_EQ(own.out, "the program's own shader  14 of 14\n") << own.err;
+  // What a student is given compiles, and is not yet an answer.
+  const ProcessResult begun = gnomon({"grade", "percentage-closer-filtering/rubric.json",
+                                      "percentage-closer-filtering/student", "--csv", "-"});
+  EXPECT_NE(begun.out.find("\nstudent,5,14,2,2,0,0,0,1\n"), std::string::npos) << begun.out << begun.err;
+}
+
+TEST_F(Grade, BadRubricsAndFolders) {
+  expect_one_line(gnomon({"grade"}), 2, "a rubric is needed");
+  expect_one_line(gnomon({"grade", "nowhere.json"}), 3, "nowhere.json");
+  expect_one_line(gnomon({"grade", "first-shadow-map", "nobody"}), 2, "no such folder (got nobody)");
+  const auto rejects = [&](const std::string& members, const std::string& part) {
+    write_rubric(members);
+    expect_one_line(gnomon({"grade", "rubric.json"}), 3, part);
+  };
+  rejects(R"("checks": [])", "checks: is empty");
+  rejects(R"("chekcs": [])", "unknown key");
+  const std::string runs = R"("runs": [{"scene": "acne-floor"}])";
+  rejects(R"("checks": [{"name": "a", "points": 0, "kind": "draws", )" + runs + "}]", "checks[0].points");
+  rejects(
+      R"("checks": [{"name": "a", "points": 1, "kind": "at_most", "measure": "wrong", "at_most": "1texel", )" +
+          runs + "}]",
+      "checks[0].at_most: is no limit of this measure");
+  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "pixels": 3, )" + runs + "}]",
+          "applies to checks of the kind equals");
+  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "needs": ["b"], )" + runs + "}]",
+          "checks[0].needs[0]");
+  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "runs": [{"scene": "../secret.json"}]}])",
+          "checks[0].runs[0].scene");
+  rejects(
+      R"("checks": [{"name": "a", "points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"output": "x"}}]}])",
+      "is not for a rubric to set");
+  write_rubric(R"("checks": [{"name": "a", "points": 1, "kind": "draws",
+    "runs": [{"scene": "acne-floor", "options": {"map-size": "none"}}]}])");
+  expect_one_line(gnomon({"grade", "rubric.json"}), 3,
+                  "check \"a\": gnomon compare acne-floor --map-size none");
+  fs::create_directories(folder / "a/anna");
+  fs::create_directories(folder / "b/anna");
+  write_rubric(one_check);
+  expect_one_line(gnomon({"grade", "rubric.json", "a", "b"}), 2, "two students have one name");
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
