@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/options.h"
 #include "app/setting.h"
@@ -29,17 +30,27 @@ std::vector<Values> default_kinds() {
           {{"cull", "front"}}};
 }
 
-std::string family_name(const Values& values, raster::Technique technique) {
+// "slope bias 1", "receiver plane", "front faces culled"
+std::string option_words(std::string option, const std::string& value) {
+  if (option == "cull" && value != "none") return value + " faces culled";
+  std::replace(option.begin(), option.end(), '-', ' ');
+  return value == "on" ? option : option + " " + value;
+}
+
+/// The options that say what kind of bias it is.
+constexpr std::array<const char*, 4> kind_options{"slope-bias", "normal-offset", "receiver-plane", "cull"};
+
+std::string family_name(const Values& values, const Values& fixed, raster::Technique technique) {
   std::string name;
-  bool kind = false;
+  bool kind = std::any_of(kind_options.begin(), kind_options.end(),
+                          [&](const char* option) { return is_named(fixed, option); });
   for (const auto& [option, value] : values) {
     if (option == "bias") continue;  // the tuner finds it
     kind = kind || option != "technique";
-    name +=
-        (name.empty() ? "" : ", ") + (option == "technique" ? value : fmt::format("{} {}", option, value));
+    name += (name.empty() ? "" : ", ") + (option == "technique" ? value : option_words(option, value));
   }
   if (!raster::compares_depths(technique) && !kind) return std::string(raster::technique_name(technique));
-  if (kind) return name;
+  if (kind) return name.empty() ? std::string(raster::technique_name(technique)) : name;
   return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
 
@@ -51,13 +62,15 @@ Expected<OptionFamily> make_family(Values values, const Values& fixed) {
   std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
   const auto parsed = parse_setting(read);
   if (!parsed) return fail(parsed.error());
-  return OptionFamily{{family_name(values, parsed->options.raster.map.technique), parsed->options.raster.map},
-                      std::move(values)};
+  return OptionFamily{
+      {family_name(values, fixed, parsed->options.raster.map.technique), parsed->options.raster.map},
+      std::move(values)};
 }
 
+// What differs in the constant bias alone is one family: the tuner finds that.
 bool has_family(const std::vector<OptionFamily>& families, const OptionFamily& family) {
   return std::any_of(families.begin(), families.end(),
-                     [&](const OptionFamily& other) { return other.values == family.values; });
+                     [&](const OptionFamily& other) { return other.tuned.name == family.tuned.name; });
 }
 
 }  // namespace
@@ -83,7 +96,7 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
     if (axis.name != "map-size") axes.push_back(axis);
   if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
   std::vector<Values> kinds = default_kinds();
-  for (const char* name : {"slope-bias", "normal-offset", "receiver-plane", "cull"})
+  for (const char* name : kind_options)
     if (is_given(fixed, *grid, name)) kinds = {{}};
   const auto product = compare::Grid::make(axes, false);
   if (!product) return fail(product.error());

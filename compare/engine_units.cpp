@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/output_parts.h"
+
 namespace gnomon::compare {
 namespace {
 
@@ -140,7 +142,16 @@ std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_w
   if (sloped)
     for (const char* engine : {"three.js", "Unity (URP)", "Godot", "Bevy", "Babylon.js"})
       out.push_back({engine, "slope", std::nullopt, no_slope});
+  for (EngineUnit& unit : out)
+    if (unit.value && *unit.value == 0.0) unit.value = 0.0;  // no -0
   return out;
+}
+
+std::vector<EngineUnit> engine_units(const Comparison& c, const LightComparison& light) {
+  if (!draws_bias(c)) return {};
+  const raster::LightRecord& record = drawn_record(c, light);
+  return engine_units(c.raster.options.map.bias, record.bias_constant_world, light_of(c, light).type, record,
+                      *c.world);
 }
 
 }  // namespace gnomon::compare

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/comparison.h"
 #include "raster/frame.h"
 #include "scene/scene.h"
 
@@ -20,5 +21,9 @@ struct EngineUnit {
 /// What a record's light and map make of a bias (its slope, its normal offset and `constant_world`).
 std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_world, LightType light,
                                      const raster::LightRecord& record, const World& world);
+
+/// Of the bias that a light of a comparison was drawn with; none where its technique compares no depths, or a
+/// shader of the user's own reads no bias.
+std::vector<EngineUnit> engine_units(const Comparison& comparison, const LightComparison& light);
 
 }  // namespace gnomon::compare

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "compare/engine_units.h"
+#include "compare/engine_units_json.h"
 #include "compare/filter_parameters.h"
 #include "compare/judge/judged.h"
 #include "compare/option_names.h"
@@ -282,20 +282,6 @@ Json bias_kinds_json(const LightComparison& light) {
   return json;
 }
 
-// Of the bias drawn with.
-Json engine_units_json(const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& record = drawn_record(c, light);
-  Json json = Json::array();
-  if (!compares_depths(c.raster.options.map.technique)) return json;
-  for (const EngineUnit& unit : engine_units(c.raster.options.map.bias, record.bias_constant_world,
-                                             c.world->scene->lights[light.light].type, record, *c.world))
-    json.push_back({{"engine", unit.engine},
-                    {"setting", unit.setting},
-                    {"value", unit.value ? number(*unit.value) : Json(nullptr)},
-                    {"formula", unit.formula}});
-  return json;
-}
-
 Json distribution_json(const Distribution& d) {
   return {{"count", d.count},
           {"median", number(d.median)},
@@ -348,7 +334,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"bias_curve", bias_curve_json(light)},
              {"best_bias", best_bias_json(light)},
              {"bias_kinds", bias_kinds_json(light)},
-             {"engine_units", engine_units_json(c, light)},
+             {"engine_units", engine_units_json(engine_units(c, light))},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},
              {"times_ms",

@@ -20,12 +20,13 @@ wrong() {
 }
 
 row() {
-  printf '| %s | %s | %s |\n' "$1" "$(wrong "$2" --bias 1texel)" "$(wrong "$2" --slope-bias 1 --bias auto)"
+  printf '| %s | %s | %s | %s |\n' "$1" "$(wrong "$2" --bias 1texel)" "$(wrong "$2" --slope-bias 1 --bias auto)" \
+    "$(wrong "$2" --adaptive-bias)"
 }
 
-echo '| scene | `--bias 1texel` (the default before), % wrong | the default, % wrong |'
-echo '|---|---|---|'
-for scene in acne-floor courtyard fence field floating-box orchard penumbra shapes sphere-plane stadium studio teapot thin-wall whitted; do
+echo '| scene | `--bias 1texel` (the default before), % wrong | the default, % wrong | `--adaptive-bias`, % wrong |'
+echo '|---|--:|--:|--:|'
+for scene in acne-floor courtyard fence field floating-box orchard penumbra shapes sphere-plane stadium studio teapot thin-wall whitted wires; do
   row $scene $scene
 done
 models() {
@@ -58,5 +59,5 @@ no_index_building/no_indices_3storybuilding.glb
 END
 }
 models | while read -r model; do
-  if [ -f "$data/$model" ]; then row "$(basename "$model")" "$data/$model"; else echo "| $(basename "$model") | not there | not there |"; fi
+  if [ -f "$data/$model" ]; then row "$(basename "$model")" "$data/$model"; else echo "| $(basename "$model") | not there | not there | not there |"; fi
 done

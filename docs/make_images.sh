@@ -23,6 +23,12 @@ pair() {
   oiiotool --nosoftwareattrib "$work/$name/$left.png" "$work/$name/$right.png" --mosaic:pad=8 2x1 -o "$images/lesson-$name.png"
 }
 
+# The two of the first page.
+"$program" compare fence --size 960x540 --runs 1 --quiet -o "$work/fence"
+for picture in raster difference; do
+  oiiotool --nosoftwareattrib "$work/fence/$picture.png" -o "$images/fence-$picture.png"
+done
+
 pair acne raster difference acne-floor --bias 0 --map-size 64
 pair peter-panning raster difference floating-box --bias 0.6
 pair light-leaks raster difference thin-wall --bias 0.02 --normal-offset 8
@@ -35,7 +41,7 @@ pair error-budget raytrace labels courtyard --map-size 512
 
 # One map and four cascades of one scene.
 for technique in hard csm; do
-  "$program" compare courtyard --map-size 512 --slope-bias 1 --bias 0.01 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
+  "$program" compare fence --map-size 256 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"
 done
 oiiotool --nosoftwareattrib "$work/map-hard/difference.png" "$work/map-csm/difference.png" --mosaic:pad=8 2x1 -o "$images/lesson-cascades.png"
 

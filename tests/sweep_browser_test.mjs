@@ -3,7 +3,7 @@
 // Needs what report_probe_browser_test needs. Usage: node sweep_browser_test.mjs GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
 
@@ -163,6 +163,22 @@ async function checkBeside() {
   await checkWithoutScripts(beside, { beside: true });
 }
 
+// A shader of the reader's own is tuned like a technique: what is promised is what its command gives.
+function checkTunedShader() {
+  const mine = join(tuned, "mine");
+  mkdirSync(join(mine, "technique"), { recursive: true });
+  writeFileSync(join(mine, "technique", "hard.glsl"), `float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {
+  return test.gap > 2.0 * light.bias.x ? 0.0 : 1.0;
+}
+`);
+  const run = (words) => JSON.parse(execFileSync(program, [...words, "--size", "160x90", "--runs", "1", "--quiet", "--json", "-"], { encoding: "utf8" }));
+  const answer = run(["tune", "sphere-plane", "--technique", "hard", "--slope-bias", "1", "--max-error", "2%", "--map-size", "64:512:x2", "--shader-dir", mine]);
+  assert.deepEqual(answer.shaders.map(({ replaced }) => replaced), ["technique/hard.glsl"]);
+  assert.ok(answer.custom_shader && answer.feasible && answer.command.includes("--shader-dir"), answer.command);
+  const words = answer.command.split(" ").slice(1).filter((_, i, all) => all[i] !== "--size" && all[i - 1] !== "--size");
+  assert.equal(run(words).lights[0].error.wrong_fraction, answer.error);
+}
+
 async function checkTuned() {
   execFileSync(program, ["tune", "floating-box", "--size", "160x90", "--technique", "hard", "--max-error", "2%", "--map-size", "32:512:x2", "--runs", "1", "--quiet", "-o", tuned]);
   const answer = JSON.parse(readFileSync(join(tuned, "tune.json"), "utf8")), result = JSON.parse(readFileSync(join(tuned, "result.json"), "utf8"));
@@ -170,6 +186,8 @@ async function checkTuned() {
   assert.equal(await page.locator("#tune .command code").first().textContent(), answer.command);
   assert.equal(result.command, answer.command);
   assert.equal(result.lights[0].error.wrong_fraction, answer.error);
+  assert.deepEqual(answer.engine_units.map(({ units }) => units), result.lights.map(({ engine_units }) => engine_units));
+  assert.ok(answer.engine_units[0].units.some(({ engine, value }) => engine === "three.js" && typeof value === "number"));
   const commands = await page.locator(".families tbody code").allTextContents();
   assert.deepEqual(commands, [answer.command, ...answer.others.map((other) => other.command)]);
   const reasons = await page.locator(".families tbody th small").allTextContents();
@@ -204,6 +222,7 @@ try {
   await checkWithoutScripts(swept);
   await checkBeside();
   await checkTuned();
+  checkTunedShader();
   for (const hash of ["", "#sweep?cell=4"]) {
     await checkAccessibility(swept, {}, hash);
     await checkPhone(swept, {}, hash);

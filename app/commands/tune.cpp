@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/interrupt.h"
 #include "app/invocation.h"
@@ -14,13 +13,12 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
-#include "app/shell.h"
 #include "app/sweep/axes.h"
-#include "app/tune_families.h"
+#include "app/tune_answer.h"
 #include "app/values.h"
-#include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "compare/tune/page.h"
+#include "raster/shader_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
@@ -36,7 +34,7 @@ constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 constexpr int usual_runs = 5;
 
 struct TuneCommand {
-  std::string scene, camera, json, folder;
+  std::string scene, camera, json, folder, shader_folder;
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
@@ -79,110 +77,11 @@ Expected<void> check_lists(const TuneCommand& command) {
   return {};
 }
 
-/// The options of an answer, in the order that compare takes them.
-Values answer_values(const TuneCommand& command, const OptionFamily& family,
-                     const compare::Attempt& attempt) {
-  Values values;
-  for (const auto& entry : command.options.fixed())
-    if (entry.first != "map-size") values.push_back(entry);
-  values.insert(values.end(), family.values.begin(), family.values.end());
-  std::erase_if(values,
-                [](const auto& entry) { return entry.first == "bias" || entry.first == "slope-bias"; });
-  const raster::MapOptions& map = family.tuned.map;
-  values.emplace_back("map-size", std::to_string(attempt.size));
-  if (map.bias.slope != 0.0) values.emplace_back("slope-bias", number_text(map.bias.slope));
-  values.emplace_back("bias",
-                      bias_text(compare::with_constant(map, attempt.bias_world, attempt.texel_world)));
-  return values_read(values);
-}
-
-const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
-  return family.answer ? *family.answer : family.closest;
-}
-
-struct Answer {
-  const TuneCommand& command;
-  const std::vector<OptionFamily>& families;
-  const compare::TuneResult& result;
-
-  std::string line(std::size_t family) const {
-    return "gnomon compare " + shell_quoted(command.scene) +
-           (command.camera.empty() ? "" : " --camera " + shell_quoted(command.camera)) +
-           setting_arguments(answer_values(command, families[family], attempt_of(result.families[family])));
-  }
-  /// The other families: of each technique the best first.
-  std::vector<std::size_t> others() const {
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < result.families.size(); ++i)
-      if (i != result.winner) order.push_back(i);
-    const auto rank = [&](std::size_t i) {
-      const compare::FamilyResult& f = result.families[i];
-      const compare::Attempt& a = attempt_of(f);
-      const bool by_time = command.goal.max_error.has_value() == f.answer.has_value();
-      return std::pair(!f.answer.has_value(), by_time ? a.time_ms : a.error);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
-    return order;
-  }
-};
-
-std::string text_answer(const Answer& answer) {
-  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
-  std::string text = answer.line(answer.result.winner) + "\n\n" +
-                     (answer.result.feasible ? "" : "The goal cannot be met. ") +
-                     fmt::format("{}: {}\n", winner.family.name, winner.why);
-  text += fmt::format("{} drawing{} made; the command's own comparison gave the error.\n",
-                      answer.result.renders, answer.result.renders == 1 ? " was" : "s were");
-  const std::vector<std::size_t> others = answer.others();
-  if (!others.empty()) text += "\nThe others:\n";
-  for (const std::size_t i : others)
-    text += fmt::format("  {}: {}\n", answer.result.families[i].family.name, answer.result.families[i].why);
-  return text;
-}
-
-std::string json_answer(const Answer& answer) {
-  using Json = nlohmann::ordered_json;
-  const auto block = [&answer](std::size_t i) {
-    const compare::FamilyResult& family = answer.result.families[i];
-    const compare::Attempt& attempt = attempt_of(family);
-    Json options = Json::object();
-    for (const auto& [name, value] : answer_values(answer.command, answer.families[i], attempt))
-      options[name] = value;
-    return Json{
-        {"command", answer.line(i)},
-        {"technique", options.value("technique", std::string("hard"))},
-        {"options", options},
-        {"error", attempt.error},
-        {"wrong_fraction", attempt.figures.wrong_fraction},
-        {"mean_absolute", attempt.figures.mean_absolute},
-        {"time_ms", attempt.time_ms},
-        {"runs_ms", attempt.times.runs},
-        {"costs",
-         {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
-        {"feasible", family.answer.has_value()},
-        {"why", family.why}};
-  };
-  Json json = block(answer.result.winner);
-  json["feasible"] = answer.result.feasible;
-  const compare::TuneGoal& goal = answer.command.goal;
-  if (goal.max_error)
-    json["goal"] = {{"threshold", compare::threshold_text(*goal.max_error)},
-                    {"measure", compare::measure_name(goal.max_error->measure)},
-                    {"limit", goal.max_error->limit}};
-  else
-    json["goal"] = {{"max_time_ms", *goal.max_time_ms}};
-  json["as_fast"] = answer.result.families[answer.result.winner].as_fast;
-  json["renders"] = answer.result.renders;
-  json["others"] = Json::array();
-  for (const std::size_t i : answer.others()) json["others"].push_back(block(i));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 /// The setting that an answer's command asks for, read as compare reads it.
 Expected<compare::Setting> setting_as_given(const TuneCommand& command, const OptionFamily& family,
                                             const compare::Attempt& attempt, const Scene& scene,
                                             const World& world, const compare::Setting& base) {
-  const auto parsed = parse_setting(answer_values(command, family, attempt));
+  const auto parsed = parse_setting(answer_values(command.options.fixed(), family, attempt));
   if (!parsed) return fail(parsed.error());
   auto setting = resolve_setting(*parsed, scene, world);
   if (!setting) return setting;
@@ -192,7 +91,7 @@ Expected<compare::Setting> setting_as_given(const TuneCommand& command, const Op
 }
 
 /// The comparison at the answer: what the page shows.
-Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const Answer& answer,
+Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const TuneAnswer& answer,
                                                  const compare::Setting& setting) {
   auto compared = engine.compare(setting);
   if (!compared) return compared;
@@ -202,7 +101,7 @@ Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const 
   return compared;
 }
 
-Expected<void> write_page(const TuneCommand& command, const Answer& answer,
+Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer,
                           const compare::Comparison& comparison, Console& console) {
   std::vector<std::string> commands;
   for (std::size_t i = 0; i < answer.families.size(); ++i) commands.push_back(answer.line(i));
@@ -213,20 +112,20 @@ Expected<void> write_page(const TuneCommand& command, const Answer& answer,
       compare::write_outputs(comparison, command.folder, command.report_max_mb, &introduction);
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  if (const auto saved = write_file(command.folder + "/tune.json", json_answer(answer)); !saved) return saved;
+  if (const auto saved = write_file(command.folder + "/tune.json", answer.json()); !saved) return saved;
   console.message(fmt::format("report: {}/report.html", command.folder));
   return {};
 }
 
-Expected<void> hand_out(const TuneCommand& command, const Answer& answer) {
+Expected<void> hand_out(const TuneCommand& command, const TuneAnswer& answer) {
   if (command.json == "-") {
-    print_data(json_answer(answer));
+    print_data(answer.json());
     return {};
   }
-  if (!command.quiet) print_data(text_answer(answer));
+  if (!command.quiet) print_data(answer.text());
   if (command.json.empty()) return {};
   const OutputGuard whole_file;
-  return write_file(command.json, json_answer(answer));
+  return write_file(command.json, answer.json());
 }
 
 /// What is tuned, ready to be drawn.
@@ -247,7 +146,7 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   if (!setting) return fail(setting.error());
   setting->raster.runs = command.runs.value_or(usual_runs);
   setting->raytrace.picture = !command.folder.empty();
-  auto renderer = make_renderer(command.backend, loaded);
+  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());
@@ -276,7 +175,11 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
                       console.progress(fmt::format("{}, {} texels", family.name, size), share);
                     });
   if (!result) return fail(result.error());
-  const Answer answer{command, bench.families, *result};
+  const auto shaders = raster::ShaderFolder::read(command.shader_folder);
+  if (!shaders) return fail(shaders.error());
+  const TuneQuestion question{command.scene,           command.camera, command.shader_folder,
+                              command.options.fixed(), command.goal,   shaders->replaced()};
+  const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
     if (!setting) return fail(setting.error());
@@ -320,6 +223,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "gnomon tune fence --max-error 0.5%\n"
       "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"
       "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
+      "gnomon tune fence --technique hard --shader-dir mine --max-error 2%    with a shader of your own\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
@@ -343,6 +247,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "tune.json [default off]");
   add_report_max_mb(*app, command->report_max_mb);
   add_backend(*app, command->backend);
+  add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(*app, command->runs, std::to_string(usual_runs).c_str());
   add_json(*app, command->json, "the answer");

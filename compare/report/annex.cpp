@@ -122,7 +122,7 @@ std::string whole_table(const PageInput& in) {
   rows += plain_row("building the ray tracer's hierarchy", one_time("accel_build", c.accel_build_ms));
   rows += plain_row("shading the ray-traced picture", one_time("picture", c.raytraced.picture_ms));
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    rows += plain_row("climbing the ladder" +
+    rows += plain_row("finding each pixel's ladder and label" +
                           (c.lights.size() > 1 ? ", " + escaped(shown_light_name(c, i)) : std::string()),
                       c.lights[i].classify.runs.empty()
                           ? "not timed"

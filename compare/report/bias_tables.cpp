@@ -11,8 +11,9 @@ namespace gnomon::compare {
 namespace {
 
 std::string range_text(const BiasKind& kind) {
-  const std::string from = plain_number(kind.from) + (kind.of_slope ? "" : " world units");
-  return std::isfinite(kind.to) ? fmt::format("{} to {}", from, plain_number(kind.to)) : from + " and more";
+  const std::string from = plain_number(kind.from), unit = kind.of_slope ? "" : " world units";
+  return std::isfinite(kind.to) ? fmt::format("{} to {}{}", from, plain_number(kind.to), unit)
+                                : from + unit + " and more";
 }
 
 }  // namespace
@@ -26,8 +27,9 @@ std::string bias_kinds_table(const LightBlock& b) {
 )",
         kind.name, escaped(bias_arguments(kind.bias)), percent(kind.wrong_fraction), range_text(kind));
   return R"(<h3>Which kind of bias</h3>
-<p>Each kind at its smallest setting that is hardly wrong more often than its best, as this map answers without another
-drawing: the slope bias beside the automatic constant, the others with the constant that suits them.</p>
+<p>For each kind of bias the smallest setting that is hardly worse than the best of its kind. The numbers follow from
+this drawing's own map. A slope bias stands beside the automatic constant, every other kind with the constant that suits
+it.</p>
 )" + scroll_region("Kinds of bias of light " + std::to_string(b.index + 1),
                    R"(<table><thead><tr><th scope="col">kind</th><th scope="col">options</th><th scope="col"
 class="n">wrong</th><th scope="col">hardly differs</th></tr></thead><tbody>)" +
@@ -35,18 +37,16 @@ class="n">wrong</th><th scope="col">hardly differs</th></tr></thead><tbody>)" +
 }
 
 std::string engine_units_table(const LightBlock& b) {
-  const Comparison& c = b.in.comparison;
-  const raster::LightRecord& record = drawn_record(c, b.light);
-  if (!compares_depths(c.raster.options.map.technique)) return "";
+  const std::vector<EngineUnit> units = engine_units(b.in.comparison, b.light);
+  if (units.empty()) return "";
   std::string rows;
-  for (const EngineUnit& unit : engine_units(c.raster.options.map.bias, record.bias_constant_world,
-                                             c.world->scene->lights[b.light.light].type, record, *c.world))
+  for (const EngineUnit& unit : units)
     rows += fmt::format(
         R"(<tr><th scope="row">{}</th><td>{}</td><td class="n">{}</td><td>{}</td></tr>
 )",
         unit.engine, unit.setting, unit.value ? plain_number(*unit.value) : std::string("\u2013"),
         escaped(unit.formula));
-  return R"(<details><summary>The bias drawn with, in the units of engines</summary>
+  return R"(<details><summary>This bias in the units of engines</summary>
 <p>For a light whose map has this size, width and depths; docs/engine-units.md explains the symbols.</p>
 )" +
          scroll_region(

@@ -34,10 +34,13 @@ std::string bias_words(const LightBlock& b) {
     return keyed(b.key(fmt::format("best_bias.{}", key)), v, plain_number(v));
   };
   const double texel = b.light.bias_texel_world;
+  const raster::Bias& drawn = b.in.comparison.raster.options.map.bias;
+  const bool more = drawn.slope != 0.0 || drawn.normal_offset_texels != 0.0 || drawn.receiver_plane || drawn.adaptive;
   std::string text = fmt::format(
-      R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one, is
-larger than the bias. Sorting the gaps of one render gives the exact error of every constant bias.
+      R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one{}, is
+larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
 The best is {}{}, which leaves {} wrong.)",
+      more ? " and the other parts of the bias" : "",
       value("constant_world", best.constant_world),
       texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
       keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));

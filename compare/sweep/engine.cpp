@@ -279,7 +279,9 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
     probe.bias_world = frame.lights.front().bias_constant_world;
     probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
   }
-  if (biases_follow_from_gaps(setting.raster.map)) probe_best_bias(measure, probe);
+  probe.custom_shader = frame.custom_shader.has_value();
+  probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
+  if (biases_follow_from_gaps(frame)) probe_best_bias(measure, probe);
   return probe;
 }
 

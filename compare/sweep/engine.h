@@ -46,6 +46,8 @@ struct Probe {
   double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
   std::uint64_t map_texels = 0, map_bytes = 0;
   std::uint64_t rays = 0;  ///< of the hybrid
+  /// A shader of the user's own decided; `reads_bias`: and it has the bias in it, as every technique has.
+  bool custom_shader = false, reads_bias = true;
 };
 
 class Engine {

@@ -4,6 +4,7 @@
 // that its command runs measures its error.
 #include <algorithm>
 
+#include "compare/output_parts.h"
 #include "compare/tune/tuner.h"
 
 namespace gnomon::compare {
@@ -60,7 +61,12 @@ Expected<void> Tuner::verify(TuneResult& result) {
   const auto compared = engine_.compare(*setting);
   if (!compared) return fail(compared.error());
   std::vector<ErrorFigures> lights;
-  for (const LightComparison& light : (*compared)->lights) lights.push_back(figures_of(light));
+  result.engine_units.clear();
+  for (const LightComparison& light : (*compared)->lights) {
+    lights.push_back(figures_of(light));
+    if (auto units = engine_units(**compared, light); !units.empty())
+      result.engine_units.push_back({light_of(**compared, light).name, std::move(units)});
+  }
   set_figures(lights, attempt);
   if (winner.answer && !good(*winner.answer)) {
     winner.closest = *winner.answer;

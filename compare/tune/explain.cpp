@@ -10,8 +10,8 @@ namespace gnomon::compare {
 namespace {
 
 std::string setting_text(const Attempt& a, ErrorMeasure measure) {
-  return fmt::format("{} in {} with {} texels", figure_words(a.figures, measure), milliseconds(a.time_ms),
-                     a.size);
+  return fmt::format("{} in {} with {} texels{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
+                     a.size, a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {

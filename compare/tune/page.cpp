@@ -21,12 +21,16 @@ std::string goal_text(const TuneGoal& goal) {
                         : "at most " + milliseconds(*goal.max_time_ms) + " for map and shading";
 }
 
+bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
+  return compares_depths(family.map.technique) && attempt.reads_bias;
+}
+
 std::string verdict(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = attempt_of(winner);
   const std::string answer = fmt::format(
       "{}, {} \u00d7 {} texels{}. Compared as below it gives {}, in {}.", winner.family.name, a.size, a.size,
-      compares_depths(winner.family.map.technique) ? ", bias " + plain_number(a.bias_world) : std::string(),
+      reads_bias(winner.family, a) ? ", bias " + plain_number(a.bias_world) : std::string(),
       figure_words(a.figures, in.goal.measure()), milliseconds(a.time_ms));
   const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
   if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
@@ -74,7 +78,7 @@ class="n">{}</td>{}<td class="n">{}</td><td class="run"><code>{}</code></td></tr
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
-      a.size, compares_depths(family.family.map.technique) ? plain_number(a.bias_world) : "\u2013",
+      a.size, reads_bias(family.family, a) ? plain_number(a.bias_world) : "\u2013",
       figure_cells(in.goal.measure(), a.figures), milliseconds(a.time_ms), escaped(in.commands[i]));
 }
 

@@ -69,6 +69,8 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   attempt.map_texels = probe->map_texels;
   attempt.map_bytes = probe->map_bytes;
   attempt.rays = probe->rays;
+  attempt.custom_shader = probe->custom_shader;
+  attempt.reads_bias = probe->reads_bias;
   if (gaps == nullptr || !probe->best) return attempt;
   *gaps = std::move(probe->gaps);
   attempt.best = *probe->best;
@@ -86,11 +88,12 @@ void Tuner::set_figures(const std::vector<ErrorFigures>& lights, Attempt& attemp
   }
 }
 
-// One drawing tells the error of every constant bias.
+// One drawing tells the error of every constant bias, but where a shader of the user's own decides.
 Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
   GapLists gaps;
   auto attempt = draw(family, size, family.map.bias, &gaps);
   if (!attempt) return attempt;
+  if (attempt->custom_shader) return attempt_by_trial(family, size);
   const double drawn_with = attempt->bias_world;
   attempt->bias_world = attempt->best.constant_world;
   attempt->curve = draw_bias_curve(gaps, attempt->texel_world, drawn_with, attempt->bias_world, curve_points);
@@ -133,6 +136,7 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
     if (best) attempt->time_ms = best->time_ms;
     if (!best || attempt->error < best->error) best = std::move(*attempt), best_trial_ = i;
     tried_before_ = true;
+    if (!best->reads_bias) break;
     if (!options_.goal.max_error) continue;
     if (good(*best) || hopeless(*best) || (known && best->error > clearly * options_.goal.max_error->limit))
       break;

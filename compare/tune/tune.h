@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/engine_units.h"
 #include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
@@ -66,6 +67,8 @@ struct Attempt {
   std::uint64_t compared = 0;  ///< pixels, all lights
   std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
   double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
+  /// As in Probe: a shader of the user's own decided, and whether it reads the bias.
+  bool custom_shader = false, reads_bias = true;
 };
 
 /// Why larger maps were not tried.
@@ -96,6 +99,12 @@ struct TuneResult {
   std::size_t winner = 0;  ///< index in families; the one that comes nearest when nothing is feasible
   std::vector<FamilyResult> families;
   std::uint64_t renders = 0;
+  /// The winner's bias as engines ask for it, of each light compared (engine_units.h).
+  struct LightUnits {
+    std::string light;  ///< its name; may be empty
+    std::vector<EngineUnit> units;
+  };
+  std::vector<LightUnits> engine_units;
 };
 
 /// Called before each drawing with the family and the size.

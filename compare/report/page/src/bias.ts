@@ -4,6 +4,7 @@ import { page, type Light } from "./data";
 import { backdropOf, recolour } from "./pictures";
 import { GapHistogram } from "./histogram";
 import { counted, grouped, html, number, percent, svg } from "./svg";
+import { otherParts } from "./words";
 
 interface Chart {
   drawing: SVGSVGElement;
@@ -27,9 +28,11 @@ export class BiasPanel {
   private readonly backdrop: Uint32Array;
   private readonly compared: number;
   private readonly histogram: GapHistogram;
+  private readonly kind: string;  // what is dragged
 
   private constructor(private readonly light: Light, chart: SVGSVGElement, host: Element, best: number,
                       private readonly chosen: (bias: number) => void, pin: (x: number, y: number) => void) {
+    this.kind = otherParts(light.json.bias) === "" ? "bias" : "constant bias";
     const number_ = (key: string) => Number(chart.dataset[key]);
     const line = svg("line", { class: "chosen", y1: number_("top"), y2: number_("bottom") });
     chart.append(line);
@@ -46,7 +49,7 @@ export class BiasPanel {
       return b;
     };
     this.bar = html("div", { class: "bias-bar" },
-      html("label", {}, "Bias ", this.range), html("label", {}, "world units ", this.exact),
+      html("label", {}, `${this.kind[0]!.toUpperCase()}${this.kind.slice(1)} `, this.range), html("label", {}, "world units ", this.exact),
       button("as rendered", light.json.bias.constant), button("best", best));
     host.append(html("div", { class: "bias-live" }, this.bar, this.said,
       html("figure", {}, this.picture, html("figcaption", {},
@@ -81,7 +84,7 @@ export class BiasPanel {
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
-    this.said.textContent = `At a bias of ${number(bias)} (${number(texels, 2)} texel${number(texels, 2) === "1" ? "" : "s"}) ${percent(wrong / Math.max(1, this.compared))} ` +
+    this.said.textContent = `At a ${this.kind} of ${number(bias)} (${number(texels, 2)} texel${number(texels, 2) === "1" ? "" : "s"}) ${percent(wrong / Math.max(1, this.compared))} ` +
       `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
   }

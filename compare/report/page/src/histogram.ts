@@ -1,7 +1,7 @@
 // How the gaps are spread: of the truly lit pixels upwards, of the truly shadowed ones downwards. A bias is right for
 // the lit pixels on its left and for the shadowed ones on its right; where the two overlap no bias can be right.
 import type { Light } from "./data";
-import { grouped, html, niceTicks, number, svg } from "./svg";
+import { counted, grouped, html, niceTicks, number, svg } from "./svg";
 
 const width = 760, height = 260, left = 58, right = 14, top = 26, bottom = 40, bins = 120;
 
@@ -47,9 +47,9 @@ export class GapHistogram {
     drawing.append(svg("text", { class: "middle", x: (left + width - right) / 2, y: height - 4 }, "gap, world units"),
       svg("text", { class: "end", x: left - 8, y: middle - half / 2 }, "lit"), svg("text", { class: "end", x: left - 8, y: middle + half / 2 }, "shadow"), this.line);
     this.figure = html("figure", {}, html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": `Histogram of the gaps, ${light.json.name}` }, drawing as unknown as Node),
-      html("figcaption", {}, `Gaps of the truly lit pixels above, of the truly shadowed ones below, on a logarithmic scale up to ${grouped(most)} pixels. ` +
+      html("figcaption", {}, `Gaps of the truly lit pixels above, of the truly shadowed ones below, on a logarithmic scale up to ${counted(most, "pixel")}. ` +
         `The line is the bias: lit pixels to its right are drawn dark, shadowed ones to its left are drawn lit. ` +
-        `Not shown: ${grouped(counts.beyond)} pixels farther right, ${grouped(counts.before)} farther left or with nothing stored.`));
+        `Not shown: ${counted(counts.beyond, "pixel")} farther right, ${grouped(counts.before)} farther left or with nothing stored.`));
   }
 
   private x(gap: number): number {

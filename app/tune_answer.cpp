@@ -1,0 +1,172 @@
+#include "app/tune_answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "app/setting.h"
+#include "app/shell.h"
+#include "app/values.h"
+#include "compare/engine_units_json.h"
+#include "compare/number_text.h"
+#include "compare/option_names.h"
+#include "compare/text_layout.h"
+#include "scene/one_line.h"
+
+namespace gnomon::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t columns = 80;  // of a terminal
+
+// The lines of a paragraph, the later ones indented.
+std::string paragraph(std::string_view text, std::size_t indent) {
+  std::string out;
+  for (const std::string& line : compare::wrapped(text, columns - 2 * indent))
+    out += std::string(out.empty() ? indent : 2 * indent, ' ') + line + "\n";
+  return out;
+}
+
+// Engine, setting and value in columns; the formula as far as there is room, and on.
+std::string unit_lines(const compare::EngineUnit& unit) {
+  constexpr std::size_t before = 51;  // columns up to the formula
+  std::string out, start = fmt::format("  {:<15} {:<20} {:<11} ", unit.engine, unit.setting,
+                                       compare::plain_number(*unit.value));
+  for (const std::string& line : compare::wrapped(unit.formula, columns - before)) {
+    out += start + line + "\n";
+    start = std::string(before, ' ');
+  }
+  return out;
+}
+
+// Where an engine has no number for this light, docs/engine-units.md and the JSON say why.
+std::string units_text(const compare::TuneResult& result) {
+  std::string out;
+  for (const auto& [light, units] : result.engine_units) {
+    out += "\nThe bias in the units of engines" +
+           (result.engine_units.size() > 1 ? fmt::format(", light '{}'", one_line(light)) : std::string()) +
+           ", for a map of this size, width and depth:\n";
+    for (const compare::EngineUnit& unit : units)
+      if (unit.value) out += unit_lines(unit);
+  }
+  return out.empty() ? out
+                     : out + "docs/engine-units.md explains the symbols, and what engines have no number.\n";
+}
+
+Json units_json(const compare::TuneResult& result) {
+  Json list = Json::array();
+  for (const auto& [light, units] : result.engine_units)
+    list.push_back({{"light", light}, {"units", compare::engine_units_json(units)}});
+  return list;
+}
+
+Json shaders_json(const std::vector<raster::ReplacedShader>& shaders) {
+  Json list = Json::array();
+  for (const raster::ReplacedShader& shader : shaders)
+    list.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
+  return list;
+}
+
+Json goal_json(const compare::TuneGoal& goal) {
+  if (!goal.max_error) return {{"max_time_ms", *goal.max_time_ms}};
+  return {{"threshold", compare::threshold_text(*goal.max_error)},
+          {"measure", compare::measure_name(goal.max_error->measure)},
+          {"limit", goal.max_error->limit}};
+}
+
+Json family_json(const TuneAnswer& answer, std::size_t i) {
+  const compare::FamilyResult& family = answer.result.families[i];
+  const compare::Attempt& attempt = attempt_of(family);
+  Json options = Json::object();
+  for (const auto& [name, value] : answer_values(answer.question.fixed, answer.families[i], attempt))
+    options[name] = value;
+  return {{"command", answer.line(i)},
+          {"technique", options.value("technique", std::string("hard"))},
+          {"options", options},
+          {"error", attempt.error},
+          {"wrong_fraction", attempt.figures.wrong_fraction},
+          {"mean_absolute", attempt.figures.mean_absolute},
+          {"time_ms", attempt.time_ms},
+          {"runs_ms", attempt.times.runs},
+          {"costs",
+           {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
+          {"custom_shader", attempt.custom_shader},
+          {"feasible", family.answer.has_value()},
+          {"why", family.why}};
+}
+
+}  // namespace
+
+OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family,
+                           const compare::Attempt& attempt) {
+  OptionValues values;
+  for (const auto& entry : fixed)
+    if (entry.first != "map-size") values.push_back(entry);
+  values.insert(values.end(), family.values.begin(), family.values.end());
+  std::erase_if(values,
+                [](const auto& entry) { return entry.first == "bias" || entry.first == "slope-bias"; });
+  const raster::MapOptions& map = family.tuned.map;
+  values.emplace_back("map-size", std::to_string(attempt.size));
+  if (!attempt.reads_bias) return values_read(values);
+  if (map.bias.slope != 0.0) values.emplace_back("slope-bias", number_text(map.bias.slope));
+  values.emplace_back("bias",
+                      bias_text(compare::with_constant(map, attempt.bias_world, attempt.texel_world)));
+  return values_read(values);
+}
+
+std::string TuneAnswer::line(std::size_t family) const {
+  const auto option = [](const char* name, const std::string& value) {
+    return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
+  };
+  return "gnomon compare " + shell_quoted(question.scene) + option("--camera", question.camera) +
+         setting_arguments(
+             answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
+         option("--shader-dir", question.shader_folder);
+}
+
+std::vector<std::size_t> TuneAnswer::others() const {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < result.families.size(); ++i)
+    if (i != result.winner) order.push_back(i);
+  const auto rank = [&](std::size_t i) {
+    const compare::FamilyResult& f = result.families[i];
+    const compare::Attempt& a = attempt_of(f);
+    const bool by_time = question.goal.max_error.has_value() == f.answer.has_value();
+    return std::pair(!f.answer.has_value(), by_time ? a.time_ms : a.error);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
+  return order;
+}
+
+std::string TuneAnswer::text() const {
+  const compare::FamilyResult& winner = result.families[result.winner];
+  std::string text = line(result.winner) + "\n\n";
+  if (!result.feasible) text += "The goal cannot be met.\n";
+  text += paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
+  text += fmt::format("{} drawing{} made; the command's own comparison gave the error.\n", result.renders,
+                      result.renders == 1 ? " was" : "s were");
+  text += units_text(result);
+  const std::vector<std::size_t> order = others();
+  if (!order.empty()) text += "\nThe others:\n";
+  for (const std::size_t i : order)
+    text += paragraph(fmt::format("{}: {}.", result.families[i].family.name, result.families[i].why), 2);
+  return text;
+}
+
+std::string TuneAnswer::json() const {
+  Json json = family_json(*this, result.winner);
+  json["feasible"] = result.feasible;
+  json["goal"] = goal_json(question.goal);
+  json["as_fast"] = result.families[result.winner].as_fast;
+  json["renders"] = result.renders;
+  json["engine_units"] = units_json(result);
+  json["shaders"] = shaders_json(question.shaders);
+  json["others"] = Json::array();
+  for (const std::size_t i : others()) json["others"].push_back(family_json(*this, i));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,45 @@
+// The tuner's answer for people and for programs: the command, why it won, why the others lost, and its bias in the units
+// of engines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/tune_families.h"
+#include "compare/tune/tune.h"
+#include "raster/frame.h"
+
+namespace gnomon::app {
+
+/// What an answer's command repeats of the question.
+struct TuneQuestion {
+  std::string scene, camera, shader_folder;
+  OptionValues fixed;  ///< options with one value
+  compare::TuneGoal goal;
+  std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
+};
+
+/// Of a family what meets the goal, or what comes nearest to it.
+inline const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+
+/// The options of an answer, in the order that compare takes them.
+OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family,
+                           const compare::Attempt& attempt);
+
+struct TuneAnswer {
+  const TuneQuestion& question;
+  const std::vector<OptionFamily>& families;
+  const compare::TuneResult& result;
+
+  /// gnomon compare SCENE … at a family's answer.
+  std::string line(std::size_t family) const;
+  /// The other families: of each technique the best first.
+  std::vector<std::size_t> others() const;
+  /// At most 80 columns, but for commands.
+  std::string text() const;
+  std::string json() const;
+};
+
+}  // namespace gnomon::app
