@@ -20,8 +20,8 @@ using M = hn::Mask<F>;
 constexpr F f;
 constexpr I index;
 constexpr hn::RebindToUnsigned<F> ids;
-using raytrace::CompactTile;
 using raytrace::packet_rays;
+using raytrace::QuantisedTile;
 using raytrace::HWY_NAMESPACE::bits_of;
 using raytrace::HWY_NAMESPACE::mask_of;
 
@@ -41,7 +41,7 @@ struct Local {
       : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
   V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
 };
-/// Of the coefficient, the position (1.13, raytrace/packets/compact.h) and three operations: 2^-24 each.
+/// Of the coefficient, the position (1.13, raytrace/packets/quantised_tile.h) and three operations: 2^-24 each.
 constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
@@ -49,7 +49,7 @@ constexpr double rounding = 6.0 * 0x1p-24;
 /// quotient U / w; less its value c at the origin it is (U - c w) / w, small over small again.
 class Classifier {
  public:
-  Classifier(const LightSheets& sheets, const Light& light, const CompactTile& tile)
+  Classifier(const LightSheets& sheets, const Light& light, const QuantisedTile& tile)
       : sheets_(sheets),
         grid_(sheets.grid()),
         tile_(tile),
@@ -80,7 +80,7 @@ class Classifier {
     usable_ = usable_ && lateral < texel_slack;
     // 1 / w - 1 / w0 = -(w - w0) / (w w0)
     nearness_scale_ = perspective_ ? 1.0 / (least_depth_ * origin_.w) : 1.0;
-    doubt_ = 4.0 * rounding * w_.size * nearness_scale_ + 0x1p-22 * std::abs(origin_.nearness);
+    doubt_ = 4.0 * rounding * w_.size * nearness_scale_ + 0x1p-22 * std::abs(origin_.reciprocal_depth);
   }
 
   // In passes over the tile, so that what one pass finds comes from memory before the next one reads it.
@@ -115,7 +115,7 @@ class Classifier {
   }
 
  private:
-  static int face_of(const SheetGrid& grid, const CompactTile& tile) {
+  static int face_of(const SheetGrid& grid, const QuantisedTile& tile) {
     return grid.perspective && grid.view.face_count == 6 ? cube_face(tile.origin - grid.view.origin) : 0;
   }
   const GridFace& face() const { return grid_.faces[static_cast<std::size_t>(face_)]; }
@@ -149,7 +149,7 @@ class Classifier {
       const V depth = hn::Add(deeper, all(origin_.w)), inverse = hn::Div(all(1.0), depth);
       asked &= bits_of(hn::Gt(depth, all(least_depth_ * (1.0 + 0x1p-20))));
       u = hn::Mul(u, inverse), v = hn::Mul(v, inverse);
-      deeper = hn::Mul(deeper, hn::Mul(inverse, all(origin_.nearness)));
+      deeper = hn::Mul(deeper, hn::Mul(inverse, all(origin_.reciprocal_depth)));
     }
     // From the corner of the origin's texel.
     u = hn::Add(u, all(base_u_ - texel_u_)), v = hn::Add(v, all(base_v_ - texel_v_));
@@ -180,7 +180,7 @@ class Classifier {
   /// Whole texels beside the map, on the plane that is alone there (LightSheets::lone_plane).
   void look_beside(unsigned asked, V x, V y) {
     const M far = hn::Or(hn::Lt(hn::Min(x, y), all(-1.0)), hn::Gt(hn::Max(x, y), all(grid_.view.size)));
-    const auto own = hn::Load(ids, tile_.own + lane_);
+    const auto own = hn::Load(ids, tile_.source + lane_);
     const M on_plane = hn::RebindMask(f, hn::Eq(own, hn::Set(ids, sheets_.lone_plane())));
     add(out_->lit, asked & bits_of(hn::And(far, on_plane)));
   }
@@ -209,7 +209,7 @@ class Classifier {
 
   /// Where receivers lie in what their bounds are of, from its middle, and how much nearer than the origin.
   struct Places {
-    V u, v, nearness;
+    V u, v, reciprocal_depth;
   };
   struct Told {
     unsigned lit, dark;
@@ -227,7 +227,7 @@ class Classifier {
     const V by_u = hn::Mul(slope(first), at.u), by_v = hn::Mul(slope(second), at.v);
     // The products' rounding, beside what widens the bounds (texel_slack times the slopes).
     const V doubt = hn::MulAdd(hn::Add(hn::Abs(by_u), hn::Abs(by_v)), all(0x1p-21), all(doubt_));
-    const V value = hn::Add(hn::Sub(at.nearness, hn::Add(by_u, by_v)), all(origin_.nearness));
+    const V value = hn::Add(hn::Sub(at.reciprocal_depth, hn::Add(by_u, by_v)), all(origin_.reciprocal_depth));
     return {bits_of(hn::Gt(hn::Sub(value, doubt), bound(first))),
             bits_of(hn::Lt(hn::Add(value, doubt), bound(second)))};
   }
@@ -300,13 +300,13 @@ class Classifier {
 
   const LightSheets& sheets_;
   const SheetGrid& grid_;
-  const CompactTile& tile_;
+  const QuantisedTile& tile_;
   bool directional_, usable_ = false;
   Vec3 light_direction_, from_light_;
   bool perspective_;
   int face_;
   const PackedBounds* const* tile_texels_;  // of the face
-  GridPoint origin_;
+  ProjectedPoint origin_;
   double base_u_, base_v_, texel_u_, texel_v_;
   Local u_, v_, w_;
   double least_depth_, nearness_scale_, doubt_;
@@ -322,7 +322,7 @@ class Classifier {
   alignas(64) std::int32_t texel_[raytrace::tile_rays], sheet_[raytrace::tile_rays];  // in its tile; the tile
 };
 
-void classify_kernel(const LightSheets& sheets, const Light& light, const CompactTile& tile,
+void classify_kernel(const LightSheets& sheets, const Light& light, const QuantisedTile& tile,
                      TileClasses& out) {
   Classifier(sheets, light, tile).run(out);
 }
@@ -335,7 +335,7 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::hybrid {
 HWY_EXPORT(classify_kernel);
 
-void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::CompactTile& tile,
+void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::QuantisedTile& tile,
                    TileClasses& out) {
   HWY_DYNAMIC_DISPATCH(classify_kernel)(sheets, light, tile, out);
 }

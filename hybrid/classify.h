@@ -4,7 +4,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
-#include "raytrace/packets/compact.h"
+#include "raytrace/packets/quantised_tile.h"
 
 namespace gnomon::hybrid {
 
@@ -19,7 +19,7 @@ struct TileClasses {
 };
 
 /// No spot lights: a cone is not looked at.
-void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::CompactTile& tile,
+void classify_tile(const LightSheets& sheets, const Light& light, const raytrace::QuantisedTile& tile,
                    TileClasses& out);
 
 }  // namespace gnomon::hybrid

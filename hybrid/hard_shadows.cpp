@@ -11,8 +11,8 @@
 namespace gnomon::hybrid {
 namespace {
 
-using raytrace::CompactTile;
 using raytrace::packet_rays;
+using raytrace::QuantisedTile;
 using raytrace::SurfacePoint;
 using raytrace::tile_packets;
 using raytrace::TileRect;
@@ -24,7 +24,7 @@ void for_each_lane(const TileRect& rect, const LaneMask& bits, const Lane& each)
   for (std::size_t p = 0; p < tile_packets; ++p)
     for (unsigned left = bits[p]; left != 0; left &= left - 1) {
       const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
-      const raytrace::TilePlace at = raytrace::tile_place(lane);
+      const raytrace::TilePixel at = raytrace::tile_pixel(lane);
       each(rect.x0 + at.x, rect.y0 + at.y, lane);
     }
 }
@@ -37,19 +37,19 @@ void put(LaneMask& bits, std::size_t lane) {
 class Tile {
  public:
   Tile(const LightCache& cache, const Receivers& receivers, std::size_t index, const TileRect& rect)
-      : cache_(cache), receivers_(receivers), compact_(receivers.tiles[index]), rect_(rect) {}
+      : cache_(cache), receivers_(receivers), quantised_(receivers.tiles[index]), rect_(rect) {}
 
   ShadowCounts classify(Image<Verdict>& verdicts, Image<Decision>* decisions) {
-    prefetch(&compact_ + 1);
-    if (!compact_.any) {
+    prefetch(&quantised_ + 1);
+    if (!quantised_.any) {
       fill(verdicts, Verdict::lit);
       if (decisions != nullptr) fill(*decisions, Decision::not_asked);
       return {};
     }
     if (cache_.light.type == LightType::spot)
-      all_.open = compact_.present;
+      all_.open = quantised_.present;
     else
-      classify_tile(cache_.sheets, cache_.light, compact_, all_);
+      classify_tile(cache_.sheets, cache_.light, quantised_, all_);
     for_each_lane(rect_, all_.open, [&](int x, int y, std::size_t lane) {
       put(bits_of(decide(receivers_.points.at(x, y))), lane);
     });
@@ -62,9 +62,9 @@ class Tile {
 
  private:
   /// The next tile comes from memory while this one is classified. Beyond the last one nothing is read.
-  static void prefetch(const CompactTile* next) {
+  static void prefetch(const QuantisedTile* next) {
     const char* bytes = reinterpret_cast<const char*>(next);
-    for (std::size_t i = 0; i < sizeof(CompactTile); i += 64) __builtin_prefetch(bytes + i);
+    for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
   }
 
   Decision decide(const SurfacePoint& point) const {
@@ -127,7 +127,7 @@ class Tile {
 
   const LightCache& cache_;
   const Receivers& receivers_;
-  const CompactTile& compact_;
+  const QuantisedTile& quantised_;
   TileRect rect_;
   TileClasses all_{};
 };
@@ -174,10 +174,9 @@ double share_of_rays(const ShadowCounts& counts) {
 /// For packets of rays from the receivers of these tiles; null where packets do not apply.
 const raytrace::Sight* find_sight(const raytrace::Tracer& tracer, LightCache& cache,
                                   const Receivers& receivers, std::span<const std::uint8_t> wanted) {
-  const raytrace::Structures& s = tracer.structures();
-  if (!packets_apply(s)) return nullptr;
-  if (!cache.sight || !covers(*cache.sight, receivers.compact(), wanted))
-    cache.sight = sight_of_light(s, cache.light, receivers.compact(), wanted);
+  if (!packets_apply(tracer)) return nullptr;
+  if (!cache.sight || !covers(*cache.sight, receivers.quantised(), wanted))
+    cache.sight = sight_of_light(tracer, cache.light, receivers.quantised(), wanted);
   return &*cache.sight;
 }
 
@@ -201,7 +200,7 @@ class Pass {
     if (!cache_.sheets.is_built() && pays) cache_.sheets.build();
     ++cache_.frames;
     if (!cache_.sheets.is_built() && cache_.sheets.lone_plane() == no_id && decisions_ == nullptr &&
-        packets_apply(tracer_.structures()))
+        packets_apply(tracer_))
       return trace_all();
     ShadowCounts counts = classify();
     if (cache_.sheets.is_built()) refine(counts);
@@ -279,7 +278,7 @@ std::uint64_t LightCache::frames_to_pay(std::uint64_t pixels) const {
 
 std::uint64_t LightCache::bytes() const {
   std::uint64_t bytes = sheets.stats().bytes;
-  if (sight) bytes += sight->seen.primitives.bytes() + sight->cells.bytes();
+  if (sight) bytes += sight->setup.primitives.bytes() + sight->bins.bytes();
   return bytes;
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint64_t parts_per_tile = std::uint64_t{tile_texels} * tile_texels * parts_per_texel;
 
-std::vector<GridPoint> project(const World& world, const SheetGrid& grid, int face) {
+std::vector<ProjectedPoint> project(const World& world, const SheetGrid& grid, int face) {
   constexpr std::size_t grain = 4096;  // vertices per task
-  std::vector<GridPoint> points(world.positions.size());
+  std::vector<ProjectedPoint> points(world.positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       points[i] = grid.point(face, world.positions[i]);
@@ -44,7 +44,7 @@ void LightSheets::build() {
 }
 
 void LightSheets::build_face(int face) {
-  std::vector<GridPoint> points = project(world_, grid_, face);
+  std::vector<ProjectedPoint> points = project(world_, grid_, face);
   TileBins bins(world_, grid_, points);
   faces_.push_back({std::move(points), std::move(bins)});
   const Face& made = faces_.back();
@@ -60,7 +60,8 @@ void LightSheets::build_face(int face) {
 
 void LightSheets::count_tiles() {
   stats_.bytes = tiles_.size() * sizeof(SheetTile) + facing_.size() * sizeof(TriangleFacing);
-  for (const Face& face : faces_) stats_.bytes += face.points.size() * sizeof(GridPoint) + face.bins.bytes();
+  for (const Face& face : faces_)
+    stats_.bytes += face.points.size() * sizeof(ProjectedPoint) + face.bins.bytes();
   stats_.detailed_tiles = 0;
   texels_.clear();
   for (const SheetTile& tile : tiles_) {
@@ -115,7 +116,7 @@ std::uint32_t LightSheets::find_lone_plane() const {
   std::uint32_t plane = no_id;
   // Around p, so many world units along u and v.
   const auto on_map = [&](const Vec3& p, double along_u, double along_v) {
-    const GridPoint at = grid_.point(0, p);
+    const ProjectedPoint at = grid_.point(0, p);
     const double u = along_u * glm::length(grid_.faces[0].u) - texel_slack;
     const double v = along_v * glm::length(grid_.faces[0].v) - texel_slack;
     return at.u >= u && at.v >= v && at.u <= grid_.view.size - u && at.v <= grid_.view.size - v;

@@ -70,12 +70,12 @@ class LightSheets {
  private:
   /// What all tiles of a face are built from.
   struct Face {
-    std::vector<GridPoint> points;
+    std::vector<ProjectedPoint> points;
     TileBins bins;
   };
   struct Place {  // of a receiver, in texels of its face
     int face;
-    double u, v, nearness;
+    double u, v, reciprocal_depth;
   };
   std::optional<Place> place_of(const Vec3& position) const;
   void build_face(int face);
@@ -98,9 +98,9 @@ inline std::optional<LightSheets::Place> LightSheets::place_of(const Vec3& posit
   if (!(raytrace::max_component(glm::abs(position)) < grid_.bounds.reach)) return std::nullopt;
   const int face =
       grid_.perspective && grid_.view.face_count == 6 ? cube_face(position - grid_.view.origin) : 0;
-  const GridPoint p = grid_.point(face, position);
+  const ProjectedPoint p = grid_.point(face, position);
   if (grid_.perspective && !(p.w > grid_.near_limit)) return std::nullopt;
-  return Place{face, p.u / p.w, p.v / p.w, p.nearness};
+  return Place{face, p.u / p.w, p.v / p.w, p.reciprocal_depth};
 }
 
 inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) const {
@@ -114,7 +114,8 @@ inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) 
   }
   if (!is_built()) return Certainty::unsure;
   const int x = static_cast<int>(u) / tile_texels, y = static_cast<int>(v) / tile_texels;
-  return tiles_[grid_.tile_index(at->face, x, y)].at(u - x * tile_texels, v - y * tile_texels, at->nearness);
+  return tiles_[grid_.tile_index(at->face, x, y)].at(u - x * tile_texels, v - y * tile_texels,
+                                                     at->reciprocal_depth);
 }
 
 }  // namespace gnomon::hybrid

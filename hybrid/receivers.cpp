@@ -9,20 +9,16 @@ namespace gnomon::hybrid {
 
 using raytrace::SurfacePoint;
 
-ReceiverFinder::ReceiverFinder(const raytrace::Tracer& tracer) : tracer_(tracer) {
-  const raytrace::Structures& s = tracer.structures();
-  leaf_of_.assign(tracer.world().primitive_count(), raytrace::nothing_hit);
-  for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) leaf_of_[s.bvh.ids[i]] = i;
-  for (std::uint32_t i = 0; i < s.planes.size(); ++i) leaf_of_[s.planes[i]] = raytrace::first_plane + i;
-}
+ReceiverFinder::ReceiverFinder(const raytrace::Tracer& tracer)
+    : tracer_(tracer), leaf_of_(raytrace::hit_places(tracer)) {}
 
 Receivers make_receivers(Image<SurfacePoint> points) {
   Receivers made{std::move(points), {}};
   const raytrace::TileGrid grid{made.points.size};
-  made.tiles = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
+  made.tiles = raytrace::HugeArray<raytrace::QuantisedTile>(grid.count());
   for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    raytrace::CompactTile& tile = made.tiles[i];
-    raytrace::CompactDraft draft;
+    raytrace::QuantisedTile& tile = made.tiles[i];
+    raytrace::TileDraft draft;
     tile.clear();
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x)
@@ -37,7 +33,7 @@ ReceiverCounts ReceiverFinder::find(const View& view, const Image<std::uint32_t>
   const raytrace::TileGrid grid{primitive.size};
   if (!(receivers.points.size == primitive.size)) {
     receivers.points = Image<SurfacePoint>(primitive.size);
-    receivers.tiles = raytrace::HugeArray<raytrace::CompactTile>(grid.count());
+    receivers.tiles = raytrace::HugeArray<raytrace::QuantisedTile>(grid.count());
   }
   std::vector<std::uint64_t> traced(grid.count());
   for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {

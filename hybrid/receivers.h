@@ -6,7 +6,7 @@
 #pragma once
 
 #include "raytrace/huge_array.h"
-#include "raytrace/packets/compact.h"
+#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 #include "scene/image.h"
@@ -14,9 +14,9 @@
 namespace gnomon::hybrid {
 
 struct Receivers {
-  Image<raytrace::SurfacePoint> points;              ///< primitive is no_id where nothing is seen
-  raytrace::HugeArray<raytrace::CompactTile> tiles;  ///< the same, tile by tile of raytrace::TileGrid
-  std::span<const raytrace::CompactTile> compact() const { return {tiles.data(), tiles.size()}; }
+  Image<raytrace::SurfacePoint> points;                ///< primitive is no_id where nothing is seen
+  raytrace::HugeArray<raytrace::QuantisedTile> tiles;  ///< the same, tile by tile of raytrace::TileGrid
+  std::span<const raytrace::QuantisedTile> quantised() const { return {tiles.data(), tiles.size()}; }
 };
 
 /// Of points that come from elsewhere.

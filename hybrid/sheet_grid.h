@@ -18,9 +18,9 @@ inline constexpr int tile_texels = 32;
 inline constexpr double texel_slack = 0x1p-10;
 
 /// A vertex or receiver on one face of the map.
-struct GridPoint {
+struct ProjectedPoint {
   double u = 0.0, v = 0.0, w = 0.0;  ///< homogeneous: texels are u / w, v / w; w is 1 on an orthographic map
-  double nearness = 0.0;
+  double reciprocal_depth = 0.0;
 };
 
 /// Linear functions of the world position relative to the view's origin.
@@ -38,16 +38,16 @@ struct SheetGrid {
   bool perspective = false;
   std::array<GridFace, 6> faces{};
   int tiles = 0;  ///< on a side of a face
-  /// Bound on the error of GridPoint's u and v (texels, times w on a perspective map).
+  /// Bound on the error of ProjectedPoint's u and v (texels, times w on a perspective map).
   double grid_error = 0.0;
   /// Perspective: at depths below this, texel coordinates are not known well enough.
   double near_limit = 0.0;
   /// The coordinates are too coarse for such small texels, or the map is warped: nothing is sure.
   bool hopeless = false;
 
-  GridPoint point(int face, const Vec3& world) const;
+  ProjectedPoint point(int face, const Vec3& world) const;
   /// How far rounding may have moved a nearness, float's included.
-  double nearness_error(double nearness) const;
+  double nearness_error(double reciprocal_depth) const;
   std::size_t tile_index(int face, int tile_x, int tile_y) const {
     const auto n = static_cast<std::size_t>(tiles);
     return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(tile_y)) * n +
@@ -55,15 +55,15 @@ struct SheetGrid {
   }
 };
 
-inline GridPoint SheetGrid::point(int face_index, const Vec3& world) const {
+inline ProjectedPoint SheetGrid::point(int face_index, const Vec3& world) const {
   const GridFace& face = faces[static_cast<std::size_t>(face_index)];
   const Vec3 d = world - view.origin;
-  GridPoint p;
+  ProjectedPoint p;
   p.u = glm::dot(face.u, d) + face.u_shift;
   p.v = glm::dot(face.v, d) + face.v_shift;
   const double depth = glm::dot(face.w, d);
   p.w = perspective ? depth : 1.0;
-  p.nearness = perspective ? 1.0 / depth : -depth;
+  p.reciprocal_depth = perspective ? 1.0 / depth : -depth;
   return p;
 }
 

@@ -38,7 +38,7 @@ SolidColumns::SolidColumns(const SheetGrid& grid, int face, int tile_x, int tile
   misses_ = around.misses_tile() && !around.is_everywhere();
   const LightView& view = grid.view;
   const LightFace& f = view.faces[static_cast<std::size_t>(face)];
-  const TilePlace at = place_of(view, face, tile_x, tile_y);
+  const TileSquare at = place_of(view, face, tile_x, tile_y);
   x0_ = at.x, y0_ = at.y, step_x_ = at.step_x, step_y_ = at.step_y;
   error_ = 16.0 * grid.bounds.position_error + 0x1p-30 * box_.diagonal();
   const ShapeFrame& frame = frame_of(solid);

@@ -6,15 +6,15 @@ namespace gnomon::hybrid {
 namespace {
 
 /// Tiles x0 ... x1, y0 ... y1; none when x0 > x1.
-struct TileRect {
+struct TileRange {
   std::uint16_t x0 = 1, x1 = 0, y0 = 0, y1 = 0;
 };
 
-TileRect rect_of(const SheetGrid& grid, const std::array<GridPoint, 3>& p) {
+TileRange rect_of(const SheetGrid& grid, const std::array<ProjectedPoint, 3>& p) {
   const double size = grid.view.size;
   const auto last = static_cast<std::uint16_t>(grid.tiles - 1);
   bool left = true, right = true, below = true, above = true, clipped = false, finite = true;
-  for (const GridPoint& q : p) {
+  for (const ProjectedPoint& q : p) {
     const double slack = grid.grid_error + 2.0 * texel_slack * std::abs(q.w);
     left = left && q.u < -slack, right = right && q.u - size * q.w > slack;
     below = below && q.v < -slack, above = above && q.v - size * q.w > slack;
@@ -26,7 +26,7 @@ TileRect rect_of(const SheetGrid& grid, const std::array<GridPoint, 3>& p) {
   if (clipped) {
     const bool behind =
         std::all_of(p.begin(), p.end(), [&](const auto& q) { return q.w < -grid.near_limit; });
-    return behind ? TileRect{} : TileRect{0, last, 0, last};
+    return behind ? TileRange{} : TileRange{0, last, 0, last};
   }
   const std::array<double, 3> u{p[0].u / p[0].w, p[1].u / p[1].w, p[2].u / p[2].w};
   const std::array<double, 3> v{p[0].v / p[0].w, p[1].v / p[1].w, p[2].v / p[2].w};
@@ -41,7 +41,7 @@ TileRect rect_of(const SheetGrid& grid, const std::array<GridPoint, 3>& p) {
 }
 
 template <class Visit>
-void for_each_tile(const TileRect& rect, int tiles, const Visit& visit) {
+void for_each_tile(const TileRange& rect, int tiles, const Visit& visit) {
   for (int y = rect.y0; y <= rect.y1 && rect.x0 <= rect.x1; ++y)
     for (int x = rect.x0; x <= rect.x1; ++x)
       visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles) + static_cast<std::size_t>(x));
@@ -49,12 +49,12 @@ void for_each_tile(const TileRect& rect, int tiles, const Visit& visit) {
 
 }  // namespace
 
-TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<GridPoint>& points) {
+TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<ProjectedPoint>& points) {
   constexpr std::size_t most_chunks = 64, counter_budget = std::size_t{1} << 22;
   const auto tile_count = static_cast<std::size_t>(grid.tiles) * static_cast<std::size_t>(grid.tiles);
   const std::size_t chunks = std::clamp<std::size_t>(counter_budget / tile_count, 1, most_chunks);
   const std::size_t triangles = world.triangles.size(), chunk = (triangles + chunks - 1) / chunks;
-  std::vector<TileRect> rects(triangles);
+  std::vector<TileRange> rects(triangles);
   std::vector<std::uint64_t> next(chunks * tile_count);  // chunk by chunk, a counter for every tile
   const auto each = [&](std::size_t c, const auto& body) {
     for (std::size_t t = c * chunk; t < std::min(triangles, (c + 1) * chunk); ++t) body(t);

@@ -10,7 +10,7 @@ namespace gnomon::hybrid {
 
 class TileBins {
  public:
-  TileBins(const World& world, const SheetGrid& grid, const std::vector<GridPoint>& points);
+  TileBins(const World& world, const SheetGrid& grid, const std::vector<ProjectedPoint>& points);
   /// Ascending ids. `tile`: row by row on the face.
   std::span<const std::uint32_t> triangles(std::size_t tile) const {
     return {triangles_.data() + first_[tile], triangles_.data() + first_[tile + 1]};

@@ -20,7 +20,7 @@ Vec3 to_light_space(const LightFace& face, const Vec3& d) {
 
 }  // namespace
 
-TilePlace place_of(const LightView& view, int face, int tile_x, int tile_y) {
+TileSquare place_of(const LightView& view, int face, int tile_x, int tile_y) {
   const LightFace& f = view.face(face);
   const double step_x = 2.0 * f.half_extent.x / view.size, step_y = 2.0 * f.half_extent.y / view.size;
   return {tile_x * tile_texels * step_x - f.half_extent.x + f.center.x,
@@ -31,9 +31,9 @@ Piece Cover::at(float x, float y, float half_texels) const {
   Piece piece{
       .low = low, .high = high, .facing = facing, .boundary = boundary, .covers = true, .triangle = triangle};
   if (!(error < inf)) return piece;
-  piece.middle = nearness.at(x, y);
-  piece.slope_u = nearness.u, piece.slope_v = nearness.v, piece.error = error;
-  const float spread = half_texels * (std::abs(nearness.u) + std::abs(nearness.v)) + error;
+  piece.middle = reciprocal_depth.at(x, y);
+  piece.slope_u = reciprocal_depth.u, piece.slope_v = reciprocal_depth.v, piece.error = error;
+  const float spread = half_texels * (std::abs(reciprocal_depth.u) + std::abs(reciprocal_depth.v)) + error;
   piece.low = std::max(low, piece.middle - spread), piece.high = std::min(high, piece.middle + spread);
   return piece;
 }
@@ -50,7 +50,7 @@ std::optional<Cover> plane_cover(const SheetGrid& grid, int face, int tile_x, in
   const double divisor = grid.perspective ? height : n.z, constant = grid.perspective ? n.z : -height;
   const double divisor_error = grid.perspective ? height_error : error_gamma(64);
   if (!(std::abs(divisor) > well * divisor_error)) return Cover{{}, inf, -inf, inf, Facing::edge_on, true};
-  const TilePlace at = place_of(view, face, tile_x, tile_y);
+  const TileSquare at = place_of(view, face, tile_x, tile_y);
   const double u = n.x * at.step_x / divisor, v = n.y * at.step_y / divisor;
   const double c = (n.x * at.x + n.y * at.y + constant) / divisor;
   const double slope = std::abs(u) + std::abs(v);
@@ -80,7 +80,7 @@ Sphere ball_around(const ShapeGeometry& geometry) {
 SphereColumns::SphereColumns(const SheetGrid& grid, int face, int tile_x, int tile_y, const Sphere& sphere,
                              bool masked)
     : perspective_(grid.perspective), masked_(masked), radius_(sphere.radius) {
-  const TilePlace at = place_of(grid.view, face, tile_x, tile_y);
+  const TileSquare at = place_of(grid.view, face, tile_x, tile_y);
   x0_ = at.x, y0_ = at.y, step_x_ = at.step_x, step_y_ = at.step_y;
   center_ = to_light_space(grid.view.faces[static_cast<std::size_t>(face)], sphere.center - grid.view.origin);
   const double reach = radius_ + 8.0 * grid.bounds.position_error;

@@ -13,14 +13,14 @@
 namespace gnomon::hybrid {
 
 /// The tile's corner and the texel's sides: tangents (perspective) or world units from the view's origin.
-struct TilePlace {
+struct TileSquare {
   double x, y, step_x, step_y;
 };
-TilePlace place_of(const LightView& view, int face, int tile_x, int tile_y);
+TileSquare place_of(const LightView& view, int face, int tile_x, int tile_y);
 
 /// A surface over every texel of a tile, without an edge (but, for a plane, its horizon).
 struct Cover {
-  TileFunction nearness;
+  TileFunction reciprocal_depth;
   float error;      ///< of the nearness; infinite: only low and high are known
   float low, high;  ///< of the nearness over the whole tile
   Facing facing;

@@ -49,9 +49,10 @@ std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
   }
   if (doubtful && piece.covers) piece.boundary = true;
   if (!(t.nearness_error < inf)) return piece;
-  piece.middle = t.nearness.at(x, y);
-  piece.slope_u = t.nearness.u, piece.slope_v = t.nearness.v, piece.error = t.nearness_error;
-  const float spread = reach * (std::abs(t.nearness.u) + std::abs(t.nearness.v)) + t.nearness_error;
+  piece.middle = t.reciprocal_depth.at(x, y);
+  piece.slope_u = t.reciprocal_depth.u, piece.slope_v = t.reciprocal_depth.v, piece.error = t.nearness_error;
+  const float spread =
+      reach * (std::abs(t.reciprocal_depth.u) + std::abs(t.reciprocal_depth.v)) + t.nearness_error;
   piece.low = std::max(piece.low, piece.middle - spread);
   piece.high = std::min(piece.high, piece.middle + spread);
   return piece;
@@ -117,7 +118,7 @@ void TileBuilder::collect(int tile_x, int tile_y, std::span<const std::uint32_t>
     if (!frame.set_up({points_[v[0]], points_[v[1]], points_[v[2]]}, facing_[id], triangle)) continue;
     triangle.id = id;
     if (TileFrame::covers_tile(triangle)) {
-      covers_.push_back({triangle.nearness, triangle.nearness_error, triangle.low, triangle.high,
+      covers_.push_back({triangle.reciprocal_depth, triangle.nearness_error, triangle.low, triangle.high,
                          triangle.facing, (triangle.boundary & TriangleFacing::whole) != 0, id});
       continue;
     }
@@ -217,7 +218,7 @@ bool TileBuilder::lies_beside(std::uint32_t a, std::uint32_t b) const {
   std::array<Vec2, 3> p, q;
   double error = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const GridPoint &i = points_[va[k]], &j = points_[vb[k]];
+    const ProjectedPoint &i = points_[va[k]], &j = points_[vb[k]];
     if (!(std::min(i.w, j.w) > grid_.near_limit)) return false;
     p[k] = Vec2(i.u, i.v) / i.w, q[k] = Vec2(j.u, j.v) / j.w;
     error = std::max(error, 2.0 * grid_.grid_error / std::min(i.w, j.w));

@@ -34,9 +34,10 @@ struct SheetTile {
   std::vector<Look> looks;
   TexelParts parts;
   /// For the texel that holds (u, v), counted from the tile's corner.
-  Certainty at(double u, double v, double nearness) const;
+  Certainty at(double u, double v, double reciprocal_depth) const;
   /// For a place 0 ... 1 in a texel that leaves it in doubt, of a tile with parts.
-  Certainty in_parts(std::uint32_t texel, double in_u, double in_v, double nearness, double doubt) const;
+  Certainty in_parts(std::uint32_t texel, double in_u, double in_v, double reciprocal_depth,
+                     double doubt) const;
   /// The part's place in `parts`.
   template <class Float>
   static std::uint32_t part_at(std::uint32_t texel, Float in_u, Float in_v);
@@ -50,12 +51,12 @@ struct SheetTile {
   std::uint64_t bytes() const;
 };
 
-/// `doubt`: of the nearness, beyond that of GridPoint's.
+/// `doubt`: of the nearness, beyond that of ProjectedPoint's.
 inline Certainty judge(const PackedBounds& packed, double from_middle_u, double from_middle_v,
-                       double nearness, double doubt = 0.0) {
+                       double reciprocal_depth, double doubt = 0.0) {
   const TexelBounds bounds = unpack(packed);
-  const double n = nearness - (static_cast<double>(bounds.slope_u) * from_middle_u +
-                               static_cast<double>(bounds.slope_v) * from_middle_v);
+  const double n = reciprocal_depth - (static_cast<double>(bounds.slope_u) * from_middle_u +
+                                       static_cast<double>(bounds.slope_v) * from_middle_v);
   return n - doubt > static_cast<double>(bounds.lit_above)    ? Certainty::lit
          : n + doubt < static_cast<double>(bounds.dark_below) ? Certainty::shadowed
                                                               : Certainty::unsure;
@@ -69,13 +70,13 @@ std::uint32_t SheetTile::part_at(std::uint32_t texel, Float in_u, Float in_v) {
   return texel * parts_per_texel + step(in_v) * parts_per_side + step(in_u);
 }
 
-inline Certainty SheetTile::in_parts(std::uint32_t texel, double in_u, double in_v, double nearness,
+inline Certainty SheetTile::in_parts(std::uint32_t texel, double in_u, double in_v, double reciprocal_depth,
                                      double doubt) const {
   const std::uint32_t part = part_at(texel, in_u, in_v);
   const PackedBounds* bounds = parts.find(part);
   if (bounds == nullptr) return Certainty::unsure;
   return judge(*bounds, from_middle_of_part(in_u, part % parts_per_side),
-               from_middle_of_part(in_v, part / parts_per_side % parts_per_side), nearness, doubt);
+               from_middle_of_part(in_v, part / parts_per_side % parts_per_side), reciprocal_depth, doubt);
 }
 
 inline bool SheetTile::is_known(std::uint32_t part) const {
@@ -84,13 +85,14 @@ inline bool SheetTile::is_known(std::uint32_t part) const {
   return look == Look::decided || (look == Look::by_sheets && !parts.empty() && parts.find(part) != nullptr);
 }
 
-inline Certainty SheetTile::at(double u, double v, double nearness) const {
-  if (!texels) return judge(uniform, u - 0.5 * tile_texels, v - 0.5 * tile_texels, nearness);
+inline Certainty SheetTile::at(double u, double v, double reciprocal_depth) const {
+  if (!texels) return judge(uniform, u - 0.5 * tile_texels, v - 0.5 * tile_texels, reciprocal_depth);
   const int x = static_cast<int>(u), y = static_cast<int>(v);
   const auto texel = static_cast<std::uint32_t>(y * tile_texels + x);
   const double in_u = u - x, in_v = v - y;
-  const Certainty whole = judge(texels[texel], in_u - 0.5, in_v - 0.5, nearness);
-  return whole != Certainty::unsure || parts.empty() ? whole : in_parts(texel, in_u, in_v, nearness, 0.0);
+  const Certainty whole = judge(texels[texel], in_u - 0.5, in_v - 0.5, reciprocal_depth);
+  return whole != Certainty::unsure || parts.empty() ? whole
+                                                     : in_parts(texel, in_u, in_v, reciprocal_depth, 0.0);
 }
 
 /// Builds tiles one after the other; one per task, for it keeps its buffers.
@@ -98,7 +100,7 @@ class TileBuilder : private PieceRelations {
  public:
   /// `points`: every vertex of the world on this face. All must outlive the builder.
   TileBuilder(const World& world, const raytrace::Topology& topology, const SheetGrid& grid,
-              const std::vector<TriangleFacing>& facing, int face, const std::vector<GridPoint>& points,
+              const std::vector<TriangleFacing>& facing, int face, const std::vector<ProjectedPoint>& points,
               TexelStore& store)
       : world_(world),
         topology_(topology),
@@ -155,7 +157,7 @@ class TileBuilder : private PieceRelations {
   const SheetGrid& grid_;
   const std::vector<TriangleFacing>& facing_;
   int face_;
-  const std::vector<GridPoint>& points_;
+  const std::vector<ProjectedPoint>& points_;
   TexelStore& store_;
   std::vector<bool> wanted_;  // texels; empty: all
   std::vector<Placed> placed_;

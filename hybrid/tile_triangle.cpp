@@ -35,11 +35,11 @@ TileFrame::TileFrame(const SheetGrid& grid, int face, int tile_x, int tile_y)
       height_(std::min(tile_texels, grid.view.size - tile_y * tile_texels)),
       handedness_(grid.faces[static_cast<std::size_t>(face)].handedness) {}
 
-bool TileFrame::set_up(const std::array<GridPoint, 3>& points, TriangleFacing facing,
+bool TileFrame::set_up(const std::array<ProjectedPoint, 3>& points, TriangleFacing facing,
                        TileTriangle& out) const {
   Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const GridPoint& p = points[k];
+    const ProjectedPoint& p = points[k];
     corners.u[k] = p.u - u0_ * p.w, corners.v[k] = p.v - v0_ * p.w, corners.w[k] = p.w;
     corners.size[k] = std::max({std::abs(corners.u[k]), std::abs(corners.v[k]), tile_texels * std::abs(p.w)});
     corners.error[k] = grid_.grid_error + 0x1p-50 * grid_.view.size * std::abs(p.w);
@@ -110,10 +110,11 @@ void TileFrame::find_edges(Corners& t, double inside, TileTriangle& out) const {
   }
 }
 
-void TileFrame::find_nearness(const std::array<GridPoint, 3>& p, const Corners& t, TileTriangle& out) const {
+void TileFrame::find_nearness(const std::array<ProjectedPoint, 3>& p, const Corners& t,
+                              TileTriangle& out) const {
   double low = infinity, high = -infinity, well = infinity, reach = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double n = t.clipped && !(p[k].w > grid_.near_limit) ? infinity : p[k].nearness;
+    const double n = t.clipped && !(p[k].w > grid_.near_limit) ? infinity : p[k].reciprocal_depth;
     const double error = std::isfinite(n) ? grid_.nearness_error(n) : 0.0;
     low = std::min(low, n - error), high = std::max(high, n + error);
     // The height of the corner across edge k against the edge's error.
@@ -124,18 +125,19 @@ void TileFrame::find_nearness(const std::array<GridPoint, 3>& p, const Corners& 
   }
   if (!grid_.perspective) reach = high - low;
   out.low = float_below(low), out.high = float_above(high);
-  out.nearness = {}, out.nearness_error = inf;
+  out.reciprocal_depth = {}, out.nearness_error = inf;
   if (out.facing == Facing::edge_on || !(well * plane_error > 1.0)) return;
   // n = sum over the corners of b_k n_k, with b_k the edge function across from the corner over det.
-  double u = 0.0, v = 0.0, c = grid_.perspective ? 0.0 : p[0].nearness;
+  double u = 0.0, v = 0.0, c = grid_.perspective ? 0.0 : p[0].reciprocal_depth;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double weight = (grid_.perspective ? 1.0 : p[(k + 2) % 3].nearness - p[0].nearness) / t.det;
+    const double weight =
+        (grid_.perspective ? 1.0 : p[(k + 2) % 3].reciprocal_depth - p[0].reciprocal_depth) / t.det;
     u += weight * t.a[k], v += weight * t.b[k], c += weight * t.c[k];
   }
   const double slope = std::abs(u) + std::abs(v);
   const double error = 4.0 * plane_error * reach + 0x1p-21 * (tile_texels * slope + std::abs(c));
   if (!std::isfinite(error) || !std::isfinite(slope)) return;
-  out.nearness = to_float(u, v, c);
+  out.reciprocal_depth = to_float(u, v, c);
   out.nearness_error = float_above(error);
 }
 

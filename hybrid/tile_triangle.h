@@ -22,7 +22,7 @@ struct TileTriangle {
   std::array<float, 3> error;               ///< of its value
   std::array<float, 3> depth;               ///< of the triangle below each edge, texels; for edge-on ones
   std::array<std::array<float, 4>, 3> box;  ///< of the edges: x min, max, y min, max, widened
-  TileFunction nearness;
+  TileFunction reciprocal_depth;
   float nearness_error = 0.0f;         ///< infinite: no plane is known
   float low = 0.0f, high = 0.0f;       ///< of the nearness over the whole triangle
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels that it may meet: x0 ... x1
@@ -39,7 +39,7 @@ class TileFrame {
   TileFrame(const SheetGrid& grid, int face, int tile_x, int tile_y);
 
   /// False: it surely misses the tile. `corners`: on this face.
-  bool set_up(const std::array<GridPoint, 3>& corners, TriangleFacing facing, TileTriangle& out) const;
+  bool set_up(const std::array<ProjectedPoint, 3>& corners, TriangleFacing facing, TileTriangle& out) const;
   /// The triangle surely covers every texel of the tile, and no edge crosses it.
   static bool covers_tile(const TileTriangle& triangle);
 
@@ -47,7 +47,8 @@ class TileFrame {
   struct Corners;
   bool find_box(const Corners& corners, TileTriangle& out) const;
   void find_edges(Corners& corners, double inside, TileTriangle& out) const;
-  void find_nearness(const std::array<GridPoint, 3>& points, const Corners& corners, TileTriangle& out) const;
+  void find_nearness(const std::array<ProjectedPoint, 3>& points, const Corners& corners,
+                     TileTriangle& out) const;
 
   const SheetGrid& grid_;
   double u0_, v0_;      // the tile's first texel

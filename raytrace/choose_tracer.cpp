@@ -10,18 +10,19 @@ namespace {
 static_assert(most_primitives == BvhChild::first_mask);
 
 /// Why packets of floats cannot trace this world; empty where they can.
-std::string_view why_no_packets(const Structures& s) {
-  if (packets_apply(s)) return {};
+std::string_view why_no_packets(const Tracer& tracer) {
+  if (packets_apply(tracer)) return {};
+  const Structures& s = tracer.structures();
   if (s.precision == Precision::fast) return "the textbook's arithmetic is traced as textbooks do";
   if (s.bvh.nodes.empty()) return "this structure has no hierarchy that packets could traverse";
   return "the scene's size or distance from the origin is out of the floats' range";
 }
 
-void choose_primary(const Structures& s, const View& view, TracerPlan& plan) {
-  const std::string_view obstacle = why_no_packets(s);
+void choose_primary(const Tracer& tracer, const View& view, TracerPlan& plan) {
+  const std::string_view obstacle = why_no_packets(tracer);
   if (!obstacle.empty()) {
     plan.primary = PrimaryWay::single_rays, plan.primary_reason = obstacle;
-  } else if (!blocks_apply(s, view)) {
+  } else if (!blocks_apply(tracer, view)) {
     plan.primary = PrimaryWay::single_rays;
     plan.primary_reason = "the field of view is too wide for one frame to hold it";
   } else {
@@ -33,8 +34,9 @@ void choose_primary(const Structures& s, const View& view, TracerPlan& plan) {
 
 /// Receivers are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice: they
 /// need not be stored where nobody reads them but passes that find them again quickly.
-void choose_receivers(const Structures& s, std::span<const std::uint32_t> lights,
+void choose_receivers(const Tracer& tracer, std::span<const std::uint32_t> lights,
                       const RaytraceOptions& options, TracerPlan& plan) {
+  const Structures& s = tracer.structures();
   plan.receivers = ReceiverStore::stored;
   const auto because = [&](bool holds, std::string_view reason) {
     if (holds && plan.receivers_reason.empty()) plan.receivers_reason = reason;
@@ -52,12 +54,12 @@ void choose_receivers(const Structures& s, std::span<const std::uint32_t> lights
   plan.receivers_reason = "only the picture is wanted, and to find them again is cheaper than to store them";
 }
 
-void choose_shadow(const Structures& s, std::span<const std::uint32_t> lights, const RaytraceOptions& options,
-                   TracerPlan& plan) {
+void choose_shadow(const Tracer& tracer, std::span<const std::uint32_t> lights,
+                   const RaytraceOptions& options, TracerPlan& plan) {
   const bool asked = std::any_of(lights.begin(), lights.end(), [&](std::uint32_t i) {
-    return options.records || !has_size(s.world->scene->lights[i]);
+    return options.records || !has_size(tracer.world().scene->lights[i]);
   });
-  const std::string_view obstacle = why_no_packets(s);
+  const std::string_view obstacle = why_no_packets(tracer);
   if (!asked) {
     plan.shadow_reason = "no light's centre is asked for";
   } else if (!obstacle.empty()) {
@@ -89,17 +91,16 @@ std::string_view name_of(ShadowWay way) {
 
 TracerPlan choose_tracer(const Tracer& tracer, const View& view, std::span<const std::uint32_t> lights,
                          const RaytraceOptions& options) {
-  const Structures& s = tracer.structures();
   TracerPlan plan;
   if (!options.records && options.samples_per_pixel > 1) {
     plan.primary_reason = "every sample of the pixel is a ray of its own, shaded as it is cast";
     plan.receivers_reason = plan.shadow_reason = "no ray goes through the pixel's centre";
     return plan;
   }
-  choose_primary(s, view, plan);
-  choose_receivers(s, lights, options, plan);
-  choose_shadow(s, lights, options, plan);
-  plan.compact = plan.primary == PrimaryWay::blocks && !lights.empty();
+  choose_primary(tracer, view, plan);
+  choose_receivers(tracer, lights, options, plan);
+  choose_shadow(tracer, lights, options, plan);
+  plan.quantised = plan.primary == PrimaryWay::blocks && !lights.empty();
   return plan;
 }
 

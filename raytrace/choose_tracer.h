@@ -30,7 +30,7 @@ enum class ReceiverStore : std::uint8_t {
 enum class ShadowWay : std::uint8_t {
   none,
   packets,     ///< tiles of packets: by light-space bins where sight_of_light() finds that they pay, else by
-               ///< walks
+               ///< traverses
   single_rays  ///< each by itself
 };
 
@@ -42,7 +42,7 @@ struct TracerPlan {
   PrimaryWay primary = PrimaryWay::none;
   ReceiverStore receivers = ReceiverStore::none;
   ShadowWay shadow = ShadowWay::none;
-  bool compact = false;  ///< tiles of float receivers are made for the lights' passes
+  bool quantised = false;  ///< tiles of float receivers are made for the lights' passes
   std::string_view primary_reason, receivers_reason, shadow_reason;
 };
 

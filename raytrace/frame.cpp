@@ -34,28 +34,28 @@ Times time_pass(const PassStages& stages, int runs, const Pass& pass) {
 }
 
 /// Tiles for the lights' passes; none where they are not asked for.
-using CompactTiles = HugeArray<CompactTile>;
+using QuantisedTiles = HugeArray<QuantisedTile>;
 
 /// As trace_primary, keeping only what is seen.
 void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
-                  RayTracedFrame& frame, UnstoredReceivers& unstored, CompactTiles& tiles) {
+                  RayTracedFrame& frame, UnstoredReceivers& unstored, QuantisedTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
   frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
-    primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
+    primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
                  {.hits = {unstored.hits.data(), unstored.hits.size()},
                   .receivers = nullptr,
-                  .compact = {tiles.data(), tiles.size()}});
+                  .quantised = {tiles.data(), tiles.size()}});
   });
   frame.rays.primary = options.size.pixels();
 }
 
 void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const RaytraceOptions& options,
-                   RayTracedFrame& frame, CompactTiles& tiles) {
+                   RayTracedFrame& frame, QuantisedTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
     if (way == PrimaryWay::blocks) {
-      primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
-                   {.hits = {}, .receivers = &frame.receiver, .compact = {tiles.data(), tiles.size()}});
+      primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
+                   {.hits = {}, .receivers = &frame.receiver, .quantised = {tiles.data(), tiles.size()}});
       return;
     }
     for_each_pixel({options.size}, [&](int x, int y, std::size_t) {
@@ -73,7 +73,7 @@ bool reaches(const Light& light, const SurfacePoint& point) {
 
 LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, ShadowWay way,
                          const RaytraceOptions& options, const Image<SurfacePoint>& receivers,
-                         const View& view, const UnstoredReceivers& unstored, const CompactTiles& tiles) {
+                         const View& view, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{
       .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
@@ -83,14 +83,14 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
     std::fill(rays.begin(), rays.end(), 0);
     if (way == ShadowWay::packets) {
       TimedStage structure("light structure");
-      const Sight sight = sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
+      const Sight sight = sight_of_light(tracer, light, {tiles.data(), tiles.size()});
       structure.end();
       for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
         const ReceiverSource source = unstored.apply()
                                           ? unstored.source(tracer, view, tile)
                                           : ReceiverSource{.tracer = tracer, .stored = &receivers};
-        const CompactTile* compact = tiles.size() > 0 ? &tiles[tile] : nullptr;
-        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, compact, truth.verdict);
+        const QuantisedTile* quantised = tiles.size() > 0 ? &tiles[tile] : nullptr;
+        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, quantised, truth.verdict);
       });
       return;
     }
@@ -125,12 +125,12 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
       if (point.primitive == no_id) return;
       const std::uint64_t key = pixel_key(options.seed, receivers.index(x, y), truth.light);
       const bool reached = reaches(light, point);
-      const Visibility seen =
+      const Visibility setup =
           reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0.0, 0};
-      truth.visibility.at(x, y) = static_cast<float>(seen.share);
-      truth.standard_error.at(x, y) = static_cast<float>(seen.standard_error);
+      truth.visibility.at(x, y) = static_cast<float>(setup.share);
+      truth.standard_error.at(x, y) = static_cast<float>(setup.standard_error);
       rays[tile].asked += reached ? static_cast<std::uint64_t>(truth.samples) : 0;
-      rays[tile].cast += seen.rays;
+      rays[tile].cast += setup.rays;
     });
   });
   for (const Counts& n : rays) truth.soft_rays += n.cast, truth.soft_rays_asked += n.asked;
@@ -152,8 +152,8 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   RayTracedFrame frame;
   const TracerPlan ways = choose_tracer(tracer, view, lights, options);
   const bool at_centres = ways.primary != PrimaryWay::none;
-  CompactTiles tiles;
-  if (ways.compact) tiles = CompactTiles(TileGrid{options.size}.count());
+  QuantisedTiles tiles;
+  if (ways.quantised) tiles = QuantisedTiles(TileGrid{options.size}.count());
   UnstoredReceivers unstored;
   if (ways.receivers == ReceiverStore::found_again)
     find_primary(tracer, view, options, frame, unstored, tiles);

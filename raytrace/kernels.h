@@ -36,25 +36,25 @@ struct CountWork {
   void primitive() { ++counts.primitives; }
 };
 
-/// walk() through whichever structure there is.
+/// traverse() through whichever structure there is.
 template <class Stats, class Visit>
-bool walk(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (s.structure.index() != 0) [[unlikely]]
-    return walk_structure(s.structure, ray, stats, visit);
-  return walk(s.bvh, ray, stats, visit);
+    return traverse_structure(s.structure, ray, stats, visit);
+  return traverse(s.bvh, ray, stats, visit);
 }
 
 /// A leaf's primitive; `room` holds it where the structure keeps no copies.
-inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& room) {
+inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& scratch) {
   if (!s.bvh.primitives.empty()) [[likely]]
     return s.bvh.primitives[index];
-  return room = leaf_primitive(*s.world, s.bvh.ids[index]);
+  return scratch = leaf_primitive(*s.world, s.bvh.ids[index]);
 }
 
-/// One candidate against the ray: fills `hit` (t in kernel units) if the ray meets it inside ray.t.
+/// One candidate against the ray: fills `hit` (t in kernel units) if the ray intersects it inside ray.t.
 inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
-  LeafPrimitive room;
-  const LeafPrimitive& primitive = leaf_at(s, index, room);
+  LeafPrimitive scratch;
+  const LeafPrimitive& primitive = leaf_at(s, index, scratch);
   hit.primitive = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
     hit.barycentric = Vec2(0.0);
@@ -87,7 +87,7 @@ struct RobustArithmetic {
 };
 
 /// A masked sphere's near side may be a hole while its far side is not; so with each side of a solid.
-inline bool solid(const Structures& s, RayFrame ray, Hit& hit) {
+inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   const World& world = *s.world;
   const Material& material = world.scene->materials[world.material_of(hit.primitive)];
   if (material.alpha_mode != AlphaMode::mask) return true;
@@ -125,17 +125,18 @@ inline double next_above(double t) {
   return std::bit_cast<double>(bits >= 0 ? bits + 1 : bits - 1);
 }
 
-/// Among the planes and the leaves that offer(ray, visit) offers to visit(leaf). `ray` is shortened on the
+/// Among the planes and the leaves that report(ray, visit) reports to visit(leaf). `ray` is shortened on the
 /// way; visit returns whether it was. The primitive `skip` (no_id: none) is left out. The result's t is the
 /// ray's own.
-template <bool masks, class Arithmetic = RobustArithmetic, class Offer>
-std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, std::uint32_t skip,
-                                   const Offer& offer_leaves) {
+template <bool masks, class Arithmetic = RobustArithmetic, class Report>
+std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, std::uint32_t skip,
+                                    const Report& report_leaves) {
   const Arithmetic arithmetic(s, frame);
   Hit best{.t = infinity};
   RayFrame ray = frame;
-  // A later hit at the same t may have the lower id, so the interval is closed while the walk shortens it.
-  const auto offer = [&](const Hit& hit) {
+  // A later hit at the same t may have the lower id, so the interval is closed while the traversal shortens
+  // it.
+  const auto report = [&](const Hit& hit) {
     if (!precedes(hit, best)) return false;
     best = hit;
     ray.t.max = std::min(frame.t.max, next_above(best.t));
@@ -143,13 +144,13 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
   };
   const auto keep = [&](Hit& hit) {
     if constexpr (masks)
-      if (!solid(s, ray, hit)) return false;
-    return offer(hit);
+      if (!passes_alpha_test(s, ray, hit)) return false;
+    return report(hit);
   };
   Hit hit;
   for (const std::uint32_t plane : s.planes)
     if (plane != skip && arithmetic.plane(s, ray, plane, hit)) keep(hit);
-  offer_leaves(std::as_const(ray), [&](std::uint32_t i) {
+  report_leaves(std::as_const(ray), [&](std::uint32_t i) {
     return arithmetic.leaf(s, ray, i, hit) && hit.primitive != skip && keep(hit);
   });
   if (best.primitive == no_id) return std::nullopt;
@@ -161,9 +162,9 @@ std::optional<Hit> closest_offered(const Structures& s, const RayFrame& frame, s
 /// Among all primitives.
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
-  return closest_offered<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& ray, const auto& visit) {
+  return closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& ray, const auto& visit) {
     BoxRay boxes(ray, s.bvh.center);
-    walk(s, boxes, stats, [&](std::uint32_t i) {
+    traverse(s, boxes, stats, [&](std::uint32_t i) {
       if (visit(i)) boxes.t_max = float_above(ray.t.max);
       return false;
     });
@@ -175,13 +176,14 @@ bool any(const Structures& s, const RayFrame& ray, Stats stats) {
   const Arithmetic arithmetic(s, ray);
   Hit hit;
   const auto blocks = [&]() {
-    if constexpr (masks) return solid(s, ray, hit);
+    if constexpr (masks) return passes_alpha_test(s, ray, hit);
     return true;
   };
   for (const std::uint32_t plane : s.planes)
     if (arithmetic.plane(s, ray, plane, hit) && blocks()) return true;
   BoxRay boxes(ray, s.bvh.center);
-  return walk(s, boxes, stats, [&](std::uint32_t i) { return arithmetic.leaf(s, ray, i, hit) && blocks(); });
+  return traverse(s, boxes, stats,
+                  [&](std::uint32_t i) { return arithmetic.leaf(s, ray, i, hit) && blocks(); });
 }
 
 }  // namespace gnomon::raytrace

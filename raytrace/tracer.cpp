@@ -6,6 +6,7 @@
 #include "raytrace/precision/fast.h"
 #include "raytrace/precision/ray_offset.h"
 #include "raytrace/precision/visibility.h"
+#include "raytrace/single_rays.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
 
@@ -33,8 +34,8 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   }
   if (precision == Precision::fast)
     for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) {
-      LeafPrimitive room;
-      s.fast.push_back(fast_primitive(leaf_at(s, i, room), world.is_triangle(s.bvh.ids[i])));
+      LeafPrimitive scratch;
+      s.fast.push_back(fast_primitive(leaf_at(s, i, scratch), world.is_triangle(s.bvh.ids[i])));
     }
   const auto& materials = world.scene->materials;
   for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
@@ -145,6 +146,14 @@ const AccelStats& Tracer::stats() const {
 const Structures& Tracer::structures() const {
   return impl_->structures;
 }
+void prepare_single_rays(const Tracer& tracer) {
+  const Structures& s = tracer.structures();
+  if (s.wide != nullptr) s.wide->collapse(s.bvh, *s.world);
+}
+std::uint64_t single_ray_bytes(const Tracer& tracer) {
+  const Structures& s = tracer.structures();
+  return s.wide != nullptr ? s.wide->bytes() : 0;
+}
 
 std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {
   return closest_of(impl_->structures, ray, no_id, NoStats{});
@@ -199,9 +208,9 @@ Ray Tracer::shadow_ray(const SurfacePoint& from, const Vec3& target) const {
   const Vec3 origin = offset_origin(from, target - from.position);
   const Vec3 offset = target - origin;
   const double distance = glm::length(offset);
-  const double doubt =
+  const double error =
       error_gamma(8) * distance + glm::dot(from.position_error + glm::abs(origin - from.position), Vec3(1.0));
-  return {origin, offset / distance, {0.0, distance - doubt}};
+  return {origin, offset / distance, {0.0, distance - error}};
 }
 
 Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) const {
@@ -222,7 +231,7 @@ std::optional<Hit> Tracer::closest_hit_among(const Ray& ray, std::span<const std
   if (!frame) return std::nullopt;
   const Structures& s = impl_->structures;
   return specialise(s, [&]<bool masks, class Arithmetic>() {
-    return closest_offered<masks, Arithmetic>(s, *frame, no_id, [&](const RayFrame&, const auto& visit) {
+    return closest_reported<masks, Arithmetic>(s, *frame, no_id, [&](const RayFrame&, const auto& visit) {
       for (const std::uint32_t leaf : leaves) visit(leaf);
     });
   });

@@ -49,13 +49,13 @@ Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
   Agreement out;
   const raytrace::TileGrid grid{stage.size};
   for (std::size_t i = 0; i < grid.count(); ++i) {
-    const raytrace::CompactTile& tile = receivers.tiles[i];
+    const raytrace::QuantisedTile& tile = receivers.tiles[i];
     if (!tile.any) continue;
     hybrid::TileClasses classes;
     classify_tile(cache.sheets, light, tile, classes);
     for (std::size_t lane = 0; lane < raytrace::tile_rays; ++lane) {
       if (!has(tile.present, lane)) continue;
-      const raytrace::TilePlace at = raytrace::tile_place(lane);
+      const raytrace::TilePixel at = raytrace::tile_pixel(lane);
       const auto x = static_cast<int>(i % grid.columns()) * raytrace::tile_pixels + at.x;
       const auto y = static_cast<int>(i / grid.columns()) * raytrace::tile_pixels + at.y;
       compare_receiver(cache.sheets, light, receivers.points.at(x, y), classes, lane, out);

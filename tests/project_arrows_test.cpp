@@ -209,6 +209,22 @@ TEST(Kernels, HaveTheirNamesToThemselves) {
       1u);
 }
 
+const std::string reach = std::string(".structures") + "()";  // in two parts: this file is read, too
+
+/// What a tracer has built is raytrace's own: other rooms, and tests, go through its functions.
+std::vector<std::string> reaching_into_tracers(const Files& files) {
+  std::vector<std::string> found;
+  for (const auto& [file, text] : files)
+    if (is_cpp(file) && !file.starts_with("raytrace/") && text.find(reach) != std::string::npos)
+      found.push_back(file);
+  return found;
+}
+
+TEST(Arrows, NobodyReachesIntoTracers) {
+  for (const std::string& file : reaching_into_tracers(project_files())) ADD_FAILURE() << file;
+  EXPECT_EQ(reaching_into_tracers({{"hybrid/a.cpp", "tracer" + reach + ".bvh"}}).size(), 1u);
+}
+
 TEST(Arrows, HoldInTheWholeProject) {
   const Files files = project_files();
   EXPECT_GE(files.size(), 40u) << "the sources were not found";

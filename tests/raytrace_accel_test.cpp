@@ -176,10 +176,11 @@ TEST(Accel, Case17And18RaysInWallsAndThroughCornersOfCells) {
 TEST(Accel, CellCornersOfTheGridItselfAndSplitsOfTheKdTree) {
   const TestWorld w(test::scene_of({test::triangle_soup(500, 3.0, 0.8, 11)}));
   Rivals rivals(w.world());
-  const Tracer grid_tracer(w.world(), Accel::grid), kd_tracer(w.world(), Accel::kdtree);
-  const auto& grid = std::get<Grid>(grid_tracer.structures().structure);
-  const auto& tree = std::get<KdTree>(kd_tracer.structures().structure);
-  const Vec3 center = grid_tracer.structures().bvh.center;
+  const Structure of_grid = build_structure(w.world(), Accel::grid);
+  const Structure of_kd_tree = build_structure(w.world(), Accel::kdtree);
+  const auto& grid = std::get<UniformGrid>(of_grid);
+  const auto& tree = std::get<KdTree>(of_kd_tree);
+  const Vec3 center = finite_primitives(w.world()).center;
   Random random(12);
   const auto grid_corner = [&] {
     Vec3 p;

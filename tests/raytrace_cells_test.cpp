@@ -8,8 +8,8 @@
 #include <atomic>
 
 #include "every_target.h"
+#include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/passes.h"
-#include "raytrace/packets/seen.h"
 #include "raytrace/precision/ray_offset.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
@@ -66,18 +66,18 @@ SurfacePoint floor_point(double x, double z) {
 class LightPlane {
  public:
   explicit LightPlane(const Sight& sight)
-      : origin_(sight.seen.origin),
-        directional_(sight.seen.directional),
-        u_(sight.cells.u),
-        v_(sight.cells.v) {
-    std::copy(std::begin(sight.seen.axes), std::end(sight.seen.axes), axes_.begin());
+      : origin_(sight.setup.origin),
+        directional_(sight.setup.directional),
+        u_(sight.bins.u),
+        v_(sight.bins.v) {
+    std::copy(std::begin(sight.setup.axes), std::end(sight.setup.axes), axes_.begin());
   }
   double u_line(int i) const { return line(u_, i); }
   double v_line(int i) const { return line(v_, i); }
-  double u_width() const { return u_.width * u_.per_cell; }
-  double v_width() const { return v_.width * v_.per_cell; }
-  int columns() const { return u_.cells(); }
-  int rows() const { return v_.cells(); }
+  double u_width() const { return u_.width * u_.per_bin; }
+  double v_width() const { return v_.width * v_.per_bin; }
+  int columns() const { return u_.bins(); }
+  int rows() const { return v_.bins(); }
 
   /// Where the ray of (u, v) has this height; a point's ray is followed backwards too.
   Vec3 at_height(double u, double v, double height) const {
@@ -91,13 +91,13 @@ class LightPlane {
   }
 
  private:
-  static double line(const CellAxis& axis, int i) {
-    return static_cast<double>(axis.origin) + i * axis.width * axis.per_cell;
+  static double line(const BinAxis& axis, int i) {
+    return static_cast<double>(axis.origin) + i * axis.width * axis.per_bin;
   }
   Vec3 origin_;
   bool directional_;
   std::array<Vec3, 3> axes_;
-  CellAxis u_, v_;
+  BinAxis u_, v_;
 };
 
 /// 0, or so little that floats just tell it, or do not.
@@ -123,14 +123,14 @@ Places place_in(const LightPlane& plane, int column, int row, Random& random) {
 /// Tiles of receivers on the floor, each tile a square of it, its corners among them.
 struct Receivers {
   Image<SurfacePoint> points{size, SurfacePoint{}};
-  HugeArray<CompactTile> tiles{TileGrid{size}.count()};
+  HugeArray<QuantisedTile> tiles{TileGrid{size}.count()};
 
   double edge(int pixel) const { return half_patch * (2.0 * pixel / size.width - 1.0); }
 
   explicit Receivers(const LightPlane* plane, std::uint64_t seed) {
     for_each_tile(TileGrid{size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       Random random(seed + i);
-      CompactDraft draft;
+      TileDraft draft;
       tiles[i].clear();
       for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) {
@@ -246,9 +246,8 @@ LightPlane plane_of(const Setting& setting) {
   const TestWorld w(scene_with(setting, {}));
   const Tracer tracer(w.world(), Accel::bvh);
   const Receivers corners(nullptr, 0);
-  const Sight sight =
-      sight_of_light(tracer.structures(), setting.light, {corners.tiles.data(), corners.tiles.size()});
-  EXPECT_TRUE(sight.by_cells) << setting.name;
+  const Sight sight = sight_of_light(tracer, setting.light, {corners.tiles.data(), corners.tiles.size()});
+  EXPECT_TRUE(sight.by_bins) << setting.name;
   return LightPlane(sight);
 }
 
@@ -262,8 +261,8 @@ Image<Verdict> one_by_one(const Tracer& tracer, const Light& light, const Receiv
   return out;
 }
 
-Image<Verdict> by_cells(const Tracer& tracer, const Sight& sight, const Light& light,
-                        const Receivers& receivers) {
+Image<Verdict> by_bins(const Tracer& tracer, const Sight& sight, const Light& light,
+                       const Receivers& receivers) {
   Image<Verdict> out(size, Verdict::lit);
   const ReceiverSource source{.tracer = tracer, .stored = &receivers.points};
   for_each_tile(TileGrid{size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
@@ -296,14 +295,14 @@ void check(const Setting& setting, int triangles, std::uint64_t seed, int& cells
   EXPECT_GT(counts[static_cast<std::size_t>(Verdict::lit)], all / 100);
   test::for_each_target([&] {
     const Sight sight =
-        sight_of_light(tracer.structures(), setting.light, {receivers.tiles.data(), receivers.tiles.size()});
-    if (sight.by_cells) {
+        sight_of_light(tracer, setting.light, {receivers.tiles.data(), receivers.tiles.size()});
+    if (sight.by_bins) {
       // The lines that receivers and triangles were put on are this sight's.
       ASSERT_EQ(LightPlane(sight).u_line(7), plane.u_line(7));
       ASSERT_EQ(LightPlane(sight).v_line(5), plane.v_line(5));
       ++cells_used;
     }
-    const Image<Verdict> found = by_cells(tracer, sight, setting.light, receivers);
+    const Image<Verdict> found = by_bins(tracer, sight, setting.light, receivers);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < found.data.size(); ++i) wrong += found.data[i] == truth.data[i] ? 0 : 1;
     EXPECT_EQ(wrong, 0u) << packet_target();

@@ -209,7 +209,7 @@ TEST(Hits, Case11RayAtThePointOfAPointBoxMeetsIt) {
     const auto frame = raytrace::make_ray_frame({origin, point - origin});
     alignas(16) std::array<float, 4> t_near;
     const raytrace::BoxRay ray(*frame, Vec3(0.0));
-    missed += raytrace::meet_boxes(node, ray, ray.t_max, t_near.data()) == 15 ? 0 : 1;
+    missed += raytrace::intersect_boxes(node, ray, ray.t_max, t_near.data()) == 15 ? 0 : 1;
   }
   EXPECT_EQ(missed, 0);
 }

@@ -9,6 +9,7 @@
 #include "every_target.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
+#include "raytrace/single_rays.h"
 #include "raytrace_support.h"
 #include "tests/support/places.h"
 
@@ -103,7 +104,7 @@ bool all_arrive(const Tracer& tracer, const Pair& pair, std::uint64_t key) {
 /// At least the share `useful` of the pairs whose rays all arrive must be found.
 void expect_clear(const World& world, int count, double useful, std::uint64_t seed) {
   const Tracer tracer(world, Accel::bvh), other(world, Accel::bvh_median);
-  tracer.structures().wide->fold(tracer.structures().bvh, world);
+  prepare_single_rays(tracer);
   const std::vector<Pair> pairs = pairs_in(world, other, count, seed);
   std::vector<char> arrive(pairs.size());
   tbb::parallel_for(std::size_t{0}, pairs.size(),
@@ -113,7 +114,7 @@ void expect_clear(const World& world, int count, double useful, std::uint64_t se
   for_each_target([&] {
     std::atomic<int> wrong = 0, found = 0;
     tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-      const bool clear = surely_sees_whole_light(tracer.structures(), pairs[i].from, pairs[i].light);
+      const bool clear = surely_sees_whole_light(tracer, pairs[i].from, pairs[i].light);
       wrong += clear && arrive[i] == 0 ? 1 : 0;
       found += clear ? 1 : 0;
     });
@@ -184,12 +185,12 @@ TEST(LightShaft, ShapesAndPlanes) {
 TEST(LightShaft, SharesAreThoseOfAllRays) {
   const TestWorld w(test::scene_of({test::triangle_soup(60, 2.0, 0.4, 13)}));
   const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::bvh_median);
-  tracer.structures().wide->fold(tracer.structures().bvh, w.world());
+  prepare_single_rays(tracer);
   for (const Pair& pair : pairs_in(w.world(), other, 500, 14)) {
     const Visibility with = light_visibility(tracer, pair.from, pair.light, samples, 15);
     const Visibility without = light_visibility(other, pair.from, pair.light, samples, 15);
     EXPECT_EQ(with.share, without.share);
-    const bool clear = surely_sees_whole_light(tracer.structures(), pair.from, pair.light);
+    const bool clear = surely_sees_whole_light(tracer, pair.from, pair.light);
     EXPECT_EQ(with.rays, clear ? std::uint64_t{0} : without.rays);
     EXPECT_TRUE(!clear || without.rays == std::uint64_t{samples});
   }

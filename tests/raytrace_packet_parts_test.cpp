@@ -22,7 +22,7 @@ using raytrace::Tracer;
 using test::for_each_target;
 using test::TestWorld;
 
-TEST(Cells, RanksAreAStableSorts) {
+TEST(LightBins, RanksAreAStableSorts) {
   test::Random random(6);
   for (const std::size_t count : {1, 2, 15, 16, 17, 40, 333}) {
     std::vector<float> numbers(count + raytrace::packet_rays);
@@ -41,7 +41,7 @@ TEST(Cells, RanksAreAStableSorts) {
 }
 
 // Lists of all lengths: nearest first, of equals the first leaf; those of one thread are those of three.
-TEST(Cells, ListsAreInOrderOnAnyNumberOfThreads) {
+TEST(LightBins, ListsAreInOrderOnAnyNumberOfThreads) {
   Mesh mesh = test::triangle_soup(30000, 0.05, 0.03, 7);
   const Mesh wide = test::triangle_soup(4000, 1.0, 0.1, 8);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -53,19 +53,17 @@ TEST(Cells, ListsAreInOrderOnAnyNumberOfThreads) {
   const TestWorld w(scene);
   const Tracer tracer(w.world(), Accel::bvh);
   const View view = make_view(scene.camera, {160, 120});
-  raytrace::HugeArray<raytrace::CompactTile> tiles(raytrace::TileGrid{view.size}.count());
-  primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
-               {.hits = {}, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
+  raytrace::HugeArray<raytrace::QuantisedTile> tiles(raytrace::TileGrid{view.size}.count());
+  primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
+               {.hits = {}, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   const Light light = test::point_light(scene.camera.eye);
   const auto cells_on = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] {
-      return sight_of_light(tracer.structures(), light, {tiles.data(), tiles.size()});
-    });
+    return arena.execute([&] { return sight_of_light(tracer, light, {tiles.data(), tiles.size()}); });
   };
   const raytrace::Sight one = cells_on(1), three = cells_on(3);
-  ASSERT_TRUE(one.by_cells && three.by_cells);
-  const raytrace::Cells &a = one.cells, &b = three.cells;
+  ASSERT_TRUE(one.by_bins && three.by_bins);
+  const raytrace::LightBins &a = one.bins, &b = three.bins;
   ASSERT_EQ(a.first, b.first);
   std::size_t longest = 0;
   for (std::size_t cell = 0; cell + 1 < a.first.size(); ++cell) {

@@ -11,8 +11,8 @@
 
 #include "every_target.h"
 #include "raytrace/frame.h"
+#include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/passes.h"
-#include "raytrace/packets/seen.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
@@ -89,22 +89,21 @@ void expect_same(const Scene& scene, const Tracer& tracer, const Reference& refe
 void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
                            ImageSize size) {
   const View view = make_view(scene.camera, size);
-  if (!blocks_apply(tracer.structures(), view)) return;
-  const raytrace::Seen eye = seen_by_eye(tracer.structures(), view);
+  if (!blocks_apply(tracer, view)) return;
+  const raytrace::EdgeSetup eye = edge_setup_of_eye(tracer, view);
   const raytrace::TileGrid grid{size};
   std::vector<raytrace::TileHits> hits(grid.count());
-  raytrace::HugeArray<raytrace::CompactTile> tiles(grid.count());
+  raytrace::HugeArray<raytrace::QuantisedTile> tiles(grid.count());
   Image<SurfacePoint> receivers(size);
-  primary_pass(tracer, view, eye, {.hits = hits, .receivers = &receivers, .compact = {}});
+  primary_pass(tracer, view, eye, {.hits = hits, .receivers = &receivers, .quantised = {}});
   std::size_t points = 0;
   for (std::size_t i = 0; i < receivers.data.size(); ++i)
     points += same_point(receivers.data[i], reference.receivers[i]) ? 0 : 1;
   EXPECT_EQ(points, 0U) << "receivers differ, " << raytrace::packet_target();
   primary_pass(tracer, view, eye,
-               {.hits = hits, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
+               {.hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    const raytrace::Sight sight =
-        sight_of_light(tracer.structures(), scene.lights[l], {tiles.data(), tiles.size()});
+    const raytrace::Sight sight = sight_of_light(tracer, scene.lights[l], {tiles.data(), tiles.size()});
     Image<Verdict> verdicts(size, Verdict::lit);
     for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       const raytrace::ReceiverSource source{
@@ -224,12 +223,12 @@ TEST(Packets, ReceiversFarBeyondAllThatIsFinite) {
   for (const double tilt : {0.0, 0.4, 4.0}) check(body_on_a_plain(tilt), {128, 72});
 }
 
-raytrace::HugeArray<raytrace::CompactTile> tiles_of(const Tracer& tracer, const Camera& camera,
-                                                    ImageSize size) {
+raytrace::HugeArray<raytrace::QuantisedTile> tiles_of(const Tracer& tracer, const Camera& camera,
+                                                      ImageSize size) {
   const View view = make_view(camera, size);
-  raytrace::HugeArray<raytrace::CompactTile> tiles(raytrace::TileGrid{size}.count());
-  primary_pass(tracer, view, seen_by_eye(tracer.structures(), view),
-               {.hits = {}, .receivers = nullptr, .compact = {tiles.data(), tiles.size()}});
+  raytrace::HugeArray<raytrace::QuantisedTile> tiles(raytrace::TileGrid{size}.count());
+  primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
+               {.hits = {}, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   return tiles;
 }
 
@@ -238,11 +237,10 @@ TEST(Packets, CellsDoNotStretchBeyondAllThatIsFinite) {
   const TestWorld w(body_on_a_plain(0.4));
   const Tracer tracer(w.world(), Accel::bvh);
   const auto tiles = tiles_of(tracer, w.scene().camera, {128, 72});
-  const raytrace::Sight sight =
-      sight_of_light(tracer.structures(), w.scene().lights[0], {tiles.data(), tiles.size()});
-  ASSERT_TRUE(sight.by_cells);
+  const raytrace::Sight sight = sight_of_light(tracer, w.scene().lights[0], {tiles.data(), tiles.size()});
+  ASSERT_TRUE(sight.by_bins);
   const double size = w.world().finite_bounds.diagonal();
-  for (const raytrace::CellAxis& axis : {sight.cells.u, sight.cells.v})
+  for (const raytrace::BinAxis& axis : {sight.bins.u, sight.bins.v})
     EXPECT_LT(axis.count * axis.width, 1.01 * size);
   EXPECT_TRUE(covers(sight, {tiles.data(), tiles.size()}, {}));
 }
@@ -255,9 +253,8 @@ TEST(Packets, SmallThingsInALargeWorldAreLeftToTheHierarchy) {
     const TestWorld w(*scene);
     const Tracer tracer(w.world(), Accel::bvh);
     const auto tiles = tiles_of(tracer, w.scene().camera, {320, 180});
-    const raytrace::Sight sight =
-        sight_of_light(tracer.structures(), w.scene().lights[0], {tiles.data(), tiles.size()});
-    EXPECT_EQ(sight.by_cells, !large);
+    const raytrace::Sight sight = sight_of_light(tracer, w.scene().lights[0], {tiles.data(), tiles.size()});
+    EXPECT_EQ(sight.by_bins, !large);
   }
 }
 

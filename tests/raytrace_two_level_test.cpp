@@ -123,8 +123,8 @@ Compared compare(const World& world, const Tracer& tracer, const std::vector<Ray
   return {wrong, hits};
 }
 
-const TwoLevel& structure_of(const Tracer& tracer) {
-  return std::get<TwoLevel>(tracer.structures().structure);
+TwoLevel structure_of(const World& world) {
+  return std::get<TwoLevel>(build_structure(world, Accel::two_level));
 }
 
 Mesh ball() {
@@ -139,8 +139,8 @@ TEST(TwoLevel, AgreesWithBruteForceForEveryKindOfTransform) {
       placed.emplace_back(i % 2, moved(random.in_box(kind.extent), kind.linear(random)));
     const TestWorld w(instances_of({ball(), test::triangle_soup(30, 0.8, 0.5, 5)}, placed));
     const Tracer tracer(w.world(), Accel::two_level);
-    EXPECT_EQ(structure_of(tracer).placements.size(), 40u) << kind.name;
-    EXPECT_EQ(structure_of(tracer).trees.size(), 2u) << kind.name;
+    EXPECT_EQ(structure_of(tracer.world()).placements.size(), 40u) << kind.name;
+    EXPECT_EQ(structure_of(tracer.world()).trees.size(), 2u) << kind.name;
     const Compared c = compare(w.world(), tracer, aimed_rays(w.world(), 6000, kind.extent, Vec3(0.0), 12));
     EXPECT_EQ(c.wrong, 0u) << kind.name;
     EXPECT_GT(c.hits, 2500u) << kind.name;
@@ -179,7 +179,7 @@ TEST(TwoLevel, MeshFarFromItsOwnOrigin) {
         0, moved(random.in_box(3.0), turned(random) * scaling(Vec3(1e3)) * moved(-away, Mat4(1.0))));
   const TestWorld w(instances_of({mesh}, placed));
   const Tracer tracer(w.world(), Accel::two_level);
-  EXPECT_EQ(structure_of(tracer).placements.size(), 20u);
+  EXPECT_EQ(structure_of(tracer.world()).placements.size(), 20u);
   const Compared c = compare(w.world(), tracer, aimed_rays(w.world(), 8000, 3.0, Vec3(0.0), 32));
   EXPECT_EQ(c.wrong, 0u);
   EXPECT_GT(c.hits, 3000u);
@@ -205,7 +205,7 @@ TEST(TwoLevel, TransformsThatCannotBeInverted) {
   empty.positions = {Vec3(0.0)};
   const TestWorld w(instances_of({ball(), empty}, placed));
   const Tracer tracer(w.world(), Accel::two_level), brute(w.world(), Accel::brute);
-  EXPECT_EQ(structure_of(tracer).placements.size(), 2u);
+  EXPECT_EQ(structure_of(tracer.world()).placements.size(), 2u);
   EXPECT_EQ(tracer.stats().dropped, brute.stats().dropped);
   EXPECT_GT(tracer.stats().dropped, 0u);
   std::vector<Ray> rays;
@@ -232,7 +232,7 @@ TEST(TwoLevel, TrianglesThatOnlySomeInstancesLose) {
                                           {0, moved(Vec3(1e9, 4, 0), Mat4(1.0))}}));
   const Tracer tracer(w.world(), Accel::two_level);
   EXPECT_EQ(tracer.stats().dropped, 2u);
-  EXPECT_EQ(structure_of(tracer).trees.size(), 2u);
+  EXPECT_EQ(structure_of(tracer.world()).trees.size(), 2u);
   for (const Vec3& middle : {Vec3(0.0), Vec3(1e9, 0.0, 0.0)}) {
     const Compared c = compare(w.world(), tracer, aimed_rays(w.world(), 3000, 4.0, middle, 51));
     EXPECT_EQ(c.wrong, 0u);
@@ -309,8 +309,9 @@ TEST(TwoLevel, MemoryIsThatOfOneMesh) {
   for (int i = 0; i < 400; ++i) placed.emplace_back(0, moved(random.in_box(40.0), turned(random)));
   const TestWorld w(instances_of({test::uv_sphere(Vec3(0.0), 1.0, 16, 24, 0.1, 3)}, placed));
   const Tracer two(w.world(), Accel::two_level), one(w.world(), Accel::bvh);
-  EXPECT_EQ(structure_of(two).trees.size(), 1u);
-  EXPECT_TRUE(two.structures().bvh.primitives.empty());
+  const TwoLevel structure = structure_of(w.world());
+  EXPECT_EQ(structure.trees.size(), 1u);
+  EXPECT_TRUE(structure.leaves.primitives.empty());
   // Four bytes a triangle for its id, and some three hundred an instance.
   EXPECT_LT(two.stats().bytes, one.stats().bytes / 10);
 }

@@ -9,7 +9,8 @@
 #include "every_target.h"
 #include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/kernels.h"
-#include "raytrace/packets/seen.h"
+#include "raytrace/packets/edge_setup.h"
+#include "raytrace/single_rays.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "tests/support/places.h"
@@ -23,16 +24,11 @@ using test::Random;
 using test::same;
 using test::TestWorld;
 
-void fold(const Tracer& tracer) {
-  const Structures& s = tracer.structures();
-  s.wide->fold(s.bvh, *s.world);
-}
-
 /// Rays on which the wide walk and brute force differ, over all instruction sets; at least `least` must hit.
 void expect_same(const World& world, const std::vector<Ray>& rays, std::size_t least,
                  Precision precision = Precision::robust) {
   const Tracer tracer(world, Accel::bvh, precision), brute(world, Accel::brute, precision);
-  fold(tracer);
+  prepare_single_rays(tracer);
   std::vector<std::optional<Hit>> truth(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(),
                     [&](std::size_t i) { truth[i] = brute.closest_hit(rays[i]); });
@@ -171,7 +167,7 @@ TEST(Wide, LeafOfTooManyCornersIsHalved) {
     for (std::size_t row = 0; row < 6; ++row) root.bounds[row][i] = (row < 3) == (i == 0) ? -3.0f : 3.0f;
   }
   bvh.nodes.push_back(root);
-  const auto tree = fold_wide(bvh, w.world());
+  const auto tree = collapse_bvh(bvh, w.world());
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(tree->leaves.size(), 4u);
   const Tracer brute(w.world(), Accel::brute);
@@ -179,7 +175,7 @@ TEST(Wide, LeafOfTooManyCornersIsHalved) {
   for (const Ray& ray : hard_rays(w.world(), 5000, 2.0, 26)) {
     LeafCandidates found;
     const auto hit = brute.closest_hit(ray);
-    if (!hit || closest_candidates(*tree, ray, found) == WideWalk::refused) continue;
+    if (!hit || closest_candidates(*tree, ray, found) == WideTraversal::refused) continue;
     const auto end = found.leaf.begin() + static_cast<std::ptrdiff_t>(found.count);
     const auto at = std::find_if(found.leaf.begin(), end,
                                  [&](std::uint32_t leaf) { return bvh.ids[leaf] == hit->primitive; });
@@ -192,9 +188,8 @@ TEST(Wide, LeafOfTooManyCornersIsHalved) {
 /// Corners in sixteen bits are off by half a step at most, no step is longer than it has to be, and no edge
 /// longer than is said: the floats' bounds stand on these.
 void expect_packed_within_bounds(const World& world) {
-  const Tracer tracer(world, Accel::bvh);
-  const Bvh& bvh = tracer.structures().bvh;
-  const auto tree = fold_wide(bvh, world);
+  const Bvh bvh = build_bvh(world);
+  const auto tree = collapse_bvh(bvh, world);
   ASSERT_NE(tree, nullptr);
   double farthest = 0.0, longest = 0.0, coarsest = 0.0;  // in steps; in L; of what sixteen bits need
   std::size_t triangles = 0;
@@ -283,7 +278,7 @@ void expect_same_verdicts(Scene scene, std::size_t least_open) {
   const TestWorld w(std::move(scene));
   for (const Precision precision : {Precision::robust, Precision::exact}) {
     const Tracer tracer(w.world(), Accel::bvh, precision), brute(w.world(), Accel::brute, precision);
-    fold(tracer);
+    prepare_single_rays(tracer);
     const auto rays = hard_rays(w.world(), 4000, 5.0, 16);
     for_each_target([&] {
       std::atomic<std::size_t> wrong = 0, open = 0;
@@ -339,7 +334,7 @@ TEST(Wide, TextbooksTest) {
     const TestWorld w(std::move(scene));
     const Tracer fast(w.world(), Accel::bvh, Precision::fast), robust(w.world(), Accel::bvh);
     const auto rays = hard_rays(w.world(), 20000, 2.0, 28);
-    fold(fast);
+    prepare_single_rays(fast);
     for_each_target([&] {
       std::size_t differ = 0, wrong = 0;
       for (const Ray& ray : rays) {
@@ -359,7 +354,8 @@ TEST(Wide, TextbooksTest) {
 TEST(Wide, FewCandidatesBesideTheHit) {
   const TestWorld w(test::scene_of({test::uv_sphere(Vec3(0.0), 1.0, 64, 96, 0.05, 17)}));
   const Tracer tracer(w.world(), Accel::bvh);
-  const auto tree = fold_wide(tracer.structures().bvh, w.world());
+  const Bvh bvh = build_bvh(w.world());
+  const auto tree = collapse_bvh(bvh, w.world());
   ASSERT_NE(tree, nullptr);
   Random random(18);
   std::size_t hits = 0, candidates = 0;
@@ -367,7 +363,7 @@ TEST(Wide, FewCandidatesBesideTheHit) {
     const Vec3 from = random.in_box(3.0);
     const Ray ray{from, random.in_box(0.9) - from};
     LeafCandidates found;
-    ASSERT_EQ(closest_candidates(*tree, ray, found), WideWalk::done);
+    ASSERT_EQ(closest_candidates(*tree, ray, found), WideTraversal::done);
     for (std::size_t k = 0; k < found.count; ++k) candidates += found.t[k] <= found.t_max ? 1 : 0;
     hits += tracer.closest_hit(ray) ? 1 : 0;
   }
@@ -380,10 +376,11 @@ TEST(Wide, IsThereOnlyWhenManyRaysHaveAskedForIt) {
   const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::kdtree);
   const Ray ray{Vec3(0.0), Vec3(1.0, 2.0, 3.0)};
   for (int i = 0; i < 3000; ++i) EXPECT_TRUE(tracer.occluded(ray));
-  EXPECT_EQ(tracer.structures().wide->bytes(), 0u);
+  EXPECT_EQ(single_ray_bytes(tracer), 0u);
   for (int i = 0; i < 20000; ++i) EXPECT_TRUE(tracer.occluded(ray));
-  EXPECT_GT(tracer.structures().wide->bytes(), 0u);
-  EXPECT_EQ(other.structures().wide, nullptr);
+  EXPECT_GT(single_ray_bytes(tracer), 0u);
+  prepare_single_rays(other);
+  EXPECT_EQ(single_ray_bytes(other), 0u);
 }
 
 TEST(Wide, Bunny) {

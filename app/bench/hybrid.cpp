@@ -85,8 +85,7 @@ class HybridBench {
     time_run(now.kept, trace);
     wrong += differences();
     std::optional<raytrace::Sight> sight;
-    if (packets_apply(tracer_.structures()))
-      sight = sight_of_light(tracer_.structures(), light_, receivers_.compact());
+    if (packets_apply(tracer_)) sight = sight_of_light(tracer_, light_, receivers_.quantised());
     time_run(now.pure_kept, [&] { trace_all(sight ? &*sight : nullptr); });
     if (wrong == 0) return {};
     return fail(ErrorKind::internal, fmt::format("hybrid and ray tracing disagree on {} pixels", wrong));
@@ -94,9 +93,8 @@ class HybridBench {
 
   /// kept: a view of the light that was made before.
   void trace_all(const raytrace::Sight* kept) {
-    const raytrace::Structures& s = tracer_.structures();
     const raytrace::TileGrid grid{input_.size};
-    if (!packets_apply(s)) {
+    if (!packets_apply(tracer_)) {
       for_each_pixel(grid, [&](int x, int y, std::size_t) {
         const SurfacePoint& p = receivers_.points.at(x, y);
         pure_.at(x, y) = p.primitive == no_id ? Verdict::lit : tracer_.light_verdict(p, light_);
@@ -104,7 +102,7 @@ class HybridBench {
       return;
     }
     std::optional<raytrace::Sight> made;
-    if (kept == nullptr) made = sight_of_light(s, light_, receivers_.compact());
+    if (kept == nullptr) made = sight_of_light(tracer_, light_, receivers_.quantised());
     const raytrace::Sight& sight = kept != nullptr ? *kept : *made;
     const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
     for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {

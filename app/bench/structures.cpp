@@ -8,7 +8,7 @@
 
 #include "app/bench/row.h"
 #include "app/options.h"
-#include "raytrace/kernels.h"
+#include "raytrace/single_rays.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -79,12 +79,11 @@ Times time_passes(int runs, const Pass& pass) {
 
 /// The nodes of sixteen that the timed rays go through: made now, so that their making and their bytes count too.
 void add_collapsed_tree(const Tracer& tracer, Measured& m) {
-  const raytrace::Structures& s = tracer.structures();
-  if (s.wide == nullptr) return;
   const Stopwatch watch;
-  s.wide->fold(s.bvh, tracer.world());
+  prepare_single_rays(tracer);
+  if (single_ray_bytes(tracer) == 0) return;
   m.build_ms += watch.elapsed_ms();
-  m.megabytes += static_cast<double>(s.wide->bytes()) / 1048576.0;
+  m.megabytes += static_cast<double>(single_ray_bytes(tracer)) / 1048576.0;
 }
 
 /// The counted and checked pass comes first: it warms the caches for the timed ones.

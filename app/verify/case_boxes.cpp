@@ -29,7 +29,7 @@ bool meets(const Ray& ray, const Vec3& min, const Vec3& max) {
   if (!frame) return false;
   alignas(16) std::array<float, 4> t_near;
   const raytrace::BoxRay boxes(*frame, Vec3(0.0));
-  return raytrace::meet_boxes(node_of(min, max), boxes, boxes.t_max, t_near.data()) == 15;
+  return raytrace::intersect_boxes(node_of(min, max), boxes, boxes.t_max, t_near.data()) == 15;
 }
 
 /// The textbook's slab test, in floats: min and max of the two planes, which let NaN (0 * inf) through.

@@ -82,7 +82,7 @@ std::uint32_t nearest_of(const ClosePair& pair) {
   s.bvh.ids = {0, 1};
   const auto frame = raytrace::make_ray_frame({pair.origin, pair.direction});
   if (!frame) return no_id;
-  const auto hit = raytrace::closest_offered<false, raytrace::ExactArithmetic>(
+  const auto hit = raytrace::closest_reported<false, raytrace::ExactArithmetic>(
       s, *frame, no_id, [](const raytrace::RayFrame&, const auto& visit) { visit(0), visit(1); });
   return hit ? hit->primitive : no_id;
 }

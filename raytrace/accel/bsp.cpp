@@ -100,41 +100,42 @@ class Builder {
     for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(extent(items[i]));
     Choice best{.cost = intersection_cost * static_cast<double>(sample.size())};
     CutBuffers buffers;
-    const auto offer = [&](const CutPlane& plane) {
+    const auto report = [&](const CutPlane& plane) {
       const double cost = cost_of(plane, sample, cell, best.cost, buffers);
       if (cost < best.cost) best = {plane, cost};
     };
-    offer_walls(sample, offer);
+    report_walls(sample, report);
     const std::size_t apart = std::max<std::size_t>(1, sample.size() / triangles_tried);
-    for (std::size_t i = apart / 2; i < sample.size(); i += apart) offer_triangle(sample[i], offer);
+    for (std::size_t i = apart / 2; i < sample.size(); i += apart) report_triangle(sample[i], report);
     return best;
   }
 
-  template <class Offer>
-  static void offer_walls(std::span<const Extent> sample, const Offer& offer) {
+  template <class Report>
+  static void report_walls(std::span<const Extent> sample, const Report& report) {
     Vec3 lo(infinity), hi(-infinity);
     for (const Extent& e : sample)
       for (const Vec3& p : e.points) lo = glm::min(lo, p - e.half), hi = glm::max(hi, p + e.half);
     for (int a = 0; a < 3; ++a) {
       Vec3 normal(0.0);
       normal[a] = 1.0;
-      for (int i = 0; i <= walls_per_axis; ++i) offer({normal, lo[a] + (hi[a] - lo[a]) * i / walls_per_axis});
+      for (int i = 0; i <= walls_per_axis; ++i)
+        report({normal, lo[a] + (hi[a] - lo[a]) * i / walls_per_axis});
     }
   }
 
-  template <class Offer>
-  static void offer_triangle(const Extent& triangle, const Offer& offer) {
+  template <class Report>
+  static void report_triangle(const Extent& triangle, const Report& report) {
     const auto& p = triangle.points;
     const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);  // zero for the point of another shape
-    offer_plane(normal, p[0], offer);
-    for (std::size_t k = 0; k < 3; ++k) offer_plane(glm::cross(normal, p[(k + 1) % 3] - p[k]), p[k], offer);
+    report_plane(normal, p[0], report);
+    for (std::size_t k = 0; k < 3; ++k) report_plane(glm::cross(normal, p[(k + 1) % 3] - p[k]), p[k], report);
   }
 
-  template <class Offer>
-  static void offer_plane(const Vec3& normal, const Vec3& point, const Offer& offer) {
+  template <class Report>
+  static void report_plane(const Vec3& normal, const Vec3& point, const Report& report) {
     const double length = glm::length(normal);
     if (!(length > 0.0) || !std::isfinite(length)) return;
-    offer(CutPlane{normal / length, glm::dot(normal / length, point)});
+    report(CutPlane{normal / length, glm::dot(normal / length, point)});
   }
 
   /// Infinite where a glance shows that it cannot be below `best`: the parts' areas add up to more than the

@@ -37,17 +37,17 @@ struct BspTree {
 
 BspTree build_bsp(const CellItems& items);
 
-/// The ray as planes see it: its origin's and its direction's doubts are put together to how far any of its
-/// points up to `reach` may be from where it seems to be, per axis.
+/// The ray as planes see it: the errors of its origin and its direction are put together to how far any of
+/// its points up to `reach` may be from where it seems to be, per axis.
 struct PlaneRay {
-  std::array<double, 3> origin, direction, doubt;
+  std::array<double, 3> origin, direction, error;
   PlaneRay(const BoxRay& ray, double reach) {
     constexpr double direction_slack = 2.0 * FLT_EPSILON;  // of BoxRay::inverse, a rounded float
     for (std::size_t a = 0; a < 3; ++a) {
       const double near = ray.near_origin[a], far = ray.far_origin[a];
       origin[a] = 0.5 * (near + far);
       direction[a] = 1.0 / static_cast<double>(ray.inverse[a]);
-      doubt[a] = std::abs(near - far) + reach * (std::abs(direction[a]) * direction_slack + FLT_MIN);
+      error[a] = std::abs(near - far) + reach * (std::abs(direction[a]) * direction_slack + FLT_MIN);
     }
   }
 };
@@ -60,21 +60,21 @@ struct PlaneCrossing {
 };
 
 inline PlaneCrossing cross(const BspNode& node, const PlaneRay& ray, double slack) {
-  double height = -node.offset, slope = 0.0, doubt = slack;
+  double height = -node.offset, slope = 0.0, error = slack;
   for (std::size_t a = 0; a < 3; ++a) {
     height += node.normal[a] * ray.origin[a];
     slope += node.normal[a] * ray.direction[a];
-    doubt += std::abs(node.normal[a]) * ray.doubt[a];
+    error += std::abs(node.normal[a]) * ray.error[a];
   }
   const std::size_t near = slope < 0.0 ? 1 : 0;
   if (slope < 0.0) height = -height, slope = -slope;
-  if (slope > 0.0) return {(-height - doubt) / slope, (-height + doubt) / slope, near};
-  return {height + doubt >= 0.0 ? -infinity : infinity, height - doubt <= 0.0 ? infinity : -infinity, near};
+  if (slope > 0.0) return {(-height - error) / slope, (-height + error) / slope, near};
+  return {height + error >= 0.0 ? -infinity : infinity, height - error <= 0.0 ? infinity : -infinity, near};
 }
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
-bool walk(const BspTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const BspTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.leaves.empty()) return false;
   const RaySpan span = clip(ray, tree.bounds);
   if (span.empty()) return false;

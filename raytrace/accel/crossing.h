@@ -1,7 +1,7 @@
 // When a ray crosses an axis-aligned wall, as bounds that hold whatever the rounding and wherever in its
 // error interval the ray's origin truly lies. A structure that enters a cell at `entry_bound` and leaves it
 // at `exit_bound` passes through both cells on a tie, and so through none too few. A ray along the wall
-// (1/d infinite) is on one side for ever, or, with its origin in doubt, on both.
+// (1/d infinite) is on one side for ever, or, with its origin ambiguous, on both.
 #pragma once
 
 #include "raytrace/accel/even_cells.h"
@@ -9,7 +9,7 @@
 
 namespace gnomon::raytrace {
 
-inline constexpr float crossing_slack = 4.0f * FLT_EPSILON;  // as in meet_boxes()
+inline constexpr float crossing_slack = 4.0f * FLT_EPSILON;  // as in intersect_boxes()
 
 /// The ray's parameter at the wall, or just before.
 inline float entry_bound(const BoxRay& ray, std::size_t axis, float wall) {
@@ -45,7 +45,7 @@ inline RaySpan clip(const BoxRay& ray, const CellBox& box) {
   return span;
 }
 
-/// Primitives met lately, so that one which lies in several cells is mostly tested once. Forgetting costs a
+/// Primitives hit lately, so that one which lies in several cells is mostly tested once. Forgetting costs a
 /// test, never a hit. (Amanatides and Woo 1987 keep one mailbox per primitive; this one is private to the
 /// ray: Shevtsov et al. 2007, "Highly parallel fast kd-tree construction".)
 class Mailbox {
@@ -63,7 +63,7 @@ class Mailbox {
   std::array<std::uint32_t, size> recent_;
 };
 
-/// Offers a cell's items to `visit`; true when it ends the walk.
+/// Offers a cell's items to `visit`; true when it ends the traversal.
 template <class Stats, class Visit>
 bool visit_cell(std::span<const std::uint32_t> items, Mailbox& mailbox, Stats& stats, const Visit& visit) {
   for (const std::uint32_t item : items) {

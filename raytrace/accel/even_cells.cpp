@@ -7,7 +7,8 @@ namespace {
 
 constexpr int projection_operations = 16;  // roundings of a corner's projection on an axis, with its inputs'
 
-/// Any axis on which the projections do not meet proves the two apart, so the axis itself need not be exact.
+/// Any axis on which the projections do not intersect proves the two apart, so the axis itself need not be
+/// exact.
 bool surely_apart(const Vec3& axis, const std::array<Vec3, 3>& corners, const Vec3& middle, const Vec3& half,
                   const Vec3& reach) {
   double lo = infinity, hi = -infinity;

@@ -20,7 +20,7 @@ struct CellReference {
 /// Cubes of equal volume that add up to density * count; an axis thinner than one cube gets one cell and
 /// leaves the number to the others.
 std::array<int, 3> resolution(const CellItems& items, double density) {
-  const double wanted = std::min(density * items.count(), static_cast<double>(Grid::max_cells));
+  const double wanted = std::min(density * items.count(), static_cast<double>(UniformGrid::max_cells));
   std::array<std::size_t, 3> order{0, 1, 2};
   const CellBox& box = items.bounds();
   std::sort(order.begin(), order.end(),
@@ -32,13 +32,14 @@ std::array<int, 3> resolution(const CellItems& items, double density) {
     double ratio = left;  // of the remaining cells to the remaining cubes of this axis' extent
     for (std::size_t j = i; j < 3; ++j) ratio *= box.extent(order[i]) / box.extent(order[j]);
     const double count = std::pow(ratio, 1.0 / static_cast<double>(3 - i));
-    const double whole = std::clamp(std::round(count), 1.0, static_cast<double>(Grid::max_cells_per_axis));
+    const double whole =
+        std::clamp(std::round(count), 1.0, static_cast<double>(UniformGrid::max_cells_per_axis));
     cells[order[i]] = static_cast<int>(whole);
     left = std::max(1.0, left / whole);
   }
   while (static_cast<std::uint64_t>(cells[0]) * static_cast<std::uint64_t>(cells[1]) *
              static_cast<std::uint64_t>(cells[2]) >
-         Grid::max_cells)
+         UniformGrid::max_cells)
     --*std::max_element(cells.begin(), cells.end());
   return cells;
 }
@@ -64,12 +65,12 @@ CellRange cells_of(const std::vector<float>& walls, float min, float max) {
 
 /// The cells that one primitive may reach into, slab by slab and row by row so that most are never looked at.
 template <class Add>
-void for_each_cell(const Grid& grid, const CellItems& items, std::uint32_t item, const Add& add) {
+void for_each_cell(const UniformGrid& grid, const CellItems& items, std::uint32_t item, const Add& add) {
   const BoxRef& box = items.box(item);
   std::array<CellRange, 3> range;
   for (std::size_t a = 0; a < 3; ++a) range[a] = cells_of(grid.walls[a], box.min[a], box.max[a]);
   CellBox cell{box.min, box.max};
-  const auto meets = [&](std::size_t axis, int i, const CellRange& whole) {
+  const auto intersects = [&](std::size_t axis, int i, const CellRange& whole) {
     if (whole.first == whole.last) return true;
     cell.min[axis] = grid.walls[axis][static_cast<std::size_t>(i)];
     cell.max[axis] = grid.walls[axis][static_cast<std::size_t>(i) + 1];
@@ -77,12 +78,12 @@ void for_each_cell(const Grid& grid, const CellItems& items, std::uint32_t item,
   };
   for (int z = range[2].first; z <= range[2].last; ++z) {
     cell = {box.min, box.max};
-    if (!meets(2, z, range[2])) continue;
+    if (!intersects(2, z, range[2])) continue;
     for (int y = range[1].first; y <= range[1].last; ++y) {
       cell.min[0] = box.min[0], cell.max[0] = box.max[0];
-      if (!meets(1, y, range[1])) continue;
+      if (!intersects(1, y, range[1])) continue;
       for (int x = range[0].first; x <= range[0].last; ++x)
-        if (meets(0, x, range[0]) &&
+        if (intersects(0, x, range[0]) &&
             !add(static_cast<std::uint32_t>((z * grid.cells[1] + y) * grid.cells[0] + x)))
           return;
     }
@@ -90,7 +91,7 @@ void for_each_cell(const Grid& grid, const CellItems& items, std::uint32_t item,
 }
 
 /// What a sample of the items promises for all of them.
-std::uint64_t estimate_references(const Grid& grid, const CellItems& items) {
+std::uint64_t estimate_references(const UniformGrid& grid, const CellItems& items) {
   constexpr std::uint32_t sample = 256;
   const std::uint32_t step = (items.count() + sample - 1) / sample;
   std::uint64_t found = 0;
@@ -100,7 +101,7 @@ std::uint64_t estimate_references(const Grid& grid, const CellItems& items) {
 }
 
 /// By blocks of items; false when there are more than `limit`, and then the blocks are incomplete.
-bool find_references(const Grid& grid, const CellItems& items, std::uint64_t limit,
+bool find_references(const UniformGrid& grid, const CellItems& items, std::uint64_t limit,
                      std::vector<std::vector<CellReference>>& blocks) {
   constexpr std::uint32_t block = 512;
   blocks.assign((items.count() + block - 1) / block, {});
@@ -116,7 +117,7 @@ bool find_references(const Grid& grid, const CellItems& items, std::uint64_t lim
   return total <= limit;
 }
 
-void fill(Grid& grid, const std::vector<std::vector<CellReference>>& blocks) {
+void fill(UniformGrid& grid, const std::vector<std::vector<CellReference>>& blocks) {
   const std::size_t cells = static_cast<std::size_t>(grid.cells[0]) *
                             static_cast<std::size_t>(grid.cells[1]) * static_cast<std::size_t>(grid.cells[2]);
   grid.offsets.assign(cells + 1, 0);
@@ -134,8 +135,8 @@ void fill(Grid& grid, const std::vector<std::vector<CellReference>>& blocks) {
 
 }  // namespace
 
-Grid build_grid(const CellItems& items, const GridOptions& options) {
-  Grid grid;
+UniformGrid build_grid(const CellItems& items, const GridOptions& options) {
+  UniformGrid grid;
   if (items.count() == 0) return grid;
   grid.bounds = items.bounds();
   grid.cells = resolution(items, options.density);

@@ -1,8 +1,8 @@
-// Uniform grid, walked by a 3D-DDA: Amanatides and Woo 1987, "A fast voxel traversal algorithm for ray
+// Uniform grid, traversed by a 3D-DDA: Amanatides and Woo 1987, "A fast voxel traversal algorithm for ray
 // tracing". Here the DDA counts walls with integers and computes each wall's crossing afresh, so nothing
 // drifts, and it keeps the range of cells in which the ray may be: where the order of two crossings is in
-// doubt (a ray through an edge or a corner of cells), it passes through the cells on both sides. Where it is
-// in no doubt, as nearly always, it steps from cell to cell.
+// ambiguity (a ray through an edge or a corner of cells), it passes through the cells on both sides. Where it
+// is not ambiguous, as nearly always, it steps from cell to cell.
 //
 // How many cells: about `density` per primitive, cube-shaped (Cleary and Wyvill 1988, "Analysis of an
 // algorithm for fast ray tracing using uniform space subdivision"). The textbook's rule is three cells per
@@ -20,7 +20,7 @@ struct GridOptions {
   static constexpr double textbook_density = 27.0;
 };
 
-struct Grid {
+struct UniformGrid {
   CellBox bounds;
   std::array<int, 3> cells{0, 0, 0};
   std::array<std::vector<float>, 3> walls;  ///< cells[a] + 1 per axis, ascending
@@ -48,12 +48,12 @@ struct Grid {
   std::uint64_t nodes() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
-Grid build_grid(const CellItems& items, const GridOptions& options = {});
+UniformGrid build_grid(const CellItems& items, const GridOptions& options = {});
 
 /// Where along one axis the ray may be: in cells first ... last, counted in the ray's direction.
 class GridAxis {
  public:
-  GridAxis(const Grid& grid, const BoxRay& ray, std::size_t axis, float begin)
+  GridAxis(const UniformGrid& grid, const BoxRay& ray, std::size_t axis, float begin)
       : walls_(grid.walls[axis].data()),
         ray_(&ray),
         axis_(axis),
@@ -109,9 +109,10 @@ class GridAxis {
 
 /// A ray on its way through the cells.
 template <class Stats, class Visit>
-class GridWalk {
+class GridTraversal {
  public:
-  GridWalk(const Grid& grid, const BoxRay& ray, const RaySpan& span, Stats& stats, const Visit& visit)
+  GridTraversal(const UniformGrid& grid, const BoxRay& ray, const RaySpan& span, Stats& stats,
+                const Visit& visit)
       : grid_(grid),
         ray_(ray),
         end_(span.end),
@@ -181,7 +182,7 @@ class GridWalk {
                                                     axes_[2].place(axes_[2].first())));
   }
 
-  const Grid& grid_;
+  const UniformGrid& grid_;
   const BoxRay& ray_;
   float end_;
   Stats& stats_;
@@ -193,12 +194,12 @@ class GridWalk {
   std::ptrdiff_t cell_ = 0;  ///< that one
 };
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
-bool walk(const Grid& grid, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const UniformGrid& grid, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (grid.offsets.empty()) return false;
   const RaySpan span = clip(ray, grid.bounds);
-  return !span.empty() && GridWalk<Stats, Visit>(grid, ray, span, stats, visit).run();
+  return !span.empty() && GridTraversal<Stats, Visit>(grid, ray, span, stats, visit).run();
 }
 
 }  // namespace gnomon::raytrace

@@ -55,7 +55,7 @@ void sweep(std::span<const Reference> refs, const CellBox& cell, std::size_t axi
   std::sort(begins.begin(), begins.end());
   std::sort(ends.begin(), ends.end());
   std::size_t begun = 0, ended = 0;  // begins < at, ends <= at
-  const auto offer = [&](float at) {
+  const auto report = [&](float at) {
     if (!is_inside(cell, axis, at)) return;
     while (begun < begins.size() && begins[begun] < at) ++begun;
     while (ended < ends.size() && ends[ended] <= at) ++ended;
@@ -63,7 +63,7 @@ void sweep(std::span<const Reference> refs, const CellBox& cell, std::size_t axi
     if (cost < best.cost) best = {static_cast<int>(axis), at, cost};
   };
   for (std::size_t b = 0, e = 0; b < begins.size() || e < ends.size();)
-    offer(e == ends.size() || (b < begins.size() && begins[b] <= ends[e]) ? begins[b++] : ends[e++]);
+    report(e == ends.size() || (b < begins.size() && begins[b] <= ends[e]) ? begins[b++] : ends[e++]);
 }
 
 void try_bins(std::span<const Reference> refs, const CellBox& cell, std::size_t axis, Split& best) {

@@ -31,9 +31,9 @@ struct KdTree {
 
 KdTree build_kdtree(const CellItems& items, KdSplit rule = KdSplit::surface_area);
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
-bool walk(const KdTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const KdTree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.nodes.empty()) return false;
   struct Entry {
     std::uint32_t node;

@@ -26,9 +26,9 @@ struct MedianBvh {
 
 MedianBvh build_median_bvh(const CellItems& items);
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
-bool walk(const MedianBvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const MedianBvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (bvh.nodes.empty()) return false;
   struct Entry {
     std::uint32_t node;

@@ -1,7 +1,7 @@
 // Octree: a cell is cut in half along all three axes at once until it holds few primitives (Glassner 1984,
-// "Space subdivision for fast ray tracing"). A primitive goes to every child that it may reach into. The walk
-// takes the children in the order in which the ray enters them; children that the ray enters at the same
-// time, through their common edge or corner, are all visited.
+// "Space subdivision for fast ray tracing"). A primitive goes to every child that it may reach into. The
+// traversal takes the children in the order in which the ray enters them; children that the ray enters at the
+// same time, through their common edge or corner, are all visited.
 #pragma once
 
 #include "raytrace/accel/crossing.h"
@@ -29,9 +29,9 @@ struct Octree {
 
 Octree build_octree(const CellItems& items);
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in the order of CellItems.
 template <class Stats, class Visit>
-bool walk(const Octree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const Octree& tree, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (tree.nodes.empty()) return false;
   struct Entry {
     std::uint32_t node;

@@ -38,7 +38,7 @@ StructureSize size_of(const Structure& structure) {
     return {s->nodes.size(), s->items.size(), s->bytes()};
   if (const auto* s = std::get_if<KdTree>(&structure)) return {s->nodes.size(), s->items.size(), s->bytes()};
   if (const auto* s = std::get_if<Octree>(&structure)) return {s->nodes.size(), s->items.size(), s->bytes()};
-  if (const auto* s = std::get_if<Grid>(&structure)) return {s->nodes(), s->items.size(), s->bytes()};
+  if (const auto* s = std::get_if<UniformGrid>(&structure)) return {s->nodes(), s->items.size(), s->bytes()};
   if (const auto* s = std::get_if<BspTree>(&structure))
     return {s->nodes.size() + s->leaves.size(), s->items.size(), s->bytes()};
   if (const auto* s = std::get_if<TwoLevel>(&structure))

@@ -1,7 +1,8 @@
-// Every structure but the default one (raytrace/bvh/bvh.h) and brute force, behind one function: walk(). A
-// structure is plain data with a build function, and a walk() that has the contract of
-// raytrace/bvh/traverse.h: it offers every primitive that the ray may meet before ray.t_max, near ones first
-// as far as it can, some perhaps twice. Which structure it is, is decided once per ray and never inside.
+// Every structure but the default one (raytrace/bvh/bvh.h) and brute force, behind one function: traverse().
+// A structure is plain data with a build function, and a traverse() that has the contract of
+// raytrace/bvh/traverse.h: it reports every primitive that the ray may intersect before ray.t_max, near ones
+// first as far as it can, some perhaps twice. Which structure it is, is decided once per ray and never
+// inside.
 #pragma once
 
 #include <variant>
@@ -17,7 +18,7 @@
 namespace gnomon::raytrace {
 
 /// monostate: the default hierarchy or brute force, both in Structures::bvh.
-using Structure = std::variant<std::monostate, MedianBvh, KdTree, Octree, Grid, BspTree, TwoLevel>;
+using Structure = std::variant<std::monostate, MedianBvh, KdTree, Octree, UniformGrid, BspTree, TwoLevel>;
 
 /// Whether `accel` lives in a Structure.
 bool has_structure(Accel accel);
@@ -29,21 +30,21 @@ struct StructureSize {
 StructureSize size_of(const Structure& structure);
 
 template <class Stats, class Visit>
-[[gnu::noinline]] bool walk_structure(const Structure& structure, BoxRay& ray, Stats& stats,
-                                      const Visit& visit) {
+[[gnu::noinline]] bool traverse_structure(const Structure& structure, BoxRay& ray, Stats& stats,
+                                          const Visit& visit) {
   switch (structure.index()) {
     case 1:
-      return walk(*std::get_if<MedianBvh>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<MedianBvh>(&structure), ray, stats, visit);
     case 2:
-      return walk(*std::get_if<KdTree>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<KdTree>(&structure), ray, stats, visit);
     case 3:
-      return walk(*std::get_if<Octree>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<Octree>(&structure), ray, stats, visit);
     case 4:
-      return walk(*std::get_if<Grid>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<UniformGrid>(&structure), ray, stats, visit);
     case 5:
-      return walk(*std::get_if<BspTree>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<BspTree>(&structure), ray, stats, visit);
     case 6:
-      return walk(*std::get_if<TwoLevel>(&structure), ray, stats, visit);
+      return traverse(*std::get_if<TwoLevel>(&structure), ray, stats, visit);
     default:
       return false;
   }

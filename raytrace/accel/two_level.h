@@ -3,7 +3,7 @@
 // Whitted 1980, "A 3-dimensional representation for fast rendering of complex scenes"; Wald, Benthin and
 // Slusallek 2003, "Distributed interactive ray tracing of dynamic scenes"). The ray goes into the mesh's
 // space, with a bound on that step's rounding (raytrace/accel/placement.h), only to choose boxes; what it
-// meets is decided among the world's triangles, as everywhere. They are read from the world, so that no
+// intersects is decided among the world's triangles, as everywhere. They are read from the world, so that no
 // triangle is stored a second time.
 //
 // A mesh that stands alone, is small, or stands where it cannot be inverted (flattened) has a tree of its own
@@ -45,11 +45,11 @@ struct BoxStats {
 };
 
 template <class Stats, class Visit>
-bool walk_placed(const Bvh& tree, const Placement& placement, BoxRay& ray, double begin, Stats& stats,
-                 const Visit& visit) {
+bool traverse_placed(const Bvh& tree, const Placement& placement, BoxRay& ray, double begin, Stats& stats,
+                     const Visit& visit) {
   const PlacedRay placed(placement, ray, std::isfinite(begin) ? begin : 0.0);
   BoxRay inner(placed.frame, Vec3(0.0), placed.origin_error);
-  return walk(tree, inner, stats, [&](std::uint32_t leaf) {
+  return traverse(tree, inner, stats, [&](std::uint32_t leaf) {
     const float before = ray.t_max;
     const bool ends = visit(leaf);
     if (ray.t_max != before) inner.t_max = float_above(placed.parameter(ray.t_max));
@@ -57,12 +57,12 @@ bool walk_placed(const Bvh& tree, const Placement& placement, BoxRay& ray, doubl
   });
 }
 
-/// walk() of raytrace/bvh/traverse.h; `visit` is given places in `leaves`.
+/// traverse() of raytrace/bvh/traverse.h; `visit` is given places in `leaves`.
 template <class Stats, class Visit>
-bool walk(const TwoLevel& two, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const TwoLevel& two, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (two.entries.empty()) return false;
   BoxStats<Stats> upper_stats{stats};
-  return walk(two.upper, ray, upper_stats, [&](std::uint32_t at) {
+  return traverse(two.upper, ray, upper_stats, [&](std::uint32_t at) {
     const TwoLevel::Entry& entry = two.entries[at];
     const auto visit_leaf = [&](std::uint32_t leaf) { return visit(entry.first + leaf); };
     if (entry.tree == no_id) {
@@ -73,9 +73,9 @@ bool walk(const TwoLevel& two, BoxRay& ray, Stats& stats, const Visit& visit) {
     const RaySpan span = clip(ray, entry.box);
     if (span.empty()) return false;
     const Bvh& tree = two.trees[entry.tree];
-    if (entry.placement == no_id) return walk(tree, ray, stats, visit_leaf);
-    return walk_placed(tree, two.placements[entry.placement], ray, static_cast<double>(span.begin), stats,
-                       visit_leaf);
+    if (entry.placement == no_id) return traverse(tree, ray, stats, visit_leaf);
+    return traverse_placed(tree, two.placements[entry.placement], ray, static_cast<double>(span.begin), stats,
+                           visit_leaf);
   });
 }
 

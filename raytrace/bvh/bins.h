@@ -8,12 +8,13 @@
 #include <limits>
 #include <span>
 
+#include "raytrace/bvh/build_config.h"
 #include "raytrace/bvh/bvh.h"
 #include "raytrace/bvh/float4.h"
 
 namespace gnomon::raytrace::binned {
 
-inline constexpr std::size_t most_bins = 16, few_bins = 8;  ///< few: where there are few to put in
+inline constexpr std::size_t most_bins = BuildConfig::most_bins;
 
 /// Four floats, the last of which means nothing here.
 struct alignas(16) Row {
@@ -154,7 +155,16 @@ std::uint32_t partition(std::span<Ref> refs, Ref* scratch, std::array<Bounds, 2>
   return static_cast<std::uint32_t>(left);
 }
 
-inline void best_on_axis(const Bins& bins, std::size_t used, std::size_t axis, Split& best) {
+/// The bins of a range; weight(ref): of how many primitives it is the box.
+template <class Weight>
+Bins fill_bins(std::span<const Ref> refs, const Binning& binning, const Weight& weight) {
+  Bins bins(binning);
+  for (const Ref& ref : refs) bins.put(ref, binning, weight(ref));
+  return bins;
+}
+
+/// The cheaper one of `best` and the cheapest split along the axis.
+inline Split best_on_axis(const Bins& bins, std::size_t used, std::size_t axis, Split best) {
   std::array<float, most_bins> right_cost{};
   Box box = Box::empty();
   std::uint32_t count = 0;
@@ -170,6 +180,15 @@ inline void best_on_axis(const Bins& bins, std::size_t used, std::size_t axis, S
     const float cost = box.half_area() * static_cast<float>(count) + right_cost[b];
     if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
   }
+  return best;
+}
+
+/// The cheapest split between two bins by the surface-area heuristic; bin -1: no axis tells the centroids apart.
+inline Split find_best_split(const Bins& bins, const Binning& binning) {
+  Split best;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (binning.scale[axis] > 0.0f) best = best_on_axis(bins, binning.count, axis, best);
+  return best;
 }
 
 }  // namespace gnomon::raytrace::binned

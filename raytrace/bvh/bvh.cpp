@@ -16,9 +16,7 @@ namespace {
 
 using namespace binned;
 
-constexpr std::uint32_t treelet_size = 256;         // primitives; what fits the nearest caches
-constexpr std::uint32_t parallel_threshold = 4096;  // primitives; below it a task costs more than it gains
-constexpr std::uint32_t few_clusters = 8;           // too few to choose well between them
+using Config = BuildConfig;
 
 }  // namespace
 
@@ -56,9 +54,9 @@ struct ClusterRange {
 
 /// Nodes of fewer than four children have more than leaf_size primitives and leaves alone: those of treelets
 /// are fewer than 7/15 of the primitives. The ranges of one depth above are apart, each of more than
-/// treelet_size.
+/// Config::treelet_size.
 std::size_t most_nodes(std::size_t primitives) {
-  static_assert(sah_depth * 5 <= treelet_size);
+  static_assert(Config::sah_depth * 5 <= Config::treelet_size);
   return 7 * primitives / 15 + primitives / 5 + 2;
 }
 
@@ -91,20 +89,20 @@ class Builder {
   template <class In>
   BvhChild build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth);
 
-  BvhChild treelet(TreeletRoom& room, std::uint32_t first, int depth) {
-    const BvhChild root = build_treelet(room, first, depth, nodes_);
-    for (std::size_t i = 0; i < room.refs.size(); ++i)
+  BvhChild treelet(TreeletScratch& scratch, std::uint32_t first, int depth) {
+    const BvhChild root = build_treelet(scratch, first, depth, nodes_);
+    for (std::size_t i = 0; i < scratch.refs.size(); ++i)
       if (world_ != nullptr)
-        set_leaf(*world_, first + i, room.refs[i].id(), bvh_);
+        set_leaf(*world_, first + i, scratch.refs[i].id(), bvh_);
       else
-        bvh_.ids[first + i] = room.refs[i].id();
+        bvh_.ids[first + i] = scratch.refs[i].id();
     return root;
   }
 
   const World* world_;
   Bvh& bvh_;
   NodeStore nodes_;
-  tbb::enumerable_thread_specific<TreeletRoom> rooms_;
+  tbb::enumerable_thread_specific<TreeletScratch> scratches_;
 };
 
 /// The part of the tree above the runs of one grid.
@@ -122,12 +120,12 @@ class Top {
 
  private:
   BvhChild build(const ClusterRange& range) {
-    if (range.count <= treelet_size || range.depth >= sah_depth) {
-      TreeletRoom& room = builder_.rooms_.local();
-      gather(range, room.refs);
-      return builder_.treelet(room, range.first, range.depth);
+    if (range.count <= Config::treelet_size || range.depth >= Config::sah_depth) {
+      TreeletScratch& scratch = builder_.scratches_.local();
+      gather(range, scratch.refs);
+      return builder_.treelet(scratch, range.first, range.depth);
     }
-    if (range.clusters >= few_clusters) return node(range, few_clusters);
+    if (range.clusters >= Config::few_clusters) return node(range, Config::few_clusters);
     std::vector<Ref> refs;
     gather(range, refs);
     return builder_.build<Ref>(refs, centroids_of(refs), range.first, range.depth);
@@ -146,8 +144,8 @@ class Top {
   /// `least`: clusters in a range that may be split.
   BvhChild node(const ClusterRange& range, std::uint32_t least) {
     std::array<ClusterRange, 4> children{range};
-    const std::size_t count = four_of(children, [&](ClusterRange& left, ClusterRange& right) {
-      return left.clusters >= least && split(left, right);
+    const std::size_t count = split_into_four(children, [&](const ClusterRange& child) {
+      return child.clusters >= least ? std::optional(split(child)) : std::nullopt;
     });
     const std::uint32_t index = builder_.nodes_.take(1);
     builder_.nodes_.below(index) = {range.first, range.count};
@@ -158,7 +156,7 @@ class Top {
       else
         set_child(node, i, Box::empty(), BvhChild::empty());
     };
-    if (range.count < parallel_threshold)
+    if (range.count < Config::parallel_threshold)
       for (std::size_t i = 0; i < 4; ++i) put_child(i);
     else
       tbb::parallel_for(
@@ -170,35 +168,32 @@ class Top {
     return BvhChild::node(index);
   }
 
-  // Reorders the range's clusters and leaves it the left ones; there are at least two.
-  bool split(ClusterRange& left, ClusterRange& right) {
-    const std::span<Ref> boxes(grid_.boxes.data() + left.first_cluster, left.clusters);
-    const Binning binning(left.bounds.centroids, most_bins, 0.0f);
-    Bins bins(binning);
-    for (const Ref& box : boxes) bins.put(box, binning, grid_.clusters[box.id()].count);
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (binning.scale[axis] > 0.0f) best_on_axis(bins, most_bins, axis, best);
+  // Reorders the range's clusters, of which there are at least two.
+  std::array<ClusterRange, 2> split(const ClusterRange& range) {
+    const std::span<Ref> boxes(grid_.boxes.data() + range.first_cluster, range.clusters);
+    const Binning binning(range.bounds.centroids, most_bins, 0.0f);
+    const Bins bins =
+        fill_bins(boxes, binning, [&](const Ref& box) { return grid_.clusters[box.id()].count; });
+    const Split best = find_best_split(bins, binning);
     std::array<Bounds, 2> bounds;
-    std::uint32_t middle = left.clusters / 2;
+    std::uint32_t middle = fallback_split(range);
     if (best.bin >= 0)
-      middle = partition(boxes, scratch_.data() + left.first_cluster, bounds,
+      middle = partition(boxes, scratch_.data() + range.first_cluster, bounds,
                          [&](const Ref& box) { return binning.is_left(box, best); });
     bounds = {};
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < left.clusters; ++i) {
+    for (std::uint32_t i = 0; i < range.clusters; ++i) {
       bounds[i < middle ? 0 : 1].grow(boxes[i]);
       if (i < middle) count += grid_.clusters[boxes[i].id()].count;
     }
-    right = {left.first_cluster + middle,
-             left.clusters - middle,
-             left.first + count,
-             left.count - count,
-             bounds[1],
-             left.depth + 1};
-    left = {left.first_cluster, middle, left.first, count, bounds[0], left.depth + 1};
-    return true;
+    const int depth = range.depth + 1;
+    return {{{range.first_cluster, middle, range.first, count, bounds[0], depth},
+             {range.first_cluster + middle, range.clusters - middle, range.first + count, range.count - count,
+              bounds[1], depth}}};
   }
+
+  // Where no bins tell the clusters apart: half of them to each side, in the order of the grid.
+  static std::uint32_t fallback_split(const ClusterRange& range) { return range.clusters / 2; }
 
   Builder& builder_;
   Clusters& grid_;
@@ -214,14 +209,14 @@ Ref as_ref(const BoxRef& box) {
 
 template <class In>
 BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth) {
-  if (in.size() > treelet_size && depth < sah_depth && grid_applies(centroids)) {
+  if (in.size() > Config::treelet_size && depth < Config::sah_depth && grid_applies(centroids)) {
     Clusters grid = cluster_by_cells(in, centroids);
     return Top(*this, grid).run(first, depth);
   }
-  TreeletRoom& room = rooms_.local();
-  room.refs.resize(in.size());
-  for (std::size_t i = 0; i < in.size(); ++i) room.refs[i] = as_ref(in[i]);
-  return treelet(room, first, depth);
+  TreeletScratch& scratch = scratches_.local();
+  scratch.refs.resize(in.size());
+  for (std::size_t i = 0; i < in.size(); ++i) scratch.refs[i] = as_ref(in[i]);
+  return treelet(scratch, first, depth);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Bounding-volume hierarchy over finite primitives: a binary tree by the surface-area heuristic (Wald 2007,
-// "On fast construction of SAH-based bounding volume hierarchies"), folded into nodes of four children (Wald
-// et al. 2008); its upper part splits runs of neighbours (raytrace/bvh/clusters.h). Boxes are floats rounded
-// outwards, primitives stay in double. The tree is the same for any number of threads; only the numbers of
-// its nodes may differ.
+// "On fast construction of SAH-based bounding volume hierarchies"), collapsed into nodes of four children
+// (Wald et al. 2008); its upper part splits runs of neighbours (raytrace/bvh/clusters.h). Boxes are floats
+// rounded outwards, primitives stay in double. The tree is the same for any number of threads; only the
+// numbers of its nodes may differ.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct LeafRange {
 };
 
 struct Bvh {
-  HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: walk all primitives
+  HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: traverse all primitives
   HugeVector<LeafRange> below;           ///< of each node: what all its leaves hold
   HugeVector<LeafPrimitive> primitives;  ///< in leaf order; none where they are read from the world
   HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order

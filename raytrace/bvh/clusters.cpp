@@ -20,9 +20,9 @@ Ref as_ref(const BoxRef& box) {
 }
 
 /// Cubes, so that the boxes of clusters are not longer than they need be.
-class Grid {
+class CentroidGrid {
  public:
-  Grid(const Box& centroids, std::size_t primitives) : origin_(centroids.min) {
+  CentroidGrid(const Box& centroids, std::size_t primitives) : origin_(centroids.min) {
     // Some sixty to a cell if they lie on a surface.
     const int bits = std::clamp((static_cast<int>(std::bit_width(primitives)) - 4) / 2, 2, most_bits);
     const float side = largest_extent(centroids) / static_cast<float>(1 << bits);
@@ -142,7 +142,7 @@ class Sorter {
   }
 
   std::span<const In> in_;
-  Grid grid_;
+  CentroidGrid grid_;
   HugeArray<std::uint32_t> cell_;
   std::vector<Share> shares_;
 };

@@ -1,6 +1,7 @@
-// One walk through the hierarchy for every kind of ray. The slab test is ordered by the sign of 1/d, ignores
-// NaN (0 * inf) and is widened by Ize 2013, "Robust BVH ray traversal", JCGT 2(2); the ray's origin enters as
-// an interval that holds the exact one, so that boxes in float never cull what the tests in double would hit.
+// One traversal through the hierarchy for every kind of ray. The slab test is ordered by the sign of 1/d,
+// ignores NaN (0 * inf) and is widened by Ize 2013, "Robust BVH ray traversal", JCGT 2(2); the ray's origin
+// enters as an interval that holds the exact one, so that boxes in float never cull what the tests in double
+// would hit.
 #pragma once
 
 #include <bit>
@@ -25,10 +26,10 @@ struct BoxRay {
   const RayFrame* frame;  ///< what it was made from, for structures that see the ray from elsewhere
   Vec3 origin_error;
 
-  /// `ray` must outlive it. center: Bvh::center. doubt: how far the true origin may lie from the frame's, per
-  /// axis (0 for a ray that is what it says).
-  BoxRay(const RayFrame& ray, const Vec3& center, const Vec3& doubt = Vec3(0.0))
-      : t_min(float_below(ray.t.min)), t_max(float_above(ray.t.max)), frame(&ray), origin_error(doubt) {
+  /// `ray` must outlive it. center: Bvh::center. error: how far the true origin may lie from the frame's,
+  /// per axis (0 for a ray that is what it says).
+  BoxRay(const RayFrame& ray, const Vec3& center, const Vec3& error = Vec3(0.0))
+      : t_min(float_below(ray.t.min)), t_max(float_above(ray.t.max)), frame(&ray), origin_error(error) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double o = ray.origin[a] - center[static_cast<int>(a)], e = origin_error[static_cast<int>(a)];
       const float below = float_below(o - e), above = float_above(o + e);
@@ -42,8 +43,8 @@ struct BoxRay {
   }
 };
 
-/// Bit i: child i's box may be met; t_near[i] is then a lower bound of where.
-inline int meet_boxes(const BvhNode& node, const BoxRay& ray, float t_max, float* t_near) {
+/// Bit i: child i's box may be intersected; t_near[i] is then a lower bound of where.
+inline int intersect_boxes(const BvhNode& node, const BoxRay& ray, float t_max, float* t_near) {
   constexpr float widening = 4.0f * FLT_EPSILON;  // >= 2 gamma(3) of float and the rounding of 1/d
   Float4 near = Float4::all(ray.t_min), far = Float4::all(t_max);
   for (std::size_t a = 0; a < 3; ++a) {
@@ -60,10 +61,11 @@ inline int meet_boxes(const BvhNode& node, const BoxRay& ray, float t_max, float
   return less_equal_mask(near, far);
 }
 
-/// Calls visit(position in leaf order) for every primitive whose boxes the ray may meet before t_max, nearest
-/// boxes first; visit may lower ray.t_max and returns true to end the walk. Returns whether it was ended.
+/// Calls visit(position in leaf order) for every primitive whose boxes the ray may intersect before t_max,
+/// nearest boxes first; visit may lower ray.t_max and returns true to end the traversal. Returns whether it
+/// was ended.
 template <class Stats, class Visit>
-bool walk(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
+bool traverse(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (bvh.nodes.empty()) {
     for (std::uint32_t i = 0; i < bvh.ids.size(); ++i) {
       stats.primitive();
@@ -93,7 +95,7 @@ bool walk(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
     alignas(16) std::array<float, 4> t_near;
     stats.boxes(4);
     const std::size_t base = size;
-    for (auto mask = static_cast<unsigned>(meet_boxes(node, ray, ray.t_max, t_near.data())); mask != 0;
+    for (auto mask = static_cast<unsigned>(intersect_boxes(node, ray, ray.t_max, t_near.data())); mask != 0;
          mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(mask));
       // Farthest at the bottom; insertion keeps the order of equal ones.

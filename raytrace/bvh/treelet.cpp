@@ -11,10 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::binned::HWY_NAMESPACE {
 namespace {
 
-// So many are a leaf without asking what a split would gain: half the nodes, and rays are no slower for it.
-constexpr std::uint32_t leaf_size = 4;
-constexpr std::uint32_t few = 16;  // sorted instead of binned
-constexpr float flat = 0.5f;       // an axis as flat as this is hardly ever the best for a treelet
+using Config = BuildConfig;
+constexpr std::uint32_t few = Config::sorted_size;
 
 /// A range of primitives, to be split further or not.
 struct Range {
@@ -34,7 +32,7 @@ class Order {
       centroid[i] = refs[i].centroid2();
       lower(bounds.min, centroid[i]), raise(bounds.max, centroid[i]);
     }
-    const Binning steps(bounds, 1u << 11, flat);
+    const Binning steps(bounds, 1u << 11, Config::flat);
     for (std::size_t a = 0; a < 3; ++a) apart_[a] = steps.scale[a] > 0.0f;
     std::fill_n(&key_[0][0], 3 * few, INT16_MAX);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -90,7 +88,8 @@ struct Cut {
   float cost = std::numeric_limits<float>::infinity();
 };
 
-void cut_axis(std::span<const Ref> refs, const Order& order, std::size_t axis, Cut& best) {
+/// The cheaper one of `best` and the cheapest cut along the axis.
+Cut best_on_axis(std::span<const Ref> refs, const Order& order, std::size_t axis, Cut best) {
   const std::size_t count = refs.size();
   Areas left, right;
   Box below = Box::empty(), above = Box::empty();
@@ -105,11 +104,20 @@ void cut_axis(std::span<const Ref> refs, const Order& order, std::size_t axis, C
         left_area[i] * static_cast<float>(i + 1) + right_area[i] * static_cast<float>(count - i - 1);
     if (cost < best.cost) best = {axis, i + 1, cost};
   }
+  return best;
+}
+
+Cut find_best_cut(std::span<const Ref> refs, const Order& order) {
+  Cut best;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (order.is_apart(axis)) best = best_on_axis(refs, order, axis, best);
+  return best;
 }
 
 class Treelet {
  public:
-  Treelet(TreeletRoom& room, std::uint32_t first) : room_(room), refs_(room.refs), first_(first) {}
+  Treelet(TreeletScratch& scratch, std::uint32_t first)
+      : scratch_(scratch), refs_(scratch.refs), first_(first) {}
 
   BvhChild run(int depth) {
     Range all{0, static_cast<std::uint32_t>(refs_.size()), {}, depth};
@@ -120,44 +128,41 @@ class Treelet {
  private:
   BvhChild build(const Range& range) {
     std::array<Range, 4> children{range};
-    const std::size_t count =
-        four_of(children, [&](Range& left, Range& right) { return split(left, right); });
+    const std::size_t count = split_into_four(children, [&](const Range& child) { return split(child); });
     if (count == 1) return leaf(range);
-    const auto index = static_cast<std::uint32_t>(room_.nodes.size());
-    room_.nodes.emplace_back(), room_.below.push_back({first_ + range.first, range.count});
+    const auto index = static_cast<std::uint32_t>(scratch_.nodes.size());
+    scratch_.nodes.emplace_back(), scratch_.below.push_back({first_ + range.first, range.count});
     for (std::size_t i = 0; i < 4; ++i) {
       const Box box = i < count ? children[i].bounds.box : Box::empty();
       const BvhChild child = i >= count             ? BvhChild::empty()
                              : children[i].is_whole ? leaf(children[i])
                                                     : build(children[i]);
-      set_child(room_.nodes[index], i, box, child);
+      set_child(scratch_.nodes[index], i, box, child);
     }
     return BvhChild::node(index);
   }
   BvhChild leaf(const Range& range) const { return BvhChild::leaf(first_ + range.first, range.count); }
 
-  // Reorders the range's primitives and leaves it the left ones; false: make a leaf.
-  bool split(Range& left, Range& right) {
-    if (left.count <= leaf_size) return false;
-    const std::span<Ref> refs = refs_.subspan(left.first, left.count);
+  // Reorders the range's primitives; nothing: it is to become a leaf.
+  std::optional<std::array<Range, 2>> split(const Range& range) {
+    if (range.count <= Config::leaf_size) return std::nullopt;
+    const std::span<Ref> refs = refs_.subspan(range.first, range.count);
     std::array<Bounds, 2> bounds;
     std::uint32_t middle = 0;
-    if (left.depth >= sah_depth)
-      middle = halve(refs, left, bounds);
+    if (range.depth >= Config::sah_depth)
+      middle = fallback_split(refs, range, bounds);
     else
-      middle = left.count <= few ? cut(refs, left, bounds) : bin(refs, left, bounds);
-    right = {left.first + middle, left.count - middle, bounds[1], left.depth + 1};
-    left = {left.first, middle, bounds[0], left.depth + 1};
-    return true;
+      middle = range.count <= few ? split_sorted(refs, range, bounds) : split_binned(refs, range, bounds);
+    const int depth = range.depth + 1;
+    return std::array<Range, 2>{{{range.first, middle, bounds[0], depth},
+                                 {range.first + middle, range.count - middle, bounds[1], depth}}};
   }
 
   // These return how many go left.
-  std::uint32_t cut(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+  std::uint32_t split_sorted(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
     const Order order(refs);
-    Cut best;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (order.is_apart(axis)) cut_axis(refs, order, axis, best);
-    if (best.left == 0) return halve(refs, range, bounds);
+    const Cut best = find_best_cut(refs, order);
+    if (best.left == 0) return fallback_split(refs, range, bounds);
     Ref sorted[few];
     for (std::size_t i = 0; i < refs.size(); ++i) sorted[i] = refs[order(best.axis, i)];
     for (std::size_t i = 0; i < refs.size(); ++i) {
@@ -167,23 +172,19 @@ class Treelet {
     return static_cast<std::uint32_t>(best.left);
   }
 
-  std::uint32_t bin(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
-    constexpr std::size_t used = few_bins;
-    const Binning binning(range.bounds.centroids, used, flat);
-    Bins bins(binning);
-    for (const Ref& ref : refs) bins.put(ref, binning);
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (binning.scale[axis] > 0.0f) best_on_axis(bins, used, axis, best);
-    if (best.bin < 0) return halve(refs, range, bounds);
-    const std::array<Box, 2> boxes = boxes_of(bins, used, best);
+  std::uint32_t split_binned(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+    const Binning binning(range.bounds.centroids, Config::few_bins, Config::flat);
+    const Bins bins = fill_bins(refs, binning, [](const Ref&) { return 1u; });
+    const Split best = find_best_split(bins, binning);
+    if (best.bin < 0) return fallback_split(refs, range, bounds);
+    const std::array<Box, 2> boxes = boxes_of(bins, binning.count, best);
     bounds[0].box = boxes[0], bounds[1].box = boxes[1];
-    return partition(refs, room_.scratch.data(), bounds,
+    return partition(refs, scratch_.moved.data(), bounds,
                      [&](const Ref& ref) { return binning.is_left(ref, best); });
   }
 
-  // By (centroid along the widest axis, id): defined even when all centroids are equal.
-  std::uint32_t halve(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+  // Half to each side by (centroid along the widest axis, id): defined even when all centroids are equal.
+  std::uint32_t fallback_split(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
     const Box& centroids = range.bounds.centroids;
     std::size_t axis = 0;
     for (std::size_t a = 1; a < 3; ++a)
@@ -198,13 +199,13 @@ class Treelet {
     return static_cast<std::uint32_t>(half);
   }
 
-  TreeletRoom& room_;
+  TreeletScratch& scratch_;
   std::span<Ref> refs_;
   std::uint32_t first_;
 };
 
-BvhChild treelet_kernel(TreeletRoom& room, std::uint32_t first, int depth) {
-  return Treelet(room, first).run(depth);
+BvhChild treelet_kernel(TreeletScratch& scratch, std::uint32_t first, int depth) {
+  return Treelet(scratch, first).run(depth);
 }
 
 }  // namespace
@@ -215,17 +216,17 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace::binned {
 HWY_EXPORT(treelet_kernel);
 
-BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeStore& store) {
-  room.scratch.resize(std::max(room.scratch.size(), room.refs.size()));
-  room.nodes.clear(), room.below.clear();
-  const BvhChild root = HWY_DYNAMIC_DISPATCH(treelet_kernel)(room, first, depth);
+BvhChild build_treelet(TreeletScratch& scratch, std::uint32_t first, int depth, NodeStore& store) {
+  scratch.moved.resize(std::max(scratch.moved.size(), scratch.refs.size()));
+  scratch.nodes.clear(), scratch.below.clear();
+  const BvhChild root = HWY_DYNAMIC_DISPATCH(treelet_kernel)(scratch, first, depth);
   if (root.is_leaf()) return root;
-  const std::uint32_t base = store.take(static_cast<std::uint32_t>(room.nodes.size()));
-  for (std::uint32_t i = 0; i < room.nodes.size(); ++i) {
-    BvhNode node = room.nodes[i];
+  const std::uint32_t base = store.take(static_cast<std::uint32_t>(scratch.nodes.size()));
+  for (std::uint32_t i = 0; i < scratch.nodes.size(); ++i) {
+    BvhNode node = scratch.nodes[i];
     for (BvhChild& child : node.child)
       if (!child.is_leaf()) child = BvhChild::node(base + child.index());
-    store[base + i] = node, store.below(base + i) = room.below[i];
+    store[base + i] = node, store.below(base + i) = scratch.below[i];
   }
   return BvhChild::node(base);
 }

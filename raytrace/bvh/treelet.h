@@ -4,13 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
 #include "raytrace/bvh/bins.h"
 
 namespace gnomon::raytrace::binned {
-
-inline constexpr int sah_depth =
-    44;  ///< deeper than this, split at the median: at most 32 more levels (Bvh::max_depth)
 
 /// Nodes in the order in which they are asked for.
 class NodeStore {
@@ -33,9 +31,9 @@ inline void set_child(BvhNode& node, std::size_t i, const Box& box, BvhChild chi
 }
 
 /// A node's children: the largest range that can be split is split until there are four. Returns how many
-/// there are; `split` leaves a range its left part, or says that it is not to be split.
-template <class R, class Split>
-std::size_t four_of(std::array<R, 4>& children, const Split& split) {
+/// there are; split(range) gives its two parts, or nothing where it is to stay whole.
+template <class R, class SplitRange>
+std::size_t split_into_four(std::array<R, 4>& children, const SplitRange& split) {
   std::size_t count = 1;
   while (count < 4) {
     std::size_t largest = count;
@@ -44,8 +42,8 @@ std::size_t four_of(std::array<R, 4>& children, const Split& split) {
           (largest == count || children[i].bounds.box.half_area() > children[largest].bounds.box.half_area()))
         largest = i;
     if (largest == count) return count;
-    if (split(children[largest], children[count]))
-      ++count;
+    if (const std::optional<std::array<R, 2>> parts = split(children[largest]))
+      children[largest] = (*parts)[0], children[count++] = (*parts)[1];
     else
       children[largest].is_whole = true;
   }
@@ -53,14 +51,14 @@ std::size_t four_of(std::array<R, 4>& children, const Split& split) {
 }
 
 /// A thread's memory for treelets.
-struct TreeletRoom {
-  std::vector<Ref> refs, scratch;
+struct TreeletScratch {
+  std::vector<Ref> refs, moved;
   std::vector<BvhNode> nodes;
   std::vector<LeafRange> below;  ///< of the nodes
 };
 
-/// Builds over room.refs and brings them into the order of the leaves; the first one is the tree's primitive
+/// Builds over scratch.refs and brings them into the order of the leaves; the first one is the tree's primitive
 /// `first`. `depth`: binary splits above.
-BvhChild build_treelet(TreeletRoom& room, std::uint32_t first, int depth, NodeStore& store);
+BvhChild build_treelet(TreeletScratch& scratch, std::uint32_t first, int depth, NodeStore& store);
 
 }  // namespace gnomon::raytrace::binned

@@ -127,7 +127,7 @@ struct LeafTest {
   template <class Wanted>
   HWY_INLINE LeafTest(const WideLeaf& leaf, const WideRay& ray, const Wanted& wanted) {
     const LeafTriangles& triangles = leaf.triangles;
-    if (triangles.shapes()) {  // met somewhere, for all that is known
+    if (triangles.shapes()) {  // hit somewhere, for all that is known
       candidates = triangles.lanes();
       std::fill(below, below + leaf_lanes, -inf);
       return;
@@ -191,7 +191,7 @@ struct LeafTest {
     }
   }
   bool is_sure(unsigned i) const { return (sure >> i & 1u) != 0; }
-  /// A candidate is met between these or not at all; t_above: of sure ones.
+  /// A candidate is hit between these or not at all; t_above: of sure ones.
   float t_below(unsigned i) const { return below[i]; }
   float t_above(unsigned i) const { return above[i]; }
 };

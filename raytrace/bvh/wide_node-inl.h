@@ -1,5 +1,5 @@
 // A node's children against one ray, sixteen at once, whatever the instruction set's width, and the stack of
-// those that the ray may meet.
+// those that the ray may intersect.
 
 #if defined(GNOMON_RAYTRACE_BVH_WIDE_NODE_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
-/// Children that the ray may yet meet, the next one last.
+/// Children that the ray may yet intersect, the next one last.
 struct Stack {
   // Deeper ones lie above. Of each depth there are the children of two nodes at most, but for one child; a
   // leaf with too many corners may have been halved thrice; the last store may write sixteen.
@@ -43,8 +43,8 @@ struct SpreadRay {
 };
 
 /// Where the ray enters and leaves the boxes from the i-th on.
-HWY_INLINE void meet_boxes(const WideNode& node, const SpreadRay& ray, std::size_t i, V t_max, V& near,
-                           V& far) {
+HWY_INLINE void intersect_boxes(const WideNode& node, const SpreadRay& ray, std::size_t i, V t_max, V& near,
+                                V& far) {
   const char* bounds = reinterpret_cast<const char*>(node.bounds) + i * sizeof(float);
   const auto at = [&](std::size_t row, V inverse, V constant) {
     return hn::MulAdd(hn::Load(f, reinterpret_cast<const float*>(bounds + row)), inverse, constant);
@@ -57,13 +57,13 @@ HWY_INLINE void meet_boxes(const WideNode& node, const SpreadRay& ray, std::size
                 hn::Min(at(ray.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
 }
 
-/// The children of a node whose boxes the ray may meet, by bits; where vectors hold a whole node.
+/// The children of a node whose boxes the ray may intersect, by bits; where vectors hold a whole node.
 template <bool whole = lanes == node_lanes>
-struct MetChildren {
+struct IntersectedChildren {
   V near, far;
   unsigned bits;
-  HWY_INLINE MetChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
-    meet_boxes(node, ray, 0, all(t_max), near, far);
+  HWY_INLINE IntersectedChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
+    intersect_boxes(node, ray, 0, all(t_max), near, far);
     bits = bits_of(f, hn::Le(near, far));
   }
 
@@ -91,16 +91,16 @@ struct MetChildren {
     hn::Vec<U> child;
     V near;
     std::uint32_t count;
-    HWY_INLINE Sorted(const MetChildren& met, const WideNode& node, const SpreadRay& ray)
-        : count(static_cast<std::uint32_t>(std::popcount(met.bits))) {
+    HWY_INLINE Sorted(const IntersectedChildren& hit, const WideNode& node, const SpreadRay& ray)
+        : count(static_cast<std::uint32_t>(std::popcount(hit.bits))) {
       const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
                                  hn::Set(ids, node_lanes - 1));
       const auto in_order = [&](V v) { return hn::TableLookupLanes(v, hn::IndicesFromVec(f, order)); };
-      const V entered = in_order(met.near);
-      const M is_met = hn::Le(entered, in_order(met.far));
+      const V entered = in_order(hit.near);
+      const M is_hit = hn::Le(entered, in_order(hit.far));
       child = hn::Compress(hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order)),
-                           hn::RebindMask(ids, is_met));
-      near = hn::Compress(entered, is_met);
+                           hn::RebindMask(ids, is_hit));
+      near = hn::Compress(entered, is_hit);
     }
     /// The last first; without the first `but`.
     HWY_INLINE void push(Stack& stack, std::size_t& size, std::uint32_t but) const {
@@ -115,13 +115,13 @@ struct MetChildren {
 
 /// Where they do not.
 template <>
-struct MetChildren<false> {
+struct IntersectedChildren<false> {
   alignas(64) float near[node_lanes];
   unsigned bits = 0;
-  HWY_INLINE MetChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
+  HWY_INLINE IntersectedChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
     for (std::size_t i = 0; i < node_lanes; i += lanes) {
       V in, out;
-      meet_boxes(node, ray, i, all(t_max), in, out);
+      intersect_boxes(node, ray, i, all(t_max), in, out);
       hn::Store(in, f, near + i);
       bits |= bits_of(f, hn::Le(in, out)) << i;
     }
@@ -149,14 +149,14 @@ struct MetChildren<false> {
   }
   HWY_INLINE bool take(const WideNode& node, Stack& stack, std::size_t& size, Child& nearest) const {
     if (bits == 0) return false;
-    const auto child = [&](unsigned met) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+    const auto child = [&](unsigned hit) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(hit));
       return Child{node.child[lane], near[lane]};
     };
     nearest = child(bits);
     const std::size_t base = size;
-    for (unsigned met = bits & (bits - 1); met != 0; met &= met - 1) {
-      Child other = child(met);
+    for (unsigned hit = bits & (bits - 1); hit != 0; hit &= hit - 1) {
+      Child other = child(hit);
       if (other.near < nearest.near) std::swap(other, nearest);
       std::size_t at = size++;  // the farthest at the bottom
       for (; at > base && stack.near[at - 1] < other.near; --at)
@@ -168,12 +168,12 @@ struct MetChildren<false> {
 };
 
 /// The children of a node, as above, over those of one that comes after it. Together, for a ray that waits
-/// for memory and for one step after the other; and a ray that meets nothing visits both anyhow.
+/// for memory and for one step after the other; and a ray that intersects nothing visits both anyhow.
 HWY_INLINE bool take_children_of_two(const WideNode& node, const WideNode& after, const SpreadRay& ray,
                                      float t_max, Stack& stack, std::size_t& size, std::uint32_t& next) {
-  const MetChildren<> met(node, ray, t_max), met_after(after, ray, t_max);
-  met_after.push(after, ray, stack, size);
-  return met.take(node, ray, stack, size, next);
+  const IntersectedChildren<> hit(node, ray, t_max), hit_after(after, ray, t_max);
+  hit_after.push(after, ray, stack, size);
+  return hit.take(node, ray, stack, size, next);
 }
 
 }  // namespace

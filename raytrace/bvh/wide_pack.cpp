@@ -14,7 +14,7 @@ void put_above(float least, std::size_t i, WideLeaf& leaf) {
 }
 
 /// Near the box's middle. Not near zero, where the lower half alone would make a denormal number.
-void put_anchor(const Box& box, float reach, WideLeaf& leaf) {
+void put_anchor(const WideBox& box, float reach, WideLeaf& leaf) {
   for (std::size_t a = 0; a < 3; ++a) {
     const float middle = 0.5f * box.at[a] + 0.5f * box.at[3 + a];
     const float anchor = std::copysign(std::max(std::abs(middle), 0x1p-20f * reach), middle);
@@ -24,7 +24,7 @@ void put_anchor(const Box& box, float reach, WideLeaf& leaf) {
 
 }  // namespace
 
-void pack_corners(const Box& box, std::span<const std::array<double, 3>> corners, double longest_edge,
+void pack_corners(const WideBox& box, std::span<const std::array<double, 3>> corners, double longest_edge,
                   float reach, WideLeaf& leaf) {
   constexpr double most = 32767.0;
   put_anchor(box, reach, leaf);

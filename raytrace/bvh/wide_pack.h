@@ -10,10 +10,10 @@
 
 namespace gnomon::raytrace {
 
-struct Box {
+struct WideBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   std::array<float, 6> at{inf, inf, inf, -inf, -inf, -inf};  // as a column of BvhNode::bounds
-  void grow(const Box& b) {
+  void grow(const WideBox& b) {
     for (std::size_t a = 0; a < 3; ++a)
       at[a] = std::min(at[a], b.at[a]), at[3 + a] = std::max(at[3 + a], b.at[3 + a]);
   }
@@ -24,7 +24,7 @@ struct Box {
 };
 
 /// Corners counted from the tree's centre, each within a last place of the box; L as in WideLeaf.
-void pack_corners(const Box& box, std::span<const std::array<double, 3>> corners, double longest_edge,
+void pack_corners(const WideBox& box, std::span<const std::array<double, 3>> corners, double longest_edge,
                   float reach, WideLeaf& leaf);
 
 }  // namespace gnomon::raytrace

@@ -2,7 +2,7 @@
 //
 // Notation: e = 2^-24, u = 2^-53; d the ray's direction scaled so that its largest component is in [1/2, 1),
 // o its origin from the centre, r = `reach`, q >= |o|, all in the maximum norm. No float here overflows, and
-// none that underflows is missed, because 2^-26 <= r <= 2^30 and q <= 64 r; other rays are refused, and walk
+// none that underflows is missed, because 2^-26 <= r <= 2^30 and q <= 64 r; other rays are refused, and traverse
 // the plain way.
 //
 // Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, -o / d made of it to 4 e, and b / d - o / d by
@@ -23,10 +23,10 @@
 // S,
 //   f = 12 e |o'| + `corner_error` g + `coordinate_error`,
 // where corner_error is 1.03 > 1 + 12 e 2^15 and coordinate_error 2.75 e q + 2^-34 r, whose last term holds
-// what the doubles' own coordinates are off by, and the doubts of a verdict
+// what the doubles' own coordinates are off by, and the bounds of a visibility
 // (raytrace/precision/visibility.cpp) in a point's place, all below 2^-41 r.
 //   First, for all triangles of a leaf: let no component of an edge be above L >= 2^-16 r. Where the doubles
-// see edge functions of one sign, or a verdict doubts their signs and the triangle's box is passed, the axis
+// see edge functions of one sign, or cannot tell their signs for a visibility and pass the triangle's box, the axis
 // passes within the corners' x and y, so none of these is above 2 L but for f. The edge functions U, V, W =
 // x_i y_j - x_j y_i are then right to 8 L f + 2 f f and, by rounding, 16 e (L + f)^2, together less than 12 L
 // f + 4 f f (an edge that is not that small has L <= 2 X <= 2 S), less than f (13 L + 16 f): if one of the
@@ -38,7 +38,7 @@
 // - det t|, det = U + V + W, is at most E (2 R + 6 p) for the weights and (|det| + 9 E) p for the t_i;
 // rounding, as e |t_i| <= e S / |d_z| < p / 12, adds less than (|det| + 12 E) p / 2: together less than
 //   D = 2 |det| p + E (2 R + 30 p),
-// also where all weights are in doubt, for t is between the corners' then. A hit's t is within D / |det| of
+// also where all weights are ambiguous, for t is between the corners' then. A hit's t is within D / |det| of
 // the floats' own.
 #pragma once
 

@@ -47,9 +47,9 @@ bool spread(const WideTree& tree, const Shaft& shaft, SpreadShaft& to) {
   return true;
 }
 
-/// The children whose boxes the shaft may meet, by bits.
-HWY_INLINE unsigned met_children(const WideNode& node, const SpreadShaft& shaft) {
-  unsigned met = 0;
+/// The children whose boxes the shaft may intersect, by bits.
+HWY_INLINE unsigned intersected_children(const WideNode& node, const SpreadShaft& shaft) {
+  unsigned hit = 0;
   for (std::size_t i = 0; i < node_lanes; i += lanes) {
     V near = hn::Zero(f), far = shaft.end;
     for (std::size_t row = 0; row < 6; ++row) {
@@ -59,9 +59,9 @@ HWY_INLINE unsigned met_children(const WideNode& node, const SpreadShaft& shaft)
       else
         far = hn::Min(far, t);
     }
-    met |= bits_of(f, hn::Le(near, far)) << i;
+    hit |= bits_of(f, hn::Le(near, far)) << i;
   }
-  return met;
+  return hit;
 }
 
 bool shaft_kernel(const WideTree& tree, const Shaft& given, ShaftLeaves& found) {
@@ -72,8 +72,8 @@ bool shaft_kernel(const WideTree& tree, const Shaft& given, ShaftLeaves& found) 
   stack[size++] = 0;
   while (size > 0) {
     const WideNode& node = tree.nodes[stack[--size]];
-    for (unsigned met = met_children(node, shaft); met != 0; met &= met - 1) {
-      const WideChild child{node.child[std::countr_zero(met)]};
+    for (unsigned hit = intersected_children(node, shaft); hit != 0; hit &= hit - 1) {
+      const WideChild child{node.child[std::countr_zero(hit)]};
       if (!child.is_leaf()) {
         stack[size++] = child.index();
         continue;

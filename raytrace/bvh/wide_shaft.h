@@ -15,8 +15,8 @@ struct Shaft {
   bool endless = false;
 };
 
-/// Whose boxes the shaft may meet; no other primitive of the tree lies in it, not by 2^-21 of its size and of
-/// the distance from the tree's centre.
+/// Whose boxes the shaft may intersect; no other primitive of the tree lies in it, not by 2^-21 of its size
+/// and of the distance from the tree's centre.
 class ShaftLeaves {
  public:
   static constexpr std::size_t most = 24;

@@ -1,5 +1,5 @@
 // The two verbs for one ray through the wide tree: candidates by floats, answers by the arithmetic of choice.
-// They are those of the plain walk, bit for bit.
+// They are those of the plain traversal, bit for bit.
 #pragma once
 
 #include "raytrace/bvh/wide_traverse.h"
@@ -12,14 +12,14 @@ inline const WideTree* wide_tree(const Structures& s) {
   return s.wide != nullptr ? s.wide->for_ray(s.bvh, *s.world) : nullptr;
 }
 
-/// False: refused, the ray has to walk another way.
+/// False: refused, the ray has to go another way.
 template <bool masks, class Arithmetic>
 bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std::uint32_t skip,
                   std::optional<Hit>& best) {
   RayFrame frame;
   if (!masks && skip == no_id) {
     LeafCandidates found;
-    if (closest_candidates(tree, ray, found) != WideWalk::refused) {
+    if (closest_candidates(tree, ray, found) != WideTraversal::refused) {
       std::size_t left = 0;
       for (std::size_t i = 0; i < found.count; ++i)
         if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
@@ -33,7 +33,7 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
           best.reset();
         return true;
       }
-      best = closest_offered<masks, Arithmetic>(s, frame, skip, [&](const RayFrame&, const auto& visit) {
+      best = closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame&, const auto& visit) {
         for (std::size_t i = 0; i < left; ++i) visit(found.leaf[i]);
       });
       return true;
@@ -41,15 +41,15 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
   }
   if (!scale_ray(ray, frame)) return true;
   shear_ray(frame);
-  auto walked = WideWalk::done;
-  best = closest_offered<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& left, const auto& visit) {
+  auto traversed = WideTraversal::done;
+  best = closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& left, const auto& visit) {
     const auto visit_leaf = [&](std::uint32_t leaf, WideRay& limited) {
       if (visit(leaf)) limited.limit(float_above(left.t.max));
       return false;
     };
-    walked = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visitor_of(visit_leaf));
+    traversed = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visitor_of(visit_leaf));
   });
-  return walked != WideWalk::refused;
+  return traversed != WideTraversal::refused;
 }
 
 template <bool masks, class Arithmetic>
@@ -60,7 +60,7 @@ bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& f
   const Arithmetic arithmetic(s, frame);
   Hit hit;
   const auto blocks = [&]() {
-    if constexpr (masks) return solid(s, frame, hit);
+    if constexpr (masks) return passes_alpha_test(s, frame, hit);
     return true;
   };
   for (const std::uint32_t plane : s.planes)
@@ -68,10 +68,10 @@ bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& f
   const auto visit = [&](std::uint32_t leaf, WideRay&) {
     return arithmetic.leaf(s, frame, leaf, hit) && blocks();
   };
-  const WideWalk walked = masks ? visit_candidates(tree, ray, {}, visitor_of(visit))
-                                : visit_doubtful(tree, ray, visitor_of(visit));
-  found = walked == WideWalk::ended;
-  return walked != WideWalk::refused;
+  const WideTraversal traversed = masks ? visit_candidates(tree, ray, {}, visitor_of(visit))
+                                        : visit_ambiguous(tree, ray, visitor_of(visit));
+  found = traversed == WideTraversal::ended;
+  return traversed != WideTraversal::refused;
 }
 
 }  // namespace gnomon::raytrace

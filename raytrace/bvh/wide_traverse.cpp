@@ -20,7 +20,7 @@ inline bool prepare_plain(const Ray& given, double kernel_t, WideRay& ray) {
 }
 
 /// Fills the ray; false: refused. The order of operations is that of raytrace/bvh/wide_ray.h.
-HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits& limits, WideRay& ray) {
+HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalLimits& limits, WideRay& ray) {
   static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
   using D = hn::CappedTag<double, 4>;
   using Half = hn::Rebind<float, D>;
@@ -63,12 +63,12 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const WalkLimits
   const float q =
       std::max(std::max(std::abs(ray.origin[0]), std::abs(ray.origin[1])), std::abs(ray.origin[2]));
   ray.octant = backwards & axes;
-  const auto doubt = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
+  const auto rounding = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
   const auto least = static_cast<float>(t_min), most = static_cast<float>(t_max);
-  ray.t_min = std::max(0.0f, least - doubt(least)), ray.surely_after = least + doubt(least);
+  ray.t_min = std::max(0.0f, least - rounding(least)), ray.surely_after = least + rounding(least);
   const auto last = static_cast<float>(t_max + limits.beyond * kernel_t);
-  ray.t_max = std::min((last + doubt(last)) * WideRay::widening, FLT_MAX);
-  ray.surely_before = most <= FLT_MAX ? most - doubt(most) : FLT_MAX;
+  ray.t_max = std::min((last + rounding(last)) * WideRay::widening, FLT_MAX);
+  ray.surely_before = most <= FLT_MAX ? most - rounding(most) : FLT_MAX;
   ray.limit(limits.t_above);
   ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
   const auto size = [&](std::size_t a) { return std::abs(numbers[3 + a]); };
@@ -102,9 +102,9 @@ HWY_INLINE void prefetch(const WideNode* nodes, const Leaf* leaves, WideChild ch
     lines(nodes + child.index(), sizeof(WideNode));
 }
 
-/// meet(leaf) returns true to end the walk.
-template <class Leaf, class Meet>
-HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
+/// intersect(leaf) returns true to end the traversal.
+template <class Leaf, class Intersect>
+HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Intersect& intersect) {
   const SpreadRay spread(ray);
   const WideNode* nodes = tree.nodes.data();
   const Leaf* leaves = leaves_of<Leaf>(tree);
@@ -119,7 +119,7 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
   WideChild child{0};
   for (;;) {
     if (child.is_leaf()) {
-      if (meet(leaves[child.index()])) return WideWalk::ended;
+      if (intersect(leaves[child.index()])) return WideTraversal::ended;
       t_max = ray.t_max;
     } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
       known = 0;
@@ -130,13 +130,13 @@ HWY_INLINE WideWalk walk(const WideTree& tree, WideRay& ray, const Meet& meet) {
       }
     } else {
       const WideNode& node = nodes[child.index()];
-      if (MetChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
+      if (IntersectedChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
         ask_ahead();
         continue;
       }
     }
     do {
-      if (size == 0) return WideWalk::done;
+      if (size == 0) return WideTraversal::done;
       child.bits = stack.child[--size];
     } while (stack.near[size] > t_max);
     known = 0;
@@ -170,13 +170,13 @@ HWY_INLINE bool each_candidate(const typename Test::Leaf& leaf, const WideRay& r
 }
 
 template <class Test>
-bool is_surely_met(unsigned i, const Test& test, const WideRay& ray) {
+bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
   return test.is_sure(i) && test.t_below(i) > ray.surely_after && test.t_above(i) < ray.surely_before;
 }
 
 template <class Test>
-HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
-  const auto walked = walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
+  const auto traversed = traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       const float t = test.t_below(i);
       if (t > ray.t_max) return false;
@@ -186,12 +186,12 @@ HWY_INLINE WideWalk closest(const WideTree& tree, WideRay& ray, LeafCandidates& 
     });
   });
   found.t_max = ray.t_max;
-  return walked == WideWalk::ended ? WideWalk::refused : walked;
+  return traversed == WideTraversal::ended ? WideTraversal::refused : traversed;
 }
 
 template <class Test>
-HWY_INLINE WideWalk visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
-  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+HWY_INLINE WideTraversal visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
+  return traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) {
       return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
     });
@@ -199,55 +199,56 @@ HWY_INLINE WideWalk visit_all(const WideTree& tree, WideRay& ray, const Candidat
 }
 
 template <class Test>
-HWY_INLINE WideWalk visit_unsure(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
-  return walk<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+HWY_INLINE WideTraversal visit_ambiguous_hits(const WideTree& tree, WideRay& ray,
+                                              const CandidateVisitor& visitor) {
+  return traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
-      if (is_surely_met(i, test, ray)) return true;
+      if (is_surely_hit(i, test, ray)) return true;
       return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
     });
   });
 }
 
-WideWalk closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
+WideTraversal closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
   WideRay ray;
-  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
+  if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
   return tree.plain ? closest<PlainTest>(tree, ray, found) : closest<LeafTest>(tree, ray, found);
 }
 
-WideWalk visit_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits,
-                      CandidateVisitor visitor) {
+WideTraversal visit_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                           CandidateVisitor visitor) {
   WideRay ray;
-  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
   return tree.plain ? visit_all<PlainTest>(tree, ray, visitor) : visit_all<LeafTest>(tree, ray, visitor);
 }
 
-WideWalk collect_kernel(const WideTree& tree, const Ray& given, const WalkLimits& limits, std::uint32_t skip,
-                        LeafCandidates& found) {
+WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found) {
   WideRay ray;
-  if (!prepare(tree, given, limits, ray)) return WideWalk::refused;
+  if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
   bool full = false;
-  const auto walked = walk<WideLeaf>(tree, ray, [&](const WideLeaf& leaf) {
+  const auto traversed = traverse<WideLeaf>(tree, ray, [&](const WideLeaf& leaf) {
     const auto others = [&](unsigned candidates) {
       for (unsigned left = candidates; left != 0; left &= left - 1)
         if (tree.origin->ids[leaf.triangles.first() + static_cast<unsigned>(std::countr_zero(left))] == skip)
           candidates &= ~(left & -left);
       return candidates;
     };
-    const auto keep_doubtful = [&](unsigned i, const LeafTest& test) {
-      if (is_surely_met(i, test, ray)) return true;
+    const auto keep_ambiguous = [&](unsigned i, const LeafTest& test) {
+      if (is_surely_hit(i, test, ray)) return true;
       full = !keep(found, leaf.triangles.first() + i, test.t_below(i), ray);
       return full;
     };
-    return each_candidate<LeafTest>(leaf, ray, keep_doubtful, others);
+    return each_candidate<LeafTest>(leaf, ray, keep_ambiguous, others);
   });
-  return full ? WideWalk::refused : walked;
+  return full ? WideTraversal::refused : traversed;
 }
 
-WideWalk doubtful_kernel(const WideTree& tree, const Ray& given, CandidateVisitor visitor) {
+WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& given, CandidateVisitor visitor) {
   WideRay ray;
-  if (!prepare(tree, given, {}, ray)) return WideWalk::refused;
-  return tree.plain ? visit_unsure<PlainTest>(tree, ray, visitor)
-                    : visit_unsure<LeafTest>(tree, ray, visitor);
+  if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
+  return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visitor)
+                    : visit_ambiguous_hits<LeafTest>(tree, ray, visitor);
 }
 
 }  // namespace
@@ -258,21 +259,21 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace {
 HWY_EXPORT(closest_kernel);
 HWY_EXPORT(visit_kernel);
-HWY_EXPORT(doubtful_kernel);
+HWY_EXPORT(ambiguous_kernel);
 HWY_EXPORT(collect_kernel);
 
-WideWalk closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
+WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
   return HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
 }
-WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
-                          CandidateVisitor visitor) {
+WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                               CandidateVisitor visitor) {
   return HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visitor);
 }
-WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
-  return HWY_DYNAMIC_DISPATCH(doubtful_kernel)(tree, ray, visitor);
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
+  return HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visitor);
 }
-WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
-                             std::uint32_t skip, LeafCandidates& found) {
+WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                   std::uint32_t skip, LeafCandidates& found) {
   return HWY_DYNAMIC_DISPATCH(collect_kernel)(tree, ray, limits, skip, found);
 }
 

@@ -20,32 +20,32 @@ struct LeafCandidates {
   float t_max = 0.0;  ///< none is later
 };
 
-/// refused: nothing was done, the ray has to walk another way. ended: by a visitor or a sure hit.
-enum class WideWalk : std::uint8_t { refused, done, ended };
+/// refused: nothing was done, the ray has to go another way. ended: by a visitor or a sure hit.
+enum class WideTraversal : std::uint8_t { refused, done, ended };
 
 /// All that may be the closest hit: those before the least t where there surely is one. Every primitive must
 /// count (no masks). `refused` also where there would be too many.
-WideWalk closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found);
+WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found);
 
-/// Near ones first, roughly. The visitor may limit the ray, and returns true to end the walk.
+/// Near ones first, roughly. The visitor may limit the ray, and returns true to end the traversal.
 struct CandidateVisitor {
   bool (*visit)(const void* self, std::uint32_t leaf, WideRay& ray);
   const void* self;
 };
-struct WalkLimits {
+struct TraversalLimits {
   float t_above = std::numeric_limits<float>::infinity();  ///< none from here on; in the units of RayFrame
   double origin_error = 0.0;  ///< how far the ray's true origin may lie from its own, along any axis
   double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
 };
-WideWalk visit_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
-                          CandidateVisitor visitor);
-/// The same, but a triangle that is surely met in range ends it, too, and is not offered.
-WideWalk visit_doubtful(const WideTree& tree, const Ray& ray, CandidateVisitor visitor);
+WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                               CandidateVisitor visitor);
+/// The same, but a triangle that is surely hit in range ends it, too, and is not reported.
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor);
 
-/// All that the ray may meet, but for the triangle `skip` (a primitive's id); ended: one is surely met.
+/// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
 /// `refused` also where there would be too many.
-WideWalk doubtful_candidates(const WideTree& tree, const Ray& ray, const WalkLimits& limits,
-                             std::uint32_t skip, LeafCandidates& found);
+WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                   std::uint32_t skip, LeafCandidates& found);
 
 /// visit(leaf, ray)
 template <class Visit>

@@ -7,19 +7,20 @@
 #include <bit>
 #include <limits>
 #include <span>
+#include <thread>
 
 #include "raytrace/bvh/wide_pack.h"
 
 namespace gnomon::raytrace {
 namespace {
 
-constexpr float inf = Box::inf;
+constexpr float inf = WideBox::inf;
 constexpr int parallel_depth = 4;                    // below it one thread does all
 constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
 
 /// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
 struct Part {
-  Box box;
+  WideBox box;
   std::uint32_t pair = 0;              // its index, if it is one
   std::uint32_t first = 0, count = 0;  // count 0: a pair
   bool is_leaf() const { return count > 0; }
@@ -32,8 +33,8 @@ struct Pair {
   std::array<std::uint8_t, node_lanes> left;  // how many of them the first part makes; 0: as with one fewer
 };
 
-Box box_of(const BvhNode& node, std::size_t child) {
-  Box box;
+WideBox box_of(const BvhNode& node, std::size_t child) {
+  WideBox box;
   for (std::size_t row = 0; row < 6; ++row) box.at[row] = node.bounds[row][child];
   return box;
 }
@@ -77,16 +78,16 @@ double longest_edge(const LeafPrimitive& triangle) {
 // First the pairs, bottom up, with the least cost of each as one to sixteen children (Ylitalo et al. 2017,
 // "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1); then the nodes,
 // top down. A thread takes the places of what it makes when it begins it.
-class Folding {
+class Collapse {
  public:
-  Folding(const Bvh& bvh, const World& world, WideTree& tree)
+  Collapse(const Bvh& bvh, const World& world, WideTree& tree)
       : bvh_(bvh), world_(world), tree_(tree), has_shapes_(world.primitive_count() > world.triangle_count()) {
     pairs_.resize(bvh.primitives.size());  // without values: pages that are not reached cost nothing
     tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
-    Box all;
+    WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(bvh.nodes[0].child[i])) all.grow(box_of(bvh.nodes[0], i));
-    fold(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
+    collapse(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
     tree.nodes.resize(nodes_), resize_leaves(leaves_);
   }
 
@@ -135,7 +136,7 @@ class Folding {
     return count <= leaf_corners / 3 || corners_of(first, count, corners);
   }
 
-  Part part_of(const BvhChild& child, const Box& box, int depth) {
+  Part part_of(const BvhChild& child, const WideBox& box, int depth) {
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
     if (is_short(child, first, end) && fits(first, end - first)) return {box, 0, first, end - first};
     if (child.is_leaf()) return halved(child.first(), child.count(), box);
@@ -156,7 +157,7 @@ class Folding {
   }
 
   /// Of a leaf that has too many corners: parts of it, all with its box.
-  Part halved(std::uint32_t first, std::uint32_t count, const Box& box) {
+  Part halved(std::uint32_t first, std::uint32_t count, const WideBox& box) {
     if (fits(first, count)) return {box, 0, first, count};
     const std::uint32_t half = count / 2;
     return pair_of(halved(first, half, box), halved(first + half, count - half, box), box);
@@ -166,7 +167,7 @@ class Folding {
   Part joined(const std::array<Part, 4>& parts, unsigned set) {
     if (std::has_single_bit(set)) return parts[static_cast<std::size_t>(std::countr_zero(set))];
     const auto around = [&](unsigned some) {
-      Box box;
+      WideBox box;
       for (; some != 0; some &= some - 1)
         box.grow(parts[static_cast<std::size_t>(std::countr_zero(some))].box);
       return box;
@@ -184,7 +185,7 @@ class Folding {
     return part.is_leaf() ? leaf_cost * part.box.half_area() : pairs_[part.pair].cost[children - 1];
   }
 
-  Part pair_of(const Part& one, const Part& other, const Box& box) {
+  Part pair_of(const Part& one, const Part& other, const WideBox& box) {
     const std::uint32_t first = std::min(one.first, other.first);
     const std::uint32_t end = std::max(one.first + one.count, other.first + other.count);
     const bool whole = one.is_leaf() && other.is_leaf() && end - first == one.count + other.count;
@@ -221,12 +222,12 @@ class Folding {
     pieces.at[pieces.count++] = part;
   }
 
-  void fold(const Part& from, std::uint32_t to, int depth) {
+  void collapse(const Part& from, std::uint32_t to, int depth) {
     Pieces pieces;
     split(from, node_lanes, pieces);
     WideNode& node = tree_.nodes[to];
     for (std::size_t i = 0; i < node_lanes; ++i) {
-      const Box box = i < pieces.count ? pieces.at[i].box : Box{};
+      const WideBox box = i < pieces.count ? pieces.at[i].box : WideBox{};
       for (std::size_t row = 0; row < 6; ++row) node.bounds[row][i] = box.at[row];
       node.child[i] = WideChild::leaf_flag;
     }
@@ -238,7 +239,7 @@ class Folding {
       if (piece.is_leaf())
         put_leaf(piece, place);
       else
-        fold(piece, place, depth + 1);
+        collapse(piece, place, depth + 1);
     };
     if (depth < parallel_depth)
       tbb::parallel_for(std::size_t{0}, pieces.count, put_child);
@@ -320,22 +321,22 @@ float reach_of(const BvhNode& root) {
 
 }  // namespace
 
-std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain) {
+std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world, bool plain) {
   if (bvh.nodes.empty()) return nullptr;
   auto tree = std::make_unique<WideTree>();
   tree->origin = &bvh, tree->plain = plain;
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
   tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
-  const Folding fold(bvh, world, *tree);
+  const Collapse collapse(bvh, world, *tree);
   return tree;
 }
 
 // Isolated, for else a thread that waits for the rest of the tree would begin another tile of the picture.
-void WideOnDemand::fold(const Bvh& bvh, const World& world) {
+void WideOnDemand::collapse(const Bvh& bvh, const World& world) {
   if (begun_.exchange(true)) return;
   tbb::this_task_arena::isolate(
-      [&] { ready_.store(fold_wide(bvh, world, plain_).release(), std::memory_order_release); });
+      [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
 }
 
 std::uint64_t WideOnDemand::bytes() const {
@@ -343,14 +344,14 @@ std::uint64_t WideOnDemand::bytes() const {
   return tree != nullptr ? tree->bytes() : 0;
 }
 
-// Each thread counts by itself and tells now and then. Folding costs for a primitive about what a ray
-// saves; who casts a sixteenth as many rays as there are primitives will cast more.
+// Each count tells now and then. Collapsing costs for a primitive about what a ray saves; who casts a sixteenth
+// as many rays as there are primitives will cast more.
 const WideTree* WideOnDemand::count_ray(const Bvh& bvh, const World& world) {
   constexpr unsigned told_at_once = 256, least = 4096;
-  thread_local unsigned untold = 0;
-  if (++untold < told_at_once) return nullptr;
-  untold = 0;
-  if ((rays_ += told_at_once) >= least + bvh.primitives.size() / 16) fold(bvh, world);
+  const std::uint64_t thread = std::hash<std::thread::id>{}(std::this_thread::get_id());
+  RayCount& count = counts_[(thread * 0x9e3779b97f4a7c15u) >> 60];
+  if ((count.rays.fetch_add(1, std::memory_order_relaxed) + 1) % told_at_once != 0) return nullptr;
+  if ((rays_ += told_at_once) >= least + bvh.primitives.size() / 16) collapse(bvh, world);
   return ready_.load(std::memory_order_acquire);
 }
 

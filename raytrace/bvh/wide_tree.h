@@ -1,9 +1,10 @@
-// The hierarchy as single rays walk it: nodes of sixteen children and leaves of up to sixteen triangles in
-// float, folded from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough single
-// rays have come to pay for it. The floats only say which triangles a ray surely misses; the doubles decide.
-// Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow ones.
+// The hierarchy as single rays traverse it: nodes of sixteen children and leaves of up to sixteen triangles
+// in float, collapsed from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough
+// single rays have come to pay for it. The floats only say which triangles a ray surely misses; the doubles
+// decide. Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow ones.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <memory>
@@ -72,7 +73,7 @@ struct WideTree {
   HugeVector<WideNode> nodes;  ///< node 0 is the root
   HugeVector<WideLeaf> leaves;
   HugeVector<PlainLeaf> plain_leaves;          ///< instead of these, where `plain`
-  const Bvh* origin = nullptr;                 ///< what was folded; it must outlive the tree
+  const Bvh* origin = nullptr;                 ///< what was collapsed; it must outlive the tree
   alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
   bool plain = false;
   float reach = 0.0;  ///< no coordinate of a box is above this
@@ -84,9 +85,9 @@ struct WideTree {
 
 /// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than
 /// 2^-26.
-std::unique_ptr<const WideTree> fold_wide(const Bvh& bvh, const World& world, bool plain = false);
+std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world, bool plain = false);
 
-/// Folds the tree when so many rays have asked for it that it pays. Any number of threads may ask.
+/// Collapses the tree when so many rays have asked for it that it pays. Any number of threads may ask.
 class WideOnDemand {
  public:
   explicit WideOnDemand(bool plain = false) : plain_(plain) {}
@@ -96,15 +97,21 @@ class WideOnDemand {
     const WideTree* tree = ready_.load(std::memory_order_acquire);
     return tree != nullptr ? tree : count_ray(bvh, world);
   }
-  /// Folds now, unless it has been or is being done.
-  void fold(const Bvh& bvh, const World& world);
+  /// Collapses now, unless it has been or is being done.
+  void collapse(const Bvh& bvh, const World& world);
   std::uint64_t bytes() const;
 
  private:
   const WideTree* count_ray(const Bvh& bvh, const World& world);
+  /// Threads count apart, so that they do not wait for one another; two may share a count.
+  struct alignas(64) RayCount {
+    std::atomic<std::uint32_t> rays{0};
+  };
+
   bool plain_;
   std::atomic<const WideTree*> ready_{nullptr};
-  std::atomic<std::uint64_t> rays_{0};
+  std::array<RayCount, 16> counts_;
+  std::atomic<std::uint64_t> rays_{0};  ///< of them what has been told
   std::atomic<bool> begun_{false};
 };
 

@@ -1,5 +1,5 @@
-// A tile's shadow rays by cells instead of the hierarchy: the answers of raytrace/packets/tile.h, each ray
-// from the list of its own cell.
+// A tile's shadow rays by bins instead of the hierarchy: the answers of raytrace/packets/tile.h, each ray
+// from the list of its own bin.
 #pragma once
 
 #include "raytrace/packets/light_bins.h"
@@ -7,9 +7,9 @@
 
 namespace gnomon::raytrace {
 
-/// Rays whose (u, v) lie outside the cells are unsure, and `doubts` is silent about them: `outside` says
+/// Rays whose (u, v) lie outside the bins are ambiguous, and `ambiguous_hits` is silent about them: `outside` says
 /// which.
-void shadows_in_cells(const Cells& cells, const Seen& seen, const TileRays& rays, TileShadows& shadows,
-                      LaneMask& outside);
+void shadows_in_bins(const LightBins& bins, const EdgeSetup& setup, const TileRays& rays,
+                     TileShadows& shadows, LaneMask& outside);
 
 }  // namespace gnomon::raytrace

@@ -1,6 +1,6 @@
-// A tile's walk through the hierarchy. Boxes are culled against the tile's frustum (or column), triangles
-// against the intervals of all 16 packets at once (Reshetov, Soupikov, Hurley 2005, "Multi-level ray tracing
-// algorithm", section 3).
+// A tile's traversal through the hierarchy. Boxes are culled against the tile's frustum (or column),
+// triangles against the intervals of all 16 packets at once (Reshetov, Soupikov, Hurley 2005, "Multi-level
+// ray tracing algorithm", section 3).
 
 #if defined(GNOMON_RAYTRACE_PACKETS_FRUSTUM_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -28,7 +28,7 @@ struct alignas(64) Packets {
 };
 
 /// A lower bound u·d_u + v·d_v + constant of shadow rays' `far`: receivers on one plane lie on it exactly,
-/// for nearness is linear there. So a surface's own triangles are told to be behind its receivers.
+/// for reciprocal depth is linear there. So a surface's own triangles are told to be behind its receivers.
 struct Floor {
   float u = 0.0f, v = 0.0f, constant = 0.0f;
 };
@@ -59,18 +59,18 @@ class Frustum {
  public:
   static constexpr std::size_t sides = 4;
 
-  Frustum(const Bvh& bvh, const Seen& seen, const Axes& axes, const Packets& packets) {
-    const Vec3 origin = seen.origin - bvh.center;
+  Frustum(const Bvh& bvh, const EdgeSetup& setup, const Axes& axes, const Packets& packets) {
+    const Vec3 origin = setup.origin - bvh.center;
     const double u_min = smallest(packets.u_min), u_max = largest(packets.u_max);
     const double v_min = smallest(packets.v_min), v_max = largest(packets.v_max);
-    const Vec3 u = seen.axes[axes.u], v = seen.axes[axes.v],
-               depth = static_cast<double>(axes.sign) * seen.axes[axes.depth];
-    if (seen.directional) {
-      set(0, u, -u_min - glm::dot(u, origin), seen), set(1, -u, u_max + glm::dot(u, origin), seen);
-      set(2, v, -v_min - glm::dot(v, origin), seen), set(3, -v, v_max + glm::dot(v, origin), seen);
-      set(4, depth, -glm::dot(depth, origin), seen);
+    const Vec3 u = setup.axes[axes.u], v = setup.axes[axes.v],
+               depth = static_cast<double>(axes.sign) * setup.axes[axes.depth];
+    if (setup.directional) {
+      set(0, u, -u_min - glm::dot(u, origin), setup), set(1, -u, u_max + glm::dot(u, origin), setup);
+      set(2, v, -v_min - glm::dot(v, origin), setup), set(3, -v, v_max + glm::dot(v, origin), setup);
+      set(4, depth, -glm::dot(depth, origin), setup);
     } else {
-      const auto side = [&](std::size_t k, const Vec3& n) { set(k, n, -glm::dot(n, origin), seen); };
+      const auto side = [&](std::size_t k, const Vec3& n) { set(k, n, -glm::dot(n, origin), setup); };
       side(0, u - u_min * depth), side(1, u_max * depth - u);
       side(2, v - v_min * depth), side(3, v_max * depth - v);
       side(4, -depth);
@@ -78,25 +78,25 @@ class Frustum {
   }
 
   /// Boxes wholly behind the floor are left out as well.
-  void stand_on(const Floor& floor, const Bvh& bvh, const Seen& seen, const Axes& axes) {
-    const Vec3 origin = seen.origin - bvh.center;
-    const Vec3 u = seen.axes[axes.u], v = seen.axes[axes.v],
-               depth = static_cast<double>(axes.sign) * seen.axes[axes.depth];
+  void stand_on(const Floor& floor, const Bvh& bvh, const EdgeSetup& setup, const Axes& axes) {
+    const Vec3 origin = setup.origin - bvh.center;
+    const Vec3 u = setup.axes[axes.u], v = setup.axes[axes.v],
+               depth = static_cast<double>(axes.sign) * setup.axes[axes.depth];
     const double gu = floor.u, gv = floor.v, gc = floor.constant;
-    // Of a point: nearness 1 / z > g·(x / z, y / z, 1). Scaled so that the slack is in world units.
+    // Of a point: reciprocal depth 1 / z > g·(x / z, y / z, 1). Scaled so that the slack is in world units.
     Vec3 n = -(gu * u + gv * v + gc * depth);
     double constant = 1.0;
-    if (seen.directional) n = depth - gu * u - gv * v, constant = -gc;
+    if (setup.directional) n = depth - gu * u - gv * v, constant = -gc;
     const double length = glm::length(n);
     if (!(length > 1e-30 && length < 1e30)) return;
-    set(5, n / length, (constant - glm::dot(n, origin)) / length, seen);
+    set(5, n / length, (constant - glm::dot(n, origin)) / length, setup);
     planes_ = 6;
   }
 
-  /// Bit i: child i may be met by a ray of the tile at a priority of at least `limit` (priority: minus the
-  /// depth of a point's boxes, the height of a direction's).
-  unsigned meets(const BvhNode& node, float limit, float* priority) const {
-    unsigned met = 0;
+  /// Bit i: child i may be intersected by a ray of the tile at a priority of at least `limit` (priority:
+  /// minus the depth of a point's boxes, the height of a direction's).
+  unsigned hits(const BvhNode& node, float limit, float* priority) const {
+    unsigned hit = 0;
     for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
       auto least = along(node, 0, i);
       for (std::size_t k = 1; k < sides; ++k) least = hn::Min(least, along(node, k, i));
@@ -106,18 +106,18 @@ class Frustum {
       const auto keep = hn::And(hn::Ge(least, hn::Zero(four)), hn::Ge(order, hn::Set(four, limit)));
       std::uint8_t bytes[8] = {};
       hn::StoreMaskBits(four, keep, bytes);
-      met |= static_cast<unsigned>(bytes[0]) << i;
+      hit |= static_cast<unsigned>(bytes[0]) << i;
     }
-    return met;
+    return hit;
   }
 
  private:
-  void set(std::size_t k, const Vec3& n, double constant, const Seen& seen) {
+  void set(std::size_t k, const Vec3& n, double constant, const EdgeSetup& setup) {
     for (std::size_t a = 0; a < 3; ++a) {
       n_[k][a] = static_cast<float>(n[static_cast<int>(a)]);
       row_[k][a] = n_[k][a] > 0.0f ? 3 + a : a;
     }
-    c_[k] = float_above(constant + 4.0 * seen.slack);
+    c_[k] = float_above(constant + 4.0 * setup.slack);
   }
   hn::Vec<Four> along(const BvhNode& node, std::size_t k, std::size_t i) const {
     auto sum = hn::Set(four, c_[k]);
@@ -131,11 +131,11 @@ class Frustum {
   std::size_t planes_ = 5;
 };
 
-/// Visits the leaves that the tile may meet, highest priority first: leaf(first, count) returns false to end
-/// the walk; limit() is the least priority still of interest; ahead(child) is told what will come.
+/// Visits the leaves that the tile may intersect, highest priority first: leaf(first, count) returns false to
+/// end the traversal; limit() is the least priority still of interest; ahead(child) is told what will come.
 template <class Leaf, class Limit, class Ahead>
-void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf,
-               const Ahead& ahead) {
+void traverse_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf,
+                   const Ahead& ahead) {
   struct Entry {
     BvhChild child;
     float priority;
@@ -153,7 +153,7 @@ void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const
     const BvhNode& node = bvh.nodes[entry.child.index()];
     alignas(16) float priority[4];
     const std::size_t base = size;
-    for (unsigned mask = frustum.meets(node, limit(), priority); mask != 0; mask &= mask - 1) {
+    for (unsigned mask = frustum.hits(node, limit(), priority); mask != 0; mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(mask));
       std::size_t at = size++;
       for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
@@ -164,33 +164,33 @@ void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const
 }
 
 template <class Leaf, class Limit>
-void walk_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf) {
-  walk_tile(bvh, frustum, limit, leaf, [](BvhChild) {});
+void traverse_tile(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Leaf& leaf) {
+  traverse_tile(bvh, frustum, limit, leaf, [](BvhChild) {});
 }
 
-/// Bit p: packet p may meet the primitive in front of what it knows already.
+/// Bit p: packet p may intersect the primitive in front of what it knows already.
 template <class Behind>
-unsigned packets_met(const SeenPrimitive& p, const Functions& of, const Packets& packets,
-                     const Behind& behind) {
+unsigned intersected_packets(const PrimitiveEdges& p, const Functions& of, const Packets& packets,
+                             const Behind& behind) {
   const auto most = [&](const Linear& l, std::size_t i) {
     const float* u = l.u > 0.0f ? packets.u_max : packets.u_min;
     const float* v = l.v > 0.0f ? packets.v_max : packets.v_min;
     return value(all(l.u), all(l.v), all(l.constant), hn::Load(f, u + i), hn::Load(f, v + i));
   };
   const bool by_depth = !(p.depth_floor > -1e30f);
-  unsigned met = 0;
+  unsigned hit = 0;
   for (std::size_t i = 0; i < tile_packets; i += lanes()) {
     const V edges = hn::Min(most(of.edge[0], i), hn::Min(most(of.edge[1], i), most(of.edge[2], i)));
     const V far = hn::Load(f, packets.far_min + i);
     M keep = hn::And(hn::Ge(edges, all(-p.edge_error)), hn::Lt(far, all(inf)));
     if (by_depth) {
       const V depth_error = all(p.depth_error);
-      keep = hn::AndNot(hn::Lt(most(of.nearness, i), hn::Sub(far, depth_error)), keep);
-      keep = hn::AndNot(behind(of.nearness, depth_error, i), keep);
+      keep = hn::AndNot(hn::Lt(most(of.reciprocal_depth, i), hn::Sub(far, depth_error)), keep);
+      keep = hn::AndNot(behind(of.reciprocal_depth, depth_error, i), keep);
     }
-    met |= bits_of(keep) << i;
+    hit |= bits_of(keep) << i;
   }
-  return met;
+  return hit;
 }
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

@@ -5,15 +5,23 @@
 #include "raytrace/packets/receivers.h"
 
 namespace gnomon::raytrace {
+std::vector<std::uint32_t> hit_places(const Tracer& tracer) {
+  const Structures& s = tracer.structures();
+  std::vector<std::uint32_t> places(tracer.world().primitive_count(), nothing_hit);
+  for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) places[s.bvh.ids[i]] = i;
+  for (std::uint32_t i = 0; i < s.planes.size(); ++i) places[s.planes[i]] = first_plane + i;
+  return places;
+}
+
 std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
                          const TileRect& rect, const Image<std::uint32_t>& primitives,
-                         Image<SurfacePoint>& receivers, CompactTile& compact) {
+                         Image<SurfacePoint>& receivers, QuantisedTile& quantised) {
   LaneMask left;
   left.fill(0xffff);
-  CompactDraft draft;
-  compact.clear();
+  TileDraft draft;
+  quantised.clear();
   const Structures& s = tracer.structures();
-  if (is_whole(rect) && packets_apply(s) && !s.has_masks) {
+  if (is_whole(rect) && packets_apply(tracer) && !s.has_masks) {
     TileHits known;
     for_each_place(rect, [&](int x, int y, std::size_t lane) {
       const std::uint32_t id = primitives.at(x, y);
@@ -22,7 +30,7 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
     left = store_receivers(s.bvh, view, rect.x0, rect.y0, axis_of(view, rect), known,
                            {.points = &receivers.at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(receivers.size.width),
-                            .compact = &compact,
+                            .quantised = &quantised,
                             .draft = &draft});
   }
   std::uint64_t missed = 0;
@@ -36,9 +44,9 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
     if (!hit) ++missed, hit = tracer.closest_hit(ray);
     if (!hit) return;
     out = tracer.surface_point(ray, *hit);
-    compact.put(lane, out, draft);
+    quantised.put(lane, out, draft);
   });
-  compact.finish(draft, draft.bounds.center());  // from points in double: no error grows with a distance
+  quantised.finish(draft, draft.bounds.center());  // from points in double: no error grows with a distance
   return missed;
 }
 

@@ -62,8 +62,8 @@ struct Axes {
   Linear of(const float (&n)[3]) const { return {n[u], n[v], sign * n[depth]}; }
 };
 
-inline Axes axes_of(const Seen& seen, const TileRays& rays) {
-  if (seen.directional) return {0, 1, 2, 1.0f};
+inline Axes axes_of(const EdgeSetup& setup, const TileRays& rays) {
+  if (setup.directional) return {0, 1, 2, 1.0f};
   const auto depth = static_cast<std::size_t>(rays.axis);
   return {(depth + 1) % 3, (depth + 2) % 3, depth, rays.sign};
 }
@@ -82,14 +82,15 @@ inline float largest(const float* values) {
 
 /// One primitive's functions in the tile's axes.
 struct Functions {
-  Linear edge[3], nearness;
+  Linear edge[3], reciprocal_depth;
   /// Of a primitive seen in the axes of the rays: a direction's, or a framed point's.
-  explicit Functions(const SeenPrimitive& p) : Functions(p, Axes{0, 1, 2, 1.0f}) {}
-  Functions(const SeenPrimitive& p, const Axes& axes)
-      : edge{axes.of(p.edge[0]), axes.of(p.edge[1]), axes.of(p.edge[2])}, nearness(axes.of(p.nearness)) {}
+  explicit Functions(const PrimitiveEdges& p) : Functions(p, Axes{0, 1, 2, 1.0f}) {}
+  Functions(const PrimitiveEdges& p, const Axes& axes)
+      : edge{axes.of(p.edge[0]), axes.of(p.edge[1]), axes.of(p.edge[2])},
+        reciprocal_depth(axes.of(p.reciprocal_depth)) {}
 };
 
-/// Rays against one primitive: the least edge function and the nearness.
+/// Rays against one primitive: the least edge function and the reciprocal depth.
 class RayTest {
  public:
   explicit RayTest(const Functions& of)
@@ -102,14 +103,14 @@ class RayTest {
         e2u_(all(of.edge[2].u)),
         e2v_(all(of.edge[2].v)),
         e2c_(all(of.edge[2].constant)),
-        mu_(all(of.nearness.u)),
-        mv_(all(of.nearness.v)),
-        mc_(all(of.nearness.constant)) {}
+        mu_(all(of.reciprocal_depth.u)),
+        mv_(all(of.reciprocal_depth.v)),
+        mc_(all(of.reciprocal_depth.constant)) {}
   V least_edge(V u, V v) const {
     return hn::Min(value(e0u_, e0v_, e0c_, u, v),
                    hn::Min(value(e1u_, e1v_, e1c_, u, v), value(e2u_, e2v_, e2c_, u, v)));
   }
-  V nearness(V u, V v) const { return value(mu_, mv_, mc_, u, v); }
+  V reciprocal_depth(V u, V v) const { return value(mu_, mv_, mc_, u, v); }
 
  private:
   V e0u_, e0v_, e0c_, e1u_, e1v_, e1c_, e2u_, e2v_, e2c_, mu_, mv_, mc_;

@@ -16,21 +16,21 @@ struct Candidates {
   bool known = false;
 };
 
-/// Where in the tree the triangle lies; unsure_hit where that is not known.
+/// Where in the tree the triangle lies; ambiguous_hit where that is not known.
 std::uint32_t leaf_of(const Tracer& tracer, const Candidates& candidates, std::uint32_t triangle) {
-  if (triangle == no_id || !tracer.world().is_triangle(triangle)) return unsure_hit;
+  if (triangle == no_id || !tracer.world().is_triangle(triangle)) return ambiguous_hit;
   for (const std::uint32_t leaf : candidates.leaves)
     if (tracer.structures().bvh.ids[leaf] == triangle) return leaf;
-  return unsure_hit;
+  return ambiguous_hit;
 }
 
-/// The receiver of a pixel whose ray meets this leaf.
+/// The receiver of a pixel whose ray intersects this leaf.
 SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, std::uint32_t leaf,
                          const Candidates& candidates = {}) {
   if (leaf == nothing_hit) return {};
   const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
   // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
-  std::optional<Hit> hit = leaf == unsure_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
+  std::optional<Hit> hit = leaf == ambiguous_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
   if (!hit)
     hit = candidates.known ? tracer.closest_hit_among(ray, candidates.leaves) : tracer.closest_hit(ray);
   return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
@@ -49,20 +49,20 @@ TileHits those_of(const TileHits& hits, const LaneMask& bits) {
 
 /// Those receivers that are found many at a time; returns the bits of the others.
 LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, const TileHits& hits,
-                          Image<SurfacePoint>* receivers, CompactTile* compact, CompactDraft& draft) {
+                          Image<SurfacePoint>* receivers, QuantisedTile* quantised, TileDraft& draft) {
   const Bvh& bvh = tracer.structures().bvh;
   const int axis = axis_of(view, rect);
-  if (receivers != nullptr || compact == nullptr)
+  if (receivers != nullptr || quantised == nullptr)
     return store_receivers(bvh, view, rect.x0, rect.y0, axis, hits,
                            {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(view.size.width),
-                            .compact = compact,
+                            .quantised = quantised,
                             .draft = &draft});
-  const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *compact, draft);
+  const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *quantised, draft);
   if (left.ill == LaneMask{}) return left.others;
   const TileHits ill = those_of(hits, left.ill);
   LaneMask still = store_receivers(bvh, view, rect.x0, rect.y0, axis, ill,
-                                   {.points = nullptr, .stride = 0, .compact = compact, .draft = &draft});
+                                   {.points = nullptr, .stride = 0, .quantised = quantised, .draft = &draft});
   for (std::size_t p = 0; p < tile_packets; ++p)
     still[p] = static_cast<std::uint16_t>((still[p] & left.ill[p]) | left.others[p]);
   return still;
@@ -70,18 +70,18 @@ LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect
 
 /// The tile's receivers from its hits in the block.
 void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::size_t index,
-                const TileRect& rect, Image<SurfacePoint>* receivers, CompactTile* compact) {
+                const TileRect& rect, Image<SurfacePoint>* receivers, QuantisedTile* quantised) {
   TileHits& hits = block.tiles[index];
-  CompactDraft draft;
-  if (compact != nullptr) compact->clear();
-  const LaneMask left = vector_receivers(tracer, view, rect, hits, receivers, compact, draft);
+  TileDraft draft;
+  if (quantised != nullptr) quantised->clear();
+  const LaneMask left = vector_receivers(tracer, view, rect, hits, receivers, quantised, draft);
   const bool any_planes = !tracer.structures().planes.empty();
   HugeArray<SurfacePoint> on_planes(any_planes ? tile_rays : 0);
   LaneMask found{};
   if (any_planes) found = find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
   const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
     if (receivers != nullptr) receivers->at(x, y) = point;
-    if (compact != nullptr) compact->put(lane, point, draft);
+    if (quantised != nullptr) quantised->put(lane, point, draft);
   };
   std::vector<std::uint32_t> leaves;
   for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
@@ -90,16 +90,17 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
     if ((found[lane / packet_rays] & bit_of(lane)) != 0)
       return store(x, y, lane, on_planes[static_cast<std::size_t>(place_in_tile(rect, x, y))]);
     Candidates candidates;
-    if (leaf == unsure_hit) {
+    if (leaf == ambiguous_hit) {
       leaves.clear();
-      for (const BlockDoubt& doubt : block.doubts_at(index * tile_rays + lane)) leaves.push_back(doubt.leaf);
-      candidates = {leaves, block.all_doubts};
+      for (const AmbiguousBlockHit& candidate : block.ambiguous_at(index * tile_rays + lane))
+        leaves.push_back(candidate.leaf);
+      candidates = {leaves, block.all_ambiguous};
     }
     const SurfacePoint point = receiver_of(tracer, view, x, y, leaf, candidates);
-    if (leaf == unsure_hit) hits.leaf[lane] = leaf_of(tracer, candidates, point.primitive);
+    if (leaf == ambiguous_hit) hits.leaf[lane] = leaf_of(tracer, candidates, point.primitive);
     store(x, y, lane, point);
   });
-  if (compact != nullptr) compact->finish(draft, view.eye);
+  if (quantised != nullptr) quantised->finish(draft, view.eye);
 }
 
 /// tile(index in the block, its rectangle) for every tile of a block's rectangle.
@@ -133,8 +134,8 @@ std::size_t tile_at(ImageSize size, const TileRect& rect) {
 
 }  // namespace
 
-void primary_pass(const Tracer& tracer, const View& view, const Seen& eye, const PrimarySinks& sinks) {
-  const bool hits_alone = sinks.receivers == nullptr && sinks.compact.empty();
+void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks) {
+  const bool hits_alone = sinks.receivers == nullptr && sinks.quantised.empty();
   for_each_block(view.size, [&](const BlockRect& rect) {
     BlockHits block;
     closest_in_block(tracer.structures(), eye, view, rect, block);
@@ -142,14 +143,14 @@ void primary_pass(const Tracer& tracer, const View& view, const Seen& eye, const
       const std::size_t at = tile_at(view.size, tile);
       if (!hits_alone)
         store_tile(tracer, view, block, i, tile, sinks.receivers,
-                   sinks.compact.empty() ? nullptr : &sinks.compact[at]);
+                   sinks.quantised.empty() ? nullptr : &sinks.quantised[at]);
       if (!sinks.hits.empty()) sinks.hits[at] = block.tiles[i];
     });
   });
 }
 
 SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
-  const TilePlace place = tile_place(lane);
+  const TilePixel place = tile_pixel(lane);
   const int x = rect.x0 + place.x, y = rect.y0 + place.y;
   return stored != nullptr ? stored->at(x, y) : receiver_of(tracer, *view, x, y, hits->leaf[lane]);
 }

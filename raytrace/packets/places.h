@@ -20,7 +20,7 @@ void for_each_place(const TileRect& rect, const LaneMask& bits, const Pixel& pix
   for (std::size_t p = 0; p < tile_packets; ++p)
     for (unsigned left = bits[p]; left != 0; left &= left - 1) {
       const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
-      const TilePlace place = tile_place(lane);
+      const TilePixel place = tile_pixel(lane);
       const int x = rect.x0 + place.x, y = rect.y0 + place.y;
       if (x < rect.x1 && y < rect.y1) pixel(x, y, lane);
     }
@@ -38,7 +38,7 @@ inline std::uint16_t bit_of(std::size_t lane) {
 inline void keep_within(const TileRect& rect, LaneMask& bits) {
   if (is_whole(rect)) return;
   for (std::size_t lane = 0; lane < tile_rays; ++lane) {
-    const TilePlace place = tile_place(lane);
+    const TilePixel place = tile_pixel(lane);
     if (place.x < rect.x1 - rect.x0 && place.y < rect.y1 - rect.y0) continue;
     bits[lane / packet_rays] &= static_cast<std::uint16_t>(~bit_of(lane));
   }

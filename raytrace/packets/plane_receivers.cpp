@@ -41,10 +41,10 @@ struct alignas(64) PlaneRows {
   double position[3][8], error[3][8], away[8];
 };
 
-/// intersect_plane, plane_point and the side of the viewer; the bits of the rays that meet the plane. Those
-/// kernels scale the ray by a power of two, which changes no bit of a t that is far from overflow.
-inline unsigned meet_plane(const Plane& plane, const View& view, const PlaneVector& direction,
-                           PlaneRows& rows) {
+/// intersect_plane, plane_point and the side of the viewer; the bits of the rays that intersect the plane.
+/// Those kernels scale the ray by a power of two, which changes no bit of a t that is far from overflow.
+inline unsigned intersects_plane(const Plane& plane, const View& view, const PlaneVector& direction,
+                                 PlaneRows& rows) {
   double height = 0.0;
   for (int a = 0; a < 3; ++a) height += plane.normal[a] * (plane.point[a] - view.eye[a]);
   const Several slope = plane_dot(plane.normal, direction);
@@ -88,7 +88,7 @@ LaneMask plane_receivers_kernel(const Structures& s, const View& view, const Til
     left &= static_cast<unsigned>(asked[packet]) >> shift;
     if (left == 0) continue;
     for (std::size_t i = 0; i < hn::Lanes(eight); ++i) {
-      const TilePlace place = tile_place(lane + i);
+      const TilePixel place = tile_pixel(lane + i);
       sx[i] = (2.0 * (rect.x0 + place.x + 0.5) / view.size.width - 1.0) * view.tan_half_x;
       sy[i] = (1.0 - 2.0 * (rect.y0 + place.y + 0.5) / view.size.height) * view.tan_half_y;
     }
@@ -101,17 +101,17 @@ LaneMask plane_receivers_kernel(const Structures& s, const View& view, const Til
       same &= left, left &= ~same;
       const std::uint32_t id = s.planes[leaf - first_plane];
       const Plane& plane = std::get<Plane>(s.world->shape(id).geometry);
-      const unsigned met = meet_plane(plane, view, direction, rows) & same;
-      for (unsigned bits = met; bits != 0; bits &= bits - 1) {
+      const unsigned hit = intersects_plane(plane, view, direction, rows) & same;
+      for (unsigned bits = hit; bits != 0; bits &= bits - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-        const TilePlace place = tile_place(lane + i);
+        const TilePixel place = tile_pixel(lane + i);
         SurfacePoint& out = points[16 * place.y + place.x];
         out.position = {rows.position[0][i], rows.position[1][i], rows.position[2][i]};
         out.position_error = {rows.error[0][i], rows.error[1][i], rows.error[2][i]};
         out.normal = rows.away[i] > 0.0 ? -plane.normal : plane.normal;
         out.primitive = id, out.barycentric = Vec2(0.0);
       }
-      written[packet] |= static_cast<std::uint16_t>(met << shift);
+      written[packet] |= static_cast<std::uint16_t>(hit << shift);
     }
   }
   return written;

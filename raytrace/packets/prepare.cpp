@@ -72,8 +72,8 @@ class Receivers {
   alignas(64) std::int64_t offsets_[packet_rays];
 };
 
-void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
-                   TileRays& rays, ShadowLanes& lanes) {
+void shadow_kernel(const Light& light, const EdgeSetup& setup, const SurfacePoint* receivers,
+                   std::size_t stride, TileRays& rays, ShadowLanes& lanes) {
   const Receivers gather(receivers, stride);
   const bool directional = light.type == LightType::directional;
   for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -81,7 +81,7 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
     unsigned present = 0, reached = 0, usable = 0;
     for (std::size_t i = 0; i < packet_rays; ++i) {
       const std::uint32_t primitive = packet[i / 4 * stride + i % 4].primitive;
-      rays.own[p * packet_rays + i] = primitive;
+      rays.source[p * packet_rays + i] = primitive;
       present |= static_cast<unsigned>(primitive != no_id) << i;
     }
     for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(d)) {
@@ -89,7 +89,7 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
       for (int a = 0; a < 3; ++a) {
         position[a] = gather.component(packet, i, offsetof(SurfacePoint, position), a);
         normal[a] = gather.component(packet, i, offsetof(SurfacePoint, normal), a);
-        offset[a] = hn::Sub(position[a], all(seen.origin[a]));
+        offset[a] = hn::Sub(position[a], all(setup.origin[a]));
       }
       V cosine;
       if (directional) {
@@ -103,14 +103,14 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
       reached |= bits_of(hn::Gt(cosine, all(0.0))) << i;
       M fits;
       if (directional) {
-        for (int a = 0; a < 3; ++a) out[a] = dot(offset, seen.axes[a]);
-        fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(seen.lateral)),
-                       hn::Lt(hn::Abs(out[2]), all(seen.height)));
+        for (int a = 0; a < 3; ++a) out[a] = dot(offset, setup.axes[a]);
+        fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(setup.lateral)),
+                       hn::Lt(hn::Abs(out[2]), all(setup.height)));
       } else {
-        fits = project(offset, rays, 0x1p-30 * seen.reach, out);
+        fits = project(offset, rays, 0x1p-30 * setup.reach, out);
       }
       const V largest = hn::Max(hn::Abs(position[0]), hn::Max(hn::Abs(position[1]), hn::Abs(position[2])));
-      usable |= bits_of(hn::And(fits, hn::Lt(largest, all(seen.reach)))) << i;
+      usable |= bits_of(hn::And(fits, hn::Lt(largest, all(setup.reach)))) << i;
       const std::size_t at = p * packet_rays + i;
       store(out[0], rays.u + at), store(out[1], rays.v + at), store(out[2], rays.far + at);
     }
@@ -121,21 +121,21 @@ void shadow_kernel(const Light& light, const Seen& seen, const SurfacePoint* rec
   }
 }
 
-/// Eight receivers of a compact tile as seen from the light.
-class CompactRays {
+/// Eight receivers of a quantised tile as seen from the light.
+class QuantisedRays {
  public:
-  CompactRays(const Light& light, const Seen& seen, const CompactTile& tile, const TileRays& rays)
+  QuantisedRays(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile, const TileRays& rays)
       : tile_(tile), directional_(light.type == LightType::directional), light_(light) {
-    const auto k = static_cast<std::size_t>(directional_ || seen.framed ? 2 : rays.axis);
-    axes_[0] = seen.axes[(k + 1) % 3], axes_[1] = seen.axes[(k + 2) % 3];
-    axes_[2] = static_cast<double>(directional_ ? 1.0f : rays.sign) * seen.axes[k];
-    from_light_ = tile.origin - seen.origin;
+    const auto k = static_cast<std::size_t>(directional_ || setup.framed ? 2 : rays.axis);
+    axes_[0] = setup.axes[(k + 1) % 3], axes_[1] = setup.axes[(k + 2) % 3];
+    axes_[2] = static_cast<double>(directional_ ? 1.0f : rays.sign) * setup.axes[k];
+    from_light_ = tile.origin - setup.origin;
     // A direction's heights are rounded to floats as well, so that less of their bound is left.
-    lateral_ = seen.lateral, height_ = std::min(seen.height, 4.0 * seen.lateral);
+    lateral_ = setup.lateral, height_ = std::min(setup.height, 4.0 * setup.lateral);
     // A component's error moves (u, v) by 1.13 * 2^-24 sqrt(3) extent / depth (1 + |slope|), which is to stay
-    // well below what the bounds of raytrace/packets/seen_kernel.cpp leave beside the tests' own rounding:
-    // extent <= 0.45 depth.
-    least_depth_ = std::max(2.25 * tile.extent, 0x1p-30 * seen.reach);
+    // well below what the bounds of raytrace/packets/edge_setup_kernel.cpp leave beside the tests' own
+    // rounding: extent <= 0.45 depth.
+    least_depth_ = std::max(2.25 * tile.extent, 0x1p-30 * setup.reach);
   }
 
   void at(std::size_t lane) {
@@ -157,9 +157,9 @@ class CompactRays {
       size = hn::Add(hn::Add(hn::Abs(offset_[0]), hn::Abs(offset_[1])),
                      hn::Add(hn::Abs(offset_[2]), all(2.0 * tile_.extent)));
     }
-    const V doubt = hn::Mul(all(0x1p-22), size);  // the roundings of the normal and of the position to floats
-    surely = bits_of(hn::Gt(cosine, doubt));
-    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(doubt))));
+    const V error = hn::Mul(all(0x1p-22), size);  // the roundings of the normal and of the position to floats
+    surely = bits_of(hn::Gt(cosine, error));
+    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(error))));
   }
 
   /// Stores the rays; bits of those in range.
@@ -183,7 +183,7 @@ class CompactRays {
   }
 
  private:
-  const CompactTile& tile_;
+  const QuantisedTile& tile_;
   bool directional_;
   const Light& light_;
   Vec3 axes_[3], from_light_;
@@ -191,9 +191,9 @@ class CompactRays {
   V offset_[3], normal_[3];
 };
 
-void compact_kernel(const Light& light, const Seen& seen, const CompactTile& tile, const LaneMask& asked,
-                    TileRays& rays, ShadowLanes& lanes) {
-  CompactRays some(light, seen, tile, rays);
+void quantised_kernel(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
+                      const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
+  QuantisedRays some(light, setup, tile, rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     unsigned reached = 0, perhaps = 0, usable = 0;
     const unsigned present = tile.present[p] & asked[p];
@@ -205,7 +205,8 @@ void compact_kernel(const Light& light, const Seen& seen, const CompactTile& til
       reached |= surely_faces << i, perhaps |= may_face << i;
       usable |= some.project_to(lane, rays) << i;
     }
-    std::memcpy(rays.own + p * packet_rays, tile.own + p * packet_rays, packet_rays * sizeof tile.own[0]);
+    std::memcpy(rays.source + p * packet_rays, tile.source + p * packet_rays,
+                packet_rays * sizeof tile.source[0]);
     rays.alive[p] = static_cast<std::uint16_t>(present & perhaps & usable);
     lanes.apart[p] = static_cast<std::uint16_t>(present & perhaps & ~usable);
     lanes.unreached[p] = static_cast<std::uint16_t>(present & ~perhaps);
@@ -220,15 +221,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::raytrace {
 HWY_EXPORT(shadow_kernel);
-HWY_EXPORT(compact_kernel);
+HWY_EXPORT(quantised_kernel);
 
-void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, const LaneMask& asked,
-                     TileRays& rays, ShadowLanes& lanes) {
-  HWY_DYNAMIC_DISPATCH(compact_kernel)(light, seen, tile, asked, rays, lanes);
+void prepare_quantised(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
+                       const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(quantised_kernel)(light, setup, tile, asked, rays, lanes);
 }
-void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
-                     TileRays& rays, ShadowLanes& lanes) {
-  HWY_DYNAMIC_DISPATCH(shadow_kernel)(light, seen, receivers, stride, rays, lanes);
+void prepare_shadows(const Light& light, const EdgeSetup& setup, const SurfacePoint* receivers,
+                     std::size_t stride, TileRays& rays, ShadowLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(shadow_kernel)(light, setup, receivers, stride, rays, lanes);
 }
 
 }  // namespace gnomon::raytrace

@@ -18,12 +18,12 @@ struct ShadowLanes {
 };
 
 /// A whole tile of receivers, row by row `stride` apart. No spot lights.
-void prepare_shadows(const Light& light, const Seen& seen, const SurfacePoint* receivers, std::size_t stride,
-                     TileRays& rays, ShadowLanes& lanes);
+void prepare_shadows(const Light& light, const EdgeSetup& setup, const SurfacePoint* receivers,
+                     std::size_t stride, TileRays& rays, ShadowLanes& lanes);
 
-/// The same from those of a tile's compact receivers that are asked for (bits per packet); alive rays include
-/// the grazing ones. A spot light's cone is not looked at.
-void prepare_compact(const Light& light, const Seen& seen, const CompactTile& tile, const LaneMask& asked,
-                     TileRays& rays, ShadowLanes& lanes);
+/// The same from those of a tile's quantised receivers that are asked for (bits per packet); alive rays
+/// include the grazing ones. A spot light's cone is not looked at.
+void prepare_quantised(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
+                       const LaneMask& asked, TileRays& rays, ShadowLanes& lanes);
 
 }  // namespace gnomon::raytrace

@@ -72,7 +72,7 @@ struct Weights {
 };
 
 /// make_ray_frame, shear and finish_triangle for rays whose largest component is along k.
-inline Weights meet(const V3& direction, const V3& origin, const V3 (&corner)[3], std::size_t k) {
+inline Weights intersect(const V3& direction, const V3& origin, const V3 (&corner)[3], std::size_t k) {
   const std::size_t kx = (k + 1) % 3, ky = (k + 2) % 3;
   const V largest = hn::Abs(direction[k]);
   const V shear_x = hn::Div(direction[kx], direction[k]), shear_y = hn::Div(direction[ky], direction[k]);
@@ -144,9 +144,9 @@ struct Reach {
   }
 };
 
-/// The same rows for a compact tile; others of its lanes may have been written already.
+/// The same rows for a quantised tile; others of its lanes may have been written already.
 inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
-                        std::size_t lane, CompactTile& tile, CompactDraft& draft, Reach& reach) {
+                        std::size_t lane, QuantisedTile& tile, TileDraft& draft, Reach& reach) {
   constexpr hn::Rebind<float, D> half;
   std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
   const M here = hn::LoadMaskBits(d, bytes);
@@ -160,13 +160,13 @@ inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* l
     hn::BlendedStore(normal, hn::LoadMaskBits(half, bytes), half, tile.normal[a] + lane);
   }
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-    if ((sound >> i & 1) != 0) tile.own[lane + i] = bvh.ids[leaf[i]];
+    if ((sound >> i & 1) != 0) tile.source[lane + i] = bvh.ids[leaf[i]];
   }
 }
 
 /// A packet's pixels on the plane at distance one.
 inline void place_packet(const View& view, int x0, int y0, std::size_t packet, double* sx, double* sy) {
-  const TilePlace corner = tile_place(packet * packet_rays);
+  const TilePixel corner = tile_pixel(packet * packet_rays);
   for (int i = 0; i < 4; ++i) {
     const double x = (2.0 * (x0 + corner.x + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
     const double y = (1.0 - 2.0 * (y0 + corner.y + i + 0.5) / view.size.height) * view.tan_half_y;
@@ -201,12 +201,12 @@ LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int 
         corner[c / 3].a[c % 3] = hn::GatherIndex(d, corners + c, hn::Load(index, at + i));
       const std::size_t lane = p * packet_rays + i;
       const V3 direction = pixel_direction(view, hn::Load(d, sx + i), hn::Load(d, sy + i));
-      const Weights w = meet(direction, origin, corner, static_cast<std::size_t>(axis));
+      const Weights w = intersect(direction, origin, corner, static_cast<std::size_t>(axis));
       const unsigned sound = bits_of(w.sound) & (known >> i);
       if (sound == 0) continue;
       point_rows(direction, corner, w, rows);
-      if (sinks.compact != nullptr)
-        write_draft(rows, sound, leaf + i, bvh, lane, *sinks.compact, *sinks.draft, reach);
+      if (sinks.quantised != nullptr)
+        write_draft(rows, sound, leaf + i, bvh, lane, *sinks.quantised, *sinks.draft, reach);
       for (std::size_t j = 0; j < hn::Lanes(d) && sinks.points != nullptr; ++j)
         if ((sound >> j & 1) != 0)
           write(rows, j, bvh.ids[leaf[i + j]],

@@ -5,18 +5,18 @@
 
 #include <array>
 
-#include "raytrace/packets/compact.h"
+#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {
 
-/// Where a tile's receivers go: in double, row by row `stride` apart; or compact; or both.
+/// Where a tile's receivers go: in double, row by row `stride` apart; or quantised; or both.
 struct ReceiverSinks {
   SurfacePoint* points = nullptr;
   std::size_t stride = 0;
-  CompactTile* compact = nullptr;  ///< these two together; finish() is left to the caller
-  CompactDraft* draft = nullptr;
+  QuantisedTile* quantised = nullptr;  ///< these two together; finish() is left to the caller
+  TileDraft* draft = nullptr;
 };
 
 /// Writes the receivers of a tile that lie on triangles. `axis`: the world axis along which the rays are

@@ -12,19 +12,19 @@
 namespace gnomon::raytrace {
 namespace {
 
-bool start(const Seen& seen, const SurfacePoint& point, TileRays& rays, std::size_t lane) {
-  if (!(max_component(glm::abs(point.position)) < seen.reach)) return false;
-  const Vec3 offset = point.position - seen.origin;
-  const auto k = static_cast<std::size_t>(seen.directional ? 2 : rays.axis);
-  double u = glm::dot(offset, seen.axes[(k + 1) % 3]), v = glm::dot(offset, seen.axes[(k + 2) % 3]);
-  double far = glm::dot(offset, seen.axes[k]);
-  if (seen.directional) {
-    if (!(std::abs(u) < seen.lateral && std::abs(v) < seen.lateral && std::abs(far) < seen.height))
+bool start(const EdgeSetup& setup, const SurfacePoint& point, TileRays& rays, std::size_t lane) {
+  if (!(max_component(glm::abs(point.position)) < setup.reach)) return false;
+  const Vec3 offset = point.position - setup.origin;
+  const auto k = static_cast<std::size_t>(setup.directional ? 2 : rays.axis);
+  double u = glm::dot(offset, setup.axes[(k + 1) % 3]), v = glm::dot(offset, setup.axes[(k + 2) % 3]);
+  double far = glm::dot(offset, setup.axes[k]);
+  if (setup.directional) {
+    if (!(std::abs(u) < setup.lateral && std::abs(v) < setup.lateral && std::abs(far) < setup.height))
       return false;
   } else {
     const double depth = static_cast<double>(rays.sign) * far;
     far = 1.0 / depth, u *= far, v *= far;
-    if (!(depth > 0x1p-30 * seen.reach && std::abs(u) < widest_slope && std::abs(v) < widest_slope))
+    if (!(depth > 0x1p-30 * setup.reach && std::abs(u) < widest_slope && std::abs(v) < widest_slope))
       return false;
   }
   rays.u[lane] = static_cast<float>(u), rays.v[lane] = static_cast<float>(v);
@@ -32,22 +32,22 @@ bool start(const Seen& seen, const SurfacePoint& point, TileRays& rays, std::siz
   return true;
 }
 
-void choose_axis(const Seen& seen, const Vec3& receiver, TileRays& rays) {
+void choose_axis(const EdgeSetup& setup, const Vec3& receiver, TileRays& rays) {
   rays.axis = 2, rays.sign = 1.0f;
-  if (seen.directional || seen.framed) return;
-  const Vec3 offset = receiver - seen.origin;
+  if (setup.directional || setup.framed) return;
+  const Vec3 offset = receiver - setup.origin;
   rays.axis = longest_axis(offset);
   rays.sign = offset[rays.axis] < 0.0 ? -1.0f : 1.0f;
 }
 
 /// Whether floats from the tile's origin are near enough to its receivers.
-bool compact_applies(const Seen& seen, const CompactTile& tile) {
+bool quantisation_applies(const EdgeSetup& setup, const QuantisedTile& tile) {
   const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
-  return max_component(largest) < seen.reach && (!seen.directional || tile.extent < seen.lateral);
+  return max_component(largest) < setup.reach && (!setup.directional || tile.extent < setup.lateral);
 }
 
 /// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit that is not set.
-constexpr auto four_verdicts = [] {
+constexpr auto four_visibilities = [] {
   static_assert(static_cast<int>(Verdict::shadowed) == 0 && static_cast<int>(Verdict::lit) == 1);
   std::array<std::array<Verdict, 4>, 16> table{};
   for (std::size_t dark = 0; dark < 16; ++dark)
@@ -56,7 +56,7 @@ constexpr auto four_verdicts = [] {
   return table;
 }();
 
-/// Below this many rays a tile's walk through the hierarchy costs more than single rays.
+/// Below this many rays a tile's traversal of the hierarchy costs more than single rays.
 constexpr int few_rays = 6;
 
 std::uint64_t number_of(const LaneMask& bits) {
@@ -73,10 +73,10 @@ class ShadowTile {
   ShadowTile(const ReceiverSource& receivers, const Light& light, const Sight& sight, const TileRect& rect)
       : receivers_(receivers), light_(light), sight_(sight), rect_(rect) {}
 
-  std::uint64_t run(const CompactTile* compact, Image<Verdict>& verdicts) {
+  std::uint64_t run(const QuantisedTile* quantised, Image<Verdict>& verdicts) {
     for (int y = rect_.y0; y < rect_.y1; ++y) __builtin_prefetch(&verdicts.at(rect_.x0, y), 1);
-    prepare(compact, every_lane, false);
-    if (compact != nullptr) prefetch(compact + 1);
+    prepare(quantised, every_lane, false);
+    if (quantised != nullptr) prefetch(quantised + 1);
     trace();
     LaneMask dark, traced;
     for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -90,8 +90,8 @@ class ShadowTile {
   }
 
   /// Of asked receivers that the light reaches.
-  void run_lanes(const CompactTile* compact, const LaneMask& asked, Image<Verdict>& verdicts) {
-    prepare(compact, asked, true);
+  void run_lanes(const QuantisedTile* quantised, const LaneMask& asked, Image<Verdict>& verdicts) {
+    prepare(quantised, asked, true);
     for (std::size_t p = 0; p < tile_packets; ++p) {
       // What floats hold to be facing away is asked in double.
       rays_.alive[p] &= asked[p];
@@ -107,35 +107,35 @@ class ShadowTile {
 
  private:
   /// The next tile comes from memory while this one is traced. Beyond the last one nothing is read.
-  static void prefetch(const CompactTile* next) {
+  static void prefetch(const QuantisedTile* next) {
     const char* bytes = reinterpret_cast<const char*>(next);
-    for (std::size_t i = 0; i < sizeof(CompactTile); i += 64) __builtin_prefetch(bytes + i);
+    for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
   }
 
   void trace() {
-    if (sight_.by_cells)
-      shadows_in_cells(sight_.cells, sight_.seen, rays_, shadows_, outside_);
+    if (sight_.by_bins)
+      shadows_in_bins(sight_.bins, sight_.setup, rays_, shadows_, outside_);
     else
-      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.seen, rays_, shadows_);
+      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.setup, rays_, shadows_);
   }
 
   /// reached: the light is known to reach all that is asked for.
-  void prepare(const CompactTile* compact, const LaneMask& asked, bool reached) {
-    const Seen& seen = sight_.seen;
-    if (compact != nullptr && (reached || light_.type != LightType::spot) &&
-        compact_applies(seen, *compact)) {
-      choose_axis(seen, compact->origin, rays_);
-      prepare_compact(light_, seen, *compact, asked, rays_, lanes_);
+  void prepare(const QuantisedTile* quantised, const LaneMask& asked, bool reached) {
+    const EdgeSetup& setup = sight_.setup;
+    if (quantised != nullptr && (reached || light_.type != LightType::spot) &&
+        quantisation_applies(setup, *quantised)) {
+      choose_axis(setup, quantised->origin, rays_);
+      prepare_quantised(light_, setup, *quantised, asked, rays_, lanes_);
       if (!reached) decide_grazing();
       return;
     }
-    if (receivers_.stored != nullptr && is_whole(rect_) && light_.type != LightType::spot && !seen.framed) {
+    if (receivers_.stored != nullptr && is_whole(rect_) && light_.type != LightType::spot && !setup.framed) {
       const Image<SurfacePoint>& stored = *receivers_.stored;
-      choose_axis(seen, some_receiver(), rays_);
-      prepare_shadows(light_, seen, &stored.at(rect_.x0, rect_.y0),
+      choose_axis(setup, some_receiver(), rays_);
+      prepare_shadows(light_, setup, &stored.at(rect_.x0, rect_.y0),
                       static_cast<std::size_t>(stored.size.width), rays_, lanes_);
     } else {
-      choose_axis(seen, some_receiver(), rays_);
+      choose_axis(setup, some_receiver(), rays_);
       prepare_one_by_one();
     }
   }
@@ -143,16 +143,16 @@ class ShadowTile {
   void prepare_one_by_one() {
     rays_.alive.fill(0);
     for (std::size_t i = 0; i < tile_rays; ++i)
-      rays_.u[i] = rays_.v[i] = rays_.far[i] = 0.0f, rays_.own[i] = no_id;
+      rays_.u[i] = rays_.v[i] = rays_.far[i] = 0.0f, rays_.source[i] = no_id;
     lanes_.apart.fill(0), lanes_.unreached.fill(0), lanes_.grazing.fill(0);
     for_each_place(rect_, [&](int, int, std::size_t lane) {
       const SurfacePoint point = receivers_.at(rect_, lane);
       if (point.primitive == no_id) return;
-      rays_.own[lane] = point.primitive;
+      rays_.source[lane] = point.primitive;
       const bool reached = !light_cannot_reach(light_, point.position, point.normal);
-      auto& bits = !reached                                 ? lanes_.unreached
-                   : start(sight_.seen, point, rays_, lane) ? rays_.alive
-                                                            : lanes_.apart;
+      auto& bits = !reached                                  ? lanes_.unreached
+                   : start(sight_.setup, point, rays_, lane) ? rays_.alive
+                                                             : lanes_.apart;
       bits[lane / packet_rays] |= bit_of(lane);
     });
   }
@@ -179,30 +179,30 @@ class ShadowTile {
 
   void decide_rest(Image<Verdict>& verdicts) {
     LaneMask asked;
-    for (std::size_t p = 0; p < tile_packets; ++p) asked[p] = shadows_.unsure[p] | lanes_.apart[p];
+    for (std::size_t p = 0; p < tile_packets; ++p) asked[p] = shadows_.ambiguous[p] | lanes_.apart[p];
     if (asked == LaneMask{}) return;
     HugeArray<SurfacePoint> points(tile_rays);
     receivers_.fill(rect_, asked, points.data());
-    const bool listed = shadows_.doubt_count <= TileShadows::most_doubts;
+    const bool listed = shadows_.ambiguous_count <= TileShadows::most_ambiguous;
     for_each_place(rect_, asked, [&](int x, int y, std::size_t lane) {
       const SurfacePoint& point =
           points[static_cast<std::size_t>(tile_pixels * (y - rect_.y0) + x - rect_.x0)];
       const std::size_t p = lane / packet_rays;
       const bool in_list = listed && ((outside_[p] | lanes_.apart[p]) & bit_of(lane)) == 0;
-      verdicts.at(x, y) = in_list ? verdict_of_doubts(point, lane) : full_verdict(point);
+      verdicts.at(x, y) = in_list ? visibility_among(point, lane) : full_visibility(point);
     });
   }
 
-  Verdict full_verdict(const SurfacePoint& point) const {
+  Verdict full_visibility(const SurfacePoint& point) const {
     if (is_beyond_all(receivers_.tracer.structures(), sight_, point)) return Verdict::lit;
     return receivers_.tracer.light_verdict(point, light_);
   }
 
-  Verdict verdict_of_doubts(const SurfacePoint& point, std::size_t lane) const {
-    std::array<std::uint32_t, TileShadows::most_doubts> leaves;
+  Verdict visibility_among(const SurfacePoint& point, std::size_t lane) const {
+    std::array<std::uint32_t, TileShadows::most_ambiguous> leaves;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < shadows_.doubt_count; ++i)
-      if (shadows_.doubts[i].lane == lane) leaves[count++] = shadows_.doubts[i].leaf;
+    for (std::size_t i = 0; i < shadows_.ambiguous_count; ++i)
+      if (shadows_.ambiguous_hits[i].lane == lane) leaves[count++] = shadows_.ambiguous_hits[i].leaf;
     return receivers_.tracer.light_verdict_among(point, light_, {leaves.data(), count});
   }
 
@@ -222,10 +222,10 @@ void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& 
   if (is_whole(rect)) {
     const auto stride = static_cast<std::size_t>(verdicts.size.width);
     for (std::size_t p = 0; p < tile_packets; ++p) {
-      const TilePlace place = tile_place(p * packet_rays);
+      const TilePixel place = tile_pixel(p * packet_rays);
       Verdict* out = &verdicts.at(rect.x0 + place.x, rect.y0 + place.y);
       for (std::size_t row = 0; row < 4; ++row)
-        std::memcpy(out + row * stride, four_verdicts[dark[p] >> (4 * row) & 15].data(), 4);
+        std::memcpy(out + row * stride, four_visibilities[dark[p] >> (4 * row) & 15].data(), 4);
     }
     return;
   }
@@ -235,26 +235,26 @@ void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& 
 }
 
 std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
-                          const TileRect& rect, const CompactTile* compact, Image<Verdict>& verdicts) {
-  if (compact != nullptr && !compact->any) {
+                          const TileRect& rect, const QuantisedTile* quantised, Image<Verdict>& verdicts) {
+  if (quantised != nullptr && !quantised->any) {
     store_verdicts(rect, {}, verdicts);
     return 0;
   }
-  return ShadowTile(receivers, light, sight, rect).run(compact, verdicts);
+  return ShadowTile(receivers, light, sight, rect).run(quantised, verdicts);
 }
 
 void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sight* sight,
-                  const TileRect& rect, const CompactTile* compact, const LaneMask& asked,
+                  const TileRect& rect, const QuantisedTile* quantised, const LaneMask& asked,
                   Image<Verdict>& verdicts) {
   int count = 0;
   for (const std::uint16_t bits : asked) count += std::popcount(bits);
-  if (sight == nullptr || (!sight->by_cells && count <= few_rays)) {
+  if (sight == nullptr || (!sight->by_bins && count <= few_rays)) {
     for_each_place(rect, asked, [&](int x, int y, std::size_t lane) {
       verdicts.at(x, y) = receivers.tracer.light_verdict(receivers.at(rect, lane), light);
     });
     return;
   }
-  ShadowTile(receivers, light, *sight, rect).run_lanes(compact, asked, verdicts);
+  ShadowTile(receivers, light, *sight, rect).run_lanes(quantised, asked, verdicts);
 }
 
 }  // namespace gnomon::raytrace

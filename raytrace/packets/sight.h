@@ -1,46 +1,46 @@
 // The world from an eye or a light, made ready for tiles of rays: of an eye nothing but its frame, of a light
-// cells where they pay, else the primitives seen from there.
+// bins where they pay, else the primitives seen from there.
 #pragma once
 
 #include <span>
 
-#include "raytrace/packets/compact.h"
 #include "raytrace/packets/light_bins.h"
+#include "raytrace/packets/quantised_tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {
 
-/// |u| and |v| of a point's rays stay below this: the bounds of raytrace/packets/seen_kernel.cpp.
+/// |u| and |v| of a point's rays stay below this: the bounds of raytrace/packets/edge_setup_kernel.cpp.
 inline constexpr double widest_slope = 1.5;
 
 struct Sight {
-  Seen seen;  ///< its primitives are filled where the rays do not go by cells
-  Cells cells;
-  bool by_cells = false;
+  EdgeSetup setup;  ///< its primitives are filled where the rays do not go by bins
+  LightBins bins;
+  bool by_bins = false;
 };
 
-/// Whether the world has a tree to walk and lengths that floats can hold.
-bool packets_apply(const Structures& structures);
+/// Whether the world has a tree to traverse and lengths that floats can hold.
+bool packets_apply(const Tracer& tracer);
 
 /// The light as a common origin or direction, for the hierarchy.
-Seen seen_from(const Structures& structures, const Light& light);
+EdgeSetup edge_setup_from(const Structures& structures, const Light& light);
 
 /// Whether the eye's rays go by blocks (raytrace/packets/view_block.h): packets apply, and one frame holds
 /// the whole field of view.
-bool blocks_apply(const Structures& structures, const View& view);
+bool blocks_apply(const Tracer& tracer, const View& view);
 
 /// The eye's frame, for such a view.
-Seen seen_by_eye(const Structures& structures, const View& view);
+EdgeSetup edge_setup_of_eye(const Tracer& tracer, const View& view);
 
-/// Cells cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without
+/// Bins cover what the tiles hold. No tiles: the hierarchy. `wanted`: a flag for each tile, those without
 /// are left out; empty: all are wanted.
-Sight sight_of_light(const Structures& structures, const Light& light, std::span<const CompactTile> tiles,
+Sight sight_of_light(const Tracer& tracer, const Light& light, std::span<const QuantisedTile> tiles,
                      std::span<const std::uint8_t> wanted = {});
 
 /// The receiver lies on the only plane there is, and its ray beyond all that is finite: nothing shadows it.
 bool is_beyond_all(const Structures& structures, const Sight& sight, const SurfacePoint& receiver);
 
-/// Whether a light's sight that was made for other tiles serves these as well: cells cover them too.
-bool covers(const Sight& sight, std::span<const CompactTile> tiles, std::span<const std::uint8_t> wanted);
+/// Whether a light's sight that was made for other tiles serves these as well: bins cover them too.
+bool covers(const Sight& sight, std::span<const QuantisedTile> tiles, std::span<const std::uint8_t> wanted);
 
 }  // namespace gnomon::raytrace

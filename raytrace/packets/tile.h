@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "raytrace/packets/seen.h"
+#include "raytrace/packets/edge_setup.h"
 
 namespace gnomon::raytrace {
 
@@ -20,10 +20,10 @@ constexpr std::size_t tile_lane(int x, int y) {
 }
 
 /// The pixel of a place.
-struct TilePlace {
+struct TilePixel {
   int x, y;
 };
-constexpr TilePlace tile_place(std::size_t lane) {
+constexpr TilePixel tile_pixel(std::size_t lane) {
   const int packet = static_cast<int>(lane / packet_rays), i = static_cast<int>(lane % packet_rays);
   return {4 * (packet % 4) + i % 4, 4 * (packet / 4) + i / 4};
 }
@@ -33,44 +33,45 @@ using LaneMask = std::array<std::uint16_t, tile_packets>;
 
 struct alignas(64) TileRays {
   float u[tile_rays], v[tile_rays];
-  /// Shadow rays: the receiver's nearness. Primary rays: unused.
+  /// Shadow rays: the receiver's reciprocal depth. Primary rays: unused.
   float far[tile_rays];
-  std::uint32_t own[tile_rays];  ///< shadow rays: the primitive that they leave
-  LaneMask alive;                ///< bit i: ray i of the packet is asked for
+  std::uint32_t source[tile_rays];  ///< shadow rays: the primitive that they leave
+  LaneMask alive;                   ///< bit i: ray i of the packet is asked for
   int axis = 2;  ///< a point's: the world axis of depth, and the sign that makes depth positive
   float sign = 1.0f;
 };
 
 /// Of each ray the leaf position of its nearest hit; or first_plane and the place in Structures::planes; or:
-inline constexpr std::uint32_t nothing_hit = 0xffffffffu, unsure_hit = 0xfffffffeu, first_plane = 0x80000000u;
+inline constexpr std::uint32_t nothing_hit = 0xffffffffu, ambiguous_hit = 0xfffffffeu,
+                               first_plane = 0x80000000u;
 
 struct alignas(64) TileHits {
   std::uint32_t leaf[tile_rays];
 };
 
-/// What a ray neither surely meets nor surely misses.
-struct TileDoubt {
+/// What a ray neither surely intersects nor surely misses.
+struct AmbiguousHit {
   std::uint32_t leaf;
   std::uint32_t lane;
 };
 
 /// Bits per packet; neither: surely lit. Both never.
 struct TileShadows {
-  LaneMask shadowed, unsure;
-  /// Of the unsure rays every primitive but planes that they may meet; of others some. When doubt_count is
-  /// above most_doubts there were more.
-  static constexpr std::size_t most_doubts = 512;
-  std::array<TileDoubt, most_doubts> doubts;
-  std::size_t doubt_count = 0;
+  LaneMask shadowed, ambiguous;
+  /// Of the ambiguous rays every primitive but planes that they may intersect; of others some. When
+  /// ambiguous_count is above most_ambiguous there were more.
+  static constexpr std::size_t most_ambiguous = 512;
+  std::array<AmbiguousHit, most_ambiguous> ambiguous_hits;
+  std::size_t ambiguous_count = 0;
   void note(std::uint32_t leaf, std::size_t first_lane, unsigned bits) {
-    for (; bits != 0; bits &= bits - 1, ++doubt_count)
-      if (doubt_count < most_doubts)
-        doubts[doubt_count] = {leaf, static_cast<std::uint32_t>(first_lane) +
-                                         static_cast<std::uint32_t>(std::countr_zero(bits))};
+    for (; bits != 0; bits &= bits - 1, ++ambiguous_count)
+      if (ambiguous_count < most_ambiguous)
+        ambiguous_hits[ambiguous_count] = {leaf, static_cast<std::uint32_t>(first_lane) +
+                                                     static_cast<std::uint32_t>(std::countr_zero(bits))};
   }
 };
 
 /// The world's tree must have nodes.
-void shadows_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileShadows& shadows);
+void shadows_in_tile(const Bvh& bvh, const EdgeSetup& setup, const TileRays& rays, TileShadows& shadows);
 
 }  // namespace gnomon::raytrace

@@ -51,8 +51,8 @@ inline void lower(const TileRays& rays, const float* far, std::size_t first, std
 
 class Shadows {
  public:
-  Shadows(const Bvh& bvh, const Seen& seen, const TileRays& rays)
-      : bvh_(bvh), seen_(seen), rays_(rays), axes_(axes_of(seen, rays)) {
+  Shadows(const Bvh& bvh, const EdgeSetup& setup, const TileRays& rays)
+      : bvh_(bvh), setup_(setup), rays_(rays), axes_(axes_of(setup, rays)) {
     gather_packets(rays, packets_);
     for (std::size_t p = 0; p < tile_packets; ++p) {
       for (std::size_t i = 0; i < packet_rays; i += lanes()) {
@@ -69,21 +69,21 @@ class Shadows {
   }
 
   void run(TileShadows& out) {
-    shadowed_.fill(0), unsure_.fill(0);
-    out.doubt_count = 0, out_ = &out;
-    for (const SeenPrimitive& plane : seen_.planes) {
+    shadowed_.fill(0), ambiguous_.fill(0);
+    out.ambiguous_count = 0, out_ = &out;
+    for (const PrimitiveEdges& plane : setup_.planes) {
       const RayTest rays(Functions(plane, axes_));
       for (std::size_t p = 0; p < tile_packets; ++p) test_packet<true>(plane, 0, rays, p);
     }
     const float far = smallest(packets_.far_min);
     if (far < inf) {
-      Frustum frustum(bvh_, seen_, axes_, packets_);
+      Frustum frustum(bvh_, setup_, axes_, packets_);
       Floor floor =
           slopes_of(rays_, {tile_lane(0, 0), tile_lane(15, 0), tile_lane(0, 15), tile_lane(15, 15)});
       lower(rays_, far_, 0, tile_rays, floor);
-      frustum.stand_on(floor, bvh_, seen_, axes_);
-      const float limit = seen_.directional ? far : far > 0.0f ? -(1.0f / far) * (1.0f + 0x1p-20f) : -inf;
-      walk_tile(
+      frustum.stand_on(floor, bvh_, setup_, axes_);
+      const float limit = setup_.directional ? far : far > 0.0f ? -(1.0f / far) * (1.0f + 0x1p-20f) : -inf;
+      traverse_tile(
           bvh_, frustum, [&] { return limit; },
           [&](std::uint32_t first, std::uint32_t count) {
             bool taken = false;
@@ -93,30 +93,31 @@ class Shadows {
     }
     for (std::size_t p = 0; p < tile_packets; ++p) {
       out.shadowed[p] = static_cast<std::uint16_t>(shadowed_[p] & rays_.alive[p]);
-      out.unsure[p] = static_cast<std::uint16_t>(unsure_[p] & ~shadowed_[p] & rays_.alive[p]);
+      out.ambiguous[p] = static_cast<std::uint16_t>(ambiguous_[p] & ~shadowed_[p] & rays_.alive[p]);
     }
   }
 
  private:
   bool visit(std::uint32_t i) {
-    const SeenPrimitive& primitive = seen_.primitives[i];
+    const PrimitiveEdges& primitive = setup_.primitives[i];
     const Functions of(primitive, axes_);
-    unsigned met = packets_met(primitive, of, packets_, [&](const Linear& nearness, V error, std::size_t at) {
-      return behind_floor(nearness, error, at);
-    });
-    if (met == 0) return false;
+    unsigned hit = intersected_packets(primitive, of, packets_,
+                                       [&](const Linear& reciprocal_depth, V error, std::size_t at) {
+                                         return behind_floor(reciprocal_depth, error, at);
+                                       });
+    if (hit == 0) return false;
     const RayTest rays(of);
     bool taken = false;
-    for (; met != 0; met &= met - 1)
-      taken |= test_packet<false>(primitive, i, rays, static_cast<std::size_t>(std::countr_zero(met)));
+    for (; hit != 0; hit &= hit - 1)
+      taken |= test_packet<false>(primitive, i, rays, static_cast<std::size_t>(std::countr_zero(hit)));
     return taken;
   }
 
-  // The most by which the nearness may exceed the packets' floors, over their intervals.
-  M behind_floor(const Linear& nearness, V error, std::size_t i) const {
-    const V u = hn::Sub(all(nearness.u), hn::Load(f, floors_.u + i));
-    const V v = hn::Sub(all(nearness.v), hn::Load(f, floors_.v + i));
-    const V constant = hn::Sub(all(nearness.constant), hn::Load(f, floors_.constant + i));
+  // The most by which the reciprocal depth may exceed the packets' floors, over their intervals.
+  M behind_floor(const Linear& reciprocal_depth, V error, std::size_t i) const {
+    const V u = hn::Sub(all(reciprocal_depth.u), hn::Load(f, floors_.u + i));
+    const V v = hn::Sub(all(reciprocal_depth.v), hn::Load(f, floors_.v + i));
+    const V constant = hn::Sub(all(reciprocal_depth.constant), hn::Load(f, floors_.constant + i));
     const V by_u =
         hn::Max(hn::Mul(u, hn::Load(f, packets_.u_min + i)), hn::Mul(u, hn::Load(f, packets_.u_max + i)));
     const V by_v =
@@ -125,7 +126,7 @@ class Shadows {
   }
 
   template <bool plane>
-  bool test_packet(const SeenPrimitive& primitive, std::uint32_t leaf, const RayTest& rays,
+  bool test_packet(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays,
                    std::size_t packet) {
     bool taken = false;
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
@@ -133,11 +134,11 @@ class Shadows {
       const V u = hn::Load(f, rays_.u + at), v = hn::Load(f, rays_.v + at);
       const V far = hn::Load(f, far_ + at);
       const Blocked blocked =
-          blocked_by<plane>(primitive, rays, u, v, far, hn::Load(ids, rays_.own + at), hn::Eq(far, far));
+          blocked_by<plane>(primitive, rays, u, v, far, hn::Load(ids, rays_.source + at), hn::Eq(far, far));
       if (hn::AllFalse(f, blocked.perhaps)) continue;
       const unsigned bits = bits_of(blocked.surely);
       const unsigned open = bits_of(blocked.perhaps) & ~bits;
-      unsure_[packet] |= open << i;
+      ambiguous_[packet] |= open << i;
       if (!plane) out_->note(leaf, at, open);
       if (bits == 0) continue;
       shadowed_[packet] |= bits << i;
@@ -149,18 +150,18 @@ class Shadows {
   }
 
   const Bvh& bvh_;
-  const Seen& seen_;
+  const EdgeSetup& setup_;
   const TileRays& rays_;
   Axes axes_;
   Packets packets_;
   Floors floors_;
-  std::array<unsigned, tile_packets> shadowed_, unsure_;
+  std::array<unsigned, tile_packets> shadowed_, ambiguous_;
   TileShadows* out_ = nullptr;
   alignas(64) float far_[tile_rays];
 };
 
-void shadows_kernel(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileShadows& shadows) {
-  Shadows(bvh, seen, rays).run(shadows);
+void shadows_kernel(const Bvh& bvh, const EdgeSetup& setup, const TileRays& rays, TileShadows& shadows) {
+  Shadows(bvh, setup, rays).run(shadows);
 }
 
 }  // namespace
@@ -171,8 +172,8 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace {
 HWY_EXPORT(shadows_kernel);
 
-void shadows_in_tile(const Bvh& bvh, const Seen& seen, const TileRays& rays, TileShadows& shadows) {
-  HWY_DYNAMIC_DISPATCH(shadows_kernel)(bvh, seen, rays, shadows);
+void shadows_in_tile(const Bvh& bvh, const EdgeSetup& setup, const TileRays& rays, TileShadows& shadows) {
+  HWY_DYNAMIC_DISPATCH(shadows_kernel)(bvh, setup, rays, shadows);
 }
 
 }  // namespace gnomon::raytrace

@@ -7,8 +7,8 @@
 
 #include "raytrace/packets/bin_cover.h"
 #include "raytrace/packets/block_plane-inl.h"
+#include "raytrace/packets/edge_setup_rows.h"
 #include "raytrace/packets/frustum-inl.h"
-#include "raytrace/packets/seen_rows.h"
 #include "raytrace/packets/view_block.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,16 +17,16 @@ namespace {
 
 /// One of eight primitives' numbers in every lane.
 struct LaneNumbers {
-  V edge[3][3], nearness[3], edge_error, depth_error, depth_floor;
-  LaneNumbers(const SeenRows& rows, std::size_t i) {
-    const auto row = [&](std::size_t k) { return all(rows.seen[k][i]); };
+  V edge[3][3], reciprocal_depth[3], edge_error, depth_error, depth_floor;
+  LaneNumbers(const EdgeSetupRows& rows, std::size_t i) {
+    const auto row = [&](std::size_t k) { return all(rows.out[k][i]); };
     for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = row(k);
-    for (std::size_t k = 0; k < 3; ++k) nearness[k] = row(9 + k);
+    for (std::size_t k = 0; k < 3; ++k) reciprocal_depth[k] = row(9 + k);
     edge_error = row(12), depth_error = row(13), depth_floor = row(14);
   }
-  explicit LaneNumbers(const SeenPrimitive& p) {
+  explicit LaneNumbers(const PrimitiveEdges& p) {
     for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = all(p.edge[k / 3][k % 3]);
-    for (std::size_t k = 0; k < 3; ++k) nearness[k] = all(p.nearness[k]);
+    for (std::size_t k = 0; k < 3; ++k) reciprocal_depth[k] = all(p.reciprocal_depth[k]);
     edge_error = all(p.edge_error), depth_error = all(p.depth_error), depth_floor = all(p.depth_floor);
   }
   static V of(const V (&n)[3], V u, V v) { return value(n[0], n[1], n[2], u, v); }
@@ -35,15 +35,16 @@ struct LaneNumbers {
   }
 };
 
-/// Of each ray the best sure hit's nearness is known to lie in [low, high], and no other hit is nearer than
-/// `doubt`.
+/// Of each ray the best sure hit's reciprocal depth is known to lie in [low, high], and no other hit is
+/// nearer than `rival`.
 class BlockClosest {
  public:
-  BlockClosest(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect, BlockHits& out)
+  BlockClosest(const Structures& s, const EdgeSetup& setup, const View& view, const BlockRect& rect,
+               BlockHits& out)
       : s_(s),
-        seen_(seen),
-        pass_(seen_pass(s, seen)),
-        plane_(s, seen, view, rect),
+        setup_(setup),
+        pass_(edge_setup_pass(s, setup)),
+        plane_(s, setup, view, rect),
         packets_(plane_.packets),
         rect_(rect),
         out_(out) {
@@ -52,18 +53,18 @@ class BlockClosest {
   }
 
   void run() {
-    for (std::uint32_t k = 0; k < seen_.planes.size(); ++k) {
-      const LaneNumbers numbers(seen_.planes[k]);
-      test_all<true>(numbers, first_plane + k, (seen_.planes[k].id & never_sure) == 0, packets_);
+    for (std::uint32_t k = 0; k < setup_.planes.size(); ++k) {
+      const LaneNumbers numbers(setup_.planes[k]);
+      test_all<true>(numbers, first_plane + k, (setup_.planes[k].id & never_sure) == 0, packets_);
     }
     Packets intervals;
     for (std::size_t p = 0; p < tile_packets; ++p) {
       intervals.u_min[p] = plane_.u_min, intervals.u_max[p] = plane_.u_max;
       intervals.v_min[p] = plane_.v_min, intervals.v_max[p] = plane_.v_max;
     }
-    const Frustum frustum(s_.bvh, seen_, Axes{0, 1, 2, 1.0f}, intervals);
+    const Frustum frustum(s_.bvh, setup_, Axes{0, 1, 2, 1.0f}, intervals);
     update_limit();
-    walk(frustum);
+    traverse(frustum);
     while (pending_count_ > 0) flush();
     finish();
   }
@@ -82,13 +83,13 @@ class BlockClosest {
           const std::size_t at = packet * packet_rays + i;
           const V first = hn::IfThenElse(mask_of(alive >> i), all(0.0f), all(inf));
           hn::Store(first, f, low_ + at), hn::Store(first, f, high_ + at),
-              hn::Store(all(-inf), f, doubt_ + at);
+              hn::Store(all(-inf), f, rival_ + at);
           hn::Store(hn::IfThenElse(hn::RebindMask(ids, mask_of(alive >> i)), hn::Set(ids, nothing_hit),
-                                   hn::Set(ids, unsure_hit)),
+                                   hn::Set(ids, ambiguous_hit)),
                     ids, leaf_at(at));
         }
       }
-    out_.doubts.clear(), out_.all_doubts = true;
+    out_.ambiguous_hits.clear(), out_.all_ambiguous = true;
   }
 
   /// Of the packet with this corner in the block.
@@ -111,7 +112,7 @@ class BlockClosest {
   };
 
   /// Nearest first, but several nodes at a time: memory takes longer to bring a node than its test takes.
-  void walk(const Frustum& frustum) {
+  void traverse(const Frustum& frustum) {
     constexpr std::size_t together = 4;
     Entry stack[together * Bvh::stack_size];
     std::size_t size = 0;
@@ -122,7 +123,7 @@ class BlockClosest {
         const BvhNode& node = s_.bvh.nodes[nodes[k]];
         alignas(16) float priority[4];
         const std::size_t base = size;
-        for (unsigned mask = frustum.meets(node, limit_, priority); mask != 0; mask &= mask - 1) {
+        for (unsigned mask = frustum.hits(node, limit_, priority); mask != 0; mask &= mask - 1) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
           std::size_t at = size++;
           for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
@@ -159,19 +160,19 @@ class BlockClosest {
     for (std::size_t a = 0; a < 3; ++a)
       box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
     const BoxPlace place = plane_.packets_of(box);
-    if (place.met.x0 > place.met.x1) return true;
-    for (int y = place.met.y0; y <= place.met.y1; ++y)
-      if (asking(place.nearest, place.met, y) != 0) return false;
+    if (place.covered.x0 > place.covered.x1) return true;
+    for (int y = place.covered.y0; y <= place.covered.y1; ++y)
+      if (asking(place.nearest, place.covered, y) != 0) return false;
     return true;
   }
 
-  /// Bits of the row's packets that ask for something of that nearness.
-  unsigned asking(float nearest, const PacketRect& met, int y) const {
+  /// Bits of the row's packets that ask for something of that reciprocal depth.
+  unsigned asking(float nearest, const PacketRect& covered, int y) const {
     const float* row = nearest_asked_[y - packets_.y0];
     unsigned bits = 0;
     for (std::size_t i = 0; i < block_side; i += lanes())
       bits |= bits_of(hn::Not(hn::Lt(all(nearest), hn::Load(f, row + i)))) << i;
-    return bits & ((2u << (met.x1 - packets_.x0)) - (1u << (met.x0 - packets_.x0)));
+    return bits & ((2u << (covered.x1 - packets_.x0)) - (1u << (covered.x0 - packets_.x0)));
   }
 
   /// Finds the numbers of the longest waiting ones, and tries the nearest of them first.
@@ -181,9 +182,9 @@ class BlockClosest {
     alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
     unsigned never[batch / 8];
     for (std::size_t first = 0; first < count; first += 8) {
-      SeenBlock& block = blocks_[first / 8];
+      EdgeSetupBlock& block = blocks_[first / 8];
       never[first / 8] =
-          see_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
+          set_up_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
       place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.lo), block.u_min(), block.u_max(),
                   u_[first / 8]);
       place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.lo), block.v_min(), block.v_max(),
@@ -196,15 +197,15 @@ class BlockClosest {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t b = order[k] / 8, i = order[k] % 8;
       const std::uint32_t leaf = pending_[order[k]];
-      const CellPlaces &u = u_[b], &v = v_[b];
-      PacketRect met{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
-                     std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
+      const BinSpans &u = u_[b], &v = v_[b];
+      PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
+                         std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
       // A sphere's or a solid's own numbers have no bounds.
       if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.ids[leaf]))
-        met = plane_.packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).met;
-      if (met.x0 > met.x1 || met.y0 > met.y1) continue;
+        covered = plane_.packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).covered;
+      if (covered.x0 > covered.x1 || covered.y0 > covered.y1) continue;
       const LaneNumbers numbers(blocks_[b].rows, i);
-      taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], met);
+      taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], covered);
     }
     pending_count_ -= count;
     std::copy_n(pending_ + count, pending_count_, pending_);
@@ -212,18 +213,18 @@ class BlockClosest {
   }
 
   bool test_packets(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, float nearest,
-                    const PacketRect& met) {
+                    const PacketRect& covered) {
     bool taken = false;
-    for (int y = met.y0; y <= met.y1; ++y)
-      for (unsigned left = asking(nearest, met, y); left != 0; left &= left - 1)
+    for (int y = covered.y0; y <= covered.y1; ++y)
+      for (unsigned left = asking(nearest, covered, y); left != 0; left &= left - 1)
         taken |= test<false>(numbers, leaf, may_be_sure, static_cast<std::size_t>(std::countr_zero(left)),
                              static_cast<std::size_t>(y - packets_.y0));
     return taken;
   }
   template <bool plane>
-  void test_all(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, const PacketRect& met) {
-    for (int y = met.y0; y <= met.y1; ++y)
-      for (int x = met.x0; x <= met.x1; ++x)
+  void test_all(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, const PacketRect& covered) {
+    for (int y = covered.y0; y <= covered.y1; ++y)
+      for (int x = covered.x0; x <= covered.x1; ++x)
         test<plane>(numbers, leaf, may_be_sure, static_cast<std::size_t>(x - packets_.x0),
                     static_cast<std::size_t>(y - packets_.y0));
   }
@@ -236,23 +237,23 @@ class BlockClosest {
       const std::size_t at = packet * packet_rays + i;
       const V u = hn::Load(f, plane_.u[column] + i), v = hn::Load(f, plane_.v[row] + i);
       const V edge = plane ? all(inf) : p.least_edge(u, v);
-      const V nearness = LaneNumbers::of(p.nearness, u, v), low = hn::Load(f, low_ + at);
-      const M known = hn::Gt(nearness, p.depth_floor);
-      const M behind = hn::And(hn::Lt(nearness, hn::Sub(low, p.depth_error)), known);
-      const M contact = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error)));
-      if (hn::AllFalse(f, contact)) continue;
-      M sure = hn::And(contact, hn::And(hn::Gt(edge, p.edge_error), known));
+      const V reciprocal_depth = LaneNumbers::of(p.reciprocal_depth, u, v), low = hn::Load(f, low_ + at);
+      const M known = hn::Gt(reciprocal_depth, p.depth_floor);
+      const M behind = hn::And(hn::Lt(reciprocal_depth, hn::Sub(low, p.depth_error)), known);
+      const M candidate = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error)));
+      if (hn::AllFalse(f, candidate)) continue;
+      M sure = hn::And(candidate, hn::And(hn::Gt(edge, p.edge_error), known));
       if (!may_be_sure) sure = hn::Lt(low, low);
-      const V high = hn::Load(f, high_ + at), new_low = hn::Sub(nearness, p.depth_error);
-      const V new_high = hn::IfThenElse(known, hn::Add(nearness, p.depth_error), all(inf));
+      const V high = hn::Load(f, high_ + at), new_low = hn::Sub(reciprocal_depth, p.depth_error);
+      const V new_high = hn::IfThenElse(known, hn::Add(reciprocal_depth, p.depth_error), all(inf));
       const M take = hn::And(sure, hn::Gt(new_low, low));
-      // Surely nearer than all that was sure before: the old best is no rival. Otherwise the loser is a
-      // doubt.
-      const M rival = hn::AndNot(hn::And(take, hn::Gt(new_low, high)), contact);
+      // Surely nearer than all that was sure before: the old best is no rival. Otherwise the
+      // loser makes the ray ambiguous.
+      const M rival = hn::AndNot(hn::And(take, hn::Gt(new_low, high)), candidate);
       if (!hn::AllFalse(f, rival)) {
-        const V doubt = hn::Load(f, doubt_ + at);
-        hn::Store(hn::IfThenElse(rival, hn::Max(doubt, hn::IfThenElse(take, high, new_high)), doubt), f,
-                  doubt_ + at);
+        const V nearest = hn::Load(f, rival_ + at);
+        hn::Store(hn::IfThenElse(rival, hn::Max(nearest, hn::IfThenElse(take, high, new_high)), nearest), f,
+                  rival_ + at);
         note(leaf, at, bits_of(rival), bits_of(take));
       }
       if (hn::AllFalse(f, take)) continue;
@@ -278,9 +279,9 @@ class BlockClosest {
     for (; rival != 0; rival &= rival - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(rival));
       const std::uint32_t loser = (take >> i & 1) != 0 ? *leaf_at(at + i) : leaf;
-      if (loser < first_plane) out_.doubts.push_back({static_cast<std::uint32_t>(at + i), loser});
+      if (loser < first_plane) out_.ambiguous_hits.push_back({static_cast<std::uint32_t>(at + i), loser});
     }
-    if (out_.doubts.size() > most) out_.doubts.clear(), out_.all_doubts = false;
+    if (out_.ambiguous_hits.size() > most) out_.ambiguous_hits.clear(), out_.all_ambiguous = false;
   }
 
   void update_limit() {
@@ -294,23 +295,23 @@ class BlockClosest {
 
   void finish() {
     for (std::size_t at = 0; at < block_rays; at += lanes()) {
-      const M unsure = hn::Ge(hn::Load(f, doubt_ + at), hn::Load(f, low_ + at));
-      unsigned bits = bits_of(unsure);
+      const M ambiguous = hn::Ge(hn::Load(f, rival_ + at), hn::Load(f, low_ + at));
+      unsigned bits = bits_of(ambiguous);
       if (bits == 0) continue;
       for (unsigned left = bits; left != 0; left &= left - 1) {
         const std::size_t place = at + static_cast<std::size_t>(std::countr_zero(left));
         const std::uint32_t best = *leaf_at(place);
-        if (best < first_plane) out_.doubts.push_back({static_cast<std::uint32_t>(place), best});
-        *leaf_at(place) = unsure_hit;
+        if (best < first_plane) out_.ambiguous_hits.push_back({static_cast<std::uint32_t>(place), best});
+        *leaf_at(place) = ambiguous_hit;
       }
     }
-    std::sort(out_.doubts.begin(), out_.doubts.end(),
-              [](const BlockDoubt& a, const BlockDoubt& b) { return a.place < b.place; });
+    std::sort(out_.ambiguous_hits.begin(), out_.ambiguous_hits.end(),
+              [](const AmbiguousBlockHit& a, const AmbiguousBlockHit& b) { return a.place < b.place; });
   }
 
   const Structures& s_;
-  const Seen& seen_;
-  SeenPass pass_;
+  const EdgeSetup& setup_;
+  EdgeSetupPass pass_;
   BlockPlane plane_;
   PacketRect packets_;
   BlockRect rect_;
@@ -318,16 +319,16 @@ class BlockClosest {
   float limit_ = -inf;
   std::uint32_t pending_[batch + 2 * run_size];
   std::size_t pending_count_ = 0;
-  SeenBlock blocks_[batch / 8];
-  CellPlaces u_[batch / 8], v_[batch / 8];
+  EdgeSetupBlock blocks_[batch / 8];
+  BinSpans u_[batch / 8], v_[batch / 8];
   alignas(64) float nearest_asked_[block_side]
                                   [block_side];  ///< of packets; what is nowhere nearer is of no interest
-  alignas(64) float low_[block_rays], high_[block_rays], doubt_[block_rays];
+  alignas(64) float low_[block_rays], high_[block_rays], rival_[block_rays];
 };
 
-void block_kernel(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect,
+void block_kernel(const Structures& s, const EdgeSetup& setup, const View& view, const BlockRect& rect,
                   BlockHits& hits) {
-  BlockClosest(s, seen, view, rect, hits).run();
+  BlockClosest(s, setup, view, rect, hits).run();
 }
 
 }  // namespace
@@ -338,15 +339,15 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace {
 HWY_EXPORT(block_kernel);
 
-void closest_in_block(const Structures& s, const Seen& seen, const View& view, const BlockRect& rect,
+void closest_in_block(const Structures& s, const EdgeSetup& setup, const View& view, const BlockRect& rect,
                       BlockHits& hits) {
-  HWY_DYNAMIC_DISPATCH(block_kernel)(s, seen, view, rect, hits);
+  HWY_DYNAMIC_DISPATCH(block_kernel)(s, setup, view, rect, hits);
 }
 
-std::span<const BlockDoubt> BlockHits::doubts_at(std::size_t place) const {
-  const auto less = [](const BlockDoubt& doubt, std::size_t p) { return doubt.place < p; };
-  const auto begin = std::lower_bound(doubts.begin(), doubts.end(), place, less);
-  return {begin, std::lower_bound(begin, doubts.end(), place + 1, less)};
+std::span<const AmbiguousBlockHit> BlockHits::ambiguous_at(std::size_t place) const {
+  const auto less = [](const AmbiguousBlockHit& hit, std::size_t p) { return hit.place < p; };
+  const auto begin = std::lower_bound(ambiguous_hits.begin(), ambiguous_hits.end(), place, less);
+  return {begin, std::lower_bound(begin, ambiguous_hits.end(), place + 1, less)};
 }
 
 }  // namespace gnomon::raytrace

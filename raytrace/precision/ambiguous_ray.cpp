@@ -12,8 +12,8 @@ double axis(const Vec3& v, std::size_t a) {
 
 }  // namespace
 
-DoubtfulRay::DoubtfulRay(const World& world, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
-                         bool decided)
+AmbiguousRay::AmbiguousRay(const World& world, const SurfacePoint& from, const Ray& ray,
+                           const RayFrame& frame, bool decided)
     : world_(world), from_(from), ray_(frame), decided_(decided), surely_out_(frame.t.max) {
   error_ = origin_error(from, ray);
   error_x_ = axis(error_, frame.kx) + std::abs(frame.shear_x) * axis(error_, frame.kz);
@@ -27,13 +27,13 @@ DoubtfulRay::DoubtfulRay(const World& world, const SurfacePoint& from, const Ray
   coarse_error_ = std::max(error_x_, error_y_) + 2.0 * error_gamma(coordinate_operations) * reach;
 }
 
-Meets DoubtfulRay::in_interval(const Interval3& t) const {
-  if (!(t.hi >= ray_.t.min && t.lo < surely_out_)) return Meets::no;
-  return t.lo > ray_.t.min && t.hi < ray_.t.max ? Meets::surely : Meets::perhaps;
+Intersects AmbiguousRay::in_interval(const Interval3& t) const {
+  if (!(t.hi >= ray_.t.min && t.lo < surely_out_)) return Intersects::no;
+  return t.lo > ray_.t.min && t.hi < ray_.t.max ? Intersects::surely : Intersects::perhaps;
 }
 
-DoubtfulRay::Interval3 DoubtfulRay::depth_range(const ShearedTriangle& s, double det_error,
-                                                double depth_error) const {
+AmbiguousRay::Interval3 AmbiguousRay::depth_range(const ShearedTriangle& s, double det_error,
+                                                  double depth_error) const {
   double lo = std::min({s.z[0], s.z[1], s.z[2]}), hi = std::max({s.z[0], s.z[1], s.z[2]});
   const double det = s.u + s.v + s.w;
   if (std::abs(det) > 2.0 * det_error) {
@@ -46,7 +46,8 @@ DoubtfulRay::Interval3 DoubtfulRay::depth_range(const ShearedTriangle& s, double
   return {std::min(a, b), std::max(a, b)};
 }
 
-Meets DoubtfulRay::meet_triangle(const ShearedTriangle& s, const LeafPrimitive& triangle, int& edge) const {
+Intersects AmbiguousRay::intersects_triangle(const ShearedTriangle& s, const LeafPrimitive& triangle,
+                                             int& edge) const {
   double reach_x = 0.0, reach_y = 0.0, reach_z = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto reach = [&](std::size_t a) { return std::abs(triangle.v[3 * i + a] - ray_.origin[a]); };
@@ -64,26 +65,26 @@ Meets DoubtfulRay::meet_triangle(const ShearedTriangle& s, const LeafPrimitive& 
   };
   // Edge k runs from corner k to the next: w, u, v are the functions of edges 0, 1, 2.
   const std::array<double, 3> value{s.w, s.u, s.v};
-  const std::array<double, 3> doubt{bound(0, 1), bound(1, 2), bound(2, 0)};
+  const std::array<double, 3> error{bound(0, 1), bound(1, 2), bound(2, 0)};
   int above = 0, below = 0, open = -1;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (value[k] > doubt[k])
+    if (value[k] > error[k])
       ++above;
-    else if (value[k] < -doubt[k])
+    else if (value[k] < -error[k])
       ++below;
     else
       open = static_cast<int>(k);
   }
-  if (above > 0 && below > 0) return Meets::no;
-  const double det_error = doubt[0] + doubt[1] + doubt[2] + error_gamma(3) * std::abs(s.u + s.v + s.w);
-  const Meets range = in_interval(depth_range(s, det_error, axis(error_, ray_.kz) + g * reach_z));
-  if (range == Meets::no) return Meets::no;
+  if (above > 0 && below > 0) return Intersects::no;
+  const double det_error = error[0] + error[1] + error[2] + error_gamma(3) * std::abs(s.u + s.v + s.w);
+  const Intersects range = in_interval(depth_range(s, det_error, axis(error_, ray_.kz) + g * reach_z));
+  if (range == Intersects::no) return Intersects::no;
   if (above == 3 || below == 3) return range;
-  if (range == Meets::surely && above + below == 2) edge = open;
-  return Meets::perhaps;
+  if (range == Intersects::surely && above + below == 2) edge = open;
+  return Intersects::perhaps;
 }
 
-bool DoubtfulRay::passes_box(const LeafPrimitive& triangle) const {
+bool AmbiguousRay::passes_box(const LeafPrimitive& triangle) const {
   double begin = ray_.t.min, end = surely_out_;
   for (std::size_t a = 0; a < 3; ++a) {
     const double p = triangle.v[a] - ray_.origin[a], q = triangle.v[3 + a] - ray_.origin[a],
@@ -101,7 +102,7 @@ bool DoubtfulRay::passes_box(const LeafPrimitive& triangle) const {
   return begin <= end;
 }
 
-Meets DoubtfulRay::meet_plane(std::uint32_t id) const {
+Intersects AmbiguousRay::intersects_plane(std::uint32_t id) const {
   const auto& plane = std::get<Plane>(world_.shape(id).geometry);
   double height = 0.0, slope = 0.0, height_error = 0.0, slope_error = 0.0;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -112,15 +113,15 @@ Meets DoubtfulRay::meet_plane(std::uint32_t id) const {
     slope_error += std::abs(n * ray_.direction[a]) * error_gamma(8);
   }
   if (std::abs(height) <= height_error) {
-    if (decided_) return Meets::perhaps;
-    // The point lies on this plane: it is met at the origin or nowhere, and then it is the same surface.
-    return std::abs(slope) <= slope_error || is_same_surface(plane) ? Meets::no : Meets::perhaps;
+    if (decided_) return Intersects::perhaps;
+    // The point lies on this plane: it is hit at the origin or nowhere, and then it is the same surface.
+    return std::abs(slope) <= slope_error || is_same_surface(plane) ? Intersects::no : Intersects::perhaps;
   }
   if (std::abs(slope) <= slope_error) {
-    if (decided_) return Meets::perhaps;
-    // Nearly along the plane: met very far away, if at all.
+    if (decided_) return Intersects::perhaps;
+    // Nearly along the plane: hit very far away, if at all.
     const double nearest = (std::abs(height) - height_error) / (std::abs(slope) + slope_error);
-    return nearest < ray_.t.max && std::isfinite(ray_.t.max) ? Meets::perhaps : Meets::no;
+    return nearest < ray_.t.max && std::isfinite(ray_.t.max) ? Intersects::perhaps : Intersects::no;
   }
   const double t = height / slope;
   const double spread = (height_error + std::abs(t) * slope_error) / (std::abs(slope) - slope_error) +
@@ -138,43 +139,45 @@ bool clearly_leaves(const Plane& plane, const Ray& ray, const Vec3& error) {
          std::abs(slope) > clearly * slope_error;
 }
 
-bool DoubtfulRay::is_same_surface(const Plane& plane) const {
+bool AmbiguousRay::is_same_surface(const Plane& plane) const {
   return glm::length(glm::cross(plane.normal, from_.normal)) <= error_gamma(16);
 }
 
-Meets DoubtfulRay::meet_shape(std::uint32_t id) const {
+Intersects AmbiguousRay::intersects_shape(std::uint32_t id) const {
   const ShapeGeometry& geometry = world_.shape(id).geometry;
-  if (!is_solid(geometry)) return meet_sphere(id);
-  return meet_solid(ray_, surely_out_, error_, geometry, id == from_.primitive ? &from_.normal : nullptr);
+  if (!is_solid(geometry)) return intersects_sphere(id);
+  return intersects_solid(ray_, surely_out_, error_, geometry,
+                          id == from_.primitive ? &from_.normal : nullptr);
 }
 
-Meets DoubtfulRay::meet_sphere(std::uint32_t id) const {
+Intersects AmbiguousRay::intersects_sphere(std::uint32_t id) const {
   const auto& sphere = std::get<Sphere>(world_.shape(id).geometry);
   const Vec3 d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
   const Vec3 offset = Vec3(ray_.origin[0], ray_.origin[1], ray_.origin[2]) - sphere.center;
   const double length_squared = glm::dot(d, d), length = std::sqrt(length_squared);
   const double middle = -glm::dot(offset, d) / length_squared;
   const double distance = glm::length(offset + middle * d);
-  const double doubt = error_gamma(16) * glm::length(offset) + glm::length(error_);
-  if (distance - doubt > sphere.radius) return Meets::no;
-  const double t_doubt = doubt / length;
+  const double error = error_gamma(16) * glm::length(offset) + glm::length(error_);
+  if (distance - error > sphere.radius) return Intersects::no;
+  const double t_error = error / length;
   const auto half_chord = [&](double off_axis) {
     return std::sqrt(std::max(0.0, (sphere.radius - off_axis) * (sphere.radius + off_axis))) / length;
   };
-  const double half_max = half_chord(std::max(0.0, distance - doubt)) * (1.0 + error_gamma(4));
-  const double half_min = half_chord(std::min(sphere.radius, distance + doubt)) * (1.0 - error_gamma(4));
-  const Interval3 near{middle - half_max - t_doubt, middle - half_min + t_doubt};
-  const Interval3 far{middle + half_min - t_doubt, middle + half_max + t_doubt};
+  const double half_max = half_chord(std::max(0.0, distance - error)) * (1.0 + error_gamma(4));
+  const double half_min = half_chord(std::min(sphere.radius, distance + error)) * (1.0 - error_gamma(4));
+  const Interval3 near{middle - half_max - t_error, middle - half_min + t_error};
+  const Interval3 far{middle + half_min - t_error, middle + half_max + t_error};
   if (id == from_.primitive) {  // the point is one of the roots; from within, the other one is ahead
     const bool within = glm::dot(from_.normal, offset) < 0.0;
-    return within ? in_interval(far) : Meets::no;
+    return within ? in_interval(far) : Intersects::no;
   }
-  const Meets a = in_interval(near), b = in_interval(far);
-  if (distance + doubt < sphere.radius && (a == Meets::surely || b == Meets::surely)) return Meets::surely;
-  return a == Meets::no && b == Meets::no ? Meets::no : Meets::perhaps;
+  const Intersects a = in_interval(near), b = in_interval(far);
+  if (distance + error < sphere.radius && (a == Intersects::surely || b == Intersects::surely))
+    return Intersects::surely;
+  return a == Intersects::no && b == Intersects::no ? Intersects::no : Intersects::perhaps;
 }
 
-bool DoubtfulRay::clearly_rises() const {
+bool AmbiguousRay::clearly_rises() const {
   const Vec3 n = from_.normal, d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
   // Of a unit normal and of a direction that was made one.
   const double rise = glm::dot(n, d) - error_gamma(32) * glm::length(d);
@@ -182,7 +185,7 @@ bool DoubtfulRay::clearly_rises() const {
   return ray_.t.max * rise > 2.0 * glm::dot(glm::abs(n), error_);
 }
 
-bool DoubtfulRay::below_horizon(std::uint32_t id) const {
+bool AmbiguousRay::below_horizon(std::uint32_t id) const {
   // A light in the tangent plane: which side of it the ray takes is a matter of rounding.
   if (!clearly_rises()) return false;
   const Vec3 n = from_.normal;
@@ -202,7 +205,7 @@ bool DoubtfulRay::below_horizon(std::uint32_t id) const {
   return sphere != nullptr && is_below(sphere->center, sphere->radius);
 }
 
-bool DoubtfulRay::beyond_light(std::uint32_t id) const {
+bool AmbiguousRay::beyond_light(std::uint32_t id) const {
   const Vec3 d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
   const double end = ray_.t.max * glm::dot(d, d);
   const auto is_beyond = [&](const Vec3& p, double radius) {

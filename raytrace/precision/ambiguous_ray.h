@@ -1,6 +1,6 @@
-// A shadow ray whose origin is known only within an error bound, and how it meets one primitive. Every test
-// is made for the whole box of origins at once: what is hit from all of them is surely met, what is hit from
-// some only perhaps.
+// A shadow ray whose origin is known only within an error bound, and how it intersects one primitive. Every
+// test is made for the whole box of origins at once: what is hit from all of them is surely hit, what is hit
+// from some only perhaps.
 #pragma once
 
 #include "raytrace/kernels.h"
@@ -17,16 +17,16 @@ inline double beyond_end(const Vec3& error, const Ray& ray) {
   return 2.0 * (glm::dot(error, Vec3(1.0)) + error_gamma(8) * ray.t.max);
 }
 
-/// The ray leaves the plane behind it, so clearly that meet_plane() says no, too: by eight times its bounds,
-/// where half would do. `error` as origin_error() has it.
+/// The ray leaves the plane behind it, so clearly that intersects_plane() says no, too: by eight times its
+/// bounds, where half would do. `error` as origin_error() has it.
 bool clearly_leaves(const Plane& plane, const Ray& ray, const Vec3& error);
 
-class DoubtfulRay {
+class AmbiguousRay {
  public:
-  /// `decided`: every doubt is decided by exact predicates afterwards, so none may be left out for being too
-  /// small to matter.
-  DoubtfulRay(const World& world, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
-              bool decided);
+  /// `decided`: every ambiguity is decided by exact predicates afterwards, so none may be left out for being
+  /// too small to matter.
+  AmbiguousRay(const World& world, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
+               bool decided);
 
   const RayFrame& frame() const { return ray_; }
   const SurfacePoint& from() const { return from_; }
@@ -42,15 +42,16 @@ class DoubtfulRay {
     const double low = std::min({t.u, t.v, t.w}), high = std::max({t.u, t.v, t.w});
     return low < -bound && high > bound;
   }
-  /// `edge` is set when the doubt is about one edge alone: from that corner to the next.
-  Meets meet_triangle(const ShearedTriangle& sheared, const LeafPrimitive& triangle, int& edge) const;
+  /// `edge` is set when the ambiguity is about one edge alone: from that corner to the next.
+  Intersects intersects_triangle(const ShearedTriangle& sheared, const LeafPrimitive& triangle,
+                                 int& edge) const;
   /// Whether the ray may come to the triangle's own box. Along the whole line of a triangle seen edge-on its
-  /// edge functions are in doubt; every structure's boxes hold this one, so that what is in doubt does not
+  /// edge functions are ambiguous; every structure's boxes hold this one, so that what is ambiguous does not
   /// depend on the structure.
   bool passes_box(const LeafPrimitive& triangle) const;
-  Meets meet_plane(std::uint32_t id) const;
+  Intersects intersects_plane(std::uint32_t id) const;
   /// Any shape but a plane.
-  Meets meet_shape(std::uint32_t id) const;
+  Intersects intersects_shape(std::uint32_t id) const;
 
   /// The ray surely leaves on the upper side of the tangent plane at its point, and nothing at or below that
   /// plane (but for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a
@@ -69,13 +70,13 @@ class DoubtfulRay {
   };
 
   /// `t` against the ray's interval.
-  Meets in_interval(const Interval3& t) const;
-  /// Where along the ray the triangle may be met: a mean of the corners' depths with weights known within
-  /// det_error.
+  Intersects in_interval(const Interval3& t) const;
+  /// Where along the ray the triangle may be intersected: a mean of the corners' depths with weights known
+  /// within det_error.
   Interval3 depth_range(const ShearedTriangle& s, double det_error, double depth_error) const;
   /// A plane through the point whose normal is the point's own, but for rounding.
   bool is_same_surface(const Plane& plane) const;
-  Meets meet_sphere(std::uint32_t id) const;
+  Intersects intersects_sphere(std::uint32_t id) const;
 
   const World& world_;
   const SurfacePoint& from_;

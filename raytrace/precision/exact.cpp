@@ -14,10 +14,11 @@ constexpr double least_permanent = 1e-270;
   return dot(Dyadic3(direction), cross(Dyadic3(a) - o, Dyadic3(b) - o)).sign();
 }
 
-struct PlaneMeeting {
+struct PlaneIntersection {
   Dyadic height, slope;  ///< t = height / slope
 };
-PlaneMeeting meet_plane(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+PlaneIntersection intersection_with_plane(const Vec3& origin, const Vec3& direction,
+                                          const std::array<Vec3, 3>& c) {
   const Dyadic3 a(c[0]), normal = cross(Dyadic3(c[1]) - a, Dyadic3(c[2]) - a);
   return {dot(normal, a - Dyadic3(origin)), dot(normal, Dyadic3(direction))};
 }
@@ -43,7 +44,7 @@ int side_of_edge(const Vec3& origin, const Vec3& direction, const Vec3& a, const
   return exact_side(origin, direction, a, b);
 }
 
-bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
+bool line_intersects(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
   const int u = side_of_edge(origin, direction, c[1], c[2]), v = side_of_edge(origin, direction, c[2], c[0]);
   if (u * v < 0) return false;
   const int w = side_of_edge(origin, direction, c[0], c[1]);
@@ -53,18 +54,19 @@ bool line_meets(const Vec3& origin, const Vec3& direction, const std::array<Vec3
 
 int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c, double bound) {
   if (std::isinf(bound)) return bound > 0.0 ? -1 : 1;
-  const PlaneMeeting m = meet_plane(origin, direction, c);
+  const PlaneIntersection m = intersection_with_plane(origin, direction, c);
   return (m.height - Dyadic(bound) * m.slope).sign() * m.slope.sign();
 }
 
 int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,
                   const std::array<Vec3, 3>& b) {
-  const PlaneMeeting m = meet_plane(origin, direction, a), n = meet_plane(origin, direction, b);
+  const PlaneIntersection m = intersection_with_plane(origin, direction, a),
+                          n = intersection_with_plane(origin, direction, b);
   return (m.height * n.slope - n.height * m.slope).sign() * m.slope.sign() * n.slope.sign();
 }
 
 double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& c) {
-  const PlaneMeeting m = meet_plane(origin, direction, c);
+  const PlaneIntersection m = intersection_with_plane(origin, direction, c);
   return quotient(m.height, m.slope);
 }
 
@@ -72,12 +74,12 @@ bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32
   const std::uint32_t id = s.bvh.ids[index];
   if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
   hit.primitive = id;
-  LeafPrimitive room;
-  return triangle(ray, leaf_at(s, index, room), hit);
+  LeafPrimitive scratch;
+  return triangle(ray, leaf_at(s, index, scratch), hit);
 }
 
-std::optional<ExactArithmetic::Meeting> ExactArithmetic::meet(const RayFrame& ray,
-                                                              const LeafPrimitive& triangle) {
+std::optional<ExactArithmetic::Intersection> ExactArithmetic::intersect(const RayFrame& ray,
+                                                                        const LeafPrimitive& triangle) {
   const ShearedTriangle s = shear(ray, triangle);
   double size = 0.0, reach = 0.0;
   for (std::size_t i = 0; i < 9; ++i) reach = std::max(reach, std::abs(triangle.v[i] - ray.origin[i % 3]));
@@ -91,7 +93,7 @@ std::optional<ExactArithmetic::Meeting> ExactArithmetic::meet(const RayFrame& ra
   const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
   const std::array<Vec3, 3> corners = corners_of(triangle);
   const bool sure = low > bound || high < -bound;
-  if (!sure && !line_meets(origin, direction, corners)) return std::nullopt;
+  if (!sure && !line_intersects(origin, direction, corners)) return std::nullopt;
   TriangleHit t{};
   const double det = s.u + s.v + s.w, det_error = 4.0 * bound;
   if (!finish_triangle(ray, triangle, s, t) || std::abs(det) < 4.0 * det_error) {
@@ -103,33 +105,33 @@ std::optional<ExactArithmetic::Meeting> ExactArithmetic::meet(const RayFrame& ra
   const double z_size = std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])});
   const double spread = (2.0 * det_error / std::max(std::abs(det) - det_error, DBL_MIN) + error_gamma(16)) *
                         2.0 * z_size * std::abs(ray.shear_z);
-  return Meeting{corners, Vec2(t.b1, t.b2), t.t, spread};
+  return Intersection{corners, Vec2(t.b1, t.b2), t.t, spread};
 }
 
 bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const {
-  std::optional<Meeting> met = meet(ray, triangle);
-  if (!met) return false;
+  std::optional<Intersection> found = intersect(ray, triangle);
+  if (!found) return false;
   const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
   const auto order = [&](double end) {
-    if (std::abs(met->t - end) > met->spread) return met->t < end ? -1 : 1;
-    return compare_t(origin, direction, met->corners, end);
+    if (std::abs(found->t - end) > found->spread) return found->t < end ? -1 : 1;
+    return compare_t(origin, direction, found->corners, end);
   };
-  if (order(given_.min) <= 0 || order(given_.max) >= 0 || !comes_first(ray, *met)) return false;
-  hit.barycentric = met->barycentric, hit.t = met->t;
-  taken_ = *met;
+  if (order(given_.min) <= 0 || order(given_.max) >= 0 || !comes_first(ray, *found)) return false;
+  hit.barycentric = found->barycentric, hit.t = found->t;
+  taken_ = *found;
   return true;
 }
 
 double ExactArithmetic::own_t(const Structures& s, const RayFrame& ray, const Hit& hit) const {
   if (!moved_ || !s.world->is_triangle(hit.primitive)) return hit.t;
-  const std::optional<Meeting> met = meet(ray, leaf_primitive(*s.world, hit.primitive));
-  return met ? met->t : hit.t;
+  const std::optional<Intersection> found = intersect(ray, leaf_primitive(*s.world, hit.primitive));
+  return found ? found->t : hit.t;
 }
 
 // Before the nearest hit so far, whose rounded t the ray's interval ends just above; of equals the caller
 // takes the lower id. Where rounding leaves the order open it is worked out exactly, and the candidate gets
 // a t on the right side of the other's.
-bool ExactArithmetic::comes_first(const RayFrame& ray, Meeting& candidate) const {
+bool ExactArithmetic::comes_first(const RayFrame& ray, Intersection& candidate) const {
   const double end = ray.t.max;
   if (!(end < given_.max)) return true;
   const bool known = next_above(taken_.t) == end;

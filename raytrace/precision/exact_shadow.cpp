@@ -13,7 +13,7 @@ bool ExactShadow::blocks(std::uint32_t id) const {
   const auto& geometry = world_.shape(id).geometry;
   if (const auto* plane = std::get_if<Plane>(&geometry)) return plane_blocks(*plane);
   const auto& sphere = std::get<Sphere>(geometry);
-  return id == from_.primitive ? own_sphere_blocks(sphere) : sphere_blocks(sphere);
+  return id == from_.primitive ? source_sphere_blocks(sphere) : sphere_blocks(sphere);
 }
 
 const ExactShadow::Receiver& ExactShadow::receiver() const {
@@ -69,8 +69,8 @@ bool ExactShadow::sphere_blocks(const Sphere& sphere) const {
   const Dyadic reach = receiver().weight * Dyadic(sphere.radius);
   const Dyadic a = dot(d, d), b = dot(o, d), c = dot(o, o) - reach * reach;
   const int at_receiver = c.sign();
-  const bool meets_line = (b * b - a * c).sign() >= 0;
-  if (is_directional()) return at_receiver < 0 || (b.sign() < 0 && meets_line);
+  const bool line_intersects_sphere = (b * b - a * c).sign() >= 0;
+  if (is_directional()) return at_receiver < 0 || (b.sign() < 0 && line_intersects_sphere);
   const int at_light = (a + b + b + c).sign();
   if (at_receiver * at_light < 0) return true;
   if (at_receiver < 0 || at_light < 0) {  // one end within; the other within too, or on the sphere
@@ -79,12 +79,12 @@ bool ExactShadow::sphere_blocks(const Sphere& sphere) const {
   if (at_receiver == 0 && at_light == 0) return false;
   if (at_receiver == 0) return b.sign() < 0 && (a + b + b).sign() > 0;  // the other root: -2 B / A
   if (at_light == 0) return (a - c).sign() > 0;                         // the other root: C / A
-  return meets_line && b.sign() < 0 && (a + b).sign() > 0;
+  return line_intersects_sphere && b.sign() < 0 && (a + b).sign() > 0;
 }
 
-// Seen from outside, the sphere is below its own tangent plane; from within, it is met unless the light is
+// Seen from outside, the sphere is below its own tangent plane; from within, it is hit unless the light is
 // within too.
-bool ExactShadow::own_sphere_blocks(const Sphere& sphere) const {
+bool ExactShadow::source_sphere_blocks(const Sphere& sphere) const {
   if (glm::dot(from_.normal, from_.position - sphere.center) > 0.0) return false;
   if (is_directional()) return true;
   const Dyadic3 o = Dyadic3(light_.position) - Dyadic3(sphere.center);

@@ -18,7 +18,7 @@ class ExactShadow {
       : world_(world), from_(from), light_(light) {}
 
   /// Triangles, planes and spheres are decided, also for a receiver on a solid (its stored position); a
-  /// solid's doubts stay.
+  /// solid's ambiguities stay.
   bool decides(std::uint32_t id) const;
   /// `id` is not the receiver's own triangle or plane, and is decided.
   bool blocks(std::uint32_t id) const;
@@ -36,7 +36,7 @@ class ExactShadow {
   bool triangle_blocks(std::uint32_t id) const;
   bool plane_blocks(const Plane& plane) const;
   bool sphere_blocks(const Sphere& sphere) const;
-  bool own_sphere_blocks(const Sphere& sphere) const;
+  bool source_sphere_blocks(const Sphere& sphere) const;
   /// The sides of a plane through `point` on which receiver and light lie; for a directional light the sign
   /// of the slope towards it.
   bool crosses(const Dyadic3& normal, const Dyadic3& point) const;

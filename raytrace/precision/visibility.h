@@ -1,7 +1,7 @@
-// Visibility of a light's centre with the error bound's doubt made visible. Every test is made for the whole
-// box of origins that the surface point's error bound allows: a primitive hit from all of them is a sure hit,
-// one hit from some only is a doubt. A sure hit outweighs any number of doubts, so closed meshes cast no
-// uncertain shadow inside their outline.
+// Visibility of a light's centre with the error bound's ambiguity made visible. Every test is made for the
+// whole box of origins that the surface point's error bound allows: a primitive hit from all of them is a
+// sure hit, one hit from some only is ambiguous. A sure hit outweighs any number of ambiguous ones, so closed
+// meshes cast no uncertain shadow inside their outline.
 #pragma once
 
 #include "raytrace/kernels.h"
@@ -15,7 +15,8 @@ using Candidates = const std::span<const std::uint32_t>*;
 Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
                 Candidates among = nullptr);
 
-/// The same without doubt: what the bounds leave open is decided by exact predicates (exact_shadow.h there).
+/// The same without ambiguity: what the bounds leave open is decided by exact predicates (exact_shadow.h
+/// there).
 Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
                           const Light& light, Candidates among = nullptr);
 

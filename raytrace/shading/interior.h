@@ -50,7 +50,7 @@ inline double index_of(const Scene& scene, std::uint32_t medium) {
   return medium == no_id ? 1.0 : static_cast<double>(scene.materials[medium].ior);
 }
 
-/// What a surface of glass is to a ray that meets it.
+/// What a surface of glass is to a ray that intersects it.
 struct Crossing {
   std::uint32_t before = no_id, behind = no_id;  ///< media: materials, or no_id for vacuum
   Interior inside;                               ///< behind the surface

@@ -114,8 +114,7 @@ double stratified_standard_error(std::span<const std::uint8_t> samples) {
 
 Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,
                             std::uint64_t key) {
-  if (samples >= least_shaft_rays && surely_sees_whole_light(tracer.structures(), from, light))
-    return {1.0, 0.0, 0};
+  if (samples >= least_shaft_rays && surely_sees_whole_light(tracer, from, light)) return {1.0, 0.0, 0};
   const LightSamples rays(tracer, from, light, samples, key);
   Visibility seen;
   int lit = 0;

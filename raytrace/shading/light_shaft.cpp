@@ -54,14 +54,14 @@ class LightShaft {
   Vec3 seen(const Vec3& point) const { return point - shaft_.origin; }
 
   /// Whether a plane through a, seen from the origin, has the whole light on the origin's side.
-  /// normal_doubt: how far each of the normal's components may be off.
-  bool spares(const Vec3& normal, double normal_doubt, const Vec3& a) const {
+  /// normal_error: how far each of the normal's components may be off.
+  bool spares(const Vec3& normal, double normal_error, const Vec3& a) const {
     const double height = glm::dot(normal, a);
-    const double doubt = margin * dot_abs(normal, a) + normal_doubt * sum_abs(a);
-    const double light_doubt = size_ * (margin * sum_abs(normal) + 3.0 * normal_doubt);
+    const double error = margin * dot_abs(normal, a) + normal_error * sum_abs(a);
+    const double light_error = size_ * (margin * sum_abs(normal) + 3.0 * normal_error);
     const double plane = shaft_.endless ? 0.0 : height;
-    if (height > doubt) return -least(-normal) < plane - doubt - light_doubt;
-    if (height < -doubt) return least(normal) > plane + doubt + light_doubt;
+    if (height > error) return -least(-normal) < plane - error - light_error;
+    if (height < -error) return least(normal) > plane + error + light_error;
     return false;
   }
 
@@ -88,20 +88,20 @@ class LightShaft {
 
   /// Whether the shaft has risen above a triangle with corners a, which is no higher above the horizon than
   /// rounding makes it, before it comes there.
-  bool rises_above(const std::array<Vec3, 3>& a, const Vec3& normal, double normal_doubt) const {
-    double height = 0.0, doubt = 0.0, far = 0.0;
+  bool rises_above(const std::array<Vec3, 3>& a, const Vec3& normal, double normal_error) const {
+    double height = 0.0, error = 0.0, far = 0.0;
     for (const Vec3& v : a) {
       height = std::max(height, glm::dot(from_.normal, v));
-      doubt = std::max(doubt, margin * dot_abs(from_.normal, v));
+      error = std::max(error, margin * dot_abs(from_.normal, v));
       far = std::max(far, sum_abs(v));
     }
-    if (height > 2.0 * doubt) return false;
+    if (height > 2.0 * error) return false;
     // What is r away from the origin is above r least_height_ / (sqrt(3) size_).
-    const double risen_at = 4.0 * doubt * size_ / least_height_;
+    const double risen_at = 4.0 * error * size_ / least_height_;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 edge = a[(k + 1) % 3] - a[k], inwards = glm::cross(normal, edge);
-      const double edge_doubt = margin * dot_abs(inwards, a[k]) + 6.0 * normal_doubt * sum_abs(edge) * far;
-      if (glm::dot(inwards, a[k]) > risen_at * glm::length(inwards) + edge_doubt) return true;
+      const double edge_error = margin * dot_abs(inwards, a[k]) + 6.0 * normal_error * sum_abs(edge) * far;
+      if (glm::dot(inwards, a[k]) > risen_at * glm::length(inwards) + edge_error) return true;
     }
     return false;
   }
@@ -138,41 +138,42 @@ class LightShaft {
   std::size_t sides_ = 0;
 };
 
-/// is_own: it is the point's. A ray does not meet the triangle that it leaves upwards
+/// is_source: it is the point's. A ray does not intersect the triangle that it leaves upwards
 /// (raytrace/precision/ray_offset.h), if this is no needle, whose normal rounding makes another.
-bool spares_triangle(const LightShaft& shaft, const LeafPrimitive& triangle, bool is_own) {
+bool spares_triangle(const LightShaft& shaft, const LeafPrimitive& triangle, bool is_source) {
   constexpr double least_sine = 0x1p-5;
   std::array<Vec3, 3> a;
   for (std::size_t k = 0; k < 3; ++k)
     a[k] = shaft.seen({triangle.v[3 * k], triangle.v[3 * k + 1], triangle.v[3 * k + 2]});
   const Vec3 e1 = a[1] - a[0], e2 = a[2] - a[0], normal = glm::cross(e1, e2);
   const double edge = std::max(sum_abs(e1), sum_abs(e2)), far = edge + sum_abs(a[0]);
-  if (is_own) return sum_abs(normal) > least_sine * edge * edge;
-  const double normal_doubt = 0x1p-48 * edge * far;
-  return shaft.spares(normal, normal_doubt, a[0]) || shaft.has_outside(a) ||
-         shaft.rises_above(a, normal, normal_doubt);
+  if (is_source) return sum_abs(normal) > least_sine * edge * edge;
+  const double normal_error = 0x1p-48 * edge * far;
+  return shaft.spares(normal, normal_error, a[0]) || shaft.has_outside(a) ||
+         shaft.rises_above(a, normal, normal_error);
 }
 
 /// Whether the shaft surely passes by the leaf's primitive.
-bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t leaf, std::uint32_t own) {
+bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t leaf, std::uint32_t source) {
   const std::uint32_t id = s.bvh.ids[leaf];
   if (!s.has_shapes || s.world->is_triangle(id))
-    return spares_triangle(shaft, s.bvh.primitives[leaf], id == own);
+    return spares_triangle(shaft, s.bvh.primitives[leaf], id == source);
   const auto* sphere = std::get_if<Sphere>(&s.world->shape(id).geometry);
-  return sphere != nullptr && (id == own || shaft.has_outside(shaft.seen(sphere->center), sphere->radius));
+  return sphere != nullptr && (id == source || shaft.has_outside(shaft.seen(sphere->center), sphere->radius));
 }
 
-bool spares_planes(const Structures& s, const LightShaft& shaft, std::uint32_t own) {
+bool spares_planes(const Structures& s, const LightShaft& shaft, std::uint32_t source) {
   return std::all_of(s.planes.begin(), s.planes.end(), [&](std::uint32_t id) {
     const auto& plane = std::get<Plane>(s.world->shape(id).geometry);
-    return id == own || shaft.spares(plane.normal, 0.0, shaft.seen(plane.point));
+    return id == source || shaft.spares(plane.normal, 0.0, shaft.seen(plane.point));
   });
 }
 
 }  // namespace
 
-bool surely_sees_whole_light(const Structures& s, const SurfacePoint& from, const Light& light) {
-  if (s.precision == Precision::fast) return false;  // its rays start where they may meet anything
+bool surely_sees_whole_light(const Tracer& tracer, const SurfacePoint& from, const Light& light) {
+  const Structures& s = tracer.structures();
+  if (s.precision == Precision::fast) return false;  // its rays start where they may intersect anything
   const WideTree* tree = wide_tree(s);
   if (tree == nullptr) return false;
   const LightShaft shaft(from, light);

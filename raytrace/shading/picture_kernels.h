@@ -79,7 +79,7 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
     RayCounts& rays = counts[tile].rays;
     Shader<Policy> shader(input, frame.color.index(x, y), rays);
     const PathOf<Policy> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
-    // A verdict already known saves the ray, but for light that glass may let through and for doubtful
+    // A verdict already known saves the ray, but for light that glass may let through and for ambiguous
     // pixels.
     const auto shadow = [&](std::uint32_t i) {
       if (truth[i] < frame.lights.size()) {

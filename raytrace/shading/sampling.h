@@ -1,8 +1,7 @@
 // Seeded, stratified sample points. What a point is depends on the seed, the pixel and its number alone, so
-// pictures are the same for any number of threads.
-// Kollig and Keller 2002, "Efficient Multidimensional Sampling" (scrambled Hammersley points: of 2^m points
-// each box of area 2^-m of the elementary grids holds exactly one); Shirley and Chiu 1997, "A Low Distortion
-// Map Between Disk and Square".
+// pictures are the same for any number of threads. Kollig and Keller 2002, "Efficient Multidimensional
+// Sampling" (scrambled Hammersley points: of 2^m points each box of area 2^-m of the elementary grids holds
+// exactly one); Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 #pragma once
 
 #include <bit>

@@ -45,7 +45,7 @@ Vec3 shading_normal(const World& world, const SurfacePoint& point);
 /// Where there is no glass there is nothing to be inside of.
 struct NoGlass {};
 
-/// What a ray has met on its way into the recursion.
+/// What a ray has hit on its way into the recursion.
 template <class Policy>
 struct PathOf {
   using Inside = std::conditional_t<Policy::refracts, Interior, NoGlass>;
@@ -99,8 +99,8 @@ class Shader {
     return radiance;
   }
 
-  /// Radiance along a path that meets the point after `length`, through what is no boundary of its medium.
-  /// `count` counts the rays that go on behind that.
+  /// Radiance along a path that intersects the point after `length`, through what is no boundary of its
+  /// medium. `count` counts the rays that go on behind that.
   Vec3f arriving(SurfacePoint point, double length, Path path, std::uint64_t& count) {
     if constexpr (Policy::refracts) {
       for (int passed = 0; !is_boundary(point, path.inside); ++passed) {
@@ -155,8 +155,7 @@ class Shader {
         shared(options_.shadow_samples > 0 ? options_.shadow_samples : light.shadow_samples, path);
     const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_sampled_);
     counts_.soft_shadow_asked += static_cast<std::uint64_t>(count);
-    if (is_in_vacuum(path) && count >= least_shaft_rays &&
-        surely_sees_whole_light(tracer_.structures(), point, light))
+    if (is_in_vacuum(path) && count >= least_shaft_rays && surely_sees_whole_light(tracer_, point, light))
       return Vec3f(1.0f);
     const LightSamples samples(tracer_, point, light, count, key);
     Vec3f sum(0.0f);

@@ -71,7 +71,7 @@ bool InsideTest::contains(std::uint32_t object, const Vec3& point) const {
 bool InsideTest::mesh_contains(const Object& object, const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis)
     if (!(point[axis] >= object.box.min[axis] && point[axis] <= object.box.max[axis])) return false;
-  constexpr int attempts = 32;  // one in some 1e15 rays meets an edge by chance
+  constexpr int attempts = 32;  // one in some 1e15 rays intersects an edge by chance
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::optional<RayFrame> ray = make_ray_frame({point, direction_of(attempt)});
     if (!ray) return false;

@@ -112,10 +112,10 @@ struct TriangleHit {
   double t, b1, b2;
 };
 
-/// Depth along kz at which the ray meets the plane of a triangle that is much longer than wide; `z`, the mean
-/// of the corners' depths, for any other. The mean's weights are known to rounding of the length squared over
-/// twice the area, so that depths of a triangle of length L and width W are off by L^2 / W roundings. The
-/// plane's equation loses no more than L roundings if the normal is made from the two shorter edges.
+/// Depth along kz at which the ray intersects the plane of a triangle that is much longer than wide; `z`, the
+/// mean of the corners' depths, for any other. The mean's weights are known to rounding of the length squared
+/// over twice the area, so that depths of a triangle of length L and width W are off by L^2 / W roundings.
+/// The plane's equation loses no more than L roundings if the normal is made from the two shorter edges.
 inline double depth_in_plane(const RayFrame& ray, const LeafPrimitive& triangle, double z) {
   constexpr double stretched = 16.0;  // length over width from which the plane is better in any position
   const auto& v = triangle.v;

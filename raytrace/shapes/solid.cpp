@@ -120,9 +120,9 @@ void torus_crossings(const ShapeGeometry& solid, const LocalRay& ray, Few& out) 
   const double dd = glm::dot(d, d), nearest = -glm::dot(ray.origin, d) / dd;
   const Vec3 o = ray.origin + nearest * d;
   const double reach = (torus.major + torus.minor) * (1.0 + error_gamma(64));
-  const double room = reach * reach - glm::dot(o, o);
-  if (!(room > 0.0)) return;
-  const double half = std::sqrt(room / dd);
+  const double scratch = reach * reach - glm::dot(o, o);
+  if (!(scratch > 0.0)) return;
+  const double half = std::sqrt(scratch / dd);
   // g = |p|^2 + R^2 - r^2 and h = x^2 + y^2 along the line; the torus is g^2 = 4 R^2 h.
   const double rr = torus.major * torus.major;
   const std::array<double, 3> g{glm::dot(o, o) + (torus.major - torus.minor) * (torus.major + torus.minor),
@@ -217,15 +217,15 @@ Interval box_range(const LocalRay& ray, const Aabb& box) {
 
 bool intersect_solid(const RayFrame& ray, const ShapeGeometry& solid, double& t) {
   const LocalRay local = local_ray(ray, solid);
-  const auto offer = [&](double s) {
+  const auto report = [&](double s) {
     if (!(s > ray.t.min && s < ray.t.max)) return false;
     t = s;
     return true;
   };
-  if (std::holds_alternative<Implicit>(solid)) return visit_implicit(solid, local, ray.t, offer);
+  if (std::holds_alternative<Implicit>(solid)) return visit_implicit(solid, local, ray.t, report);
   const Few found = few_crossings(solid, local);
   for (std::size_t i = 0; i < found.count; ++i)
-    if (offer(found.at[i])) return true;
+    if (report(found.at[i])) return true;
   return false;
 }
 

@@ -12,11 +12,11 @@ enum class Place : std::uint8_t { inside, outside, unknown };
 /// prove one. Of an open solid only those crossings of f count that lie within its box.
 class March {
  public:
-  March(const AlongRay& f, const Aabb& box, bool closed, int own_sign)
-      : f_(f), box_(box), closed_(closed), own_sign_(own_sign), first_cut_(first_cut_axis(*f.solid)) {}
+  March(const AlongRay& f, const Aabb& box, bool closed, int source_sign)
+      : f_(f), box_(box), closed_(closed), source_sign_(source_sign), first_cut_(first_cut_axis(*f.solid)) {}
 
   /// `at_start`: the ray starts at lo, on the solid itself.
-  Meets run(double lo, double hi, bool at_start) {
+  Intersects run(double lo, double hi, bool at_start) {
     constexpr double first_share = 0x1p-2, least_share = 0x1p-48;
     constexpr int most_stretches = 4096;
     const double longest = (hi - lo) * first_share, least = (hi - lo) * least_share;
@@ -29,24 +29,24 @@ class March {
           step *= 0.5;
           continue;
         case Look::crossed:
-          return Meets::surely;
-        case Look::doubtful:
-          doubt_ = true;
+          return Intersects::surely;
+        case Look::ambiguous:
+          ambiguous_ = true;
           break;
         case Look::done:
           break;
       }
-      if (above_ && below_) return Meets::surely;
+      if (above_ && below_) return Intersects::surely;
       at = end;
       step = std::min(2.0 * step, longest);
     }
-    return doubt_ || at < hi ? Meets::perhaps : Meets::no;
+    return ambiguous_ || at < hi ? Intersects::perhaps : Intersects::no;
   }
 
  private:
-  enum class Look : std::uint8_t { done, divide, crossed, doubtful };
+  enum class Look : std::uint8_t { done, divide, crossed, ambiguous };
 
-  // A sign met on the way; of an open solid's f it proves nothing elsewhere.
+  // A sign hit on the way; of an open solid's f it proves nothing elsewhere.
   Look note(bool positive) {
     if (closed_) (positive ? above_ : below_) = true;
     return Look::done;
@@ -60,18 +60,18 @@ class March {
     if (h.value.is_empty()) return Look::done;
     if (h.value.without_zero()) return note(h.value.positive());
     const bool monotone = h.value.sure && h.change.without_zero();
-    if (is_start && monotone && h.change.positive() == (own_sign_ > 0)) return note(own_sign_ > 0);
+    if (is_start && monotone && h.change.positive() == (source_sign_ > 0)) return note(source_sign_ > 0);
     if (monotone && place == Place::inside) {
       const Bounds a = function(Bounds(at)).value, b = function(Bounds(end)).value;
       if (a.without_zero() && b.without_zero())
         return a.positive() == b.positive() ? note(a.positive()) : Look::crossed;
       // A root at an end shared with the next stretch: only dividing elsewhere would help.
-      if (is_least || a.width() + b.width() > 0.25 * h.value.width()) return Look::doubtful;
+      if (is_least || a.width() + b.width() > 0.25 * h.value.width()) return Look::ambiguous;
       return Look::divide;
     }
     const Bounds here = function(Bounds(at + 0.5 * (end - at))).value;
     const bool rounding = !here.without_zero() && h.value.width() <= 4.0 * here.width();
-    return is_least || rounding ? Look::doubtful : Look::divide;
+    return is_least || rounding ? Look::ambiguous : Look::divide;
   }
 
   Slope function(const Bounds& s) const {
@@ -91,44 +91,45 @@ class March {
   const AlongRay& f_;
   const Aabb box_;
   const bool closed_;
-  const int own_sign_;
+  const int source_sign_;
   const int first_cut_;  // the axes from here on cut the solid
-  bool above_ = false, below_ = false, doubt_ = false;
+  bool above_ = false, below_ = false, ambiguous_ = false;
 };
 
 }  // namespace
 
-Meets meet_solid(const RayFrame& ray, double surely_out, const Vec3& error, const ShapeGeometry& solid,
-                 const Vec3* own_normal) {
+Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& error,
+                            const ShapeGeometry& solid, const Vec3* source_normal) {
   const ShapeFrame& frame = frame_of(solid);
   LocalRay local = local_ray(ray, solid);
   const Vec3 world(ray.origin[0], ray.origin[1], ray.origin[2]);
   const Vec3 size = glm::abs(world) + glm::abs(frame.origin);
-  Vec3 doubt;
-  for (int a = 0; a < 3; ++a) doubt[a] = glm::dot(glm::abs(frame.axes[a]), error + error_gamma(8) * size);
+  Vec3 local_error;
+  for (int a = 0; a < 3; ++a)
+    local_error[a] = glm::dot(glm::abs(frame.axes[a]), error + error_gamma(8) * size);
   const Aabb box = local_box(solid);
   // The direction's own rounding moves the far end; it enters as a part of the origin's.
   const double reach = glm::length(box.center() - local.origin) + box.diagonal();
-  doubt += Vec3(error_gamma(16) * reach);
-  const Interval range = box_range(local, {box.min - 2.0 * doubt, box.max + 2.0 * doubt});
+  local_error += Vec3(error_gamma(16) * reach);
+  const Interval range = box_range(local, {box.min - 2.0 * local_error, box.max + 2.0 * local_error});
   const double from = std::max(range.min, ray.t.min), to = std::min(range.max, surely_out);
-  if (range.empty() || !(from < to)) return Meets::no;
+  if (range.empty() || !(from < to)) return Intersects::no;
 
-  int own_sign = 0;
-  const bool at_start = own_normal != nullptr && from == ray.t.min;
+  int source_sign = 0;
+  const bool at_start = source_normal != nullptr && from == ray.t.min;
   if (at_start) {
-    const bool outside = glm::dot(solid_normal(solid, world), *own_normal) > 0.0;
-    if (outside && is_convex(solid)) return Meets::no;
-    own_sign = outside ? 1 : -1;
+    const bool outside = glm::dot(solid_normal(solid, world), *source_normal) > 0.0;
+    if (outside && is_convex(solid)) return Intersects::no;
+    source_sign = outside ? 1 : -1;
   }
-  const AlongRay f{&solid, local.origin + from * local.direction, local.direction, doubt};
-  March march(f, box, is_closed(solid), own_sign);
+  const AlongRay f{&solid, local.origin + from * local.direction, local.direction, local_error};
+  March march(f, box, is_closed(solid), source_sign);
   const double sure_end = std::min(to, ray.t.max);
-  Meets meets = sure_end > from ? march.run(0.0, sure_end - from, at_start) : Meets::no;
-  if (meets == Meets::no && to > sure_end &&
-      march.run(std::max(0.0, sure_end - from), to - from, false) != Meets::no)
-    meets = Meets::perhaps;
-  return meets;
+  Intersects intersects = sure_end > from ? march.run(0.0, sure_end - from, at_start) : Intersects::no;
+  if (intersects == Intersects::no && to > sure_end &&
+      march.run(std::max(0.0, sure_end - from), to - from, false) != Intersects::no)
+    intersects = Intersects::perhaps;
+  return intersects;
 }
 
 }  // namespace gnomon::raytrace

@@ -6,12 +6,12 @@
 
 namespace gnomon::raytrace {
 
-enum class Meets : std::uint8_t { no, perhaps, surely };
+enum class Intersects : std::uint8_t { no, perhaps, surely };
 
 /// Crossings count in ray.t; from its end to `surely_out` they may count. `error`: of the origin, per axis of
 /// the world. `own_normal`: for a ray that starts on this solid, its normal there on the side the ray leaves
 /// to (else none); the start itself is no crossing.
-Meets meet_solid(const RayFrame& ray, double surely_out, const Vec3& error, const ShapeGeometry& solid,
-                 const Vec3* own_normal);
+Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& error,
+                            const ShapeGeometry& solid, const Vec3* source_normal);
 
 }  // namespace gnomon::raytrace

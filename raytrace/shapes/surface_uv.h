@@ -1,5 +1,5 @@
-// Texture coordinates of a hit, and whether an alpha mask lets it pass.
-// Sphere: u = atan2(z, x) / 2 pi wrapped to [0, 1), v = acos(y) / pi from the top, of the outward normal.
+// Texture coordinates of a hit, and whether an alpha mask lets it pass. Sphere: u = atan2(z, x) / 2 pi
+// wrapped to [0, 1), v = acos(y) / pi from the top, of the outward normal.
 #pragma once
 
 #include "scene/texture_sample.h"

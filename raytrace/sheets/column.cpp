@@ -26,7 +26,7 @@ double segment_distance(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-Column::Column(const LightView& view, int face, int column, int row)
+TexelColumn::TexelColumn(const LightView& view, int face, int column, int row)
     : perspective_(view.projection == LightProjection::perspective),
       face_(view.faces[static_cast<std::size_t>(face)]),
       origin_(view.origin),
@@ -54,13 +54,13 @@ Column::Column(const LightView& view, int face, int column, int row)
   for (const Vec3& c : light_corners_) low_ = glm::min(low_, Vec2(c)), high_ = glm::max(high_, Vec2(c));
 }
 
-Vec3 Column::homogeneous(const Vec3& q) const {
+Vec3 TexelColumn::homogeneous(const Vec3& q) const {
   if (perspective_) return q;
   const double x = q.x - face_.center.x, y = q.y - face_.center.y, b = face_.half_extent.y;
   return {x, y + face_.warp * b * b, 1.0 + face_.warp * y};
 }
 
-LightVertex Column::vertex(const Vec3& world) const {
+LightVertex TexelColumn::vertex(const Vec3& world) const {
   const Vec3 d = world - origin_;
   const Vec3 q(glm::dot(face_.right, d), glm::dot(face_.up, d), glm::dot(face_.forward, d));
   const double error = vertex_gamma * (sum_of_magnitudes(world) + origin_size_);
@@ -70,7 +70,7 @@ LightVertex Column::vertex(const Vec3& world) const {
   return {q, h, std::max(1.0, face_.warp) * error + vertex_gamma * (sum_of_magnitudes(h) + b)};
 }
 
-bool Column::surely_outside(std::span<const LightVertex> vertices) const {
+bool TexelColumn::surely_outside(std::span<const LightVertex> vertices) const {
   // Most planes have the first vertex inside.
   const auto all = [&](const auto& is_outside) {
     return std::all_of(vertices.begin(), vertices.end(), is_outside);
@@ -80,7 +80,7 @@ bool Column::surely_outside(std::span<const LightVertex> vertices) const {
   return (perspective_ || face_.warp != 0.0) && all([](const LightVertex& v) { return v.h.z < -v.error; });
 }
 
-int Column::side_of_corners(const LightVertex& a, const LightVertex& b) const {
+int TexelColumn::side_of_corners(const LightVertex& a, const LightVertex& b) const {
   const Vec3 n = glm::cross(a.h, b.h);
   const double size_a = max_component(glm::abs(a.h)), size_b = max_component(glm::abs(b.h));
   const double size_c = std::max(1.0, reach_);
@@ -96,12 +96,12 @@ int Column::side_of_corners(const LightVertex& a, const LightVertex& b) const {
   return all_above ? 1 : all_below ? -1 : 0;
 }
 
-bool Column::surely_misses(const LightVertex& a, const LightVertex& b) const {
+bool TexelColumn::surely_misses(const LightVertex& a, const LightVertex& b) const {
   const std::array<LightVertex, 2> segment{a, b};
   return surely_outside(segment) || side_of_corners(a, b) != 0;
 }
 
-bool Column::surely_misses(const std::array<LightVertex, 3>& triangle) const {
+bool TexelColumn::surely_misses(const std::array<LightVertex, 3>& triangle) const {
   if (surely_outside(triangle)) return true;
   const int facing_light = facing(triangle);
   if (facing_light == 0) return false;
@@ -112,7 +112,7 @@ bool Column::surely_misses(const std::array<LightVertex, 3>& triangle) const {
   return false;
 }
 
-int Column::facing(const std::array<LightVertex, 3>& t) const {
+int TexelColumn::facing(const std::array<LightVertex, 3>& t) const {
   const Vec3 e1 = t[1].q - t[0].q, e2 = t[2].q - t[0].q;
   const Vec3 n = glm::cross(e1, e2);
   const double error = t[0].error + t[1].error + t[2].error;
@@ -129,9 +129,9 @@ int Column::facing(const std::array<LightVertex, 3>& t) const {
   return (value < 0.0) == (handedness_ > 0.0) ? 1 : -1;
 }
 
-Interval Column::distances(std::span<const LightVertex> polygon) const {
-  std::array<Vec3, max_clipped> room, other_room;
-  Vec3 *part = room.data(), *next = other_room.data();
+Interval TexelColumn::distances(std::span<const LightVertex> polygon) const {
+  std::array<Vec3, max_clipped> scratch, other_room;
+  Vec3 *part = scratch.data(), *next = other_room.data();
   std::size_t count = 0;
   double error = 0.0;
   for (const LightVertex& v : polygon) {

@@ -23,9 +23,9 @@ struct LightVertex {
   double error;  ///< bound on each component's error, of q and of h
 };
 
-class Column {
+class TexelColumn {
  public:
-  Column(const LightView& view, int face, int column, int row);
+  TexelColumn(const LightView& view, int face, int column, int row);
 
   bool perspective() const { return perspective_; }
   LightVertex vertex(const Vec3& world) const;

@@ -12,7 +12,7 @@ constexpr double shape_gamma = error_gamma(64);
 
 /// The distance of the column's rays from a sphere's centre: in the plane (orthographic), or as a part of the
 /// sphere of directions, given by the angle between ray and centre. Both ends conservative.
-Interval off_axis(const LightVertex& center, const Column& column, double slack) {
+Interval off_axis(const LightVertex& center, const TexelColumn& column, double slack) {
   const Vec2 lo = column.min(), hi = column.max();
   if (!column.perspective()) {
     const Vec2 c(center.q);
@@ -39,7 +39,7 @@ Sheet sheet(std::uint32_t id, bool faces_light, bool has_boundary, double neares
 
 }  // namespace
 
-void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, const Column& column,
+void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, const TexelColumn& column,
                           std::vector<Sheet>& sheets) {
   const LightVertex center = column.vertex(sphere.center);
   const double r = sphere.radius;
@@ -64,7 +64,7 @@ void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, c
     return a < pi / 2.0 || distance < r ? std::sqrt(std::max(0.0, (r - s) * (r + s))) : 0.0;
   };
   const auto middle = [&](double a) { return distance * std::cos(a); };
-  if (distance + slack < r) {  // the light is inside: the far side alone, met by every ray
+  if (distance + slack < r) {  // the light is inside: the far side alone, hit by every ray
     sheets.push_back(sheet(id, false, masked, middle(angle.max) + half(angle.max) - slack,
                            middle(angle.min) + half(angle.min) + slack));
     return;
@@ -94,7 +94,8 @@ void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, c
 
 namespace {
 
-/// Depths, along forward, between which the rays through the corners of a widened column meet a convex solid.
+/// Depths, along forward, between which the rays through the corners of a widened column intersect a convex
+/// solid.
 struct ConvexRange {
   double last_entry = -infinity, first_exit = infinity;
 };
@@ -103,7 +104,7 @@ struct ConvexRange {
 // ray of the column crosses it then; and since the hull of the four entries lies in the solid, no ray enters
 // it behind that hull, nor leaves it before the hull of the exits. The widening is far beyond the rounding of
 // the crossings themselves.
-std::optional<ConvexRange> convex_range(const ShapeGeometry& solid, const Column& column, double slack,
+std::optional<ConvexRange> convex_range(const ShapeGeometry& solid, const TexelColumn& column, double slack,
                                         double nearest_depth) {
   constexpr double steepest = 1e-4;  // cosine: below, rounding moves a crossing too far
   const double size = local_box(solid).diagonal();
@@ -140,7 +141,7 @@ std::optional<ConvexRange> convex_range(const ShapeGeometry& solid, const Column
 }  // namespace
 
 // One sheet per side, within the distances of the solid's box.
-void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool masked, const Column& column,
+void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool masked, const TexelColumn& column,
                          std::vector<Sheet>& sheets) {
   const Aabb box = local_box(solid);
   const LightVertex center = column.vertex(solid_center(solid));
@@ -184,7 +185,7 @@ bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, con
     };
     return body_slope(solid, at(0), at(1), at(2));
   };
-  // Over every place between the two, from a depth before the chord to one behind it, the rays meet the
+  // Over every place between the two, from a depth before the chord to one behind it, the rays intersect the
   // surface once: then it is one piece.
   const auto proven = [&](double reach) {
     for (int i = 0; i < pieces; ++i) {
@@ -202,7 +203,7 @@ bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, con
   return false;
 }
 
-void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const Column& column,
+void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const TexelColumn& column,
                         std::vector<Sheet>& sheets) {
   const LightFace& face = column.face();
   const Vec3 n(glm::dot(face.right, plane.normal), glm::dot(face.up, plane.normal),
@@ -212,7 +213,7 @@ void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const
   const double height_error = 3.0 * point.error + shape_gamma * glm::dot(glm::abs(n), glm::abs(point.q));
   const bool faces_light = column.perspective() ? height < 0.0 : n.z < 0.0;
   double nearest = infinity, farthest = -infinity;
-  int met = 0, missed = 0;
+  int hit = 0, missed = 0;
   for (const Vec3& corner : column.corners()) {
     // Perspective: rays s * corner from the light. Orthographic: rays (corner.x, corner.y, s).
     const Vec3 direction = column.perspective() ? corner : Vec3(0.0, 0.0, 1.0);
@@ -228,26 +229,26 @@ void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const
       ++missed;
       continue;
     }
-    ++met;
+    ++hit;
     const double error = (rise_error + std::abs(s) * slope_error) / (std::abs(slope) - slope_error);
     const double scale = column.perspective() ? glm::length(corner) : 1.0;
     nearest = std::min(nearest, (s - error) * scale);
     farthest = std::max(farthest, (s + error) * scale);
   }
   if (missed == 4) return;
-  const bool boundary = masked || met < 4;
+  const bool boundary = masked || hit < 4;
   // The nearest point of a plane may lie between the corners; its height is a bound wherever that is.
   if (column.perspective()) {
     const Vec3 foot = n * height;
     const LightVertex v{foot, foot, height_error};
     const auto [low, high] = std::pair(column.min(), column.max());
     const bool above = column.may_contain(v);
-    const bool beside = above || met < 4 ||
+    const bool beside = above || hit < 4 ||
                         (foot.z > 0.0 && ((foot.x >= low.x * foot.z && foot.x <= high.x * foot.z) ||
                                           (foot.y >= low.y * foot.z && foot.y <= high.y * foot.z)));
     if (beside) nearest = std::min(nearest, std::abs(height) - height_error);
   }
-  if (met < 4) {
+  if (hit < 4) {
     farthest = infinity;
     if (!column.perspective()) nearest = -infinity;
   }

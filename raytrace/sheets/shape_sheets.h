@@ -10,17 +10,17 @@
 
 namespace gnomon::raytrace {
 
-void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, const Column& column,
+void append_sphere_sheets(const Sphere& sphere, std::uint32_t id, bool masked, const TexelColumn& column,
                           std::vector<Sheet>& sheets);
-void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool masked, const Column& column,
+void append_solid_sheets(const ShapeGeometry& solid, std::uint32_t id, bool masked, const TexelColumn& column,
                          std::vector<Sheet>& sheets);
 /// Two points of a solid's surface surely lie on one sheet of it: between the light rays through them the
-/// surface is met once by each ray, near the chord from one to the other. A convex solid's points on the side
+/// surface is hit once by each ray, near the chord from one to the other. A convex solid's points on the side
 /// that faces the light always do; of the others the proof is by interval arithmetic, and false may mean that
 /// none was found. The directions are those of the light rays through a and b.
 bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, const Vec3& direction_a,
                    const Vec3& direction_b);
-void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const Column& column,
+void append_plane_sheet(const Plane& plane, std::uint32_t id, bool masked, const TexelColumn& column,
                         std::vector<Sheet>& sheets);
 
 }  // namespace gnomon::raytrace

@@ -20,7 +20,7 @@ class Splitter {
         ids_(triangles),
         middle_(make_ray_frame(texel_ray(view, texel.face(), texel.column() + 0.5, texel.row() + 0.5))) {}
 
-  const Column& column() const { return column_; }
+  const TexelColumn& column() const { return column_; }
 
   void split(std::vector<Sheet>& sheets) {
     nodes_.resize(ids_.size());
@@ -94,9 +94,9 @@ class Splitter {
     bool boundary = false;
     for (const std::uint32_t i : members) boundary = boundary || nodes_[i].boundary;
     boundary = boundary || winds_twice(members);
-    // Without boundary a sheet covers the column or lies beside it: its middle decides, half a texel from any
-    // doubt.
-    if (!boundary && !meets_middle(members)) return;
+    // Without boundary a sheet covers the column or lies beside it: its middle decides, half a texel from where
+    // that is uncertain.
+    if (!boundary && !intersects_middle(members)) return;
     Interval range{infinity, -infinity};
     for (const std::uint32_t i : members) {
       const Interval part = column_.distances(nodes_[i].corners);
@@ -111,7 +111,7 @@ class Splitter {
     sheet.nearest = range.min, sheet.farthest = range.max;
   }
 
-  bool meets_middle(Members members) const {
+  bool intersects_middle(Members members) const {
     for (const std::uint32_t i : members) {
       const auto [a, b, c] = world_.corners(ids_[i]);
       TriangleHit hit;
@@ -150,7 +150,7 @@ class Splitter {
 
   const World& world_;
   const Topology& topology_;
-  const Column column_;
+  const TexelColumn column_;
   std::span<const std::uint32_t> ids_;
   std::optional<RayFrame> middle_;
   std::vector<Node> nodes_;

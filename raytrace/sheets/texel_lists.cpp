@@ -33,7 +33,7 @@ class BoxColumn {
     sides_[count_++] = side({forward, 0.0}, view.origin, bvh, reach);
   }
 
-  int meet(const BvhNode& node) const {
+  int intersect(const BvhNode& node) const {
     int mask = 15;
     for (std::size_t k = 0; k < count_ && mask != 0; ++k) {
       const Side& s = sides_[k];
@@ -120,7 +120,7 @@ class Collector {
     std::array<LightVertex, 3> corners;  // of a triangle
   };
 
-  // The primitives that may meet the strip, ascending.
+  // The primitives that may intersect the strip, ascending.
   void gather(const Strip& strip) {
     found_.clear();
     if (bvh_.nodes.empty())
@@ -128,7 +128,7 @@ class Collector {
     else
       descend(BoxColumn(view_, strip, bvh_, reach_));
     std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.ids[a] < bvh_.ids[b]; });
-    const Column column(view_, strip.face, strip.first, strip.row);
+    const TexelColumn column(view_, strip.face, strip.first, strip.row);
     candidates_.resize(found_.size());
     for (std::size_t i = 0; i < found_.size(); ++i) {
       Candidate& c = candidates_[i];
@@ -151,13 +151,13 @@ class Collector {
         continue;
       }
       const BvhNode& node = bvh_.nodes[child.index()];
-      for (auto mask = static_cast<unsigned>(boxes.meet(node)); mask != 0; mask &= mask - 1)
+      for (auto mask = static_cast<unsigned>(boxes.intersect(node)); mask != 0; mask &= mask - 1)
         stack[size++] = node.child[std::countr_zero(mask)];
     }
   }
 
   void list(TexelKey key, std::vector<std::uint32_t>& out) const {
-    const Column column(view_, key.face(), key.column(), key.row());
+    const TexelColumn column(view_, key.face(), key.column(), key.row());
     const std::size_t first = out.size();
     for (const Candidate& c : candidates_) {
       const bool misses = s_.world->is_triangle(c.id)
@@ -188,9 +188,9 @@ std::size_t TexelLists::find(TexelKey key) const {
 TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::vector<TexelKey> keys) {
   constexpr std::size_t block = 256;  // keys per task
   const Structures& s = tracer.structures();
-  std::optional<Bvh> own;  // the other structures answer rays, not columns
-  if (s.structure.index() != 0) own = build_bvh(*s.world);
-  const Bvh& bvh = own ? *own : s.bvh;
+  std::optional<Bvh> made;  // the other structures answer rays, not columns
+  if (s.structure.index() != 0) made = build_bvh(*s.world);
+  const Bvh& bvh = made ? *made : s.bvh;
   TexelLists lists;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());

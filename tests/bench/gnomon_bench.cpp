@@ -13,8 +13,8 @@
 #include "cpu_time.h"
 #include "embree_peer.h"
 #include "instruction_set.h"
-#include "raytrace/kernels.h"
 #include "raytrace/packets/passes.h"
+#include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::bench {
@@ -22,8 +22,8 @@ namespace {
 
 using app::BenchRow;
 using raytrace::Accel;
-using raytrace::CompactTile;
 using raytrace::HugeArray;
+using raytrace::QuantisedTile;
 using raytrace::RayTracedFrame;
 using raytrace::Sight;
 using raytrace::Tracer;
@@ -118,20 +118,18 @@ class Bench {
     rows_.push_back(std::move(row));
   }
 
-  const raytrace::Structures& structures() const { return tracer_.structures(); }
-
   /// Which primitive each pixel sees, as far as floats can tell.
   void our_hits() {
-    primary_pass(tracer_, view_, seen_by_eye(structures(), view_),
-                 {.hits = hits_, .receivers = nullptr, .compact = {}});
+    primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
+                 {.hits = hits_, .receivers = nullptr, .quantised = {}});
   }
   /// The product's pass: a fresh eye, receivers in double and compact.
   void our_receivers() {
-    primary_pass(tracer_, view_, seen_by_eye(structures(), view_),
-                 {.hits = {}, .receivers = &frame_.receiver, .compact = {tiles_.data(), tiles_.size()}});
+    primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
+                 {.hits = {}, .receivers = &frame_.receiver, .quantised = {tiles_.data(), tiles_.size()}});
   }
   Sight sight_of(std::size_t light) const {
-    return sight_of_light(structures(), scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
+    return sight_of_light(tracer_, scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
   }
   void our_shadows(std::size_t light, const Sight& sight) {
     const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &frame_.receiver};
@@ -242,7 +240,7 @@ class Bench {
            .goal = goal});
     };
     row("memory of the structure", tracer_.stats().bytes, 1.0 / 1.3);
-    row("memory, with single rays", tracer_.stats().bytes + structures().wide->bytes(), std::nullopt);
+    row("memory, with single rays", tracer_.stats().bytes + single_ray_bytes(tracer_), std::nullopt);
   }
 
   void whole_frame() {
@@ -285,7 +283,7 @@ class Bench {
       for (int x = 0; x < settings_.size.width; ++x) {
         const std::size_t at = place(x, y);
         unsure +=
-            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::unsure_hit ? 1 : 0;
+            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::ambiguous_hit ? 1 : 0;
       }
     our_receivers(), embree_.closest_packets(primary_, peer_);
     const double doubt = 1e-4 * world_.finite_bounds.diagonal();
@@ -333,7 +331,7 @@ class Bench {
   std::vector<PeerRays> shadow_;
   raytrace::TileGrid grid_;
   std::vector<raytrace::TileHits> hits_;
-  HugeArray<CompactTile> tiles_;
+  HugeArray<QuantisedTile> tiles_;
   RayTracedFrame frame_;
   PeerHits peer_;
   std::vector<std::uint8_t> occluded_;

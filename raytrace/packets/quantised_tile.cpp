@@ -1,9 +1,9 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raytrace/packets/compact.cpp"
+#define HWY_TARGET_INCLUDE "raytrace/packets/quantised_tile.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "raytrace/packets/compact.h"
+#include "raytrace/packets/quantised_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -71,7 +71,7 @@ struct PixelPlane {
       row[i] = (1.0 - 2.0 * (y0 + i + 0.5) / view.size.height) * view.tan_half_y;
     }
     for (std::size_t lane = 0; lane < tile_rays; lane += 4) {
-      const TilePlace at = tile_place(lane);
+      const TilePixel at = tile_pixel(lane);
       for (std::size_t i = 0; i < 4; ++i)
         x[lane + i] = column[static_cast<std::size_t>(at.x) + i], y[lane + i] = row[at.y];
     }
@@ -80,7 +80,7 @@ struct PixelPlane {
 
 class Draft {
  public:
-  Draft(const Bvh& bvh, const View& view, CompactTile& tile, CompactDraft& draft)
+  Draft(const Bvh& bvh, const View& view, QuantisedTile& tile, TileDraft& draft)
       : bvh_(bvh), view_(view), tile_(tile), draft_(draft) {
     for (int a = 0; a < 3; ++a) low_[a] = all(infinity), high_[a] = all(-infinity);
   }
@@ -117,7 +117,7 @@ class Draft {
     }
     for (unsigned left = sound; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      tile_.own[lane + i] = bvh_.ids[leaf[i]];
+      tile_.source[lane + i] = bvh_.ids[leaf[i]];
     }
     tile_.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
     return sound;
@@ -144,8 +144,8 @@ class Draft {
 
   const Bvh& bvh_;
   const View& view_;
-  CompactTile& tile_;
-  CompactDraft& draft_;
+  QuantisedTile& tile_;
+  TileDraft& draft_;
   V low_[3], high_[3];
 };
 
@@ -159,7 +159,7 @@ inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
 }
 
 DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
-                       CompactTile& tile, CompactDraft& draft) {
+                       QuantisedTile& tile, TileDraft& draft) {
   constexpr std::size_t ahead = 3;  // packets
   const PixelPlane plane(view, x0, y0);
   const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
@@ -173,23 +173,23 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
   for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);
-    unsigned done = 0, known = 0, met = 0;
+    unsigned done = 0, known = 0, hit = 0;
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
       const std::size_t lane = p * packet_rays + i;
       const auto leaf = hn::Load(leaves, hits.leaf + lane);
-      met |= bits(hn::Ne(leaf, hn::Set(leaves, nothing_hit))) << i;
+      hit |= bits(hn::Ne(leaf, hn::Set(leaves, nothing_hit))) << i;
       const unsigned triangles = bits(hn::Lt(leaf, hn::Set(leaves, count)));
       known |= triangles << i;
       if (triangles != 0) done |= some.put(plane, hits.leaf + lane, triangles, lane) << i;
     }
     left.ill[p] = static_cast<std::uint16_t>(known & ~done);
-    left.others[p] = static_cast<std::uint16_t>(met & ~known);
+    left.others[p] = static_cast<std::uint16_t>(hit & ~known);
   }
   some.finish();
   return left;
 }
 
-void settle_kernel(const CompactDraft& draft, CompactTile& tile) {
+void settle_kernel(const TileDraft& draft, QuantisedTile& tile) {
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (tile.present[p] == 0) continue;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -212,11 +212,11 @@ HWY_EXPORT(draft_kernel);
 HWY_EXPORT(settle_kernel);
 
 DraftLeft draft_receivers(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
-                          CompactTile& tile, CompactDraft& draft) {
+                          QuantisedTile& tile, TileDraft& draft) {
   return HWY_DYNAMIC_DISPATCH(draft_kernel)(bvh, view, x0, y0, hits, tile, draft);
 }
 
-void CompactTile::put(std::size_t lane, const SurfacePoint& point, CompactDraft& draft) {
+void QuantisedTile::put(std::size_t lane, const SurfacePoint& point, TileDraft& draft) {
   if (point.primitive == no_id) return;
   present[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
   draft.bounds.grow(point.position);
@@ -224,10 +224,10 @@ void CompactTile::put(std::size_t lane, const SurfacePoint& point, CompactDraft&
     draft.position[a][lane] = point.position[a];
     normal[a][lane] = static_cast<float>(point.normal[a]);
   }
-  own[lane] = point.primitive;
+  source[lane] = point.primitive;
 }
 
-void CompactTile::finish(const CompactDraft& draft, const Vec3& eye) {
+void QuantisedTile::finish(const TileDraft& draft, const Vec3& eye) {
   any = !draft.bounds.empty();
   if (!any) return;
   bounds = draft.bounds;

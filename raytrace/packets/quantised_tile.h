@@ -9,25 +9,25 @@
 namespace gnomon::raytrace {
 
 /// Positions in double, until their middle is known.
-struct alignas(64) CompactDraft {
+struct alignas(64) TileDraft {
   double position[3][tile_rays];
   Aabb bounds;  ///< of the positions, world
 };
 
-struct alignas(64) CompactTile {
+struct alignas(64) QuantisedTile {
   LaneMask present;  ///< bit i of a packet: there is a receiver
   bool any = false;  ///< else only `present` has been written
   Vec3 origin;
   Aabb bounds;          ///< of the positions, world
   double extent = 0.0;  ///< no component of `position` is above this, and each is right to 1.13 * 2^-24 of it
   alignas(64) float position[3][tile_rays], normal[3][tile_rays];
-  alignas(64) std::uint32_t own[tile_rays];
+  alignas(64) std::uint32_t source[tile_rays];
 
   void clear() { present.fill(0), any = false, bounds = Aabb{}, extent = 0.0; }
   /// A receiver by itself; clear() comes first.
-  void put(std::size_t lane, const SurfacePoint& point, CompactDraft& draft);
+  void put(std::size_t lane, const SurfacePoint& point, TileDraft& draft);
   /// From the draft; `eye`: where the receivers were seen from.
-  void finish(const CompactDraft& draft, const Vec3& eye);
+  void finish(const TileDraft& draft, const Vec3& eye);
 };
 
 /// Bits per packet of the hits that are not on triangles, and of those whose triangle's plane is too ill to
@@ -38,6 +38,6 @@ struct DraftLeft {
 
 /// Writes a tile's receivers from the planes of their triangles alone: right to 2^-38 of their distance.
 DraftLeft draft_receivers(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
-                          CompactTile& tile, CompactDraft& draft);
+                          QuantisedTile& tile, TileDraft& draft);
 
 }  // namespace gnomon::raytrace

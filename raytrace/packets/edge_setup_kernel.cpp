@@ -1,10 +1,10 @@
-// The numbers of raytrace/packets/seen.h, in double, eight triangles at a time.
+// The numbers of raytrace/packets/edge_setup.h, in double, eight triangles at a time.
 //
 // The bounds, with u = 2^-24 and M the largest coordinate in the pass:
 // - An edge function has 5 roundings of terms that sum to at most |d| (<= 2.35 for |u|, |v| <= 1.5): 12 u.
 //   Along a direction, with |u|, |v| <= 2 R for the world's radius R and no line farther than R from the
 //   middle, near an edge: of the coefficients and of (u, v) 2 * 2.83 R + R, of the inner sum 2 R, of products
-//   where they are not fused 2.83 R, of compact receivers' positions 4 R: below 16 u R.
+//   where they are not fused 2.83 R, of quantised receivers' positions 4 R: below 16 u R.
 // - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
 // error
 //   boxes included: gamma(7) and gamma(24) of raytrace/precision/ray_offset.h, gamma(12) of
@@ -13,12 +13,12 @@
 //   positive.
 // - The depth: the mean of the corners' with weights known to the same bound.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raytrace/packets/seen_kernel.cpp"
+#define HWY_TARGET_INCLUDE "raytrace/packets/edge_setup_kernel.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "raytrace/packets/seen.h"
-#include "raytrace/packets/seen_rows.h"
+#include "raytrace/packets/edge_setup.h"
+#include "raytrace/packets/edge_setup_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -60,9 +60,9 @@ V all(double v) {
   return hn::Set(d, v);
 }
 
-// What is to be written: rows of SeenPrimitive.
+// What is to be written: rows of PrimitiveEdges.
 struct Out {
-  V3 edge[3], nearness;
+  V3 edge[3], reciprocal_depth;
   V edge_error, depth_error, depth_floor;
 };
 
@@ -76,8 +76,9 @@ void lie_in_plane(M thin, const V3& normal, V error, Out& out) {
                    hn::IfThenElse(thin, slab[k].y, out.edge[k].y),
                    hn::IfThenElse(thin, slab[k].z, out.edge[k].z)};
   }
-  out.nearness = {hn::IfThenZeroElse(thin, out.nearness.x), hn::IfThenZeroElse(thin, out.nearness.y),
-                  hn::IfThenZeroElse(thin, out.nearness.z)};
+  out.reciprocal_depth = {hn::IfThenZeroElse(thin, out.reciprocal_depth.x),
+                          hn::IfThenZeroElse(thin, out.reciprocal_depth.y),
+                          hn::IfThenZeroElse(thin, out.reciprocal_depth.z)};
   out.depth_error = hn::IfThenElse(thin, all(infinity), out.depth_error);
 }
 
@@ -111,17 +112,17 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
   const V corner = hn::Sqrt(max3(dot(a, a), dot(b, b), dot(c, c)));
   const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
   const V l[3] = {length(n[0]), length(n[1]), length(n[2])};
-  const V doubt = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
+  const V kernel_error = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
   const Inverses inverse(l);
   Out out;
-  out.edge_error = hn::MulAdd(doubt, inverse.most, all(0x1p-20));
+  out.edge_error = hn::MulAdd(kernel_error, inverse.most, all(0x1p-20));
   for (int k = 0; k < 3; ++k) out.edge[k] = times(n[k], hn::Mul(inverse.of[k], sign));
   const V per_size = hn::Div(all(1.0), size), steep = hn::Mul(area, per_size);
-  out.nearness = times(normal, hn::Mul(sign, per_size));
+  out.reciprocal_depth = times(normal, hn::Mul(sign, per_size));
   out.depth_error = hn::MulAdd(
       steep, hn::MulAdd(hn::Mul(all(0x1p-35 * m), corner), hn::Mul(extent, per_size), all(0x1p-19)),
       hn::Mul(all(0x1p-40 * m), hn::Mul(steep, steep)));
-  // Rays in the widened triangle meet its plane ahead, at a distance that the double kernels know.
+  // Rays in the widened triangle intersect its plane ahead, at a distance that the double kernels know.
   const V well = hn::Max(hn::Mul(hn::Mul(all(12.0), out.edge_error), hn::Mul(max3(l[0], l[1], l[2]), corner)),
                          hn::Mul(all(0x1p-33 * m), hn::Mul(corner, corner)));
   out.depth_floor = hn::IfThenElse(hn::Ge(size, well), all(-infinity),
@@ -132,7 +133,7 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
     const V3 unit = times(normal, inverse_or_zero(area, all(1.0)));
     const V s0 = dot(n[0], unit), s1 = dot(n[1], unit), s2 = dot(n[2], unit);
     const V spread = hn::Min(max3(s0, s1, s2), hn::Neg(min3(s0, s1, s2)));
-    const V off = hn::MulAdd(hn::Mul(all(3.0), hn::Div(size, area)), extent, doubt);
+    const V off = hn::MulAdd(hn::Mul(all(3.0), hn::Div(size, area)), extent, kernel_error);
     const V error =
         hn::IfThenElse(hn::Gt(spread, all(0.0)), hn::Add(all(0x1p-20), hn::Div(off, spread)), all(infinity));
     lie_in_plane(thin, unit, error, out);
@@ -148,25 +149,25 @@ V length2(const V3& e) {
   return hn::Sqrt(hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y)));
 }
 
-Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass) {
+Out along_direction(const V3& a, const V3& b, const V3& c, const EdgeSetupPass& pass) {
   const V3 e0 = c - b, e1 = a - c, e2 = b - a;
   const V3 normal = cross(e1, e2);
   const V size = hn::Abs(normal.z), sign = hn::CopySign(all(1.0), normal.z);
   const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
   const V l[3] = {length2(e0), length2(e1), length2(e2)};
   const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
-  const V doubt = all(0x1p-39 * m * corner);
+  const V kernel_error = all(0x1p-39 * m * corner);
   Out out;
   const Inverses per(l);
-  out.edge_error = hn::MulAdd(doubt, per.most, all(0x1p-20 * radius));
+  out.edge_error = hn::MulAdd(kernel_error, per.most, all(0x1p-20 * radius));
   out.edge[0] = line(b, e0, hn::Mul(per.of[0], sign));
   out.edge[1] = line(c, e1, hn::Mul(per.of[1], sign));
   out.edge[2] = line(a, e2, hn::Mul(per.of[2], sign));
   const V inverse = hn::Div(all(1.0), normal.z);
-  out.nearness = {hn::Neg(hn::Mul(normal.x, inverse)), hn::Neg(hn::Mul(normal.y, inverse)),
-                  hn::Mul(dot(normal, a), inverse)};
-  const V terms = hn::MulAdd(hn::Add(hn::Abs(out.nearness.x), hn::Abs(out.nearness.y)), all(2.0 * radius),
-                             hn::Abs(out.nearness.z));
+  out.reciprocal_depth = {hn::Neg(hn::Mul(normal.x, inverse)), hn::Neg(hn::Mul(normal.y, inverse)),
+                          hn::Mul(dot(normal, a), inverse)};
+  const V terms = hn::MulAdd(hn::Add(hn::Abs(out.reciprocal_depth.x), hn::Abs(out.reciprocal_depth.y)),
+                             all(2.0 * radius), hn::Abs(out.reciprocal_depth.z));
   out.depth_error = hn::MulAdd(terms, all(0x1p-20),
                                hn::MulAdd(all(0x1p-35 * m * corner), hn::Mul(extent, hn::Abs(inverse)),
                                           all(0x1p-20 * radius + 0x1p-40 * m)));
@@ -174,14 +175,14 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
   const auto thin = hn::Not(hn::Gt(size, all(0x1p-35 * m * corner)));
   if (!hn::AllFalse(d, thin)) {
     const V longest = max3(l[0], l[1], l[2]);
-    const V3 own[3] = {line(b, e0, inverse_or_zero(l[0], all(1.0))),
-                       line(c, e1, inverse_or_zero(l[1], all(1.0))),
-                       line(a, e2, inverse_or_zero(l[2], all(1.0)))};
+    const V3 source[3] = {line(b, e0, inverse_or_zero(l[0], all(1.0))),
+                          line(c, e1, inverse_or_zero(l[1], all(1.0))),
+                          line(a, e2, inverse_or_zero(l[2], all(1.0)))};
     const auto first = hn::Eq(l[0], longest), second = hn::Eq(l[1], longest);
     const auto pick = [&](V p, V q, V r) { return hn::IfThenElse(first, p, hn::IfThenElse(second, q, r)); };
-    const V3 n = {pick(own[0].x, own[1].x, own[2].x), pick(own[0].y, own[1].y, own[2].y),
-                  pick(own[0].z, own[1].z, own[2].z)};
-    const V off = hn::Mul(all(2.0), hn::Add(doubt, size));
+    const V3 n = {pick(source[0].x, source[1].x, source[2].x), pick(source[0].y, source[1].y, source[2].y),
+                  pick(source[0].z, source[1].z, source[2].z)};
+    const V off = hn::Mul(all(2.0), hn::Add(kernel_error, size));
     const V error = hn::IfThenElse(hn::Gt(longest, all(0.0)),
                                    hn::Add(all(0x1p-20 * radius), hn::Div(off, longest)), all(infinity));
     lie_in_plane(thin, n, error, out);
@@ -190,21 +191,21 @@ Out along_direction(const V3& a, const V3& b, const V3& c, const SeenPass& pass)
 }
 
 // Rounds the errors up, and lets numbers beyond a float's range (and what is not a number) decide nothing.
-void store(const Out& out, SeenRows& rows, std::size_t first) {
+void store(const Out& out, EdgeSetupRows& rows, std::size_t first) {
   constexpr hn::Rebind<float, D> half;
   const auto size = [](const V3& v) { return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z))); };
-  const V sum =
-      hn::Add(hn::Add(size(out.edge[0]), size(out.edge[1])), hn::Add(size(out.edge[2]), size(out.nearness)));
+  const V sum = hn::Add(hn::Add(size(out.edge[0]), size(out.edge[1])),
+                        hn::Add(size(out.edge[2]), size(out.reciprocal_depth)));
   const auto sound = hn::And(hn::Lt(sum, all(1e30)),
                              hn::And(hn::Gt(out.edge_error, all(0.0)), hn::Gt(out.depth_error, all(0.0))));
   std::size_t row = 0;
-  const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.seen[row++] + first); };
+  const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.out[row++] + first); };
   const auto put_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
   const auto put_above = [&](V v, double otherwise) {
     put(hn::IfThenElse(sound, hn::MulAdd(hn::Abs(v), all(0x1p-20), v), all(otherwise)));
   };
   for (const V3& e : out.edge) put_number(e.x), put_number(e.y), put_number(e.z);
-  put_number(out.nearness.x), put_number(out.nearness.y), put_number(out.nearness.z);
+  put_number(out.reciprocal_depth.x), put_number(out.reciprocal_depth.y), put_number(out.reciprocal_depth.z);
   put_above(out.edge_error, infinity), put_above(out.depth_error, infinity);
   put(hn::IfThenElse(hn::And(sound, hn::Gt(out.depth_floor, all(-1.0))),
                      hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
@@ -213,9 +214,9 @@ void store(const Out& out, SeenRows& rows, std::size_t first) {
 // The rays that the float tests do not send away make a cone of three planes, the edges' moved out by twice
 // their error (the tests' own rounding is below it); its generators are the planes' crossings. All of them
 // ahead: a triangle of (u, v). All behind: nothing. Else, or when rounding could turn it over: not known.
-void bound(SeenRows& rows, std::size_t first) {
+void bound(EdgeSetupRows& rows, std::size_t first) {
   constexpr hn::Rebind<float, D> half;
-  const auto row = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(half, rows.seen[i] + first)); };
+  const auto row = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(half, rows.out[i] + first)); };
   const V error = row(12), moved = hn::Add(error, error);
   V3 n[3];
   for (std::size_t k = 0; k < 3; ++k) n[k] = {row(3 * k), row(3 * k + 1), hn::Add(row(3 * k + 2), moved)};
@@ -225,8 +226,8 @@ void bound(SeenRows& rows, std::size_t first) {
   const V3 g[3] = {times(across, turn), times(cross(n[2], n[0]), turn), times(cross(n[0], n[1]), turn)};
   // Roundings of the generators' components: n.x and n.y are at most 1, n.z may be as large as a world.
   const V size = hn::Add(hn::Add(hn::Abs(n[0].z), hn::Abs(n[1].z)), hn::Add(hn::Abs(n[2].z), all(2.0)));
-  const V doubt_z = all(0x1p-49), doubt = hn::Mul(doubt_z, size);
-  const auto upright = hn::Gt(hn::Abs(volume), hn::Mul(all(8.0), doubt));
+  const V kernel_error_z = all(0x1p-49), kernel_error = hn::Mul(kernel_error_z, size);
+  const auto upright = hn::Gt(hn::Abs(volume), hn::Mul(all(8.0), kernel_error));
   auto ahead = upright, behind = upright;
   V u_min = all(infinity), u_max = all(-infinity), v_min = all(infinity), v_max = all(-infinity);
   V nearest = all(-infinity);
@@ -239,8 +240,8 @@ void bound(SeenRows& rows, std::size_t first) {
     ahead = hn::And(ahead, hn::Gt(corner.z, all(0x1p-46)));
     behind = hn::And(behind, hn::Lt(corner.z, all(-0x1p-46)));
     const V u = hn::Mul(corner.x, per_z[k]), v = hn::Mul(corner.y, per_z[k]);
-    const V du = hn::Mul(hn::MulAdd(hn::Abs(u), doubt_z, doubt), per_z[k]);
-    const V dv = hn::Mul(hn::MulAdd(hn::Abs(v), doubt_z, doubt), per_z[k]);
+    const V du = hn::Mul(hn::MulAdd(hn::Abs(u), kernel_error_z, kernel_error), per_z[k]);
+    const V dv = hn::Mul(hn::MulAdd(hn::Abs(v), kernel_error_z, kernel_error), per_z[k]);
     u_min = hn::Min(u_min, hn::Sub(u, du)), u_max = hn::Max(u_max, hn::Add(u, du));
     v_min = hn::Min(v_min, hn::Sub(v, dv)), v_max = hn::Max(v_max, hn::Add(v, dv));
     const V terms = hn::MulAdd(hn::Abs(m.x), hn::Add(hn::Abs(u), du),
@@ -251,19 +252,19 @@ void bound(SeenRows& rows, std::size_t first) {
   nearest = hn::MulAdd(row(13), all(1.0 + 0x1p-18), nearest);
   const auto known = hn::And(ahead, hn::Lt(error, all(infinity)));
   const auto clear = hn::And(known, hn::Not(hn::Gt(row(14), all(-infinity))));
-  std::size_t at = SeenRows::numbers;
+  std::size_t at = EdgeSetupRows::numbers;
   const auto put = [&](V value, double unknown, double none) {
     const V chosen = hn::IfThenElse(known, value, hn::IfThenElse(behind, all(none), all(unknown)));
-    hn::Store(hn::DemoteTo(half, chosen), half, rows.seen[at++] + first);
+    hn::Store(hn::DemoteTo(half, chosen), half, rows.out[at++] + first);
   };
   put(u_min, -infinity, infinity), put(u_max, infinity, -infinity);
   put(v_min, -infinity, infinity), put(v_max, infinity, -infinity);
   const auto sure = hn::And(clear, hn::Lt(nearest, all(1e30)));
-  hn::Store(hn::DemoteTo(half, hn::IfThenElse(sure, nearest, all(infinity))), half, rows.seen[at] + first);
+  hn::Store(hn::DemoteTo(half, hn::IfThenElse(sure, nearest, all(infinity))), half, rows.out[at] + first);
 }
 
-// rows: corners in, SeenPrimitive's numbers out, eight triangles.
-void see_eight(SeenRows& rows, const SeenPass& pass) {
+// rows: corners in, PrimitiveEdges's numbers out, eight triangles.
+void see_eight(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
   for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
     V3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -294,7 +295,7 @@ namespace gnomon::raytrace {
 HWY_EXPORT(see_eight);
 HWY_EXPORT(target);
 
-void see_eight_triangles(SeenRows& rows, const SeenPass& pass) {
+void set_up_eight_triangles(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
   HWY_DYNAMIC_DISPATCH(see_eight)(rows, pass);
 }
 const char* packet_target() {
