@@ -4,7 +4,7 @@ target_include_directories(raytrace_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_verdict_test.cpp raytrace_frame_test.cpp
-    raytrace_sheets_test.cpp raytrace_builder_test.cpp
+    raytrace_ways_test.cpp raytrace_sheets_test.cpp raytrace_builder_test.cpp
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_solids_test

@@ -1,101 +1,19 @@
 // gnomon sweep as a process: killed at any moment it goes on to the same bytes; shards merge to the same
 // bytes; another configuration is refused; an interrupt leaves whole lines.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "json_schema_check.h"
-#include "tests/support/places.h"
+#include "program_process.h"
 
+namespace gnomon::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-/// Starts the program; stdout and stderr go to `log`.
-pid_t start(const Words& words, const std::string& log) {
-  Words all{gnomon::test::program()};
-  all.insert(all.end(), words.begin(), words.end());
-  const pid_t child = fork();
-  if (child != 0) return child;
-  std::freopen(log.c_str(), "w", stdout);
-  std::freopen(log.c_str(), "a", stdout);  // behind what stderr has said by then
-  std::freopen(log.c_str(), "a", stderr);
-  std::vector<char*> argv;
-  for (std::string& word : all) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
-  _exit(127);
-}
-
-/// The exit code, or 128 + signal.
-int finish(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-std::string bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class SweepProgram : public ::testing::Test {
- protected:
-  void SetUp() override {
-    root = fs::temp_directory_path() / ("gnomon-sweep-" + std::to_string(getpid()));
-    fs::remove_all(root);
-    fs::create_directories(root);
-  }
-  void TearDown() override { fs::remove_all(root); }
-
-  // Three drawings with four biases each.
-  Words words(const std::string& folder, const Words& more = {}) const {
-    Words all{"sweep",  "floating-box", "--size",    "96x54", "--map-size", "32,64,128",
-              "--bias", "0:0.1:4",      "--threads", "2",     "-o",         (root / folder).string()};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-  int run(const Words& words) const { return finish(start(words, log())); }
-  std::string log() const { return (root / "log").string(); }
-  std::string said() const { return bytes(log()); }
-  std::string lines(const std::string& folder) const { return bytes(root / folder / "sweep.jsonl"); }
-
-  void expect_same(const std::string& a, const std::string& b) const {
-    EXPECT_TRUE(lines(a) == lines(b)) << a << " and " << b << " differ in sweep.jsonl";
-    EXPECT_EQ(untimed_table(a), untimed_table(b)) << a << " and " << b << " differ in sweep.csv";
-  }
-
-  // sweep.csv without what depends on the machine and on where the sweep was interrupted. No field of these
-  // sweeps is quoted.
-  std::string untimed_table(const std::string& folder) const {
-    std::istringstream table(bytes(root / folder / "sweep.csv"));
-    std::vector<bool> kept;
-    std::string out;
-    for (std::string line; std::getline(table, line);) {
-      std::istringstream fields(line);
-      std::size_t column = 0;
-      for (std::string field; std::getline(fields, field, ','); ++column) {
-        if (column >= kept.size())
-          kept.push_back(!field.starts_with("times_ms_") && field != "cell_ms" && field != "derived");
-        if (kept[column]) out += field + ',';
-      }
-      out += '\n';
-    }
-    return out;
-  }
-
-  fs::path root;
-};
 
 TEST_F(SweepProgram, WritesResultsWithAxes) {
   ASSERT_EQ(run(words("whole")), 0) << said();
@@ -331,53 +249,6 @@ TEST_F(SweepProgram, InterruptLeavesWholeLines) {
   expect_same("whole", "stopped");
 }
 
-TEST_F(SweepProgram, TuneAnswersWithACommandThatKeepsItsPromise) {
-  const std::string json = (root / "answer.json").string();
-  ASSERT_EQ(run({"tune", "floating-box", "--technique", "hard", "--size", "160x90", "--max-error", "2%",
-                 "--map-size", "32:512:x2", "--runs", "1", "--json", json}),
-            0)
-      << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
-  EXPECT_TRUE(answer["feasible"]);
-  EXPECT_LE(answer["error"].get<double>(), 0.02);
-  EXPECT_GE(answer["others"].size(), 4u);
-  EXPECT_LE(answer["renders"].get<int>(), 3 * 5 + 1);  // a grid: 5 sizes, 5 kinds of bias, every bias
-
-  // The same figures from compare itself.
-  Words words{"compare", "floating-box", "-o", (root / "tuned").string()};
-  for (const auto& [name, value] : answer["options"].items()) {
-    if (value == "off") continue;
-    words.push_back("--" + name);
-    if (value != "on") words.push_back(value);
-  }
-  ASSERT_EQ(run(words), 0) << said();
-  const nlohmann::json result = nlohmann::json::parse(bytes(root / "tuned/result.json"));
-  EXPECT_EQ(result["lights"][0]["error"]["wrong_fraction"], answer["error"]);
-  EXPECT_NE(answer["command"].get<std::string>().find("gnomon compare floating-box"), std::string::npos);
-}
-
-// Of a light with size a pixel's truth is a share: what the tuner promises is what compare finds.
-TEST_F(SweepProgram, TuneKeepsItsWordForLightsWithSize) {
-  const std::string json = (root / "answer.json").string();
-  ASSERT_EQ(run({"tune", "penumbra", "--technique", "hard", "--size", "160x90", "--max-error", "mean:5%",
-                 "--map-size", "128,256,512", "--runs", "1", "--json", json}),
-            0)
-      << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
-  EXPECT_EQ(answer["goal"]["threshold"], "mean:5%");
-  Words words{"compare", "penumbra", "-o", (root / "tuned").string(), "--fail-above", "mean:5%"};
-  for (const auto& [name, value] : answer["options"].items()) {
-    if (value == "off") continue;
-    words.push_back("--" + name);
-    if (value != "on") words.push_back(value);
-  }
-  ASSERT_EQ(run(words), 0) << said();
-  const nlohmann::json error = nlohmann::json::parse(bytes(root / "tuned/result.json"))["lights"][0]["error"];
-  EXPECT_EQ(error["mean_absolute"], answer["error"]);
-  EXPECT_EQ(error["wrong_fraction"], answer["wrong_fraction"]);
-  EXPECT_NE(error["wrong_fraction"], error["mean_absolute"]);
-}
-
 TEST_F(SweepProgram, SweepNamesItsBestCells) {
   ASSERT_EQ(run(words("whole", {"--max-error", "wrong:100%"})), 0) << said();
   const std::string out = said();
@@ -408,21 +279,6 @@ TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
     EXPECT_EQ(sweep.count(timed), 1u) << timed;
 }
 
-TEST_F(SweepProgram, TuneSaysWhyNothingCanWork) {
-  const std::string json = (root / "answer.json").string();
-  EXPECT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "0", "--map-size", "16,32",
-                 "--runs", "1", "--technique", "hard", "--slope-bias", "0", "--json", json}),
-            1)
-      << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
-  EXPECT_FALSE(answer["feasible"]);
-  EXPECT_NE(answer["why"].get<std::string>().find("no constant bias is right everywhere"), std::string::npos)
-      << answer["why"];
-  EXPECT_EQ(run({"tune", "floating-box"}), 2);
-  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--max-time", "5"}), 2);
-  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--bias", "0"}), 2);
-}
-
 TEST_F(SweepProgram, UsageErrors) {
   EXPECT_EQ(run({"sweep", "floating-box", "--bias", "0:1"}), 2);
   EXPECT_NE(said().find("--bias: not a range (got 0:1, allowed START:END:COUNT"), std::string::npos)
@@ -436,3 +292,4 @@ TEST_F(SweepProgram, UsageErrors) {
 }
 
 }  // namespace
+}  // namespace gnomon::test

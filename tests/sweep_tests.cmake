@@ -4,5 +4,5 @@ gnomon_test(sweep_engine_gl_test TIMEOUT 900
   SOURCES sweep_engine_gl_test.cpp sweep_edge_gl_test.cpp sweep_theory_gl_test.cpp tune_grid_gl_test.cpp sweep_cell_pictures_gl_test.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::app gnomon::compare)
 target_include_directories(sweep_engine_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp LIBS nlohmann_json::nlohmann_json)
+gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp LIBS nlohmann_json::nlohmann_json)
 add_dependencies(sweep_program_gl_test gnomon_program)

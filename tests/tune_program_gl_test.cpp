@@ -1,0 +1,76 @@
+// gnomon tune as a process: its answer is a command that keeps the promise, or the reason why there is none.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program_process.h"
+
+namespace gnomon::test {
+namespace {
+
+class TuneProgram : public SweepProgram {};
+
+TEST_F(TuneProgram, AnswersWithACommandThatKeepsItsPromise) {
+  const std::string json = (root / "answer.json").string();
+  ASSERT_EQ(run({"tune", "floating-box", "--technique", "hard", "--size", "160x90", "--max-error", "2%",
+                 "--map-size", "32:512:x2", "--runs", "1", "--json", json}),
+            0)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_TRUE(answer["feasible"]);
+  EXPECT_LE(answer["error"].get<double>(), 0.02);
+  EXPECT_GE(answer["others"].size(), 4u);
+  EXPECT_LE(answer["renders"].get<int>(), 3 * 5 + 1);  // a grid: 5 sizes, 5 kinds of bias, every bias
+
+  // The same figures from compare itself.
+  Words words{"compare", "floating-box", "-o", (root / "tuned").string()};
+  for (const auto& [name, value] : answer["options"].items()) {
+    if (value == "off") continue;
+    words.push_back("--" + name);
+    if (value != "on") words.push_back(value);
+  }
+  ASSERT_EQ(run(words), 0) << said();
+  const nlohmann::json result = nlohmann::json::parse(bytes(root / "tuned/result.json"));
+  EXPECT_EQ(result["lights"][0]["error"]["wrong_fraction"], answer["error"]);
+  EXPECT_NE(answer["command"].get<std::string>().find("gnomon compare floating-box"), std::string::npos);
+}
+
+// Of a light with size a pixel's truth is a share: what the tuner promises is what compare finds.
+TEST_F(TuneProgram, KeepsItsWordForLightsWithSize) {
+  const std::string json = (root / "answer.json").string();
+  ASSERT_EQ(run({"tune", "penumbra", "--technique", "hard", "--size", "160x90", "--max-error", "mean:5%",
+                 "--map-size", "128,256,512", "--runs", "1", "--json", json}),
+            0)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_EQ(answer["goal"]["threshold"], "mean:5%");
+  Words words{"compare", "penumbra", "-o", (root / "tuned").string(), "--fail-above", "mean:5%"};
+  for (const auto& [name, value] : answer["options"].items()) {
+    if (value == "off") continue;
+    words.push_back("--" + name);
+    if (value != "on") words.push_back(value);
+  }
+  ASSERT_EQ(run(words), 0) << said();
+  const nlohmann::json error = nlohmann::json::parse(bytes(root / "tuned/result.json"))["lights"][0]["error"];
+  EXPECT_EQ(error["mean_absolute"], answer["error"]);
+  EXPECT_EQ(error["wrong_fraction"], answer["wrong_fraction"]);
+  EXPECT_NE(error["wrong_fraction"], error["mean_absolute"]);
+}
+
+TEST_F(TuneProgram, SaysWhyNothingCanWork) {
+  const std::string json = (root / "answer.json").string();
+  EXPECT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "0", "--map-size", "16,32",
+                 "--runs", "1", "--technique", "hard", "--slope-bias", "0", "--json", json}),
+            1)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_FALSE(answer["feasible"]);
+  EXPECT_NE(answer["why"].get<std::string>().find("no constant bias is right everywhere"), std::string::npos)
+      << answer["why"];
+  EXPECT_EQ(run({"tune", "floating-box"}), 2);
+  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--max-time", "5"}), 2);
+  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "1%", "--bias", "0"}), 2);
+}
+
+}  // namespace
+}  // namespace gnomon::test
