@@ -84,9 +84,9 @@ export async function capture(canvas, task) {
   scene.useRightHandedSystem = true;  // the glTF's own world
   scene.clearColor = new BABYLON.Color4(0, 0, 0, 1);
   scene.imageProcessingConfiguration.isEnabled = false;
-  await BABYLON.AppendSceneAsync(task.scene, scene);
+  // As meshes of their own: our shader does not draw hardware instances.
+  await BABYLON.AppendSceneAsync(task.scene, scene, { pluginOptions: { gltf: { createInstances: false } } });
   scene.activeCamera = scene.cameras[0];
-  scene.getWorldExtends();
   const light = chooseLight(scene, task.light), sun = light instanceof BABYLON.DirectionalLight;
   if (sun) placeSun(scene, light);
   const generator = new BABYLON.ShadowGenerator(settings.mapSize, light, settings.full_float === 1);

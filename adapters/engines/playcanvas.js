@@ -24,8 +24,7 @@ function chooseLight(root, wanted) {
 function reach(root, light) {
   const from = light.entity.getPosition();
   let farthest = 0;
-  for (const render of root.findComponents("render"))
-    for (const { aabb } of render.meshInstances) farthest = Math.max(farthest, aabb.center.distance(from) + aabb.halfExtents.length());
+  for (const { aabb } of instancesOf(root)) farthest = Math.max(farthest, aabb.center.distance(from) + aabb.halfExtents.length());
   return farthest;
 }
 
@@ -41,13 +40,35 @@ function white(original) {
   return material;
 }
 
-function whiten(root) {
+/** World positions; transparent where a mask cuts. */
+function places(original) {
+  const masked = original.alphaTest > 0;
+  const material = new pc.ShaderMaterial({
+    uniqueName: masked ? "masked-places" : "places",
+    attributes: { vertex_position: pc.SEMANTIC_POSITION, ...(masked && { vertex_texCoord0: pc.SEMANTIC_TEXCOORD0 }) },
+    vertexGLSL: `attribute vec4 vertex_position; uniform mat4 matrix_model; varying vec3 place;
+      ${masked ? "attribute vec2 vertex_texCoord0; varying vec2 at;" : ""}
+      void main() { vec4 p = matrix_model * vec4(vertex_position.xyz, 1.0); place = p.xyz; ${masked ? "at = vertex_texCoord0;" : ""} gl_Position = matrix_viewProjection * p; }`,
+    fragmentGLSL: `varying highp vec3 place; ${masked ? "varying vec2 at; uniform sampler2D mask; uniform float cutoff;" : ""}
+      void main() { ${masked ? "if (texture2D(mask, at).a < cutoff) discard;" : ""} gl_FragColor = vec4(place, 1.0); }`,
+  });
+  material.cull = pc.CULLFACE_NONE;
+  if (masked) {
+    material.setParameter("mask", original.opacityMap || original.diffuseMap);
+    material.setParameter("cutoff", original.alphaTest);
+  }
+  material.update();
+  return material;
+}
+
+const instancesOf = (root) => root.findComponents("render").flatMap((render) => render.meshInstances);
+
+function dress(instances, originals, make) {
   const made = new Map();
-  for (const render of root.findComponents("render"))
-    for (const instance of render.meshInstances) {
-      if (!made.has(instance.material)) made.set(instance.material, white(instance.material));
-      instance.material = made.get(instance.material);
-    }
+  instances.forEach((instance, i) => {
+    if (!made.has(originals[i])) made.set(originals[i], make(originals[i]));
+    instance.material = made.get(originals[i]);
+  });
 }
 
 const frame = (app) => new Promise((done) => app.once("frameend", done));
@@ -59,7 +80,7 @@ async function drawFloats(app, camera, width, height) {
   await frame(app);
   const pixels = await texture.read(0, 0, width, height, { renderTarget: camera.renderTarget, immediate: true });
   camera.renderTarget = null;
-  return channel(pixels, width, height, 0);
+  return [0, 1, 2, 3].map((c) => channel(pixels, width, height, c));
 }
 
 export async function capture(canvas, task) {
@@ -80,9 +101,12 @@ export async function capture(canvas, task) {
   await frame(app);
   await frame(app);
   const picture = canvas.toDataURL();
-  whiten(root);
-  const shadowed = await drawFloats(app, camera, width, height);
+  const instances = instancesOf(root), originals = instances.map((instance) => instance.material);
+  dress(instances, originals, white);
+  const [shadowed] = await drawFloats(app, camera, width, height);
   light.castShadows = false;
-  const unshadowed = await drawFloats(app, camera, width, height);
-  return { renderer: { name: "PlayCanvas", version: pc.version, settings }, light: light.entity.name, picture, shadowed, unshadowed };
+  const [unshadowed] = await drawFloats(app, camera, width, height);
+  dress(instances, originals, places);
+  const [x, y, z, covered] = await drawFloats(app, camera, width, height);
+  return { renderer: { name: "PlayCanvas", version: pc.version, settings }, light: light.entity.name, picture, shadowed, unshadowed, covered, position: [x, y, z] };
 }
