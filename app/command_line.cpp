@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 #include <vector>
 
 #include "app/completion.h"
@@ -254,6 +255,9 @@ int run_command_line(int argc, const char* const* argv) {
     return parse_and_run(argc, argv, true);
   } catch (const std::bad_alloc&) {
     print_error(Error{ErrorKind::graphics, "out of memory"});
+    return static_cast<int>(ErrorKind::graphics);
+  } catch (const std::system_error& error) {
+    print_error(Error{ErrorKind::graphics, fmt::format("the system refuses a resource: {}", error.what())});
     return static_cast<int>(ErrorKind::graphics);
   } catch (const std::exception& error) {
     print_error(Error{ErrorKind::internal, fmt::format("internal error: {}", error.what())});

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <initializer_list>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 namespace gnomon::app {
@@ -50,7 +51,11 @@ void watch_for_interrupts() {
   }
   if (!any) return;
   pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
-  std::thread(wait_and_exit, awaited).detach();
+  try {
+    std::thread(wait_and_exit, awaited).detach();
+  } catch (const std::system_error&) {  // no thread can be started: signals end the process where it stands
+    pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
+  }
 }
 
 bool was_interrupted() {

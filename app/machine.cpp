@@ -5,9 +5,12 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 namespace gnomon::app {
 
@@ -26,9 +29,16 @@ std::string field_of(const char* path, std::string_view key, char separator) {
 }
 
 /// Bytes; infinite where the system does not say.
-double available_memory() {
-  const std::string kilobytes = field_of("/proc/meminfo", "MemAvailable", ':');
+double bytes_of(const char* path, std::string_view key) {
+  const std::string kilobytes = field_of(path, key, ':');
   return kilobytes == "unknown" ? infinity : 1024.0 * std::strtod(kilobytes.c_str(), nullptr);
+}
+
+/// What ulimit -v leaves; infinite where there is no limit.
+double available_addresses() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return infinity;
+  return static_cast<double>(limit.rlim_cur) - bytes_of("/proc/self/status", "VmSize");
 }
 
 }  // namespace
@@ -44,14 +54,33 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // kilobytes on Linux
 }
 
-Expected<void> check_memory(ImageSize size, double bytes_per_pixel) {
-  const double needed = bytes_per_pixel * static_cast<double>(size.pixels());
-  const double available = available_memory();
-  if (needed <= available) return {};
+Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other_bytes) {
+  const double picture = bytes_per_pixel * static_cast<double>(size.pixels());
+  const double available = bytes_of("/proc/meminfo", "MemAvailable");
+  if (picture > available)
+    return fail(
+        ErrorKind::graphics,
+        fmt::format("--size: not enough memory (got {}x{}, which needs about {:.0f} GB; {:.0f} GB are left)",
+                    size.width, size.height, picture / 1e9, available / 1e9));
+  if (picture + other_bytes <= available_addresses()) return {};
   return fail(
       ErrorKind::graphics,
-      fmt::format("--size: not enough memory (got {}x{}, which needs about {:.0f} GB; {:.0f} GB are left)",
-                  size.width, size.height, needed / 1e9, available / 1e9));
+      fmt::format("not enough memory under the limit of this process (ulimit -v): about {:.0f} MB are "
+                  "needed, {:.0f} MB are left",
+                  (picture + other_bytes) / 1e6, std::max(0.0, available_addresses()) / 1e6));
+}
+
+int startable_threads(int wanted) {
+  std::vector<std::thread> threads;
+  std::promise<void> enough;
+  const std::shared_future<void> end = enough.get_future().share();
+  try {
+    while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([end] { end.wait(); });
+  } catch (const std::system_error&) {  // no more
+  }
+  enough.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return static_cast<int>(threads.size());
 }
 
 }  // namespace gnomon::app

@@ -90,9 +90,11 @@ void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
 
 }  // namespace
 
-void add_scene(CLI::App& command, std::string& scene) {
+void add_scene(CLI::App& command, SceneArgument& scene) {
+  command.add_flag("--allow-outside", scene.allow_outside,
+                   "let the scene name files outside its own folder [default off]");
   command
-      .add_option("SCENE", scene,
+      .add_option("SCENE", scene.name,
                   "a scene file (.json .gltf .glb .obj .ply), or the name of a built-in scene or lesson "
                   "(gnomon scenes)")
       ->required();
@@ -151,7 +153,9 @@ std::span<const std::pair<std::string_view, raster::Technique>> all_techniques()
 
 void add_backend(CLI::App& command, raster::Backend& backend) {
   add_choice(command, "--backend", backend, backends, "NAME",
-             "where OpenGL comes from; auto tries OSMesa (software), then EGL (a GPU when there is one)");
+             "where OpenGL comes from; auto tries OSMesa, then EGL in software, then EGL on a GPU; egl takes "
+             "a GPU when there "
+             "is one");
 }
 
 void add_shader_dir(CLI::App& command, std::string& folder) {

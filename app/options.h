@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/heatmap.h"
+#include "app/run_files.h"
 #include "compare/compare.h"
 #include "raster/options.h"
 #include "raytrace/frame.h"
@@ -21,7 +22,8 @@ class App;
 
 namespace gnomon::app {
 
-void add_scene(CLI::App& command, std::string& scene);
+/// The scene, --allow-outside.
+void add_scene(CLI::App& command, SceneArgument& scene);
 void add_size(CLI::App& command, ImageSize& size);
 /// --tessellate; 0: off.
 void add_tessellate(CLI::App& command, int& tessellate);

@@ -33,18 +33,23 @@ void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand
   command.given = given_options(app);
 }
 
-Expected<void> check_outputs(PictureCommand& command, const std::string& renderer) {
-  if (command.image.empty()) command.image = default_output(command.scene) + "-" + renderer + ".png";
-  if (const auto known = check_extension("-o", command.image, ".png .exr"); !known) return known;
-  if (const auto writable = check_output_file(command.image); !writable) return writable;
-  return check_output_file(command.json);
+Expected<RunFiles> check_files(PictureCommand& command, const std::string& renderer) {
+  if (command.image.empty()) command.image = default_output(command.scene.name) + "-" + renderer + ".png";
+  if (const auto known = check_extension("-o", command.image, ".png .exr"); !known)
+    return fail(known.error());
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes("-o", command.image);
+  files.writes("--json", command.json);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  return files;
 }
 
-Expected<LoadedScene> open_scene(const PictureCommand& command, ImageSize size, const BytesPerPixel& bytes,
-                                 Console& console) {
+Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files, ImageSize size,
+                                 const BytesPerPixel& bytes, Console& console) {
   if (const auto fits = check_memory(size, command.wants_records() ? bytes.exr : bytes.png); !fits)
     return fail(fits.error());
-  return load(command.scene, console, command.tessellate, command.camera);
+  return load(command.scene, files, console, command.tessellate, command.camera);
 }
 
 Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,

@@ -1,5 +1,5 @@
 // What `gnomon raster` and `gnomon raytrace` have in common: they make one picture of a scene, as a PNG or as
-// an EXR with the renderer's records, and tell of it in JSON. In order: check_outputs, open_scene, the
+// an EXR with the renderer's records, and tell of it in JSON. In order: check_files, open_scene, the
 // renderer's own work, hand_out.
 #pragma once
 
@@ -17,7 +17,8 @@
 namespace gnomon::app {
 
 struct PictureCommand {
-  std::string scene, image, camera, light, json, command_line;
+  SceneArgument scene;
+  std::string image, camera, light, json, command_line;
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   int threads = 0;
@@ -36,14 +37,14 @@ void add_picture_manner(CLI::App& app, PictureCommand& command, const char* thre
 void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand& command);
 
 /// Gives the picture its default name, out/NAME-RENDERER.png; nothing is written yet.
-Expected<void> check_outputs(PictureCommand& command, const std::string& renderer);
+Expected<RunFiles> check_files(PictureCommand& command, const std::string& renderer);
 
 /// By which the peak of memory grows.
 struct BytesPerPixel {
   double png, exr;
 };
-Expected<LoadedScene> open_scene(const PictureCommand& command, ImageSize size, const BytesPerPixel& bytes,
-                                 Console& console);
+Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files, ImageSize size,
+                                 const BytesPerPixel& bytes, Console& console);
 
 /// How a renderer's frame becomes a file and a document.
 struct PictureWriter {

@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "compare/number_text.h"
+#include "compare/output_parts.h"
 #include "compare/report/page.h"
 #include "compare/time_budget.h"
 #include "scene/files/write_file.h"
@@ -40,10 +41,23 @@ Expected<void> write_json(const ResultOutput& output) {
   return write_file(output.json, *json);
 }
 
+/// With several lights the channels go into files whose names are known only now.
+Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& comparison, RunFiles files) {
+  if (output.aov.empty() || comparison.lights.size() < 2) return {};
+  for (const compare::LightComparison& light : comparison.lights)
+    files.writes("--aov", compare::aov_path(comparison, light, output.aov));
+  return files.check();
+}
+
 /// All but result.json.
 Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
-                                            Console& console, const compare::PageIntroduction* introduction) {
-  auto written = compare::write_all_but_result(comparison, output.folder, output.report_max_mb, introduction);
+                                            const RunFiles& files, Console& console,
+                                            const compare::PageIntroduction* introduction) {
+  if (const auto apart = check_aov(output, comparison, files); !apart) return fail(apart.error());
+  auto written = compare::write_all_but_result(comparison, {.folder = output.folder,
+                                                            .report_max_mb = output.report_max_mb,
+                                                            .introduction = introduction,
+                                                            .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
   if (!output.aov.empty()) {
@@ -92,13 +106,13 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
 
 }  // namespace
 
-Expected<void> check_outputs(const ResultOutput& output) {
-  if (!output.aov.empty()) {
+Expected<void> check_outputs(const ResultOutput& output, RunFiles& files) {
+  if (!output.aov.empty())
     if (const auto known = check_extension("--aov", output.aov, ".exr"); !known) return known;
-    if (const auto writable = check_output_file(output.aov); !writable) return writable;
-  }
-  if (const auto writable = check_output_file(output.json); !writable) return writable;
-  return output.folder.empty() ? Expected<void>() : check_output_folder(output.folder);
+  files.writes("--aov", output.aov);
+  files.writes("--json", output.json);
+  files.writes_folder("-o", output.folder, compare::page_file_names);
+  return files.check();
 }
 
 bool only_prints_json(const ResultOutput& output) {
@@ -115,16 +129,15 @@ ExitCode print_result(const ResultOutput& output, compare::Comparison& compariso
 }
 
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
-                                LoadedScene& loaded, const Stopwatch& total, Console& console,
-                                const compare::PageIntroduction* introduction) {
+                                LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
+                                Console& console, const compare::PageIntroduction* introduction) {
   std::optional<OutputGuard> whole_outputs(std::in_place);
-  auto written = write_all(output, comparison, console, introduction);
+  auto written = write_all(output, comparison, files, console, introduction);
   if (!written) return fail(written.error());
   std::string summary = compare::summary_table(comparison, stdout_takes_colour());
   const ExitCode code = judge_lights(output, comparison, console);
   give_back(comparison, loaded);
-  if (const auto result = compare::write_result(*written, output.folder); !result)
-    return fail(result.error());
+  if (const auto result = compare::write_result(*written); !result) return fail(result.error());
   if (const auto json = write_json(output); !json) return fail(json.error());
   whole_outputs.reset();
   if (const StageLog* log = StageLog::current())

@@ -24,8 +24,9 @@ void add_result_output(CLI::App& app, ResultOutput& output, const std::string& d
 /// --report-max-mb, --fail-above, --aov, --json, --quiet.
 void add_result_limits(CLI::App& app, ResultOutput& output);
 
-/// Error where one cannot be written, before anything is worked out.
-Expected<void> check_outputs(const ResultOutput& output);
+/// Adds them to what the run writes. Error where one cannot be written or would take another file's place,
+/// before anything is worked out.
+Expected<void> check_outputs(const ResultOutput& output, RunFiles& files);
 /// Nothing but the result on stdout was asked for: no folder is written.
 bool only_prints_json(const ResultOutput& output);
 
@@ -35,7 +36,7 @@ ExitCode print_result(const ResultOutput& output, compare::Comparison& compariso
                       Console& console);
 /// `introduction`: what stands before the comparison on the page.
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
-                                LoadedScene& loaded, const Stopwatch& total, Console& console,
-                                const compare::PageIntroduction* introduction = nullptr);
+                                LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
+                                Console& console, const compare::PageIntroduction* introduction = nullptr);
 
 }  // namespace gnomon::app

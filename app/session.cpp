@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <thread>
 
 #include "app/lesson_scene.h"
+#include "app/machine.h"
 #include "app/suggest.h"
 #include "hybrid/visibility.h"
 #include "raster/shader_folder.h"
@@ -21,27 +23,33 @@
 
 namespace gnomon::app {
 
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate,
+Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console, int tessellate,
                            const std::string& camera) {
   const TimedStage stage("load");
+  if (startable_threads(1) == 0)
+    return fail(ErrorKind::graphics, "not one thread can be started (a limit on processes, ulimit -u)");
   const Stopwatch watch;
   console.progress("loading", 0.0);
-  Expected<Scene> scene = load_scene(scene_of_lesson(path_or_name), {.camera = camera});
+  std::vector<std::string> read;
+  Expected<Scene> scene =
+      load_scene(scene_of_lesson(argument.name),
+                 {.confine_paths = !argument.allow_outside, .camera = camera, .files = &read});
   if (!scene) return fail(scene.error());
+  if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());
   if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
   LoadedScene loaded;
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
   loaded.world = std::make_unique<World>(make_world(*loaded.scene));
   if (loaded.world->primitive_count() > raytrace::most_primitives)
     return fail(ErrorKind::bad_input,
-                fmt::format("{}: too many triangles and shapes (got {}, allowed {})", path_or_name,
+                fmt::format("{}: too many triangles and shapes (got {}, allowed {})", argument.name,
                             loaded.world->primitive_count(), raytrace::most_primitives));
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
-  if (const std::string note = lesson_note(path_or_name); !note.empty()) console.note(note);
+  if (const std::string note = lesson_note(argument.name); !note.empty()) console.note(note);
   // The settings of built-in scenes are theirs by design; those of a file may surprise.
-  if (const std::string asked = scene_settings_text(scene_of_lesson(path_or_name));
-      !asked.empty() && std::filesystem::is_regular_file(path_or_name))
+  if (const std::string asked = scene_settings_text(scene_of_lesson(argument.name));
+      !asked.empty() && std::filesystem::is_regular_file(argument.name))
     console.note("the scene asks for " + asked + ", where no option given here says otherwise");
   for (const std::string& note : loaded.scene->notes) console.note(note);
   return loaded;
@@ -61,6 +69,7 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
 
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
                                                           const std::string& shader_folder) {
+  if (const auto fits = check_memory({0, 0}, 0.0, graphics_bytes); !fits) return fail(fits.error());
   TimedStage stage("context");
   Expected<std::unique_ptr<raster::Context>> context = raster::create_context(backend);
   stage.end();
@@ -106,7 +115,23 @@ struct ThreadLimit::Impl {
   std::optional<tbb::global_control> control;
 };
 
-ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>()) {
+namespace {
+
+/// Of the ray tracer, of the rasterizer, and besides: one that writes files, two of Mesa's own.
+int threads_to_start(int threads) {
+  return threads == 1 ? 1 : 2 * threads + 3;
+}
+
+}  // namespace
+
+ThreadLimit::ThreadLimit(int threads, Console& console) : impl_(std::make_unique<Impl>()) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int wanted = threads == 0 ? cores : threads, all = threads_to_start(wanted);
+  if (const int startable = startable_threads(all); startable < all) {
+    threads = std::max(1, (startable - 3) / 2);
+    console.note(fmt::format("only {} more threads can be started (a limit on processes); going on with {}",
+                             startable, threads));
+  }
   if (threads == 0) return;
   impl_->control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   // Mesa's llvmpipe: 0 draws on the calling thread, N > 0 on N others while the caller waits.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/console.h"
+#include "app/run_files.h"
 #include "raster/renderer.h"
 #include "scene/effects.h"
 #include "scene/expected.h"
@@ -23,9 +24,10 @@ struct LoadedScene {
 };
 
 /// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles
-/// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera.
-Expected<LoadedScene> load(const std::string& path_or_name, Console& console, int tessellate = 0,
-                           const std::string& camera = {});
+/// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera. `files` learns what the scene
+/// consists of; ErrorKind::usage when an output is among it.
+Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console,
+                           int tessellate = 0, const std::string& camera = {});
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);
@@ -43,10 +45,11 @@ Expected<void> check_shaders_used(const std::string& shader_folder, const raster
                                   const Scene& scene, Console& console);
 
 /// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,
-/// those of Mesa's software rasterizer from here on. 0: all cores.
+/// those of Mesa's software rasterizer from here on. 0: all cores. Where the system does not let so many be started
+/// (ulimit -u) it takes fewer, and says so.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(int threads);
+  ThreadLimit(int threads, Console& console);
   ~ThreadLimit();
 
  private:

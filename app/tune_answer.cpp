@@ -121,7 +121,7 @@ std::string TuneAnswer::line(std::size_t family) const {
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
   };
-  return "gnomon compare " + shell_quoted(question.scene) + option("--camera", question.camera) +
+  return "gnomon compare " + question.scene.words() + option("--camera", question.camera) +
          setting_arguments(
              answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
          option("--shader-dir", question.shader_folder);

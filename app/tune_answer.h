@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run_files.h"
 #include "app/tune_families.h"
 #include "compare/tune/tune.h"
 #include "raster/frame.h"
@@ -13,7 +14,8 @@ namespace gnomon::app {
 
 /// What an answer's command repeats of the question.
 struct TuneQuestion {
-  std::string scene, camera, shader_folder;
+  SceneArgument scene;
+  std::string camera, shader_folder;
   OptionValues fixed;  ///< options with one value
   compare::TuneGoal goal;
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder

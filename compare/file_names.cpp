@@ -2,6 +2,7 @@
 // Two lights that would then share a name get their number in the scene behind it.
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "compare/output_parts.h"
 
@@ -17,26 +18,26 @@ std::string sanitised(const std::string& name) {
     else if (!out.empty() && out.back() != '-')
       out += '-';
   }
+  constexpr std::size_t longest = 80;  // a file's name has at most 255 bytes
+  out.resize(std::min(out.size(), longest));
   while (!out.empty() && out.back() == '-') out.pop_back();
   return out;
 }
 
-bool same_but_for_case(const std::string& a, const std::string& b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 }  // namespace
 
 std::string light_file_part(const Comparison& c, const LightComparison& light) {
   const std::string own = sanitised(light_of(c, light).name);
+  std::set<std::string> seen;
   bool all_differ = !own.empty();
-  for (std::size_t i = 0; i < c.lights.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (same_but_for_case(sanitised(light_of(c, c.lights[i]).name),
-                            sanitised(light_of(c, c.lights[j]).name)))
-        all_differ = false;
+  for (const LightComparison& other : c.lights)
+    if (!seen.insert(in_small_letters(sanitised(light_of(c, other).name))).second) all_differ = false;
   if (all_differ) return own;
   return (own.empty() ? "light" : own) + "-" + std::to_string(light.light);
 }

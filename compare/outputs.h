@@ -1,11 +1,14 @@
 // Everything that a comparison is written as.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/comparison.h"
 #include "scene/expected.h"
+#include "scene/files/staged_folder.h"
 
 namespace gnomon::compare {
 
@@ -60,24 +63,40 @@ Expected<std::string> report_html(const Comparison& comparison);
 inline constexpr double default_report_max_mb = 40.0;  ///< megabytes, of a page that is one file
 
 struct WrittenOutputs {
-  std::vector<std::string> paths;
-  std::string result;   ///< the text of result.json, until it is written without its time budget
+  std::vector<std::string> paths;  ///< names in the folder, until the folder is in its place
+  std::string result;              ///< the text of result.json, until it is written without its time budget
   bool beside = false;  ///< the page's pictures and pixels are files beside it: it would have grown too large
-  double page_mb = 0.0;  ///< what the page, or the page with the files beside it, weighs
+  double page_mb = 0.0;             ///< what the page, or the page with the files beside it, weighs
+  std::vector<std::string> inputs;  ///< OutputFolder's
+  std::string folder;               ///< OutputFolder's
+  StagedFolder staged;              ///< where the files are until then
 };
 
-/// Writes report.html, result.json, result.csv and the PNG pictures into a folder. A page of more than
-/// `report_max_mb` keeps its pictures and pixels in files beside it. `introduction`: what stands before the
-/// comparison on the page. The times "report" and "total" in these
-/// files are the comparison's own plus the time spent here until their text is fixed.
-Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::string& folder,
-                                       double report_max_mb = default_report_max_mb,
-                                       const PageIntroduction* introduction = nullptr);
+/// Files that a comparison's folder always has.
+inline constexpr std::array<std::string_view, 5> page_file_names{"report.html", "result.json", "result.csv",
+                                                                 "raster.png", "raytrace.png"};
+
+struct OutputFile {
+  std::string name, bytes;
+};
+
+struct OutputFolder {
+  std::string folder;
+  double report_max_mb = default_report_max_mb;    ///< a larger page keeps pictures and pixels beside it
+  const PageIntroduction* introduction = nullptr;  ///< what stands before the comparison on the page
+  std::vector<OutputFile> more{};                  ///< further files of the folder
+  std::vector<std::string> inputs{};               ///< files that must not be replaced: ErrorKind::usage
+};
+
+/// Writes report.html, result.json, result.csv and the PNG pictures into a folder, which appears whole
+/// (scene/files/staged_folder.h). The times "report" and "total" in these files are the comparison's own plus
+/// the time spent here until their text is fixed.
+Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output);
 
 /// The same in two steps, so that the time budget in result.json, which is written last, holds what the other
-/// files took and whatever is done in between. Where no StageLog runs it has none.
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, const std::string& folder,
-                                              double report_max_mb, const PageIntroduction* introduction);
-Expected<void> write_result(WrittenOutputs& written, const std::string& folder);
+/// files took and whatever is done in between. Where no StageLog runs it has none. The folder is in its place
+/// after the second.
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output);
+Expected<void> write_result(WrittenOutputs& written);
 
 }  // namespace gnomon::compare

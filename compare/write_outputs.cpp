@@ -1,6 +1,6 @@
-// The output folder: pictures first, then the table, then the page, so that a page always finds its files
-// beside it; result.json last, which tells what all of that took. Each file appears whole or not at all
-// (scene/files/write_file.h).
+// The output folder: pictures first, then the table, then the page; result.json last, which tells what all of
+// that took. They are written beside the folder's place and moved there whole (scene/files/staged_folder.h).
+#include <filesystem>
 #include <future>
 
 #include "compare/output_parts.h"
@@ -43,16 +43,16 @@ std::vector<File> other_files(const PictureSet& pictures, const BuiltPage& page,
   return files;
 }
 
-using Paths = std::vector<std::string>;
+using Names = std::vector<std::string>;
 
-Expected<Paths> write_files(const std::string& folder, const std::vector<File>& files) {
-  Paths paths;
+Expected<Names> write_files(const std::string& folder, const std::vector<File>& files) {
+  Names names;
   for (const File& file : files) {
-    paths.push_back(folder + (folder.ends_with('/') ? "" : "/") + file.name);
-    if (const Expected<void> written = write_file(paths.back(), file.bytes); !written)
+    names.push_back(file.name);
+    if (const Expected<void> written = write_file(folder + "/" + file.name, file.bytes); !written)
       return fail(written.error());
   }
-  return paths;
+  return names;
 }
 
 Expected<void> make_folders(const std::string& folder, const BuiltPage& page) {
@@ -64,10 +64,11 @@ Expected<void> make_folders(const std::string& folder, const BuiltPage& page) {
 
 }  // namespace
 
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, const std::string& folder,
-                                              double report_max_mb, const PageIntroduction* introduction) {
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output) {
   const Stopwatch watch;
-  if (const Expected<void> made = make_output_folder(folder); !made) return fail(made.error());
+  auto staged = StagedFolder::open(output.folder);
+  if (!staged) return fail(staged.error());
+  const std::string folder = staged->path();
   TimedStage encoding("pictures");
   const Expected<PictureSet> pictures = encode_pictures(comparison);
   encoding.end();
@@ -77,7 +78,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, cons
       std::async(std::launch::async, [&] { return write_files(folder, picture_files(*pictures)); });
 
   TimedStage making("page");
-  PageInput input{comparison, *pictures, {}, {}, 0.0, introduction};
+  PageInput input{comparison, *pictures, {}, {}, 0.0, output.introduction};
   PageData data = page_data(input);
   // What the files say about the time of their own making: up to the point where their text is fixed.
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
@@ -89,32 +90,38 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, cons
   const std::string csv = result_csv(result);
   input.json = json, input.csv = csv, input.total_ms = total_ms;
   input.budget = log != nullptr ? &budget : nullptr;
-  const BuiltPage page = report_page(input, data, report_max_mb);
+  const BuiltPage page = report_page(input, data, output.report_max_mb);
   making.end();
 
   const TimedStage writing("write");
-  Expected<Paths> paths = written_pictures.get();
-  if (!paths) return fail(paths.error());
+  Expected<Names> names = written_pictures.get();
+  if (!names) return fail(names.error());
   if (const auto made = make_folders(folder, page); !made) return fail(made.error());
-  const Expected<Paths> others = write_files(folder, other_files(*pictures, page, csv));
-  if (!others) return fail(others.error());
-  paths->insert(paths->end(), others->begin(), others->end());
-  return WrittenOutputs{std::move(*paths), std::move(result), !page.files.empty(), page.megabytes()};
+  std::vector<File> others = other_files(*pictures, page, csv);
+  for (const OutputFile& file : output.more) others.push_back({file.name, file.bytes});
+  const Expected<Names> more = write_files(folder, others);
+  if (!more) return fail(more.error());
+  names->insert(names->end(), more->begin(), more->end());
+  return WrittenOutputs{std::move(*names), std::move(result),        !page.files.empty(),
+                        page.megabytes(),  std::move(output.inputs), std::move(output.folder),
+                        std::move(*staged)};
 }
 
-Expected<void> write_result(WrittenOutputs& written, const std::string& folder) {
+Expected<void> write_result(WrittenOutputs& written) {
   written.result = with_time_budget(std::move(written.result));
-  Expected<Paths> paths = write_files(folder, {{"result.json", written.result}});
-  if (!paths) return fail(paths.error());
-  written.paths.push_back(std::move(paths->front()));
+  Expected<Names> names = write_files(written.staged.path(), {{"result.json", written.result}});
+  if (!names) return fail(names.error());
+  written.paths.push_back(std::move(names->front()));
+  if (const auto there = written.staged.publish("report.html", written.inputs); !there)
+    return fail(there.error());
+  for (std::string& name : written.paths) name = (std::filesystem::path(written.folder) / name).string();
   return {};
 }
 
-Expected<WrittenOutputs> write_outputs(const Comparison& comparison, const std::string& folder,
-                                       double report_max_mb, const PageIntroduction* introduction) {
-  auto written = write_all_but_result(comparison, folder, report_max_mb, introduction);
+Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output) {
+  auto written = write_all_but_result(comparison, std::move(output));
   if (!written) return written;
-  if (const auto result = write_result(*written, folder); !result) return fail(result.error());
+  if (const auto result = write_result(*written); !result) return fail(result.error());
   return written;
 }
 

@@ -21,7 +21,8 @@ class Context {
   virtual const char* backend() const = 0;
 };
 
-/// Backend::automatic tries OSMesa, then EGL. Error (graphics): one line naming everything that was tried and
+/// Backend::automatic tries OSMesa, then EGL in software, then EGL on hardware, so that the same machine draws the
+/// same whether or not it has a GPU; Backend::egl takes a GPU where there is one. Error (graphics): one line naming everything that was tried and
 /// why it failed.
 Expected<std::unique_ptr<Context>> create_context(Backend backend);
 

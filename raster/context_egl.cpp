@@ -2,6 +2,7 @@
 // declarations are those of EGL/egl.h and EGL/eglext.h, so that building needs no EGL headers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -75,8 +76,13 @@ struct Candidate {
 
 class EglContext final : public Context {
  public:
-  EglContext(DynamicLibrary library, const Functions& functions, Handle display, Handle context)
-      : library_(std::move(library)), functions_(functions), display_(display), context_(context) {}
+  EglContext(DynamicLibrary library, const Functions& functions, Handle display, Handle context,
+             bool hardware)
+      : library_(std::move(library)),
+        functions_(functions),
+        display_(display),
+        context_(context),
+        hardware_(hardware) {}
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
   ~EglContext() override {
@@ -91,13 +97,14 @@ class EglContext final : public Context {
            functions_.make_current(display_, nullptr, nullptr, context_) != 0;
   }
   Procedure procedure(const char* name) const override { return functions_.get_procedure(name); }
-  const char* backend() const override { return "egl"; }
+  const char* backend() const override { return hardware_ ? "egl-hardware" : "egl-software"; }
 
  private:
   DynamicLibrary library_;
   Functions functions_;
   Handle display_;
   Handle context_;
+  bool hardware_;
 };
 
 std::vector<Handle> devices(const Functions& egl) {
@@ -113,6 +120,18 @@ bool is_software(const Functions& egl, Handle device) {
   const char* text =
       egl.query_device_string == nullptr ? nullptr : egl.query_device_string(device, egl_extensions);
   return text != nullptr && std::string_view(text).find("EGL_MESA_device_software") != std::string_view::npos;
+}
+
+/// By the name of what draws, which holds for Mesa's surfaceless platform too. The context is current.
+bool draws_in_software(const Functions& egl) {
+  constexpr unsigned gl_renderer = 0x1F01;
+  const auto get_string =
+      reinterpret_cast<const unsigned char* (*)(unsigned)>(egl.get_procedure("glGetString"));
+  const unsigned char* text = get_string == nullptr ? nullptr : get_string(gl_renderer);
+  const std::string_view name = text == nullptr ? "" : reinterpret_cast<const char*>(text);
+  constexpr std::array<std::string_view, 4> software{"llvmpipe", "softpipe", "swrast", "SwiftShader"};
+  return std::any_of(software.begin(), software.end(),
+                     [&](std::string_view word) { return name.find(word) != std::string_view::npos; });
 }
 
 std::vector<Candidate> candidates(const Functions& egl) {
@@ -159,7 +178,7 @@ Expected<Handle> open_display(const Functions& egl, const Candidate& candidate) 
 
 }  // namespace
 
-Expected<std::unique_ptr<Context>> create_egl_context() {
+Expected<std::unique_ptr<Context>> create_egl_context(EglDevices devices) {
   constexpr std::array names{"libEGL.so.1", "libEGL.so"};
   auto library = DynamicLibrary::open(names);
   if (!library) return fail(library.error());
@@ -168,11 +187,22 @@ Expected<std::unique_ptr<Context>> create_egl_context() {
   if (egl.get_platform_display == nullptr)
     return fail(ErrorKind::graphics, "libEGL has no eglGetPlatformDisplayEXT");
   std::string tried;
+  const auto note = [&](const Candidate& candidate, const std::string& why) {
+    tried += fmt::format("{}{}: {}", tried.empty() ? "" : ", ", candidate.name, why);
+  };
   for (const Candidate& candidate : candidates(egl)) {
     const auto display = open_display(egl, candidate);
     const auto context = display ? open_context(egl, *display) : display;
-    if (context) return std::make_unique<EglContext>(std::move(*library), egl, *display, *context);
-    tried += fmt::format("{}{}: {}", tried.empty() ? "" : ", ", candidate.name, context.error().reason);
+    if (!context) {
+      note(candidate, context.error().reason);
+      continue;
+    }
+    const bool hardware = !draws_in_software(egl);
+    const bool fits = devices == EglDevices::hardware_first || hardware == (devices == EglDevices::hardware);
+    if (fits) return std::make_unique<EglContext>(std::move(*library), egl, *display, *context, hardware);
+    egl.make_current(*display, nullptr, nullptr, nullptr);
+    egl.destroy_context(*display, *context);
+    note(candidate, hardware ? "it is hardware" : "it is software");
   }
   return fail(ErrorKind::graphics, tried);
 }

@@ -276,7 +276,7 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
   if (world.finite_bounds.empty()) return fit_light_view(world, light, camera, aspect, size);
   const Fit fit = make_fit(world, light, view_of(camera, aspect), light_fit::face_along(light.direction));
   if (!(fit.casters.extent().x > 0.0))
-    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
+    return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
   const Interval seen =
       options.fit_samples && !visible.empty() ? sample_depths(fit, visible) : seen_depths(fit);
   if (!(seen.max > 0.0)) return fit_light_view(world, light, camera, aspect, size);

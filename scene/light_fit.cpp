@@ -143,7 +143,7 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   const Vec2 half =
       glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest)) * (size / std::max(1.0, size - 2.0));
   if (!(widest > 0.0))
-    return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the casters are a point");
+    return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
   const Vec2 middle = 0.5 * (rect.min + rect.max);
   const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest);
   out.projection = LightProjection::orthographic;

@@ -15,6 +15,8 @@ namespace gnomon {
 struct LoadOptions {
   bool confine_paths = false;  ///< refuse files outside the scene's own folder
   std::string camera{};        ///< of the file's cameras: a name, or a number from 0; empty: the first
+  std::string root{};          ///< the scene's own folder; load_scene sets it to where the main file lies
+  std::vector<std::string>* files = nullptr;  ///< where given, takes the path of every file that is named
 };
 
 /// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,12 +36,25 @@ struct Pipe {
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
   signal(SIGINT, SIG_DFL);  // a shell that runs the tests in the background has it ignored
+  const rlimit limit{static_cast<rlim_t>(options.file_size_limit),
+                     static_cast<rlim_t>(options.file_size_limit)};
+  if (options.file_size_limit >= 0) setrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit addresses{static_cast<rlim_t>(options.address_limit),
+                         static_cast<rlim_t>(options.address_limit)};
+  if (options.address_limit >= 0) setrlimit(RLIMIT_AS, &addresses);
   for (const std::string& variable : options.environment) putenv(strdup(variable.c_str()));
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(99);
   std::string program = gnomon::test::program();
   std::vector<char*> words{program.data()};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
+  const rlimit processes{static_cast<rlim_t>(options.process_limit),
+                         static_cast<rlim_t>(options.process_limit)};
+  constexpr uid_t nobody = 65534;
+  if (options.process_limit >= 0 &&
+      (setrlimit(RLIMIT_NPROC, &processes) != 0 || setresuid(nobody, nobody, nobody) != 0))
+    _exit(97);
+  if (options.prepare != nullptr) options.prepare();
   execv(program.c_str(), words.data());
   _exit(98);
 }
@@ -77,13 +91,13 @@ bool blocks_interrupts(pid_t process) {
 }
 
 /// A signal that comes before main would end the process without a word.
-void interrupt_when_ready(pid_t process, int after_ms) {
+void interrupt_when_ready(pid_t process, int after_ms, int signal_number) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!blocks_interrupts(process) && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
-  kill(process, SIGINT);
+  kill(process, signal_number);
 }
 
 }  // namespace
@@ -96,7 +110,7 @@ ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) 
   close(err.write_end);
   std::thread interrupter;
   if (options.interrupt_after_ms >= 0) {
-    interrupter = std::thread(interrupt_when_ready, child, options.interrupt_after_ms);
+    interrupter = std::thread(interrupt_when_ready, child, options.interrupt_after_ms, options.signal);
   }
   ProcessResult result;
   read_both(out.read_end, err.read_end, result);
@@ -104,6 +118,7 @@ ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) 
   int status = 0;
   waitpid(child, &status, 0);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return result;
 }
 

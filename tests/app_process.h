@@ -18,14 +18,20 @@ inline const Words small = {"--size", "64x36", "--map-size", "128", "--runs", "1
 
 struct ProcessResult {
   int exit_code = -1;  ///< -1 when a signal ended it
+  int signal = 0;      ///< that did
   std::string out, err;
 };
 
 struct ProcessOptions {
   std::string folder{};                    ///< working directory; empty: the test's own
   std::vector<std::string> environment{};  ///< "NAME=value", added to the test's own
-  int interrupt_after_ms = -1;  ///< SIGINT is sent so long after the program waits for it; -1: never
+  int interrupt_after_ms = -1;  ///< a signal is sent so long after the program waits for SIGINT; -1: never
+  int signal = 2;               ///< which one: SIGINT
   std::string out_path{};       ///< stdout goes to this file instead
+  int process_limit = -1;       ///< processes and threads, for a user who has no others; needs root; -1: any
+  long address_limit = -1;      ///< bytes of address space; -1: any
+  long file_size_limit = -1;    ///< bytes that a file may have; -1: any
+  void (*prepare)() = nullptr;  ///< what else the child does to itself before it becomes the program
 };
 
 /// The program under test with these arguments.

@@ -178,7 +178,7 @@ std::string file_text(const fs::path& path) {
 TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   const auto made = make_synthetic(2);
   const fs::path folder = fresh_folder("folder");
-  const auto paths = write_outputs(made->comparison, folder.string());
+  const auto paths = write_outputs(made->comparison, {.folder = folder.string()});
   ASSERT_TRUE(paths) << paths.error().message();
   std::set<std::string> expected{"report.html", "result.json", "result.csv", "raster.png", "raytrace.png"},
       found;
@@ -199,7 +199,7 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
 
 TEST(WriteOutputs, SaysWhereItCouldNotWrite) {
   const auto made = make_synthetic();
-  const auto paths = write_outputs(made->comparison, "/proc/no-such-folder/out");
+  const auto paths = write_outputs(made->comparison, {.folder = "/proc/no-such-folder/out"});
   ASSERT_FALSE(paths);
   EXPECT_EQ(paths.error().kind, ErrorKind::cannot_write);
 }

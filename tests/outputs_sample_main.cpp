@@ -8,7 +8,7 @@
 namespace {
 
 bool write(const gnomon::compare::Comparison& comparison, const std::string& folder) {
-  const auto paths = gnomon::compare::write_outputs(comparison, folder);
+  const auto paths = gnomon::compare::write_outputs(comparison, {.folder = folder});
   if (!paths) std::cerr << paths.error().message() << '\n';
   return paths.has_value();
 }

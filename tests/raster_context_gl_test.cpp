@@ -24,7 +24,8 @@ TEST(Context, OsmesaMakesOpenGl45Core) {
 TEST(Context, EglMakesOpenGl45CoreWithoutADisplay) {
   auto context = raster::create_context(raster::Backend::egl);
   if (!context) GTEST_SKIP() << context.error().message();
-  EXPECT_STREQ((*context)->backend(), "egl");
+  const std::string backend = (*context)->backend();
+  EXPECT_TRUE(backend == "egl-software" || backend == "egl-hardware") << backend;
   expect_modern(**context);
 }
 

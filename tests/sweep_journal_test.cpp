@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/journal.h"
 
 namespace gnomon::compare {
@@ -12,12 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// As the journal keeps it.
 std::string line(int cell) {
-  return R"({"lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
-         std::to_string(cell) +
-         R"(},"budget":[],"ladder":[]}],"size":{"width":2,"height":1},"costs":{},"axes":{"bias":)" +
-         std::to_string(cell) + "}}\n";
+  return sealed(R"({"lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
+                std::to_string(cell) +
+                R"(},"budget":[],"ladder":[]}],"size":{"width":2,"height":1},"costs":{},"axes":{"bias":)" +
+                std::to_string(cell) + "}}\n");
 }
+const std::string no_times = sealed("{}\n");
 std::string axes(int cell) {
   return "{\"bias\":" + std::to_string(cell) + "}";
 }
@@ -68,7 +71,7 @@ TEST_F(JournalTest, TornLastLineIsCutOff) {
       ASSERT_TRUE(journal);
     }
     write("sweep.jsonl", whole.substr(0, length));
-    write("sweep_times.jsonl", "{}\n{}\n{\"cel");
+    write("sweep_times.jsonl", no_times + no_times + "{\"cel");
     auto journal = open();
     ASSERT_TRUE(journal) << journal.error().message();
     const std::size_t kept = length == whole.size() ? 2 : (length >= line(0).size() ? 1 : 0);
@@ -78,14 +81,14 @@ TEST_F(JournalTest, TornLastLineIsCutOff) {
     for (int cell = static_cast<int>(kept); cell < 3; ++cell)
       ASSERT_TRUE(journal->append(line(cell), "{}\n"));
     EXPECT_EQ(bytes("sweep.jsonl"), whole + line(2));
-    EXPECT_EQ(bytes("sweep_times.jsonl"), "{}\n{}\n{}\n");
+    EXPECT_EQ(bytes("sweep_times.jsonl"), no_times + no_times + no_times);
   }
 }
 
 TEST_F(JournalTest, ALineWithoutItsTimesIsMadeAgain) {
   ASSERT_TRUE(open());
   write("sweep.jsonl", line(0) + line(1));
-  write("sweep_times.jsonl", "{}\n");
+  write("sweep_times.jsonl", no_times);
   auto journal = open();
   ASSERT_TRUE(journal);
   EXPECT_EQ(journal->lines().size(), 1u);
@@ -104,11 +107,54 @@ TEST_F(JournalTest, RefusesAnotherConfiguration) {
 TEST_F(JournalTest, RefusesAForeignLine) {
   ASSERT_TRUE(open());
   write("sweep.jsonl", line(1) + line(0));
-  write("sweep_times.jsonl", "{}\n{}\n");
+  write("sweep_times.jsonl", no_times + no_times);
   const auto journal = open();
   ASSERT_FALSE(journal);
   EXPECT_EQ(journal.error().kind, ErrorKind::bad_input);
   EXPECT_EQ(journal.error().line, 1);
+}
+
+// A number changed in any line, the last one included, and in the times.
+TEST_F(JournalTest, RefusesAnEditedLine) {
+  ASSERT_TRUE(open());
+  const std::string whole = line(0) + line(1);
+  const auto refused = [&](const std::string& lines, const std::string& times, int where) {
+    write("sweep.jsonl", lines);
+    write("sweep_times.jsonl", times);
+    const auto journal = open();
+    ASSERT_FALSE(journal) << lines;
+    EXPECT_EQ(journal.error().kind, ErrorKind::bad_input);
+    EXPECT_EQ(journal.error().line, where);
+    EXPECT_NE(journal.error().message().find("checksum"), std::string::npos) << journal.error().message();
+    EXPECT_FALSE(read_sweep(folder));
+  };
+  for (int cell = 0; cell < 2; ++cell) {
+    std::string edited = whole;
+    const std::size_t digit = whole.find("wrong\":" + std::to_string(cell)) + 7;
+    edited[digit] = '7';
+    refused(edited, no_times + no_times, cell + 1);
+  }
+  refused(whole, no_times + "{\"cell\":1}\n", 2);
+}
+
+TEST_F(JournalTest, RemovesWhatWasNotFinishedAndNothingElse) {
+  {
+    auto journal = open();
+    ASSERT_TRUE(journal->append(line(0), "{}\n"));
+  }
+  const std::vector<std::string> kept = {"cells/cell-000000.js", "cells/truth-12.png", "cells/cell-me.png",
+                                         "thumbnails/cell-000000.png", "mine.txt"};
+  const std::vector<std::string> strays = {"cells/cell-000001.js", "thumbnails/cell-000002.png",
+                                           "cells/cell-000000.js.12-0.part", "sweep.json.12-0.part"};
+  for (const char* name : {"cells", "thumbnails"}) fs::create_directories(fs::path(folder) / name);
+  for (const auto& names : {kept, strays})
+    for (const std::string& name : names) write(name, "x");
+  ASSERT_TRUE(open());
+  for (const std::string& name : kept) EXPECT_TRUE(fs::exists(fs::path(folder) / name)) << name;
+  for (const std::string& name : strays) EXPECT_FALSE(fs::exists(fs::path(folder) / name)) << name;
+  ASSERT_TRUE(discard_sweep(folder));
+  EXPECT_TRUE(fs::exists(fs::path(folder) / "cells/cell-me.png"));
+  EXPECT_FALSE(fs::exists(fs::path(folder) / "thumbnails") || fs::exists(fs::path(folder) / "sweep.jsonl"));
 }
 
 TEST_F(JournalTest, OneProcessAtATime) {

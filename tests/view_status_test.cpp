@@ -10,7 +10,7 @@ namespace {
 
 TEST(ViewStatus, CommandSaysWhatDiffers) {
   ViewOptions options;
-  options.scene = "my scene.json";
+  options.scene.name = "my scene.json";
   ViewState state = two_light_state();
   EXPECT_EQ(compare_command(state, options),
             "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias auto --slope-bias 1 "

@@ -152,12 +152,15 @@ std::vector<BenchRow> bench_rows(const TechniqueTable& table) {
 }
 
 Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console) {
-  for (const std::string& file : {bench.page, bench.json})
-    if (const auto writable = check_output_file(file); !writable) return writable;
+  RunFiles files;
+  for (const std::string& scene : bench.scenes) files.reads(SceneArgument{scene});
+  files.writes("-o", bench.page);
+  files.writes("--json", bench.json);
+  if (const auto fine = files.check(); !fine) return fine;
   std::vector<TechniqueTable> tables;
   std::vector<BenchRow> rows;
   for (const std::string& scene : bench.scenes) {
-    const auto loaded = load(scene, console);
+    const auto loaded = load({scene}, files, console);
     if (!loaded) return fail(loaded.error());
     const auto progress = [&](const std::string& what, double done) { console.progress(what, done); };
     auto table = bench_techniques(*loaded, raster::Backend::automatic, bench.raster, progress);

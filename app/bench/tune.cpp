@@ -97,7 +97,10 @@ void add_rows(const std::string& scene, const compare::GridCheck& check, std::ve
 }  // namespace
 
 Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
-  if (const auto writable = check_output_file(bench.json); !writable) return writable;
+  RunFiles files;
+  for (const std::string& scene : bench.scenes) files.reads(SceneArgument{scene});
+  files.writes("--json", bench.json);
+  if (const auto fine = files.check(); !fine) return fine;
   const bool with_table = bench.json != "-" && !bench.quiet;
   if (with_table)
     print_data(
@@ -108,7 +111,7 @@ Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
                     "the tuner's answer; the grid's best"));
   std::vector<BenchRow> rows;
   for (const std::string& scene : bench.scenes) {
-    const auto loaded = load(scene, console);
+    const auto loaded = load({scene}, files, console);
     if (!loaded) return fail(loaded.error());
     const auto check = check_scene(*loaded, bench, console);
     if (!check) return fail(check.error());

@@ -22,7 +22,8 @@ namespace gnomon::app {
 namespace {
 
 struct BenchCommand {
-  std::string scene, json;
+  SceneArgument scene;
+  std::string json;
   ImageSize size{640, 360};
   std::vector<raytrace::Accel> accels = all_accels();
   bool precision = false;
@@ -38,7 +39,7 @@ struct BenchCommand {
 
 Expected<ExitCode> run_techniques(const BenchCommand& command) {
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
+  const ThreadLimit thread_limit(command.threads, console);
   TechniqueBench bench = command.techniques;
   bench.raster.size = command.size;
   bench.raster.runs = command.runs.value_or(bench.raster.runs);
@@ -50,7 +51,7 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
 
 Expected<ExitCode> run_tune(const BenchCommand& command) {
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
+  const ThreadLimit thread_limit(command.threads, console);
   TuneBench bench = command.tune;
   bench.size = command.size;
   bench.runs = command.runs.value_or(bench.runs);
@@ -68,16 +69,20 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
                 fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
   if (!command.techniques.scenes.empty()) return run_techniques(command);
   if (!command.tune.scenes.empty()) return run_tune(command);
-  if (command.scene.empty() && command.precision) return fail(ErrorKind::usage, "--precision: needs a SCENE");
-  if (command.scene.empty())
+  if (command.scene.name.empty() && command.precision)
+    return fail(ErrorKind::usage, "--precision: needs a SCENE");
+  if (command.scene.name.empty())
     return run_whole_bench(
         {.runs = command.runs.value_or(0),
          .json = command.json,
          .size = command.size_given ? fmt::format("{}x{}", command.size.width, command.size.height) : ""});
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
-  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
-  const auto loaded = load(command.scene, console);
+  const ThreadLimit thread_limit(command.threads, console);
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes("--json", command.json);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  const auto loaded = load(command.scene, files, console);
   if (!loaded) return fail(loaded.error());
   const auto thread_count =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
@@ -191,7 +196,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
     reject(techniques, {"--tune"});
     reject(!tune, {"--max-error", "--technique"});
     reject(!techniques, {"--map-size", "--output"});
-    reject(command->scene.empty() && !techniques && !tune, {"--accel", "--threads", "--quiet"});
+    reject(command->scene.name.empty() && !techniques && !tune, {"--accel", "--threads", "--quiet"});
     reject(command->precision, {"--accel"});
     reject(!command->precision, {"--rays", "--seed"});
     command->size_given = app->count("--size") > 0;

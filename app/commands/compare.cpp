@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -24,7 +25,8 @@ namespace gnomon::app {
 namespace {
 
 struct CompareCommand {
-  std::string scene, camera;
+  SceneArgument scene;
+  std::string camera;
   ResultOutput output;
   SettingOptions setting;
   raster::Backend backend = raster::Backend::automatic;
@@ -41,6 +43,7 @@ struct CompareCommand {
 // Measured: what the peak grows by from 320x180 to 2560x1440, with one light and with four.
 constexpr double bytes_per_pixel = 260.0;
 constexpr double bytes_per_pixel_and_light = 57.0;
+constexpr double bytes_per_texel = 24.0;  // a map as drawn, read back and kept
 
 Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
                                                  Console& console) {
@@ -56,7 +59,8 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
     loaded.scene->notes.push_back(std::move(swims));  // for the page and the JSON
   }
   const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
-  if (const auto fits = check_memory(command.setting.options.raster.size, bytes); !fits)
+  const double map_bytes = bytes_per_texel * std::pow(double(raster.map.size), 2.0);
+  if (const auto fits = check_memory(raster.size, bytes, graphics_bytes + map_bytes); !fits)
     return fail(fits.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
@@ -86,9 +90,9 @@ constexpr int runs_of_large = 1;
 Expected<ExitCode> run_compare(CompareCommand& command) {
   const Stopwatch total;
   Console console(command.output.quiet);
-  const ThreadLimit thread_limit(command.threads);
+  const ThreadLimit thread_limit(command.threads, console);
   if (command.output.folder.empty() && !only_prints_json(command.output))
-    command.output.folder = default_output(command.scene);
+    command.output.folder = default_output(command.scene.name);
   if (command.runs)
     command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
   else if (command.setting.options.raster.size.pixels() > large_picture)
@@ -96,8 +100,10 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   command.setting.options.raytrace.size = command.setting.options.raster.size;
   command.setting.options.raytrace.seed = command.seed;
 
-  if (const auto writable = check_outputs(command.output); !writable) return fail(writable.error());
-  auto loaded = load(command.scene, console, command.tessellate, command.camera);
+  RunFiles files;
+  files.reads(command.scene);
+  if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
+  auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   const auto posed =
@@ -109,7 +115,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   console.progress("writing", 1.0);
   return only_prints_json(command.output)
              ? print_result(command.output, *comparison, *loaded, console)
-             : write_folder(command.output, *comparison, *loaded, total, console);
+             : write_folder(command.output, *comparison, *loaded, files, total, console);
 }
 
 void add_options(CLI::App& app, CompareCommand& command) {

@@ -23,14 +23,15 @@ namespace gnomon::app {
 namespace {
 
 struct ExportCommand {
-  std::string scene, camera, file, suite;
+  SceneArgument scene;
+  std::string camera, file, suite;
   ImageSize size{640, 360};  ///< of the suite's masks
   int tessellate = 64;       ///< sectors, in [min_tessellation, max_tessellation]
   bool quiet = false;
 };
 
 Expected<ExitCode> export_suite(const ExportCommand& command, Console& console) {
-  if (!command.scene.empty() || !command.file.empty())
+  if (!command.scene.name.empty() || !command.file.empty())
     return fail(ErrorKind::usage, "export: --suite has scenes of its own (give no SCENE and no -o)");
   if (const auto writable = check_output_folder(command.suite); !writable) return fail(writable.error());
   if (const auto written = write_suite(command.suite, command.size, console); !written)
@@ -42,14 +43,17 @@ Expected<ExitCode> export_suite(const ExportCommand& command, Console& console) 
 Expected<ExitCode> run_export(ExportCommand& command) {
   Console console(command.quiet);
   if (!command.suite.empty()) return export_suite(command, console);
-  if (command.scene.empty()) return fail(ErrorKind::usage, "export: SCENE is required, or --suite DIR");
-  if (command.file.empty()) command.file = default_output(command.scene) + ".glb";
+  if (command.scene.name.empty()) return fail(ErrorKind::usage, "export: SCENE is required, or --suite DIR");
+  if (command.file.empty()) command.file = default_output(command.scene.name) + ".glb";
   if (const auto known = check_extension("-o", command.file, ".glb .gltf"); !known)
     return fail(known.error());
-  if (const auto writable = check_output_file(command.file); !writable) return fail(writable.error());
-  auto loaded = load(command.scene, console, command.tessellate, command.camera);
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes("-o", command.file);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
-  if (const std::string asked = scene_settings_text(scene_of_lesson(command.scene)); !asked.empty())
+  if (const std::string asked = scene_settings_text(scene_of_lesson(command.scene.name)); !asked.empty())
     console.note("glTF has no place for what the scene asks for: give " + asked + " yourself");
   loaded->scene->notes.clear();
   const Scene scene = cut_planes(std::move(*loaded->scene));

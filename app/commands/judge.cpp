@@ -68,10 +68,10 @@ Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Co
       [&](std::string_view stage, double done) { console.progress(stage, done); });
 }
 
-Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capture& capture,
+Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capture& capture, RunFiles& files,
                                 Console& console) {
   JudgedScene out;
-  auto loaded = load(capture.scene, console, 0, capture.camera);
+  auto loaded = load({capture.scene}, files, console, 0, capture.camera);
   if (!loaded) return fail(loaded.error());
   out.loaded = std::move(*loaded);
   if (command.exposure) out.loaded.scene->exposure = *command.exposure;
@@ -101,15 +101,19 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, 
   if (!capture) return fail(capture.error());
   if (command.output.folder.empty() && !only_prints_json(command.output))
     command.output.folder = default_output(path.empty() ? capture->scene : path);
-  if (const auto writable = check_outputs(command.output); !writable) return fail(writable.error());
-  auto judged = judge_one(command, *capture, console);
+  RunFiles files;
+  files.reads(path);
+  files.reads(SceneArgument{capture->scene});
+  if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
+  auto judged = judge_one(command, *capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
     return print_result(command.output, judged->comparison, judged->loaded, console);
   const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
-  return write_folder(command.output, judged->comparison, judged->loaded, total, console, &introduction);
+  return write_folder(command.output, judged->comparison, judged->loaded, files, total, console,
+                      &introduction);
 }
 
 /// "wall" of wall/capture.json, "wall" of wall.json.
@@ -126,21 +130,25 @@ Expected<ExitCode> judge_next(JudgeCommand& command, const std::string& path, co
   const Stopwatch total;
   const auto capture = capture_of(command, path);
   if (!capture) return fail(capture.error());
-  auto judged = judge_one(command, *capture, console);
+  RunFiles files;
+  files.reads(path);
+  auto judged = judge_one(command, *capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
   set.add(name, judged->comparison);
   const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
   ResultOutput output = command.output;
   output.folder += "/" + name, output.quiet = true;
-  return write_folder(output, judged->comparison, judged->loaded, total, console, &introduction);
+  return write_folder(output, judged->comparison, judged->loaded, files, total, console, &introduction);
 }
 
 Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
   if (command.output.folder.empty()) command.output.folder = "out/judge";
   if (!command.output.json.empty() || !command.output.aov.empty())
     return fail(ErrorKind::usage, "judge: --json and --aov are of one capture; several write judge.jsonl");
-  if (const auto writable = check_outputs(command.output); !writable) return fail(writable.error());
+  RunFiles files;
+  for (const std::string& path : command.captures) files.reads(path);
+  if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   compare::JudgedSet set;
   ExitCode code = ExitCode::done;
   std::optional<Error> refused;
@@ -182,7 +190,7 @@ Expected<std::vector<std::string>> captures_below(const std::string& folder) {
 
 Expected<ExitCode> run_judge(JudgeCommand& command) {
   Console console(command.output.quiet);
-  const ThreadLimit thread_limit(command.threads);
+  const ThreadLimit thread_limit(command.threads, console);
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");

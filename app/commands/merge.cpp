@@ -1,5 +1,6 @@
 // gnomon merge: the shards of a sweep put together, as if it had been made in one go.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -26,10 +27,19 @@ struct MergeCommand {
 Expected<ExitCode> run_merge(const MergeCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
+  for (const std::string& shard : command.shards) {
+    std::error_code error;
+    if (std::filesystem::equivalent(shard, command.folder, error) && !error)
+      return fail(
+          ErrorKind::usage,
+          fmt::format("-o: this folder is also a shard, which would be lost (got {})", command.folder));
+  }
   const OutputGuard whole_outputs;
   const auto merged = compare::merge_sweeps(command.shards, command.folder, command.report_max_mb);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
+  if (merged->drawers.size() > 1)
+    console.note(fmt::format("not all cells were drawn alike: {}", fmt::join(merged->drawers, "; ")));
   console.message(fmt::format("sweep: {}/report.html, {} cell{} from {} shard{}", command.folder,
                               merged->cells, merged->cells == 1 ? "" : "s", command.shards.size(),
                               command.shards.size() == 1 ? "" : "s"));

@@ -21,7 +21,8 @@ namespace gnomon::app {
 namespace {
 
 struct PlanCommand {
-  std::string scene, camera, json;
+  SceneArgument scene;
+  std::string camera, json;
   raytrace::RaytraceOptions options;
   PictureSamples samples;
   int threads = 0;
@@ -150,9 +151,12 @@ raytrace::TracerPlan picture_ways(const raytrace::Tracer& tracer, const Camera& 
 
 Expected<ExitCode> run_plan(const PlanCommand& command) {
   Console console(command.quiet);
-  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
-  const ThreadLimit thread_limit(command.threads);
-  auto loaded = load(command.scene, console, 0, command.camera);
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes("--json", command.json);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  const ThreadLimit thread_limit(command.threads, console);
+  auto loaded = load(command.scene, files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
   loaded->plan = plan_effects(*loaded->scene);

@@ -27,9 +27,10 @@ constexpr BytesPerPixel bytes_per_pixel{.png = 42.0, .exr = 178.0};
 Expected<ExitCode> run_raster(RasterCommand& command) {
   const Stopwatch watch;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
-  if (const auto writable = check_outputs(command, "raster"); !writable) return fail(writable.error());
-  const auto loaded = open_scene(command, command.options.size, bytes_per_pixel, console);
+  const ThreadLimit thread_limit(command.threads, console);
+  auto files = check_files(command, "raster");
+  if (!files) return fail(files.error());
+  const auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());

@@ -45,11 +45,12 @@ Expected<ExitCode> draw_heatmap(const RaytraceCommand& command, const raytrace::
 Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const Stopwatch watch;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
-  if (const auto writable = check_outputs(command, "raytrace"); !writable) return fail(writable.error());
+  const ThreadLimit thread_limit(command.threads, console);
+  auto files = check_files(command, "raytrace");
+  if (!files) return fail(files.error());
   if (command.heatmap && !command.json.empty())
     return fail(ErrorKind::usage, "--json: a heat map has none (give one of --heatmap and --json)");
-  auto loaded = open_scene(command, command.options.size, bytes_per_pixel, console);
+  auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
   loaded->plan = plan_effects(*loaded->scene);

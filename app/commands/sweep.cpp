@@ -1,5 +1,6 @@
 // gnomon sweep: many settings of compare in one process, what does not change being made once.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "app/sweep/make_cells.h"
 #include "app/sweep/slurm.h"
 #include "app/values.h"
+#include "compare/sweep/cell_files.h"
 #include "compare/sweep/merge.h"
 #include "compare/sweep/page.h"
 #include "compare/sweep/ray_points.h"
@@ -32,21 +34,6 @@ Expected<Plan> plan_of(const SweepCommand& command) {
   auto grid = command.options.grid(command.zip);
   if (!grid) return fail(grid.error());
   return make_plan(std::move(*grid), command.shard);
-}
-
-Expected<void> discard(const std::string& folder) {
-  for (const char* name :
-       {"sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"}) {
-    std::error_code error;
-    std::filesystem::remove(std::filesystem::path(folder) / name, error);
-    if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
-  }
-  for (const char* name : {"thumbnails", "cells"}) {
-    std::error_code error;
-    std::filesystem::remove_all(std::filesystem::path(folder) / name, error);
-    if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
-  }
-  return {};
 }
 
 /// The constant biases that the sweep runs through.
@@ -82,10 +69,23 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   return write_file(compare::ray_points_path(command.folder), compare::ray_points_json(points));
 }
 
+/// Cells that another OpenGL drew differ by more than the option that the sweep varies.
+Expected<void> check_same_drawer(const compare::Journal& journal, const raster::ContextInfo& info) {
+  if (journal.lines().empty()) return {};
+  const std::string before = compare::drawer_of_line(journal.lines().front());
+  const std::string now = info.backend + ", " + info.renderer;
+  if (before == now) return {};
+  return fail(ErrorKind::usage,
+              fmt::format("the folder's cells were drawn by {}, and {} would draw the others; choose "
+                          "--backend, another folder, or --restart",
+                          before, now));
+}
+
 Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
                     compare::Journal& journal, Console& console) {
   const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
+  if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
   Workshop shop{command, plan, loaded, {}, machine_info(), engine, {command.folder, engine}, console};
   shop.given.camera = loaded.scene->camera;
@@ -129,12 +129,14 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (const auto done = run_slurm_array(script, folder, tasks); !done) return fail(done.error());
   const OutputGuard whole_outputs;
   if (command.restart) {
-    if (auto gone = discard(folder); !gone) return fail(gone.error());
+    if (auto gone = compare::discard_sweep(folder); !gone) return fail(gone.error());
   }
   const auto merged =
       compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb, command.max_error);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
+  if (merged->drawers.size() > 1)
+    console.note(fmt::format("not all cells were drawn alike: {}", fmt::join(merged->drawers, "; ")));
   console.message(fmt::format("sweep: {}/report.html, {} cell{}", command.folder, merged->cells,
                               merged->cells == 1 ? "" : "s"));
   return announce(command, merged->page.headline);
@@ -144,23 +146,26 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   const Stopwatch total;
   std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then an error of write()
   if (command.slurm_tasks) {
-    if (command.folder.empty()) command.folder = default_output(command.scene) + "-sweep";
+    if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
     return run_on_slurm(command);
   }
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
-  if (command.folder.empty()) command.folder = default_output(command.scene) + "-sweep";
+  const ThreadLimit thread_limit(command.threads, console);
+  if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
   auto plan = plan_of(command);
   if (!plan) return fail(plan.error());
-  if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes_folder("-o", command.folder, compare::sweep_file_names);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();
-  auto loaded = load(command.scene, console, 0, command.camera);
+  auto loaded = load(command.scene, files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
-    if (auto gone = discard(command.folder); !gone) return fail(gone.error());
+    if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());
   }
   const compare::SweepHeader header =
       compare::make_header(configuration(command, *plan, *loaded->scene), plan->grid.cells(), command.shard);

@@ -34,7 +34,8 @@ constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
 constexpr int usual_runs = 5;
 
 struct TuneCommand {
-  std::string scene, camera, json, folder, shader_folder;
+  SceneArgument scene;
+  std::string camera, json, folder, shader_folder;
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
@@ -101,18 +102,20 @@ Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const 
   return compared;
 }
 
-Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer,
+Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, const RunFiles& files,
                           const compare::Comparison& comparison, Console& console) {
   std::vector<std::string> commands;
   for (std::size_t i = 0; i < answer.families.size(); ++i) commands.push_back(answer.line(i));
   const compare::PageIntroduction introduction = compare::tune_introduction(
       {comparison.world->scene->name, command.goal, answer.result, commands, answer.others()});
   const OutputGuard whole_outputs;
-  const auto written =
-      compare::write_outputs(comparison, command.folder, command.report_max_mb, &introduction);
+  const auto written = compare::write_outputs(comparison, {.folder = command.folder,
+                                                           .report_max_mb = command.report_max_mb,
+                                                           .introduction = &introduction,
+                                                           .more = {{"tune.json", answer.json()}},
+                                                           .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  if (const auto saved = write_file(command.folder + "/tune.json", answer.json()); !saved) return saved;
   console.message(fmt::format("report: {}/report.html", command.folder));
   return {};
 }
@@ -159,8 +162,8 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   return bench;
 }
 
-Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, const Stopwatch& total,
-                                   Console& console) {
+Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, const RunFiles& files,
+                                   const Stopwatch& total, Console& console) {
   const bool with_page = !command.folder.empty();
   bench.options.as_given = [&](std::size_t family, const compare::Attempt& attempt) {
     return setting_as_given(command, bench.families[family], attempt, bench.given, *bench.loaded.world,
@@ -187,27 +190,37 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
     if (!compared) return fail(compared.error());
     (*compared)->load_ms = bench.loaded.load_ms;
     (*compared)->total_ms = total.elapsed_ms();
-    if (const auto page = write_page(command, answer, **compared, console); !page) return fail(page.error());
+    if (const auto page = write_page(command, answer, files, **compared, console); !page)
+      return fail(page.error());
   }
   if (const auto out = hand_out(command, answer); !out) return fail(out.error());
   return result->feasible ? ExitCode::done : ExitCode::threshold_exceeded;
 }
 
+Expected<RunFiles> check_files(const TuneCommand& command) {
+  RunFiles files;
+  files.reads(command.scene);
+  files.writes("--json", command.json);
+  files.writes_folder("-o", command.folder, compare::page_file_names);
+  if (!command.folder.empty()) files.writes("-o", command.folder + "/tune.json");
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  return files;
+}
+
 Expected<ExitCode> run_tune(TuneCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads);
+  const ThreadLimit thread_limit(command.threads, console);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
   const auto families = make_families(command.options);
   if (!families) return fail(families.error());
-  if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
-  if (!command.folder.empty())
-    if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
-  auto loaded = load(command.scene, console, 0, command.camera);
+  auto files = check_files(command);
+  if (!files) return fail(files.error());
+  auto loaded = load(command.scene, *files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   auto bench = make_bench(command, *loaded, *families);
   if (!bench) return fail(bench.error());
-  return tune_and_answer(command, *bench, total, console);
+  return tune_and_answer(command, *bench, *files, total, console);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
   Json exposure = nullptr;
   if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
   return Json{{"version", GNOMON_VERSION},
-              {"scene", {{"path", command.scene}, {"name", scene.name}, {"sha256", scene.sha256}}},
+              {"scene", {{"path", command.scene.name}, {"name", scene.name}, {"sha256", scene.sha256}}},
               {"camera", command.camera},
               {"axes", axes},
               {"zip", command.zip},
@@ -48,7 +48,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
-  std::string text = "gnomon compare " + shell_quoted(command.scene) + camera_argument(command) +
+  std::string text = "gnomon compare " + command.scene.words() + camera_argument(command) +
                      command.options.cell_arguments(plan.grid, cell);
   text += exposure_argument(command);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
@@ -58,9 +58,9 @@ std::string compare_command(const SweepCommand& command, const Plan& plan, std::
 
 std::string task_arguments(const SweepCommand& command) {
   namespace fs = std::filesystem;
-  const bool is_file = fs::path(command.scene).has_extension();
-  std::string text =
-      fmt::format(" {}", shell_quoted(is_file ? fs::absolute(command.scene).string() : command.scene));
+  SceneArgument scene = command.scene;
+  if (fs::path(scene.name).has_extension()) scene.name = fs::absolute(scene.name).string();
+  std::string text = fmt::format(" {}", scene.words());
   text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())

@@ -16,7 +16,8 @@
 namespace gnomon::app {
 
 struct SweepCommand {
-  std::string scene, camera, folder;
+  SceneArgument scene;
+  std::string camera, folder;
   SweepOptions options;
   raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;

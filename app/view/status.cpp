@@ -105,7 +105,7 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
 
 std::string compare_command(const ViewState& state, const ViewOptions& options) {
   const compare::CompareOptions plain;
-  std::string text = "gnomon compare " + shell_quoted(options.scene);
+  std::string text = "gnomon compare " + options.scene.words();
   add_if(text, !options.camera.empty(), "--camera", shell_quoted(options.camera));
   add_if(text, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
   add_map(text, state.setup.map);

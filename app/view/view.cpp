@@ -1,5 +1,7 @@
 #include "app/view/view.h"
 
+#include <fmt/format.h>
+
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/view/viewer.h"
@@ -56,14 +58,21 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
 
 Expected<ExitCode> run_view(const ViewOptions& options) {
   Console console(options.quiet);
-  const ThreadLimit thread_limit(options.threads);
-  const auto loaded = load(options.scene, console, options.tessellate, options.camera);
+  const ThreadLimit thread_limit(options.threads, console);
+  RunFiles files;
+  files.reads(options.scene);
+  files.reads(options.script);
+  const auto loaded = load(options.scene, files, console, options.tessellate, options.camera);
   if (!loaded) return fail(loaded.error());
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   auto state = first_state(options, *loaded);
   if (!state) return fail(state.error());
   auto script = read_script(options.script, *loaded->scene);
   if (!script) return fail(script.error());
+  for (const ScriptStep& step : *script)
+    if (const auto* shot = std::get_if<Screenshot>(&step.what))
+      files.writes(fmt::format("{}:{}", options.script, step.line), shot->path);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto viewer = Viewer::open(options, *loaded, std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());
   if (options.script.empty()) console.lines(key_help());

@@ -6,12 +6,13 @@
 
 #include "app/invocation.h"
 #include "app/pose_options.h"
+#include "app/run_files.h"
 #include "compare/compare.h"
 
 namespace gnomon::app {
 
 struct ViewOptions {
-  std::string scene;                ///< a path or the name of a built-in scene
+  SceneArgument scene;
   std::string camera;               ///< of the scene's cameras; empty: the first
   std::string light;                ///< name of the light to compare first; empty: the first
   compare::CompareOptions compare;  ///< raster.size is the window's first size

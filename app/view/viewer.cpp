@@ -173,7 +173,7 @@ Expected<void> Viewer::save_screenshot(const std::string& path) {
 
 /// SCENE-VIEW-001.png and so on in the current folder; nothing is overwritten.
 Expected<void> Viewer::save_numbered_screenshot() {
-  const std::string name = std::filesystem::path(options_.scene).stem().string();
+  const std::string name = std::filesystem::path(options_.scene.name).stem().string();
   for (int number = 1;; ++number) {
     const std::string path = fmt::format("{}-{}-{:03}.png", name, picture_name(state_.picture), number);
     std::error_code ignored;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,12 @@ std::string cell_name(std::size_t cell);  ///< "cell-000012"
 
 /// "truth-1a2b3c4d5e6f": the name of a ray-traced picture.
 std::string truth_name(std::string_view png);
+
+/// Removes what an interrupted sweep left: files that were not finished, and the pictures of cells that are
+/// not among `finished` (sorted). Files of other names stay. The folder must be this process's (journal.h).
+void remove_strays(const std::string& folder, std::span<const std::size_t> finished);
+/// Removes all that a sweep writes into the folder. Files of other names stay.
+Expected<void> discard_sweep(const std::string& folder);
 
 /// The text of a cell's data file.
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth);

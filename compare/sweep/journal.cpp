@@ -16,6 +16,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "compare/sweep/cell_files.h"
 #include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
 
@@ -138,10 +139,46 @@ Expected<SweepHeader> read_header(const std::string& folder) {
   }
 }
 
+namespace {
+
+constexpr std::string_view checksum_key = "\"checksum\":\"";
+constexpr std::size_t checksum_digits = 16;
+constexpr std::string_view line_end = "\"}\n";
+constexpr std::size_t seal_size = checksum_key.size() + checksum_digits + line_end.size();
+
+/// Of the line without its seal, which begins after the comma or the opening brace.
+std::string checksum(std::string_view line) {
+  return sha256_hex(line).substr(0, checksum_digits);
+}
+
+}  // namespace
+
+bool is_sealed(std::string_view line) {
+  if (line.size() <= seal_size) return false;
+  const std::string_view seal = line.substr(line.size() - seal_size);
+  return seal.starts_with(checksum_key) && seal.ends_with(line_end) &&
+         seal.substr(checksum_key.size(), checksum_digits) ==
+             checksum(line.substr(0, line.size() - seal_size));
+}
+
+std::string sealed(const std::string& line) {
+  if (is_sealed(line) || !line.ends_with("}\n")) return line;
+  std::string out = line.substr(0, line.size() - 2);
+  if (!out.ends_with('{')) out += ',';
+  const std::string sum = checksum(out);
+  return out.append(checksum_key).append(sum).append(line_end);
+}
+
 std::string axes_of_line(std::string_view line) {
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object() || !json.contains("lights")) return {};
   return json.value("axes", Json::object()).dump();
+}
+
+std::string drawer_of_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("gl")) return {};
+  return json["gl"].value("backend", "") + ", " + json["gl"].value("renderer", "");
 }
 
 namespace {
@@ -174,15 +211,30 @@ Expected<void> check_header(const std::string& folder, const SweepHeader& header
   return {};
 }
 
-// How many of the lines are this sweep's; an error for one in the middle that is not.
+constexpr std::string_view edited =
+    "this line is not as the sweep wrote it: its checksum does not fit (--restart makes the sweep anew)";
+
+bool is_object(std::string_view line) {
+  return Json::parse(line, nullptr, false).is_object();
+}
+
+// How many of the lines are this sweep's; an error for one that is not, unless it is a torn last one.
 Expected<std::size_t> count_good(const std::string& path, const std::vector<std::string>& lines,
                                  const std::vector<std::string>& axes) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (i < axes.size() && axes_of_line(lines[i]) == axes[i]) continue;
-    if (i + 1 == lines.size()) return i;
-    return bad_line(path, i + 1, "not the line of this sweep that belongs here");
+    const bool belongs = i < axes.size() && axes_of_line(lines[i]) == axes[i];
+    if (belongs && is_sealed(lines[i])) continue;
+    if (i + 1 == lines.size() && !is_object(lines[i])) return i;
+    return bad_line(path, i + 1,
+                    belongs ? std::string(edited) : "not the line of this sweep that belongs here");
   }
   return lines.size();
+}
+
+Expected<void> check_times(const std::string& path, const std::vector<std::string>& times, std::size_t keep) {
+  for (std::size_t i = 0; i < keep; ++i)
+    if (!is_sealed(times[i])) return bad_line(path, i + 1, std::string(edited));
+  return {};
 }
 
 }  // namespace
@@ -212,6 +264,7 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   if (!good) return fail(good.error());
   // Times are written first: a line without times cannot be, but a surplus of times can.
   const std::size_t keep = std::min(*good, journal.times_.size());
+  if (auto fine = check_times((*times)->path, journal.times_, keep); !fine) return fail(fine.error());
   journal.lines_.resize(keep);
   journal.times_.resize(keep);
   journal.torn_ = byte_count(journal.lines_) != bytes.size();
@@ -221,6 +274,7 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   journal.time_file_ = std::move(*times);
   journal.table_file_ = std::move(*table);
   journal.cells_ = std::move(cells);
+  remove_strays(folder, std::span(journal.cells_).first(keep));
   for (std::size_t i = 0; i < keep; ++i)
     journal.table_.add(journal.cells_[i], journal.lines_[i], journal.times_[i]);
   if (auto written = journal.write_table(); !written) return fail(written.error());
@@ -233,7 +287,8 @@ Expected<void> Journal::write_table() {
   return table_file_->append(table_.text());
 }
 
-Expected<void> Journal::append(const std::string& line, const std::string& times) {
+Expected<void> Journal::append(const std::string& unsealed_line, const std::string& unsealed_times) {
+  const std::string line = sealed(unsealed_line), times = sealed(unsealed_times);
   if (auto written = time_file_->append(times); !written) return written;
   if (auto written = line_file_->append(line); !written) return written;
   const std::string rows = table_.add(cells_[lines_.size()], line, times);
@@ -251,14 +306,16 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   sweep.times = whole_lines(read_all(path_in(folder, "sweep_times.jsonl")));
   std::vector<char> whole(sweep.lines.size(), 0);
   tbb::parallel_for(std::size_t{0}, whole.size(), [&](std::size_t i) {
-    whole[i] = static_cast<char>(!axes_of_line(sweep.lines[i]).empty());
+    whole[i] = static_cast<char>(is_sealed(sweep.lines[i]) && !axes_of_line(sweep.lines[i]).empty());
   });
   if (const auto bad = std::find(whole.begin(), whole.end(), 0); bad != whole.end())
     return bad_line(path_in(folder, "sweep.jsonl"), static_cast<std::size_t>(bad - whole.begin()) + 1,
-                    "not a line of a sweep");
+                    std::string(edited));
   if (sweep.times.size() < sweep.lines.size())
     return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
   sweep.times.resize(sweep.lines.size());
+  if (auto fine = check_times(path_in(folder, "sweep_times.jsonl"), sweep.times, sweep.times.size()); !fine)
+    return fail(fine.error());
   return sweep;
 }
 

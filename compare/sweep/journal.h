@@ -6,10 +6,12 @@
 //                      same bytes, however often it was interrupted
 //   sweep.csv          the same numbers and the times as a table (result_table.h)
 //   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
+// Each line ends with a checksum of itself, so that one which was edited is not taken for a result.
 // A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
 // of a torn last line is cut off when the folder is opened again, and its cell is made anew.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,6 +21,10 @@
 #include "scene/expected.h"
 
 namespace gnomon::compare {
+
+/// Files that a sweep's folder always has.
+inline constexpr std::array<std::string_view, 6> sweep_file_names{
+    "sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"};
 
 struct Shard {
   int part = 1, of = 1;  ///< 1 <= part <= of
@@ -58,7 +64,7 @@ class Journal {
   /// A torn or surplus line was cut off on opening.
   bool was_torn() const { return torn_; }
 
-  /// Appends a cell. Both texts end with a line break.
+  /// Appends a cell, sealed. Both texts are JSON objects and end with a line break.
   Expected<void> append(const std::string& line, const std::string& times);
 
  private:
@@ -78,6 +84,14 @@ struct SweepLines {
   std::vector<std::string> lines, times;
 };
 Expected<SweepLines> read_sweep(const std::string& folder);
+
+/// The line with its checksum as the last key; one that has it already stays as it is.
+std::string sealed(const std::string& line);
+/// Its checksum is there and fits.
+bool is_sealed(std::string_view line);
+
+/// "osmesa, llvmpipe (...)": backend and renderer of a line.
+std::string drawer_of_line(std::string_view line);
 
 /// "axes" of a line, as JSON text; empty when the line is not JSON or has none.
 std::string axes_of_line(std::string_view line);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "compare/sweep/cell_files.h"
 #include "compare/sweep/journal.h"
@@ -90,6 +91,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
                                    double report_max_mb, const std::optional<Threshold>& limit) {
   Cells cells;
   std::optional<SweepHeader> header;
+  std::set<std::string> drawers;
   for (const std::string& folder : folders) {
     auto shard = read_sweep(folder);
     if (!shard) return fail(shard.error());
@@ -97,6 +99,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
     if (shard->header.hash != header->hash)
       return fail(ErrorKind::usage, folder + ": a shard of another sweep than " + folders.front());
     if (auto added = add_shard(folder, *shard, cells); !added) return fail(added.error());
+    for (const std::string& line : shard->lines) drawers.insert(drawer_of_line(line));
   }
   if (!header) return fail(ErrorKind::usage, "no shard is given");
   if (cells.size() != header->cells)
@@ -110,7 +113,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
   }
   const auto page = write_sweep_page(target, report_max_mb, limit);
   if (!page) return fail(page.error());
-  return MergedSweep{cells.size(), *page};
+  return MergedSweep{cells.size(), *page, {drawers.begin(), drawers.end()}};
 }
 
 }  // namespace gnomon::compare

@@ -13,6 +13,7 @@ namespace gnomon::compare {
 struct MergedSweep {
   std::size_t cells = 0;
   WrittenPage page;
+  std::vector<std::string> drawers;  ///< what drew the cells (drawer_of_line); more than one is worth a note
 };
 
 /// `folders`: every shard of one sweep, each finished, in any order. Errors:

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "scene/files/defaults.h"
@@ -17,6 +18,7 @@
 #include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
+#include "scene/files/gltf_repair.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
 
@@ -33,14 +35,13 @@ Error gltf_error(const std::string& file, std::string field, std::string reason)
 // expand them).
 struct FileAccess {
   std::string folder;
-  bool confine;
+  const LoadOptions& options;
   std::string problem;
 };
 
 std::optional<std::string> allowed_path(FileAccess& access, const std::string& path) {
-  if (!access.confine) return path;
   const auto relative = std::filesystem::path(path).lexically_relative(access.folder).string();
-  const auto allowed = resolve_path(access.folder, relative.empty() ? path : relative, true);
+  const auto allowed = resolve_path(access.folder, relative.empty() ? path : relative, access.options);
   if (allowed) return *allowed;
   access.problem = allowed.error().reason;
   return std::nullopt;
@@ -88,7 +89,7 @@ std::string one_line(std::string text) {
 
 Expected<void> parse(tinygltf::Model& model, std::string_view bytes, bool binary, const std::string& file,
                      const std::string& folder, const LoadOptions& options) {
-  FileAccess access{folder, options.confine_paths, {}};
+  FileAccess access{folder, options, {}};
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(file_callbacks(access));
   loader.SetImageLoader(&keep_encoded, nullptr);
@@ -268,6 +269,7 @@ class SceneBuilder {
     if (light.type == LightType::spot) set_cone(light, from);
     light.name = unique_name(!node.name.empty() ? node.name : !from.name.empty() ? from.name : from.type);
     extras_.read_light(index, light);
+    light_names_.insert(light.name);
     scene_.lights.push_back(std::move(light));
   }
 
@@ -281,11 +283,9 @@ class SceneBuilder {
                        light.inner_angle * 180.0 / pi, light.outer_angle * 180.0 / pi));
   }
 
-  std::string unique_name(const std::string& wanted) const {
+  std::string unique_name(const std::string& wanted) {
     std::string name = wanted;
-    for (int n = 2; std::any_of(scene_.lights.begin(), scene_.lights.end(),
-                                [&](const Light& l) { return l.name == name; });
-         ++n)
+    for (int& n = next_number_.try_emplace(wanted, 2).first->second; light_names_.contains(name); ++n)
       name = fmt::format("{}-{}", wanted, n);
     return name;
   }
@@ -297,6 +297,8 @@ class SceneBuilder {
   std::vector<Mesh> meshes_;
   std::vector<std::uint32_t> our_mesh_;    // of a glTF mesh, once an instance uses it
   std::vector<std::size_t> gltf_cameras_;  // of loaded_.cameras
+  std::set<std::string> light_names_;
+  std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
   bool orthographic_ = false, ranged_ = false, skinned_ = false, instanced_ = false;
 };
@@ -332,7 +334,9 @@ Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, 
   auto checked = check_gltf(bytes, file);
   if (!checked) return fail(checked.error());
   tinygltf::Model model;
-  const auto parsed = parse(model, bytes, checked->is_binary, file, folder, options);
+  const auto repaired = repaired_gltf(*checked, bytes, folder, options);
+  const auto parsed =
+      parse(model, repaired ? std::string_view(*repaired) : bytes, checked->is_binary, file, folder, options);
   if (!parsed) return fail(parsed.error());
   return build(model, std::move(*checked), file);
 } catch (const std::bad_alloc&) {

@@ -22,14 +22,10 @@ constexpr NumberRange buffer_range{1.0, largest_integer, false, false, true};
 constexpr NumberRange count_range{1.0, 4294967295.0, false, false, true};
 constexpr double largest_empty_accessor = 16777216.0;  // elements that no data stands behind
 
-const std::vector<std::string_view> known_extensions_list{"KHR_lights_punctual",
-                                                          "KHR_materials_transmission",
-                                                          "KHR_materials_ior",
-                                                          "KHR_materials_volume",
-                                                          "KHR_materials_emissive_strength",
-                                                          "KHR_materials_specular",
-                                                          "KHR_texture_transform",
-                                                          "KHR_mesh_quantization"};
+const std::vector<std::string_view> known_extensions_list{
+    "KHR_lights_punctual",   "KHR_materials_transmission",      "KHR_materials_ior",
+    "KHR_materials_volume",  "KHR_materials_emissive_strength", "KHR_materials_specular",
+    "KHR_texture_transform", "KHR_mesh_quantization",           "KHR_materials_unlit"};
 
 // Counts of the file's lists, for checking indices into them.
 struct Counts {
@@ -309,8 +305,15 @@ class GltfChecker {
     check_attribute(*attributes, "TEXCOORD_0", {"VEC2"});
     check_attribute(*attributes, "TEXCOORD_1", {"VEC2"});
     const auto extensions = node.child("extensions");
-    if (extensions && extensions->child("KHR_draco_mesh_compression"))
+    if (extensions && extensions->child("KHR_draco_mesh_compression") && !has_own_positions(*attributes))
       node.error("the geometry is compressed by KHR_draco_mesh_compression, which is not supported");
+  }
+
+  // Beside what an extension compresses, for those who do not know it.
+  bool has_own_positions(const JsonNode& attributes) {
+    const double accessor = index(attributes, "POSITION", counts_.accessors);
+    return !errors_.first && accessor >= 0.0 &&
+           item_value("accessors", accessor).find("bufferView") != nullptr;
   }
 
   void check_mesh(const JsonNode& node) {

@@ -5,6 +5,7 @@
 #include <tiny_gltf.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "scene/files/formats.h"
@@ -215,10 +216,13 @@ class MaterialReader {
   void note_unused(const tinygltf::Material& from, const std::string& name) {
     if (from.normalTexture.index >= 0) unused_["Normal textures are"].insert(name);
     if (from.occlusionTexture.index >= 0) unused_["Occlusion textures are"].insert(name);
+    if (from.extensions.contains("KHR_materials_unlit"))
+      unused_["KHR_materials_unlit (they are lit like the others) is"].insert(name);
     for (const auto& [key, value] : from.extensions)
       if (key.starts_with("KHR_materials_") && !is_listed(key) && key != "KHR_materials_transmission" &&
           key != "KHR_materials_ior" && key != "KHR_materials_volume" &&
-          key != "KHR_materials_emissive_strength" && key != "KHR_materials_specular")
+          key != "KHR_materials_emissive_strength" && key != "KHR_materials_specular" &&
+          key != "KHR_materials_unlit")
         unused_[key + " is"].insert(name);
   }
 
@@ -229,9 +233,14 @@ class MaterialReader {
     const int index = pbr.metallicRoughnessTexture.index;
     if (index < 0) return out;
     if (is_missing(index, from.name)) return out;
-    const auto texture = decode(index, false);
-    if (!texture) return fail(texture.error());
-    const Vec3f mean = statistics(*texture).mean;
+    const int source = model_.textures[static_cast<std::size_t>(index)].source;
+    auto known = linear_means_.find(source);
+    if (known == linear_means_.end()) {
+      const auto texture = decode(index, false);
+      if (!texture) return fail(texture.error());
+      known = linear_means_.emplace(source, statistics(*texture).mean).first;
+    }
+    const Vec3f mean = known->second;
     unused_["Metallic-roughness textures are averaged, the rest of them"].insert(from.name);
     return out * Vec2(mean.b, mean.g);
   }
@@ -262,7 +271,9 @@ class MaterialReader {
       textures_.emplace(info.index, m.diffuse_texture);
       scene_.textures.push_back(std::move(*texture));
     }
-    result = statistics(scene_.textures[m.diffuse_texture]);
+    auto& known = statistics_[m.diffuse_texture];
+    if (!known) known = statistics(scene_.textures[m.diffuse_texture]);
+    result = *known;
     return {};
   }
 
@@ -316,7 +327,9 @@ class MaterialReader {
   const std::string& file_;
   std::string path_;
   TexcoordSets sets_;
-  std::map<int, std::uint32_t> textures_;                // glTF texture to ours
+  std::map<int, std::uint32_t> textures_;                                 // glTF texture to ours
+  std::map<std::uint32_t, std::optional<TextureStatistics>> statistics_;  // of ours
+  std::map<int, Vec3f> linear_means_;                    // of glTF images that are no colours
   std::map<std::string, std::set<std::string>> unused_;  // what, and by which materials
 };
 

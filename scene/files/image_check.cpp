@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "scene/files/deflate.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 
@@ -59,12 +60,42 @@ Expected<void> check_header(std::string_view data, const std::string& name) {
   return {};
 }
 
+/// Bytes of all scan lines with their filter bytes (PNG specification, 9; interlaced: 8.2, Adam7).
+std::size_t scanline_bytes(std::string_view header) {
+  const std::size_t width = big_endian(header), height = big_endian(header.substr(4));
+  const std::size_t depth = static_cast<unsigned char>(header[8]);
+  constexpr std::array<std::size_t, 7> samples{1, 0, 3, 1, 2, 0, 4};  // by colour type
+  const std::size_t bits = depth * samples[static_cast<unsigned char>(header[9])];
+  const auto pass = [&](std::size_t w, std::size_t h) { return w == 0 ? 0 : h * (1 + (w * bits + 7) / 8); };
+  if (header[12] == 0) return pass(width, height);
+  struct Pass {
+    std::size_t x, y, dx, dy;
+  };
+  constexpr std::array<Pass, 7> passes{
+      {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
+  std::size_t bytes = 0;
+  for (const Pass& p : passes)
+    bytes += pass((width + p.dx - 1 - p.x) / p.dx, (height + p.dy - 1 - p.y) / p.dy);
+  return bytes;
+}
+
+// libpng would print a line of its own.
+Expected<void> check_data(std::string_view header, std::string_view data, const std::string& name) {
+  const std::size_t bytes = scanline_bytes(header);
+  constexpr std::size_t most_per_byte = 1032;  // deflate's limit
+  if (bytes / most_per_byte > data.size())
+    return damage(name, fmt::format("the PNG file is cut off: {} bytes of data cannot hold {} x {} pixels",
+                                    data.size(), big_endian(header), big_endian(header.substr(4))));
+  if (inflates_to(data, bytes)) return {};
+  return damage(name, "the PNG file is damaged: its data does not make up its picture");
+}
+
 }  // namespace
 
 Expected<std::string> essential_png(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with(signature)) return damage(name, "not a PNG file");
-  std::string out(signature);
-  bool has_data = false;
+  std::string out(signature), data;
+  std::string_view header;
   for (std::size_t at = signature.size(); at < bytes.size();) {
     if (bytes.size() - at < 12) break;
     const std::uint32_t length = big_endian(bytes.substr(at));
@@ -77,11 +108,16 @@ Expected<std::string> essential_png(std::string_view bytes, const std::string& n
     const bool essential = first || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
     if (essential && crc(body) != big_endian(bytes.substr(at + 8 + length)))
       return damage(name, fmt::format("the PNG file is damaged in its chunk {}", printable(type)));
-    if (first)
-      if (const auto header = check_header(body.substr(4), name); !header) return fail(header.error());
+    if (first) {
+      header = body.substr(4);
+      if (const auto sound = check_header(header, name); !sound) return fail(sound.error());
+    }
     if (essential) out += bytes.substr(at, length + 12);
-    if (type == "IDAT") has_data = true;
-    if (type == "IEND" && has_data) return out;
+    if (type == "IDAT") data += body.substr(4);
+    if (type == "IEND" && !data.empty()) {
+      if (const auto whole = check_data(header, data, name); !whole) return fail(whole.error());
+      return out;
+    }
     at += length + 12;
   }
   return damage(name, "the PNG file is cut off");

@@ -25,6 +25,13 @@ struct DecodedImage {
 
 enum class DecodeAs { stored, floats };  ///< stored: floats where the file holds floating-point values
 
+/// What the decoded samples of an image file may weigh, bytes. No compression that the formats have makes
+/// more than 1,032 bytes of one (deflate; Gailly and Adler, zlib technical details), and what small files
+/// with empty parts say of themselves is allowed up to a limit.
+inline std::uint64_t image_budget(std::uint64_t file_bytes) {
+  return (std::uint64_t{64} << 20) + 1100 * file_bytes;
+}
+
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;

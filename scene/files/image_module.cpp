@@ -57,14 +57,29 @@ bool is_floating(const OIIO::TypeDesc& type) {
          type.basetype == OIIO::TypeDesc::DOUBLE;
 }
 
-Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* input, int max_side,
-                                 DecodeAs as) {
+Expected<void> check_budget(const std::string& name, const OIIO::ImageSpec& spec, bool floats,
+                            std::uint64_t file_bytes) {
+  const std::uint64_t bytes = std::uint64_t{spec.image_pixels()} *
+                              static_cast<std::uint64_t>(spec.nchannels) * (floats ? sizeof(float) : 1);
+  if (bytes <= image_budget(file_bytes)) return {};
+  return image_error(ErrorKind::bad_input, name,
+                     fmt::format("a file of {} bytes cannot hold so large a picture (got {} x {} with {} "
+                                 "channels, {} MB; allowed {} MB)",
+                                 file_bytes, spec.width, spec.height, spec.nchannels, bytes / 1000000,
+                                 image_budget(file_bytes) / 1000000));
+}
+
+Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* input, int max_side, DecodeAs as,
+                                 std::uint64_t file_bytes) {
   if (const auto sound = check_header(name, input, max_side); !sound) return fail(sound.error());
+  const bool floats = as == DecodeAs::floats || is_floating(input->spec().format);
+  if (const auto fits = check_budget(name, input->spec(), floats, file_bytes); !fits)
+    return fail(fits.error());
   const OIIO::ImageSpec spec = input->spec();
   DecodedImage out{{spec.width, spec.height}, spec.channelnames, {}, {}};
   const std::size_t count = out.size.pixels() * static_cast<std::size_t>(spec.nchannels);
   bool done = false;
-  if (as == DecodeAs::floats || is_floating(spec.format)) {
+  if (floats) {
     out.floats.resize(count);
     done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, out.floats.data());
   } else {
@@ -81,7 +96,7 @@ class OpenImageIo final : public ImageLibrary {
   Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
     const OIIO::ImageSpec hints = read_hints();
     const auto input = OIIO::ImageInput::open(path, &hints);
-    return pixels_of(path, input.get(), max_side, as);
+    return pixels_of(path, input.get(), max_side, as, OIIO::Filesystem::file_size(path));
   }
 
   Expected<DecodedImage> decode(const std::string& name, std::string_view bytes, std::string_view format,
@@ -94,7 +109,7 @@ class OpenImageIo final : public ImageLibrary {
       const std::string reason = library_error(input->geterror());
       return image_error(ErrorKind::bad_input, name, fmt::format("cannot read the image: {}", reason));
     }
-    return pixels_of(name, input.get(), max_side, DecodeAs::stored);
+    return pixels_of(name, input.get(), max_side, DecodeAs::stored, bytes.size());
   }
 
   Expected<std::string> encode_exr(
@@ -104,6 +119,9 @@ class OpenImageIo final : public ImageLibrary {
     spec.channelnames.assign(channels.begin(), channels.end());
     spec.alpha_channel = -1;
     spec.attribute("compression", "zip");
+    // No date of now: an attribute of another type is not written at all, of which OpenImageIO would tell.
+    spec.attribute("DateTime", 0);
+    OIIO::attribute("debug", 0);
     for (const auto& [key, value] : attributes) spec.attribute(key, value);
     const auto output = OIIO::ImageOutput::create("openexr");
     if (!output || !output->supports("ioproxy"))

@@ -10,40 +10,49 @@
 namespace gnomon {
 namespace {
 
-Texture texture_pixels(SceneReader& reader, const JsonObject& object) {
-  const std::string_view source = object.exactly_one({"file", "generate"});
-  if (source == "generate") {
+Texture texture_pixels(SceneReader& reader, const JsonObject& object, const std::string& path) {
+  if (path.empty()) {
     object.forbid("srgb", "does not apply to a generated texture");
     const JsonNode node = *object.find("generate");
     auto texture = generate_from_json<Texture>(node, &generate_texture);
     return texture ? std::move(*texture) : Texture{};
   }
-  if (source.empty()) return {};
-  const JsonNode node = *object.find("file");
-  const std::string path = reader.resolve(node);
   const bool srgb = object.boolean("srgb", true);
   if (reader.failed()) return {};
   auto texture = read_texture(path, srgb);
   if (texture) return std::move(*texture);
-  reader.adopt(node, texture.error());
+  reader.adopt(*object.find("file"), texture.error());
   return {};
+}
+
+/// An image file is decoded once for all materials that show it in the same way.
+std::uint32_t texture_index(SceneReader& reader, const JsonObject& object) {
+  const std::string_view source = object.exactly_one({"file", "generate"});
+  const std::string path = source == "file" ? reader.resolve(*object.find("file")) : std::string();
+  if (reader.failed() || source.empty()) return 0;
+  const auto filter = object.find("filter"), wrap = object.find("wrap");
+  const bool nearest = filter && filter->as_choice({"bilinear", "nearest"}) == 1;
+  const bool repeat = !wrap || wrap->as_choice({"repeat", "clamp"}) == 0;
+  const std::string key = fmt::format("{}{}{} {}", object.boolean("srgb", true), nearest, repeat, path);
+  const auto next = static_cast<std::uint32_t>(reader.scene.textures.size());
+  if (!path.empty())
+    if (const auto [known, is_new] = reader.textures.try_emplace(key, next); !is_new) return known->second;
+  Texture texture = texture_pixels(reader, object, path);
+  texture.nearest = nearest;
+  texture.repeat_s = texture.repeat_t = repeat;
+  reader.scene.textures.push_back(std::move(texture));
+  return next;
 }
 
 void read_texture_of(SceneReader& reader, const JsonNode& node, Material& material) {
   const JsonObject object(
       node, {"file", "generate", "srgb", "filter", "wrap", "offset", "scale", "rotation_degrees"});
   if (reader.failed()) return;
-  Texture texture = texture_pixels(reader, object);
-  if (const auto filter = object.find("filter"))
-    texture.nearest = filter->as_choice({"bilinear", "nearest"}) == 1;
-  if (const auto wrap = object.find("wrap"))
-    texture.repeat_s = texture.repeat_t = wrap->as_choice({"repeat", "clamp"}) == 0;
+  material.diffuse_texture = texture_index(reader, object);
   TextureTransform& transform = material.texture_transform;
   if (const auto offset = object.find("offset")) transform.offset = offset->as_vec2();
   if (const auto scale = object.find("scale")) transform.scale = scale->as_scale2();
   transform.rotation = object.number("rotation_degrees", 0.0, coordinate_range) * pi / 180.0;
-  material.diffuse_texture = static_cast<std::uint32_t>(reader.scene.textures.size());
-  reader.scene.textures.push_back(std::move(texture));
 }
 
 Material read_material(SceneReader& reader, const JsonNode& node) {

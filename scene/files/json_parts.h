@@ -33,6 +33,7 @@ struct SceneReader {
   IncludeState& includes;
   std::map<std::string, std::uint32_t, std::less<>> materials{};
   std::map<std::string, NamedMesh, std::less<>> meshes{};
+  std::map<std::string, std::uint32_t> textures{};        ///< of files, by what was asked for
   std::map<std::uint32_t, std::uint32_t> plain_meshes{};  ///< copies without triangle_materials
 
   bool failed() const { return errors.first.has_value(); }

@@ -194,7 +194,7 @@ std::string SceneReader::resolve(const JsonNode& named) {
     named.wrong("not a path", "the path of a file");
     return {};
   }
-  const auto path = resolve_path(folder, name, options.confine_paths);
+  const auto path = resolve_path(folder, name, options);
   if (path) return *path;
   named.error(path.error().reason);
   return {};

@@ -107,7 +107,10 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
   if (!bytes) return fail(bytes.error());
   IncludeState includes;
   auto sha256 = hash_beside(*bytes);
-  return complete(read_by_extension(*bytes, path, options, includes), path, std::move(sha256), options);
+  LoadOptions rooted = options;
+  rooted.root = folder_of(path);
+  if (options.files != nullptr) options.files->push_back(path);
+  return complete(read_by_extension(*bytes, path, rooted, includes), path, std::move(sha256), options);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "scene/files/formats.h"
+#include "scene/files/mtl_options.h"
 #include "scene/files/obj_check.h"
 #include "scene/files/obj_materials.h"
 #include "scene/files/polygon.h"
@@ -42,7 +43,7 @@ class LibraryReader : public tinyobj::MaterialReader {
 
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* names, std::string* warnings, std::string* errors) override {
-    const auto path = resolve_path(folder_, name, options_.confine_paths);
+    const auto path = resolve_path(folder_, name, options_);
     if (!path) {
       error = path.error();
       error->field = "mtllib";
@@ -56,7 +57,7 @@ class LibraryReader : public tinyobj::MaterialReader {
       return false;
     }
     note_missing_diffuse(*text);
-    std::istringstream stream(*text);
+    std::istringstream stream(plain_mtl(*text, notes));
     tinyobj::LoadMtl(names, materials, &stream, warnings, errors);
     return true;
   }

@@ -69,7 +69,7 @@ Expected<void> add_texture(Scene& scene, const tinyobj::material_t& from, Materi
                            std::map<std::string, std::uint32_t>& known) {
   std::string name = from.diffuse_texname;
   std::replace(name.begin(), name.end(), '\\', '/');
-  const auto path = resolve_path(folder, name, options.confine_paths);
+  const auto path = resolve_path(folder, name, options);
   if (!path) {
     Error error = path.error();
     error.field = fmt::format("{}.map_Kd", from.name);

@@ -53,17 +53,20 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-Expected<std::string> resolve_path(const std::string& folder, const std::string& named, bool confine) {
+Expected<std::string> resolve_path(const std::string& folder, const std::string& named,
+                                   const LoadOptions& options) {
   const fs::path joined = (fs::path(folder) / named).lexically_normal();
-  if (!confine) return joined.string();
+  if (options.files != nullptr) options.files->push_back(joined.string());
+  if (!options.confine_paths) return joined.string();
   std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+  const std::string& top = options.root.empty() ? folder : options.root;
+  const fs::path root = fs::weakly_canonical(top.empty() ? "." : top, error);
   const fs::path real = fs::weakly_canonical(joined, error);
   const fs::path relative = real.lexically_relative(root);
   if (error || relative.empty() || *relative.begin() == "..")
     return fail(ErrorKind::bad_input,
                 fmt::format("the file is outside the scene's folder (got \"{}\", allowed "
-                            "paths inside the folder)",
+                            "paths inside the folder, or any with --allow-outside)",
                             printable(named)));
   return joined.string();
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scene/expected.h"
+#include "scene/load.h"
 
 namespace gnomon {
 
@@ -15,9 +16,11 @@ Expected<std::string> read_file(const std::string& path);
 /// Lower case, with the dot: ".gltf"; "" when there is none.
 std::string lower_extension(const std::string& path);
 
-/// The path of a file that the scene file in `folder` names. With `confine`, a path that leaves the folder
-/// (by "..", by being absolute, or through a symbolic link) is an error.
-Expected<std::string> resolve_path(const std::string& folder, const std::string& named, bool confine);
+/// The path of a file that the scene file in `folder` names; options.files takes it. With
+/// options.confine_paths, a path that leaves options.root, or where that is empty the folder (by "..", by
+/// being absolute, or through a symbolic link), is an error.
+Expected<std::string> resolve_path(const std::string& folder, const std::string& named,
+                                   const LoadOptions& options);
 
 /// The folder that a file's own references are relative to.
 std::string folder_of(const std::string& path);

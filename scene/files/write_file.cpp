@@ -83,9 +83,13 @@ Expected<void> write_directly(const std::string& path, std::string_view bytes) {
   return {};
 }
 
+/// Beside the path, with so much of its name as a file system takes (255 bytes).
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> counter{0};
-  return fmt::format("{}.{}-{}.part", path, ::getpid(), counter++);
+  constexpr std::size_t longest = 100;
+  const fs::path file(path);
+  const std::string name = file.filename().string().substr(0, longest);
+  return (file.parent_path() / fmt::format("{}.{}-{}.part", name, ::getpid(), counter++)).string();
 }
 
 // Writes, flushes and closes the temporary file; the caller removes it on failure.
@@ -127,6 +131,17 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
     filled = cannot_write(path, "cannot rename the finished file", errno);
   if (!filled) ::unlink(temporary.c_str());
   return filled;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const fs::file_status status = fs::status(a, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return false;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const auto whole = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  return whole(a) == whole(b) && !error;
 }
 
 Expected<void> make_output_folder(const std::string& path) {

@@ -14,6 +14,9 @@ namespace gnomon {
 /// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
+/// Whether two paths lead to one file, which need not exist yet; a device is nobody's.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// Creates the folder (and its parents) and checks that files can be written in it.
 Expected<void> make_output_folder(const std::string& path);
 

@@ -1,0 +1,71 @@
+#include "app/run_files.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/output_path.h"
+#include "app/shell.h"
+#include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+
+std::string SceneArgument::words() const {
+  return shell_quoted(name) + (allow_outside ? " --allow-outside" : "");
+}
+
+void RunFiles::reads(const std::string& path) {
+  if (!path.empty()) inputs_.push_back(path);
+}
+
+// A name without an extension is a built-in scene's (scene/load.h).
+void RunFiles::reads(const SceneArgument& scene) {
+  if (!lower_extension(scene.name).empty()) reads(scene.name);
+}
+
+void RunFiles::writes(std::string option, const std::string& path) {
+  if (!path.empty() && path != "-") outputs_.push_back({std::move(option), path});
+}
+
+void RunFiles::writes_folder(std::string option, const std::string& folder,
+                             std::span<const std::string_view> names) {
+  if (folder.empty()) return;
+  folders_.push_back(folder);
+  for (const std::string_view name : names)
+    outputs_.push_back({option, (std::filesystem::path(folder) / name).string(), false});
+}
+
+Expected<void> RunFiles::check_collisions() const {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const Output& output = outputs_[i];
+    for (const std::string& input : inputs_)
+      if (is_same_file(output.path, input))
+        return fail(ErrorKind::usage,
+                    fmt::format("{}: this file is also an input, which would be lost (got {})", output.option,
+                                output.path));
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same_file(output.path, outputs_[j].path))
+        return fail(ErrorKind::usage, fmt::format("{} and {}: two outputs of one name (got {})",
+                                                  outputs_[j].option, output.option, output.path));
+  }
+  return {};
+}
+
+Expected<void> RunFiles::check() const {
+  if (auto apart = check_collisions(); !apart) return apart;
+  for (const Output& output : outputs_) {
+    if (!output.alone) continue;
+    if (auto writable = check_output_file(output.path); !writable) return writable;
+  }
+  for (const std::string& folder : folders_)
+    if (auto writable = check_output_folder(folder); !writable) return writable;
+  return {};
+}
+
+Expected<void> RunFiles::also_reads(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) reads(path);
+  return check_collisions();
+}
+
+}  // namespace gnomon::app

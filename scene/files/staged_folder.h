@@ -1,0 +1,35 @@
+// A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder
+// appears by one rename. Into one that exists its files move one by one, after all of them have reached the
+// disk; the last of them (the page) is taken away first and put back last, so that a folder which has it is
+// never a mixture. What else lies in the folder stays.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "scene/expected.h"
+
+namespace gnomon {
+
+class StagedFolder {
+ public:
+  /// Also removes what a killed process left of a staged folder of the same name.
+  static Expected<StagedFolder> open(const std::string& folder);
+  StagedFolder(StagedFolder&& other) noexcept;
+  StagedFolder& operator=(StagedFolder&&) = delete;
+  /// Removes what was not published.
+  ~StagedFolder();
+
+  /// Where the files are written until they are published.
+  const std::string& path() const { return path_; }
+  /// Errors: ErrorKind::usage when a file would take the place of one of `inputs`, ErrorKind::cannot_write;
+  /// after the former the folder is as it was.
+  Expected<void> publish(const std::string& last, std::span<const std::string> inputs);
+
+ private:
+  StagedFolder(std::string folder, std::string path, int lock);
+  std::string folder_, path_;
+  int lock_ = -1;  ///< of the staged folder, held while this process lives
+};
+
+}  // namespace gnomon

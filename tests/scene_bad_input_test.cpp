@@ -1,0 +1,150 @@
+// Input that asks for more than it brings, and input that is unusual but allowed.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+
+#include "scene/files/image_io.h"
+#include "scene/files/mtl_options.h"
+#include "scene/load.h"
+#include "tests/scene_files_support.h"
+
+namespace gnomon {
+namespace {
+
+std::string big_endian(std::uint32_t value) {
+  std::string out;
+  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xffu);
+  return out;
+}
+
+std::uint32_t crc_of(std::string_view bytes) {
+  std::uint32_t c = 0xffffffffu;
+  for (const char byte : bytes) {
+    c ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) c = c & 1u ? 0xedb88320u ^ (c >> 1) : c >> 1;
+  }
+  return ~c;
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc_of(type + data));
+}
+
+/// 8-bit RGBA with this stream as its data.
+std::string png(std::uint32_t width, std::uint32_t height, const std::string& stream) {
+  return "\x89PNG\r\n\x1a\n" +
+         chunk("IHDR", big_endian(width) + big_endian(height) + std::string("\x08\x06\0\0\0", 5)) +
+         chunk("IDAT", stream) + chunk("IEND", "");
+}
+
+long peak_kilobytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+// A gigabyte of pixels in a file of 75 bytes: refused for its size alone.
+TEST(BadInput, AnImageNeedsBytesForItsPixels) {
+  const long before = peak_kilobytes();
+  ::testing::internal::CaptureStderr();
+  const auto texture = read_texture_bytes("bomb", png(16384, 16384, "\x78\x9c\x03\0\0\0\0\x01"), true);
+  ASSERT_FALSE(texture);
+  EXPECT_EQ(texture.error().kind, ErrorKind::bad_input);
+  EXPECT_NE(texture.error().message().find("cannot hold 16384 x 16384 pixels"), std::string::npos)
+      << texture.error().message();
+  EXPECT_LT(peak_kilobytes() - before, 200'000);
+  // Data that unpacks to less than the picture: our words alone.
+  const auto damaged = read_texture_bytes("short", png(8, 8, "\x78\x9c\x03\0\0\0\0\x01"), true);
+  ASSERT_FALSE(damaged);
+  EXPECT_NE(damaged.error().message().find("does not make up its picture"), std::string::npos);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(BadInput, AnExrHasNoDateOfItsMaking) {
+  const auto folder = std::filesystem::temp_directory_path() / "gnomon-exr-date";
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "a.exr").string();
+  const std::vector<Channel> channels{{"R", {1.0f, 2.0f}}};
+  ASSERT_TRUE(write_exr(path, {2, 1}, channels));
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(bytes.find("capDate"), std::string::npos);
+  EXPECT_TRUE(read_channels(path));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(BadInput, OptionsOfTexturesMayBeShort) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(plain_mtl("newmtl a\nmap_Kd -s 2 my tex.png\r\nmap_Kd -blendu on -o 0.5 0.25 -clamp on t.png\n"
+                      "map_Kd -mm 0 1 t.png\nKd 1 1 1",
+                      notes),
+            "newmtl a\nmap_Kd -s 2 1 1 my tex.png\nmap_Kd -o 0.5 0.25 0 -clamp on t.png\n"
+            "map_Kd t.png\nKd 1 1 1");
+  EXPECT_EQ(notes, std::vector<std::string>{"The option map_Kd -mm of textures is not used."});
+}
+
+const std::string triangle =
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+       "bufferViews":[{"buffer":0,"byteLength":36}],"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}])";
+const std::string code = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+
+std::string gltf(const std::string& more, const std::string& primitive = "",
+                 const std::string& padding = "") {
+  return std::string("{") + triangle +
+         R"(,"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" + code + padding +
+         R"("}],"meshes":[{"primitives":[{"attributes":{"POSITION":0})" + primitive + "}]}]" + more + "}";
+}
+
+TEST(ValidGltf, IsNotRefused) {
+  const std::string node = R"(,"nodes":[{"mesh":0}])";
+  const std::vector<std::string> files = {
+      gltf(R"(,"nodes":[{"mesh":0,"skin":0},{"name":"j"}],"skins":[{"joints":[1]}])"),
+      gltf(node, "", "AAAAAA=="),
+      gltf(node + R"(,"extensionsUsed":["KHR_materials_unlit"],"extensionsRequired":["KHR_materials_unlit"],
+                     "materials":[{"extensions":{"KHR_materials_unlit":{}}}])",
+           R"(,"material":0)"),
+      gltf(node + R"(,"extensionsUsed":["KHR_draco_mesh_compression"])",
+           R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}})")};
+  const auto folder = std::filesystem::temp_directory_path() / "gnomon-valid-gltf";
+  std::filesystem::create_directories(folder);
+  for (const std::string& text : files) {
+    const std::string path = (folder / "a.gltf").string();
+    std::ofstream(path) << text;
+    const auto scene = load_scene(path);
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->meshes.front().triangles.size(), 1u);
+  }
+  // A file beside it that is longer than the buffer, and one that is shorter.
+  for (const std::size_t size : {40u, 32u}) {
+    std::ofstream(folder / "a.bin", std::ios::binary) << std::string(size, '\0');
+    std::ofstream(folder / "a.gltf") << std::string("{") + triangle +
+                                            R"(,"buffers":[{"byteLength":36,"uri":"a.bin"}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})";
+    EXPECT_EQ(load_scene((folder / "a.gltf").string()).has_value(), size == 40u);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ValidGltf, ManyLightsOfOneName) {
+  std::string nodes = R"(,"nodes":[{"mesh":0})", roots = "0";
+  constexpr int lights = 4000;
+  for (int i = 1; i <= lights; ++i) {
+    nodes += R"(,{"name":"lamp","extensions":{"KHR_lights_punctual":{"light":0}}})";
+    roots.append(1, ',').append(std::to_string(i));
+  }
+  std::string text = gltf(nodes + R"(],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}})");
+  const std::string all = std::string("\"nodes\":[").append(roots).append("]");
+  text.replace(text.find("\"nodes\":[0]"), 11, all);
+  const auto path = (std::filesystem::temp_directory_path() / "gnomon-lights.gltf").string();
+  std::ofstream(path) << text;
+  const auto scene = load_scene(path);
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_EQ(scene->lights.size(), static_cast<std::size_t>(lights));
+  EXPECT_EQ(scene->lights[0].name, "lamp");
+  EXPECT_EQ(scene->lights.back().name, "lamp-4000");
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace gnomon
