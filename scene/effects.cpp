@@ -61,7 +61,7 @@ EffectEntry shadow(const Scene& scene, bool soft) {
   return {
       effect, true, true,
       fmt::format("light '{}'{} {}", first->name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "",
-                  soft ? "has a size; the rasterizer draws its centre alone" : "has no size")};
+                  soft ? "has a size; a shadow map sees from its centre alone" : "has no size")};
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(SizedLights, ThePlanNamesThem) {
   const EffectPlan plan = plan_effects(*scene);
   EXPECT_TRUE(plan[Effect::soft_shadow].simulated);
   EXPECT_EQ(plan[Effect::soft_shadow].reason,
-            "light 'lamp' has a size; the rasterizer draws its centre alone");
+            "light 'lamp' has a size; a shadow map sees from its centre alone");
   EXPECT_FALSE(plan[Effect::hard_shadow].called_for);
   EXPECT_EQ(plan[Effect::hard_shadow].reason, "every light has a size");
   const Expected<Scene> hard = load_scene("fence");

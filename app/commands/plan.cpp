@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "app/output_path.h"
 #include "app/picture_samples.h"
 #include "app/session.h"
+#include "compare/text_layout.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
 #include "scene/files/write_file.h"
@@ -96,7 +98,7 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
 
 std::string_view verdict(const EffectEntry& entry) {
   if (entry.simulated) return "simulated";
-  return entry.called_for ? "NOT YET" : "off";
+  return entry.called_for ? "not yet" : "off";
 }
 
 /// Three digits are what a forecast is worth: 1.23 M.
@@ -108,14 +110,32 @@ std::string short_count(std::uint64_t rays) {
   return unit == 0 ? std::to_string(rays) : fmt::format("{:.3g}{}", value, units[unit]);
 }
 
+/// `text` behind `start`, at most 80 columns wide, further lines under the first.
+std::string hanging(std::string start, std::string_view text) {
+  constexpr std::size_t columns = 80;
+  const std::size_t before = start.size();
+  std::string out;
+  for (const std::string& line : compare::wrapped(text, columns - before)) {
+    out += start + line + "\n";
+    start.assign(before, ' ');
+  }
+  return out;
+}
+
+std::string in_words(std::string_view effect) {
+  std::string words(effect);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 std::string plan_row(std::string_view name, std::string_view state, const std::string& rays,
                      std::string_view why) {
-  return fmt::format("{:<16}{:<11}{:>9}  {}\n", name, state, rays, why);
+  return hanging(fmt::format("{:<16}{:<11}{:>9}  ", name, state, rays), why);
 }
 
 std::string ways_table(const raytrace::TracerPlan& ways) {
   const auto row = [](std::string_view what, std::string_view way, std::string_view reason) {
-    return fmt::format("{:<16}{}: {}\n", what, way, reason);
+    return hanging(fmt::format("{:<16}", what), fmt::format("{}: {}", way, reason));
   };
   return "\n" + row("primary rays", name_of(ways.primary), ways.primary_reason) +
          row("receivers", name_of(ways.receivers), ways.receivers_reason) +
@@ -129,10 +149,11 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
     std::string why = one_line(entry.reason);
     if (entry.effect == Effect::soft_shadow && forecast.rays.soft_shadow_asked > 0)
       why += fmt::format("; {} samples asked for", short_count(forecast.rays.soft_shadow_asked));
-    text += plan_row(effect_name(entry.effect), verdict(entry), rays > 0 ? short_count(rays) : "-", why);
+    text += plan_row(in_words(effect_name(entry.effect)), verdict(entry), rays > 0 ? short_count(rays) : "-",
+                     why);
   }
   text += plan_row("all", "", short_count(total_rays(forecast.rays)),
-                   fmt::format("with {} from the eye; gnomon raytrace at {}x{}, {}",
+                   fmt::format("{} of them from the eye; gnomon raytrace at {}x{}, {}",
                                short_count(forecast.rays.primary), size.width, size.height,
                                forecast.exact ? "counted"
                                               : fmt::format("forecast from {}x{} pixels", forecast.grid.width,

@@ -5,7 +5,7 @@ namespace {
 
 // In the order of the label's values, from uncertain (-4) on.
 constexpr std::array<LabelText, 5 + class_count> labels{{
-    {"uncertain", "?", "the exact answer lies within its own rounding error", "", ""},
+    {"uncertain", "?", "the exact answer lies within its own error bound", "", ""},
     {"silhouette", "o", "the two renderers see different surfaces here", "", ""},
     {"facing away", "/", "turned away from the light: dark whatever shadows say", "", ""},
     {"background", "\u00b7", "no surface", "", ""},

@@ -12,6 +12,7 @@
 #include "compare/report/html.h"
 #include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
+#include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
 namespace {
@@ -35,13 +36,13 @@ std::string bias_words(const LightBlock& b) {
   };
   const double texel = b.light.bias_texel_world;
   const raster::Bias& drawn = b.in.comparison.raster.options.map.bias;
-  const bool more = drawn.slope != 0.0 || drawn.normal_offset_texels != 0.0 || drawn.receiver_plane || drawn.adaptive;
+  const bool more =
+      drawn.slope != 0.0 || drawn.normal_offset_texels != 0.0 || drawn.receiver_plane || drawn.adaptive;
   std::string text = fmt::format(
       R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one{}, is
 larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
 The best is {}{}, which leaves {} wrong.)",
-      more ? " and the other parts of the bias" : "",
-      value("constant_world", best.constant_world),
+      more ? " and the other parts of the bias" : "", value("constant_world", best.constant_world),
       texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
       keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
   if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
@@ -101,9 +102,9 @@ std::string penumbra_facts(const LightBlock& b) {
   const PenumbraStats& p = *b.light.penumbra;
   const auto both = [&](std::string_view what, double truth, double drawn, std::uint64_t edges,
                         std::string_view edge_key) {
-    return fmt::format("world units wide as drawn, {} in truth; medians over edges: {}",
+    return fmt::format("world units wide as drawn, {} in truth; medians over {}",
                        fact_value(b, fmt::format("penumbra.true_{}_world", what), truth),
-                       keyed_count(b.key(fmt::format("penumbra.{}", edge_key)), edges)) +
+                       keyed_things(b.key(fmt::format("penumbra.{}", edge_key)), edges, "edge")) +
            (drawn == 0.0 ? "; the technique draws none" : "");
   };
   std::string text = fact("Penumbra", fact_value(b, "penumbra.drawn_penumbra_world", p.drawn_penumbra_world),
@@ -202,8 +203,10 @@ std::string bias_block(const LightBlock& b) {
   const double used = has_bias ? drawn_record(b.in.comparison, b.light).bias_constant_world : std::nan("");
   const std::string chart = bias_chart(b.light, used, fmt::format("bias-{}", b.index));
   if (chart.empty()) return "";
-  const std::string_view whose =
-      has_bias ? "from this one render" : "if a hard test looked up a map of this size";
+  const std::string_view whose = !has_bias ? "if a hard test looked up a map of this size"
+                                 : biases_follow_from_gaps(b.in.comparison.raster)
+                                     ? "from this one render"
+                                     : "if a hard test looked up this map";
   return fmt::format("<h3>How the error depends on the bias, {}</h3>\n<p>", whose) + bias_words(b) +
          "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "compare/number_text.h"
 #include "compare/report/charts.h"
@@ -11,15 +13,45 @@
 namespace gnomon::compare {
 namespace {
 
+/// What goes on in a stage, where its name alone does not say it.
+std::string_view stage_words(std::string_view stage) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> words{{
+      {"start", "until the command begins"},
+      {"rest", "what belongs to no other stage"},
+      {"load", "reading and preparing the scene"},
+      {"context", "making the OpenGL context"},
+      {"upload", "handing the scene to OpenGL"},
+      {"map runs", "the depth map, timed, all runs"},
+      {"map with ids", "the depth map once more, with what each texel shows"},
+      {"shading runs", "the picture with its shadows, timed, all runs"},
+      {"shading with records", "the picture once more, with what each pixel looked up"},
+      {"read-back", "fetching pictures and maps from OpenGL"},
+      {"build", "the ray tracer's hierarchy"},
+      {"light structure", "what answers shadow rays to this light"},
+      {"soft shadow rays", "shadow rays to points all over the light"},
+      {"ray-traced picture", "shading, reflection and refraction"},
+      {"topology", "which triangles hang together"},
+      {"columns and sheets", "what lies in the texels that pixels look up"},
+      {"labels", "naming the cause of each wrong pixel"},
+      {"metrics", "FLIP, SSIM, edges and penumbrae"},
+      {"curve", "the error of every bias"},
+      {"exit", "giving memory back, so far"},
+  }};
+  const auto found =
+      std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == stage; });
+  return found == words.end() ? std::string_view() : found->second;
+}
+
 std::string row(std::size_t index, const StageTime& stage, double longest) {
   const auto time = [&](const char* clock, double ms) {
     return keyed(fmt::format("time_budget.{}.{}", index, clock), ms, milliseconds(ms));
   };
   return fmt::format(
-      R"(<tr><th scope="row">{}</th><td class="wide">{}</td><td class="n">{}</td><td class="n">{}</td></tr>
+      R"(<tr><th scope="row">{}<small>{}</small></th><td class="wide">{}</td><td class="n">{}</td><td
+class="n">{}</td></tr>
 )",
-      stage.stage, share_bar(stage.wall_ms / longest, "sum"), time("wall_ms", stage.wall_ms),
-      time("cpu_ms", stage.cpu_ms));
+      stage.stage, stage_words(stage.stage), share_bar(stage.wall_ms / longest, "sum"),
+      time("wall_ms", stage.wall_ms), time("cpu_ms", stage.cpu_ms));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 import { page, type Light } from "./data";
 import { backdropOf, recolour } from "./pictures";
 import { GapHistogram } from "./histogram";
-import { counted, grouped, html, number, percent, svg } from "./svg";
+import { counted, grouped, html, number, percent, svg, texelsText } from "./svg";
 import { otherParts } from "./words";
 
 interface Chart {
@@ -84,7 +84,7 @@ export class BiasPanel {
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
-    this.said.textContent = `At a ${this.kind} of ${number(bias)} (${number(texels, 2)} texel${number(texels, 2) === "1" ? "" : "s"}) ${percent(wrong / Math.max(1, this.compared))} ` +
+    this.said.textContent = `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +
       `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
   }

@@ -30,6 +30,9 @@ export const grouped = (count: number): string => String(count).replace(/\B(?=(\
 /** "1 pixel", "12,713 pixels" */
 export const counted = (count: number, unit: string): string => `${grouped(count)} ${unit}${count === 1 ? "" : "s"}`;
 
+/** "0.8 texel", "1 texel", "1.6 texels" */
+export const texelsText = (texels: number): string => `${number(texels, 2)} texel${Math.abs(Number(texels.toPrecision(2))) <= 1 ? "" : "s"}`;
+
 export function percent(share: number): string {
   return `${number(100 * share, 2)} %`;
 }

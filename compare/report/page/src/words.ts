@@ -1,6 +1,6 @@
 // One pixel's story in words: what the map stores, what the test makes of it, and which step made it wrong.
 import { page, wordsOf, type Light, type LightJson, type Pixel, type ShownMaterial } from "./data";
-import { number } from "./svg";
+import { number, texelsText } from "./svg";
 
 const precision = 2, precisionStep = 4, filterStep = 6;  // a label's value; rungs
 
@@ -44,8 +44,7 @@ function mapTest(light: Light, pixel: Pixel, bias: number): string {
   if (pixel.gap <= 0)
     return (parts === "" ? `${texel} stores a depth ${distance} behind this point` : `${texel} stores nothing nearer the light ${allowed}`) +
       `, so the test ${testGives(pixel, dark)} at ${constant}.`;
-  const texels = number(pixel.gap / light.json.texel_world, 2);
-  return `${texel} stores something ${distance} (${texels} texel${texels === "1" ? "" : "s"}) nearer the light${parts === "" ? "" : ` ${allowed}`}. ` +
+  return `${texel} stores something ${distance} (${texelsText(pixel.gap / light.json.texel_world)}) nearer the light${parts === "" ? "" : ` ${allowed}`}. ` +
     `That is ${dark ? "more" : "no more"} than ${constant}: the test ${testGives(pixel, dark)}.`;
 }
 
