@@ -118,7 +118,7 @@ std::string ResultTable::add(std::size_t cell, std::string_view line, std::strin
     if (timed.is_object() && timed.contains("lights")) {
       Json own = timed.at("lights").at(index), all = timed;
       own.erase("light");
-      for (const char* key : {"cell", "derived", "cell_ms", "lights"}) all.erase(key);
+      for (const char* key : {"cell", "derived", "cell_ms", "lights", "checksum"}) all.erase(key);
       add_flat(row, "times_ms", own);
       add_flat(row, "times_ms", all);
     }
