@@ -120,6 +120,6 @@ try {
   write(job, result);
   console.error(`${result.renderer.name} ${result.renderer.version}: ${join(job.folder, "capture.json")}`);
 } catch (error) {
-  console.error(`capture: ${error.message}`);
+  console.error(`capture: ${error.message.split("\n")[0]}`);
   process.exitCode = 1;
 }
