@@ -126,7 +126,7 @@ TEST(BadCaptures, WithUnknownKeysAreRefusedWithLineAndColumn) {
                          " \"scene\": \"fence\", \"size\": [64, 36], \"visibilty\": \"v.exr\"}\n"));
   const auto read = compare::read_capture(file);
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().message().find(":2:39: visibilty: unknown key"), std::string::npos)
+  EXPECT_NE(read.error().message().find(":2:38: visibilty: unknown key"), std::string::npos)
       << read.error().message();
   EXPECT_NE(read.error().message().find("did you mean"), std::string::npos);
 }

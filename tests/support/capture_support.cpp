@@ -136,6 +136,9 @@ compare::Capture self_capture(const Compared& drawn, const std::string& folder, 
   out.size = drawn.result.raster.options.size;
   out.visibility = folder + "/visibility.exr";
   std::vector<Channel> shadow{channel_of("V", drawn.result.raster.lights[0].visibility)};
+  // What faces away from the light is dark, whatever the map says.
+  for (std::size_t i = 0; i < shadow[0].values.size(); ++i)
+    if (drawn.light().labels.data[i] == compare::Label::facing_away) shadow[0].values[i] = 0.0f;
   const std::vector<Channel> positions = position_channels(drawn.result.raytraced);
   if (parts.mask) shadow.push_back(positions[3]);
   write(out.visibility, out.size, shadow);
