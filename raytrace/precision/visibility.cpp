@@ -10,9 +10,9 @@ namespace {
 /// A triangle that the ray may or may not intersect. When the ambiguity is about one edge alone, the
 /// neighbour across it may resolve it.
 struct AmbiguousTriangle {
-  std::uint32_t triangle = no_id;
-  int edge = -1;          ///< from corner `edge` to the next; -1: more than one, or the distance is ambiguous
-  bool positive = false;  ///< the projected winding, known when edge >= 0
+  std::uint32_t triangle;
+  int edge;       ///< from corner `edge` to the next; -1: more than one, or the distance is ambiguous
+  bool positive;  ///< the projected winding, known when edge >= 0
 };
 
 class Query {
@@ -40,7 +40,9 @@ class Query {
   }
 
  private:
-  static constexpr std::size_t remembered_triangles = 8;
+  /// As many as may hang together at a corner: were one forgotten, the answer would depend on the order in which
+  /// the structure reports them.
+  static constexpr std::size_t remembered_triangles = 64;
 
   /// The floats of the wide tree leave out no triangle that intersects_triangle() would not
   /// (raytrace/bvh/wide_ray.h).
