@@ -100,7 +100,7 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
     std::filesystem::create_directories(folder);
     const compare::PageIntroduction introduction = compare::judge_introduction(*judged.result);
     const auto written =
-        compare::write_outputs(*judged.result, folder, compare::default_report_max_mb, &introduction);
+        compare::write_outputs(*judged.result, {.folder = folder, .introduction = &introduction});
     ASSERT_TRUE(written) << written.error().message();
     const nlohmann::json result = nlohmann::json::parse(std::ifstream(folder + "/result.json"));
     EXPECT_EQ(SchemaCheck(schema).violations(result), std::vector<std::string>{});
