@@ -1,0 +1,9 @@
+#!/bin/sh
+# Writes docs/engines.md: docs/make_engines.sh [PROGRAM [FOLDER]]. Needs the adapters' packages (npm install --prefix adapters),
+# Chromium and Blender; takes about ten minutes. What it draws stays in FOLDER [default build/engines].
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+program=${1:-$root/build/release/app/gnomon}
+folder=${2:-$root/build/engines}
+node "$root/adapters/engines_page.mjs" "$program" "$folder" >"$root/docs/engines.md.part"
+mv "$root/docs/engines.md.part" "$root/docs/engines.md"
