@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -57,6 +58,7 @@ Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const co
   auto written = compare::write_all_but_result(comparison, {.folder = output.folder,
                                                             .report_max_mb = output.report_max_mb,
                                                             .introduction = introduction,
+                                                            .page = !output.no_report,
                                                             .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
@@ -104,6 +106,14 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
   loaded = {};
 }
 
+/// A page of an earlier run is left as it is, but not in silence.
+void note_old_report(const std::string& folder, Console& console) {
+  const std::string page = folder + "/report.html";
+  std::error_code unknown;
+  if (std::filesystem::exists(page, unknown))
+    console.note(page + " is of an earlier run; --no-report leaves it as it is");
+}
+
 }  // namespace
 
 Expected<void> check_outputs(const ResultOutput& output, RunFiles& files) {
@@ -143,8 +153,11 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
   if (const StageLog* log = StageLog::current())
     summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
   if (!output.quiet && output.json != "-") print_data(summary);
-  console.message(fmt::format("report: {}/report.html ({:.1f} s, {:.0f} MB of memory at most)", output.folder,
-                              total.elapsed_ms() / 1000.0, static_cast<double>(peak_memory_bytes()) / 1e6));
+  if (output.no_report) note_old_report(output.folder, console);
+  console.message(fmt::format("{}/{} ({:.1f} s, {:.0f} MB of memory at most)",
+                              output.no_report ? "result: " + output.folder : "report: " + output.folder,
+                              output.no_report ? "result.json" : "report.html", total.elapsed_ms() / 1000.0,
+                              static_cast<double>(peak_memory_bytes()) / 1e6));
   return code;
 }
 

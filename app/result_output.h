@@ -16,6 +16,7 @@ struct ResultOutput {
   std::string folder, json, aov;
   std::optional<compare::Threshold> fail_above;
   double report_max_mb = compare::default_report_max_mb;
+  bool no_report = false;  ///< no page; all other files as ever
   bool quiet = false;
 };
 

@@ -20,21 +20,38 @@ std::string bias_text(const LightComparison& light, double bias) {
                                             : world;
 }
 
-std::string opposing_needs(const BestBias& best) {
-  const auto lit = best.lit_pixels_above, shadowed = best.shadowed_pixels_below;
-  return fmt::format(
-      " No constant bias can be right everywhere: {} lit pixel{} {} or more, {} shadowed pixel{} less than "
-      "{}.",
-      grouped(lit), lit == 1 ? " needs" : "s need", plain_number(best.needs_more_than), grouped(shadowed),
-      shadowed == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
+// "0.5 texel (0.0031)"; tiny numbers of world units say nothing to a reader.
+std::string bound_text(const LightComparison& light, double bias) {
+  constexpr double tiny = 0.01;  // texels
+  const double texel = light.bias_texel_world;
+  if (!(texel > 0.0)) return plain_number(bias);
+  if (bias < tiny * texel) return "a hundredth of a texel";
+  return fmt::format("{} ({})", plain_number(bias), texels_text(bias / texel));
 }
 
-// Why no constant bias is right everywhere.
-std::string contradiction(const BestBias& best) {
-  if (best.needs_less_than == -infinity)
-    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
-           "map.";
-  return opposing_needs(best);
+// "213 lit pixels need 0.031 (2 texels) or more"; nothing where they are lit without any.
+std::string need_of_lit(const LightComparison& light) {
+  const BestBias& best = light.best_bias;
+  if (!(best.needs_more_than > 0.0)) return {};
+  const bool tiny = bound_text(light, best.needs_more_than).starts_with("a ");
+  return fmt::format("{} lit pixel{} {}{}{}", grouped(best.lit_pixels_above),
+                     best.lit_pixels_above == 1 ? " needs" : "s need", tiny ? "up to " : "",
+                     bound_text(light, best.needs_more_than), tiny ? "" : " or more");
+}
+
+std::string need_of_shadowed(const LightComparison& light) {
+  const BestBias& best = light.best_bias;
+  const std::uint64_t count = best.shadowed_pixels_below;
+  if (best.needs_less_than > 0.0)
+    return fmt::format("{} shadowed pixel{} less than {}", grouped(count), count == 1 ? " needs" : "s need",
+                       bound_text(light, best.needs_less_than));
+  return fmt::format("{} shadowed pixel{} lit without any", grouped(count), count == 1 ? " is" : "s are");
+}
+
+std::string opposing_needs(const LightComparison& light) {
+  const std::string lit = need_of_lit(light);
+  return fmt::format(" No constant bias can be right everywhere: {}{}{}.", lit, lit.empty() ? "" : ", ",
+                     need_of_shadowed(light));
 }
 
 // "none", "7 of them", "0.8 %".
@@ -95,9 +112,16 @@ std::string constant_part(const LightComparison& light) {
 
 }  // namespace
 
+std::string contradiction(const LightComparison& light) {
+  if (light.best_bias.needs_less_than == -infinity)
+    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
+           "map.";
+  return opposing_needs(light);
+}
+
 std::string bias_advice(const LightComparison& light) {
   const std::string text = light.bias_kinds.empty() ? constant_part(light) : kinds_part(light);
-  return light.best_bias.feasible ? text : text + contradiction(light.best_bias);
+  return light.best_bias.feasible ? text : text + contradiction(light);
 }
 
 }  // namespace gnomon::compare

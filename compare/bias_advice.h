@@ -11,4 +11,8 @@ namespace gnomon::compare {
 /// where there is nothing to say.
 std::string bias_advice(const LightComparison& light);
 
+/// " No constant bias can be right everywhere: 213 lit pixels need 0.031 (2 texels) or more, …": of a light
+/// whose best bias is not feasible.
+std::string contradiction(const LightComparison& light);
+
 }  // namespace gnomon::compare

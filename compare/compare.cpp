@@ -10,8 +10,10 @@ namespace gnomon::compare {
 Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,
                                                       const raster::RasterFrame& drawn,
                                                       const raytrace::RayTracedFrame& truth,
-                                                      const CompareOptions& options) {
+                                                      const CompareOptions& options, double* topology_ms) {
+  const Stopwatch joining;
   const raytrace::Topology topology(world);
+  if (topology_ms != nullptr) *topology_ms = joining.elapsed_ms();
   std::vector<LightComparison> lights;
   for (std::size_t i = 0; i < drawn.lights.size(); ++i) {
     const Light& light = world.scene->lights[drawn.lights[i].light];
@@ -52,7 +54,7 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
   out.raytraced = raytrace::trace_frame(tracer, out.plan, scene.camera, lights, options.raytrace);
 
   report("comparing", 0.7);
-  auto compared = compare_frames(world, tracer, out.raster, out.raytraced, options);
+  auto compared = compare_frames(world, tracer, out.raster, out.raytraced, options, &out.topology_ms);
   if (!compared) return tl::unexpected(compared.error());
   out.lights = std::move(*compared);
   out.exposure = scene.exposure ? *scene.exposure : auto_exposure(out.raytraced.color);

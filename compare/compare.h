@@ -30,10 +30,12 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
                                    std::span<const std::uint32_t> lights, const CompareOptions& options,
                                    const Progress& progress = {});
 
-/// Compares two finished frames of the same world, camera and size (the viewer's entry).
+/// Compares two finished frames of the same world, camera and size (the viewer's entry). `topology_ms`
+/// receives what joining the triangles took, which only labels need.
 Expected<std::vector<LightComparison>> compare_frames(const World& world, const raytrace::Tracer& tracer,
                                                       const raster::RasterFrame& drawn,
                                                       const raytrace::RayTracedFrame& truth,
-                                                      const CompareOptions& options);
+                                                      const CompareOptions& options,
+                                                      double* topology_ms = nullptr);
 
 }  // namespace gnomon::compare

@@ -180,6 +180,11 @@ struct PenumbraStats {
   double standard_error_mean = 0.0, standard_error_max = 0.0;
 };
 
+/// What rays to the light's centre meet, counted on rays spread over the picture, one by one through the tree.
+struct RayWork {
+  std::uint64_t rays = 0, boxes = 0, primitives = 0;  ///< tested
+};
+
 struct LightComparison {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
@@ -192,13 +197,17 @@ struct LightComparison {
   Detachment detachment;
   BleedingStats bleeding;
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
+  /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
   std::vector<BiasCurvePoint> bias_curve;
+  std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty
   BestBias best_bias;
   std::vector<BiasKind> bias_kinds;  ///< the best first; empty where not made
   TheoryStats theory;
   std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
   std::array<double, 3> texel_world{};         ///< min, median, max over compared receivers
   double bias_texel_world = 0.0;               ///< what a bias in texels is a multiple of
+  std::optional<std::uint64_t> lookups;  ///< LightRecord::lookups of the compared pixels; none: not counted
+  RayWork ray_work;                      ///< nothing where not counted
   Times classify;
 
   std::array<Image<float>, rung_count>
@@ -234,7 +243,7 @@ struct Comparison {
   std::vector<LightComparison> lights;
   std::optional<Threshold> fail_above;  ///< what the errors were held against
   double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding
-  double load_ms = 0.0, accel_build_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
+  double load_ms = 0.0, accel_build_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 };
 

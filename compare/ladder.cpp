@@ -124,9 +124,17 @@ float flat_rung(const SurfacePoint& receiver, const TexelCentre& centre, double 
   return lit(!(centre.depth < own - plane_rounding(centre.ray, receiver)));
 }
 
+// The first surface on a texel's ray lies where the map stores nothing, such as on an endless plane near the
+// horizon.
+bool beyond_map(const LightView& view, const TexelCentre& centre) {
+  const Interval range = view.depth_range();
+  return centre.hit && !(centre.depth >= range.min && centre.depth < range.max);
+}
+
 // V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
-// does where the map stores the midpoint between two surfaces, and where the stored depth is the exact one.
+// does where the map stores the midpoint between two surfaces, where its depths end before the first surface,
+// and where the stored depth is the exact one.
 float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, double own,
                   float flat) {
   const raster::ShadowMap& map = in.record.map;
@@ -138,7 +146,7 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
     return flat;
   const double stored = map.depth[texel];
   const double row = key.row();
-  if (!holds_caster(map.view, stored)) return 1.0f;
+  if (!holds_caster(map.view, stored)) return beyond_map(map.view, centre) ? flat : 1.0f;
   const double before = depth_from_stored(map.view, centre.face, row + 0.5, stored);
   return is_exact(in, before, centre.depth) ? flat : lit(!(own > before));
 }

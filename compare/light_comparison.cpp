@@ -6,8 +6,11 @@
 #include "compare/budget.h"
 #include "compare/edges.h"
 #include "compare/flip.h"
+#include "compare/option_names.h"
 #include "compare/penumbra.h"
+#include "compare/shadow_cost.h"
 #include "compare/ssim.h"
+#include "compare/sweep/engine.h"
 #include "compare/theory.h"
 #include "scene/stages.h"
 
@@ -79,6 +82,23 @@ std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& lab
   std::nth_element(sizes.begin(), middle, sizes.end());
   const auto [low, high] = std::minmax_element(sizes.begin(), sizes.end());
   return {*low, *middle, *high};
+}
+
+// A sentence, or nothing where a hard test drew, whose gaps say what every other constant bias would draw.
+std::string_view why_no_curve(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
+  if (record.captured && !drawn.custom_shader)
+    return record.captured->unit_world == 0.0
+               ? std::string_view("The picture came without its map: there are no gaps to follow.")
+               : std::string_view();
+  if (biases_follow_from_gaps(drawn)) return {};
+  if (drawn.custom_shader)
+    return "A shader of --shader-dir drew this: what it would draw with another bias does not follow from "
+           "one "
+           "drawing.";
+  if (!compares_depths(drawn.options.map.technique))
+    return "This technique compares no stored depths: a bias does not change what it draws.";
+  return "This technique filters: what it would draw with another bias does not follow from one drawing; a "
+         "sweep over --bias draws each.";
 }
 
 }  // namespace
@@ -157,8 +177,10 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   out.texel_world = map.texel_world;
   out.theory = map.theory;
   out.bias_texel_world = in.record.texel_world;
-  // What such a shader draws does not follow from the gaps, and without a map there are none.
-  if (in.drawn.custom_shader || (in.record.captured && in.record.captured->unit_world == 0.0)) return out;
+  out.lookups = count_lookups(in.drawn, in.record, out.labels);
+  if (options.perceptual) out.ray_work = count_ray_work(in.tracer, in.light, in.traced.receiver, out.labels);
+  out.bias_curve_withheld = why_no_curve(in.drawn, in.record);
+  if (!out.bias_curve_withheld.empty()) return out;
   const TimedStage curve("curve");
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
   out.best_bias = find_best_bias(gaps);

@@ -67,6 +67,7 @@ struct WrittenOutputs {
   std::string result;              ///< the text of result.json, until it is written without its time budget
   bool beside = false;  ///< the page's pictures and pixels are files beside it: it would have grown too large
   double page_mb = 0.0;             ///< what the page, or the page with the files beside it, weighs
+  bool page = true;                 ///< OutputFolder's
   std::vector<std::string> inputs;  ///< OutputFolder's
   std::string folder;               ///< OutputFolder's
   StagedFolder staged;              ///< where the files are until then
@@ -85,6 +86,7 @@ struct OutputFolder {
   double report_max_mb = default_report_max_mb;    ///< a larger page keeps pictures and pixels beside it
   const PageIntroduction* introduction = nullptr;  ///< what stands before the comparison on the page
   std::vector<OutputFile> more{};                  ///< further files of the folder
+  bool page = true;                                ///< false: no report.html, and nothing is made for it
   std::vector<std::string> inputs{};               ///< files that must not be replaced: ErrorKind::usage
 };
 

@@ -10,6 +10,7 @@
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
+#include "compare/shadow_cost.h"
 #include "compare/text_layout.h"
 #include "scene/one_line.h"
 
@@ -196,14 +197,81 @@ std::string exact_shadows_line(const raytrace::LightTruth& truth) {
                             grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
 }
 
+// What is left of the shading when the picture without shadows is taken from it.
+std::string lookups_text(const Times& lookups) {
+  if (lookups.runs.empty()) return "lookups not timed";
+  if (!(lookups.median() > 0.0)) return "lookups too short to be told from the rest of the shading";
+  return median_text(lookups) + " to look it up";
+}
+
+// The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
+void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  if (drawn.unshadowed_pass.runs.empty()) return;
+  const Times lookups = shadow_lookups(drawn);
+  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {} for the light's "
+                                    "structure, {} for the rays",
+                                    median_text(drawn.map_pass), hybrid ? "sheets" : "map",
+                                    hybrid ? median_text(lookups) + " for the rest" : lookups_text(lookups),
+                                    truth.is_soft() ? "0 ms" : median_text(truth.light_structure),
+                                    median_text(standing_rays(truth))));
+  page.field("", fmt::format("where light and casters stand still: {} against {}",
+                             lookups.median() > 0.0 ? median_text(lookups) : "next to nothing",
+                             median_text(standing_rays(truth))));
+  page.field("picture",
+             fmt::format("without shadows: {} to shade it, {} for primary rays",
+                         median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+}
+
+// What does not hang on the machine.
+std::string work_line(const Comparison& c, const LightComparison& light) {
+  const raytrace::LightTruth& truth = true_record(c, light);
+  std::string text = counted(c.raster.map_texels, "texel") + " drawn";
+  if (light.lookups)
+    text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
+                        plain_number(static_cast<double>(*light.lookups) /
+                                     static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1))));
+  text += "; " + counted(truth.exact_rays(), "ray");
+  const RayWork& work = light.ray_work;
+  if (work.rays > 0)
+    text += fmt::format(", {} boxes and {} primitives tested for one (of {} through the tree)",
+                        plain_number(static_cast<double>(work.boxes) / static_cast<double>(work.rays)),
+                        plain_number(static_cast<double>(work.primitives) / static_cast<double>(work.rays)),
+                        grouped(work.rays));
+  return text;
+}
+
 // What the time bought: an approximation by the map, or the exact answer by rays.
 void add_times(Page& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
-  const raytrace::LightTruth& truth = true_record(c, light);
   if (!c.judged)
     page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
                                    median_text(drawn.map_pass), median_text(drawn.shade_pass)));
-  page.field(c.judged ? "time" : "", exact_shadows_line(truth));
+  page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
+  add_shadow_cost(page, c, light);
+  if (!c.judged) page.field("work", work_line(c, light));
+}
+
+// What comes before the first frame, and what only the comparison needs.
+void add_once(Page& page, const Comparison& c) {
+  double first_map = 0.0, id_map = 0.0;
+  for (const LightComparison& light : c.lights) {
+    first_map += drawn_record(c, light).first_map_ms;
+    id_map += drawn_record(c, light).id_map_ms;
+  }
+  page.field(
+      "once",
+      fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
+                  "{} to build the tracer's hierarchy",
+                  milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
+                  milliseconds(c.accel_build_ms)));
+  page.field("", fmt::format(
+                     "for the comparison alone: {} to join triangles, {} to draw maps with ids, {} to "
+                     "read back",
+                     milliseconds(c.topology_ms), milliseconds(id_map), milliseconds(c.raster.read_back_ms)));
+  if (is_software(c.raster.context)) page.field("", std::string(software_note));
 }
 
 void add_light(Page& page, const Comparison& c, const LightComparison& light) {
@@ -227,6 +295,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
     if (!lacks_map(c)) add_theory(page, light.theory);
+    if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
   add_times(page, c, light);
 }
@@ -246,6 +315,7 @@ std::string summary_table(const Comparison& c, bool colour) {
   page.field("whole", fmt::format("{} on {} thread{}; primary rays {}; peak memory {}",
                                   milliseconds(c.total_ms), c.threads, c.threads == 1 ? "" : "s",
                                   median_text(c.raytraced.primary_rays), byte_count(c.peak_memory_bytes)));
+  if (!c.lights.empty() && !c.judged) add_once(page, c);
   return page.take();
 }
 

@@ -39,7 +39,7 @@ std::vector<File> other_files(const PictureSet& pictures, const BuiltPage& page,
       files.push_back({light.depth_map_small.file_name, light.depth_map_small.png});
   for (const PageFile& file : page.files) files.push_back({file.name, file.bytes});
   files.push_back({"result.csv", csv});
-  files.push_back({"report.html", page.html});
+  if (!page.html.empty()) files.push_back({"report.html", page.html});
   return files;
 }
 
@@ -62,6 +62,33 @@ Expected<void> make_folders(const std::string& folder, const BuiltPage& page) {
   return {};
 }
 
+/// What result.json and the page say, as far as it is known before they are written.
+struct Texts {
+  std::string result;  ///< without its time budget
+  std::string csv;
+  BuiltPage page;
+};
+
+Texts make_texts(const Comparison& comparison, const PictureSet& pictures, const OutputFolder& output,
+                 const Stopwatch& watch) {
+  PageInput input{comparison, pictures, {}, {}, 0.0, output.introduction};
+  PageData data;
+  if (output.page) data = page_data(input);
+  // What the files say about the time of their own making: up to the point where their text is fixed.
+  const double report_ms = comparison.report_ms + watch.elapsed_ms();
+  const double total_ms = comparison.total_ms + watch.elapsed_ms();
+  Texts out{result_json(comparison, report_ms, total_ms), {}, {}};
+  out.csv = result_csv(out.result);
+  if (!output.page) return out;
+  const StageLog* log = StageLog::current();
+  const TimeBudget budget = log != nullptr ? log->budget() : TimeBudget{};
+  const std::string json = log != nullptr ? with_time_budget(out.result, budget) : out.result;
+  input.json = json, input.csv = out.csv, input.total_ms = total_ms;
+  input.budget = log != nullptr ? &budget : nullptr;
+  out.page = report_page(input, data, output.report_max_mb);
+  return out;
+}
+
 }  // namespace
 
 Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output) {
@@ -77,34 +104,22 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Outp
   auto written_pictures =
       std::async(std::launch::async, [&] { return write_files(folder, picture_files(*pictures)); });
 
-  TimedStage making("page");
-  PageInput input{comparison, *pictures, {}, {}, 0.0, output.introduction};
-  PageData data = page_data(input);
-  // What the files say about the time of their own making: up to the point where their text is fixed.
-  const double report_ms = comparison.report_ms + watch.elapsed_ms();
-  const double total_ms = comparison.total_ms + watch.elapsed_ms();
-  std::string result = result_json(comparison, report_ms, total_ms);
-  const StageLog* log = StageLog::current();
-  const TimeBudget budget = log != nullptr ? log->budget() : TimeBudget{};
-  const std::string json = log != nullptr ? with_time_budget(result, budget) : result;
-  const std::string csv = result_csv(result);
-  input.json = json, input.csv = csv, input.total_ms = total_ms;
-  input.budget = log != nullptr ? &budget : nullptr;
-  const BuiltPage page = report_page(input, data, output.report_max_mb);
+  TimedStage making(output.page ? "page" : "write");
+  Texts texts = make_texts(comparison, *pictures, output, watch);
   making.end();
 
   const TimedStage writing("write");
   Expected<Names> names = written_pictures.get();
   if (!names) return fail(names.error());
-  if (const auto made = make_folders(folder, page); !made) return fail(made.error());
-  std::vector<File> others = other_files(*pictures, page, csv);
+  if (const auto made = make_folders(folder, texts.page); !made) return fail(made.error());
+  std::vector<File> others = other_files(*pictures, texts.page, texts.csv);
   for (const OutputFile& file : output.more) others.push_back({file.name, file.bytes});
   const Expected<Names> more = write_files(folder, others);
   if (!more) return fail(more.error());
   names->insert(names->end(), more->begin(), more->end());
-  return WrittenOutputs{std::move(*names), std::move(result),        !page.files.empty(),
-                        page.megabytes(),  std::move(output.inputs), std::move(output.folder),
-                        std::move(*staged)};
+  return WrittenOutputs{
+      std::move(*names), std::move(texts.result),  !texts.page.files.empty(), texts.page.megabytes(),
+      output.page,       std::move(output.inputs), std::move(output.folder),  std::move(*staged)};
 }
 
 Expected<void> write_result(WrittenOutputs& written) {
@@ -112,7 +127,8 @@ Expected<void> write_result(WrittenOutputs& written) {
   Expected<Names> names = write_files(written.staged.path(), {{"result.json", written.result}});
   if (!names) return fail(names.error());
   written.paths.push_back(std::move(names->front()));
-  if (const auto there = written.staged.publish("report.html", written.inputs); !there)
+  if (const auto there = written.staged.publish(written.page ? "report.html" : "result.json", written.inputs);
+      !there)
     return fail(there.error());
   for (std::string& name : written.paths) name = (std::filesystem::path(written.folder) / name).string();
   return {};

@@ -95,6 +95,14 @@ struct LightRecord {
   /// what the technique makes of it (blur, mipmaps ...).
   /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
   Times map_pass, shade_pass;
+  /// RasterOptions::shadow_cost: run by run beside shade_pass, the same shading by a shader that looks nothing
+  /// up and takes every receiver for lit. What shade_pass takes beyond it is the shadows'.
+  Times unshadowed_pass;
+  double first_map_ms =
+      0.0;                 ///< the map's memory and its first drawing, which is not in map_pass; 0: not timed
+  double id_map_ms = 0.0;  ///< drawing the map once more with primitive ids, for the comparison alone
+  /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.
+  Image<std::uint16_t> lookups;
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
   std::optional<CapturedTest> captured;   ///< another renderer's map
 };
@@ -121,6 +129,8 @@ struct RasterFrame {
   Image<std::uint32_t> primitive;   ///< visible primitive (World numbering) or no_id
   std::vector<LightRecord> lights;  ///< in the order asked for
   std::optional<CustomShader> custom_shader;
+  double upload_ms = 0.0;        ///< of the world to the device, once for all frames
+  double read_back_ms = 0.0;     ///< of pictures, maps and records, for the comparison alone
   std::uint64_t map_texels = 0;  ///< texels rendered, all lights, blur and the like included
   std::uint64_t map_bytes = 0;   ///< device memory of maps at one time: the lights take turns in it
 };

@@ -7,6 +7,7 @@
 #include "scene/cascade_fit.h"
 #include "scene/expected.h"
 #include "scene/image.h"
+#include "scene/repeats.h"
 
 namespace gnomon::raster {
 
@@ -140,11 +141,14 @@ Expected<void> check_map_options(const MapOptions& options);
 struct RasterOptions {
   ImageSize size{1280, 720};
   MapOptions map;
-  /// Timed repetitions of each pass after a warm-up, which shades a corner of the picture, and nothing where
+  /// Timed repetitions of each pass, at most, after a warm-up, which shades a corner of the picture, and nothing where
   /// the frame before was shaded by the same program; 0: render once, untimed. A frame with whole records
   /// that differs from the one before in bias or camera alone takes that one's map, and with it the map
   /// pass's times.
-  int runs = 3;
+  int runs = usual_runs;
+  double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
+  /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.
+  bool shadow_cost = false;
   bool analysis =
       true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
   /// analysis: hand on the map's depths and primitive ids too (izb and hybrid always do).

@@ -66,7 +66,7 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
   if (with_records) {
     record_ = Texture2D(gl, GL_RGBA32F, size);
     flags_ = Texture2D(gl, GL_R8UI, size);
-    drawn_visibility_ = Texture2D(gl, GL_R32F, size);
+    drawn_visibility_ = Texture2D(gl, GL_RG32F, size);
     record_target_ = Framebuffer(gl);
     record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::radiance_output, color_);
     record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::record_output, record_);
@@ -226,6 +226,9 @@ void ShadingPass::read_records(LightRecord& record) const {
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
   record.visibility = paged_image<float>(size_);
   drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
+  std::vector<float> lookups(size_.pixels());
+  drawn_visibility_.read(GL_GREEN, GL_FLOAT, std::as_writable_bytes(std::span(lookups)));
+  record.lookups = Image<std::uint16_t>(size_);
   record.texel_uv = paged_image<Vec2f>(size_);
   record.face = Image<std::uint8_t>(size_);
   record.distance = paged_image<float>(size_);
@@ -236,6 +239,7 @@ void ShadingPass::read_records(LightRecord& record) const {
     record.distance.data[i] = values[i].z;
     // A slope without bound leaves no number: nothing is above the bias then.
     record.gap.data[i] = std::isnan(values[i].w) ? -std::numeric_limits<float>::infinity() : values[i].w;
+    record.lookups.data[i] = static_cast<std::uint16_t>(lookups[i]);
     record.face.data[i] = static_cast<std::uint8_t>(flags[i] >> shaders::flag_face_shift);
     record.outside_map.data[i] = (flags[i] & shaders::flag_outside_map) != 0 ? 1 : 0;
   });

@@ -11,7 +11,7 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// Where the time of a pass is charged: the last run makes what is kept, the others only repeat it.
+/// Where the time of a pass is charged: the first run makes what is kept, the others only repeat it.
 struct PassStages {
   std::string_view kept, repeats;
 };
@@ -19,17 +19,16 @@ constexpr PassStages primary_stages{"primary rays", "primary ray repeats"};
 constexpr PassStages shadow_stages{"shadow rays", "shadow ray repeats"};
 constexpr PassStages soft_shadow_stages{"soft shadow rays", "soft shadow ray repeats"};
 
-/// The warm-up run, when there are several, is made and not kept.
 template <class Pass>
-Times time_pass(const PassStages& stages, int runs, const Pass& pass) {
+Times time_pass(const PassStages& stages, const RaytraceOptions& options, const Pass& pass) {
   Times times;
-  if (runs > 1) {
-    const TimedStage repeats(stages.repeats, TimedStage::Inner::included);
-    pass();
-    for (int run = 1; run < runs; ++run) time_run(times, pass);
+  {
+    const TimedStage kept(stages.kept);
+    time_run(times, pass);
   }
-  const TimedStage kept(stages.kept);
-  time_run(times, pass);
+  if (!times_again(times, options.runs, options.enough_ms)) return times;
+  const TimedStage repeats(stages.repeats, TimedStage::Inner::included);
+  while (times_again(times, options.runs, options.enough_ms)) time_run(times, pass);
   return times;
 }
 
@@ -40,7 +39,7 @@ using QuantisedTiles = HugeArray<QuantisedTile>;
 void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
                   RayTracedFrame& frame, UnstoredReceivers& unstored, QuantisedTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
-  frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
+  frame.primary_rays = time_pass(primary_stages, options, [&] {
     primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
                  {.hits = {unstored.hits.data(), unstored.hits.size()},
                   .receivers = nullptr,
@@ -52,7 +51,7 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
 void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const RaytraceOptions& options,
                    RayTracedFrame& frame, QuantisedTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
-  frame.primary_rays = time_pass(primary_stages, options.runs, [&] {
+  frame.primary_rays = time_pass(primary_stages, options, [&] {
     if (way == PrimaryWay::blocks) {
       primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
                    {.hits = {}, .receivers = &frame.receiver, .quantised = {tiles.data(), tiles.size()}});
@@ -75,15 +74,19 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
                          const RaytraceOptions& options, const Image<SurfacePoint>& receivers,
                          const View& view, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
-  LightTruth truth{
-      .light = light_index, .verdict = Image<Verdict>(options.size, Verdict::lit), .shadow_rays = {}};
+  LightTruth truth{.light = light_index,
+                   .verdict = Image<Verdict>(options.size, Verdict::lit),
+                   .shadow_rays = {},
+                   .light_structure = {}};
   const TileGrid grid{options.size};
   std::vector<std::uint64_t> rays(grid.count());
-  truth.shadow_rays = time_pass(shadow_stages, options.runs, [&] {
+  truth.shadow_rays = time_pass(shadow_stages, options, [&] {
     std::fill(rays.begin(), rays.end(), 0);
     if (way == ShadowWay::packets) {
       TimedStage structure("light structure");
+      const Stopwatch building;
       const Sight sight = sight_of_light(tracer, light, {tiles.data(), tiles.size()});
+      truth.light_structure.runs.push_back(building.elapsed_ms());
       structure.end();
       for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
         const ReceiverSource source = unstored.apply()
@@ -101,6 +104,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
       truth.verdict.at(x, y) = reached ? tracer.light_verdict(point, light) : Verdict::shadowed;
       rays[tile] += reached ? 1 : 0;
     });
+    truth.light_structure.runs.push_back(0.0);
   });
   for (const std::uint64_t n : rays) truth.rays += n;
   return truth;
@@ -118,7 +122,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
     std::uint64_t asked = 0, cast = 0;
   };
   std::vector<Counts> rays(grid.count());
-  truth.soft_shadow_rays = time_pass(soft_shadow_stages, options.runs, [&] {
+  truth.soft_shadow_rays = time_pass(soft_shadow_stages, options, [&] {
     std::fill(rays.begin(), rays.end(), Counts{});
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
@@ -146,10 +150,29 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
   return *this;
 }
 
+namespace {
+
+/// The same rays for a small picture: code, hierarchy and threads are then as they will be, at the cost of
+/// some thousand rays.
+void warm_up(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+             std::span<const std::uint32_t> lights, RaytraceOptions options) {
+  constexpr int most_pixels_across = 64;
+  const TimedStage stage(primary_stages.repeats, TimedStage::Inner::included);
+  options.size = {std::min(options.size.width, most_pixels_across),
+                  std::min(options.size.height, most_pixels_across)};
+  options.runs = options.shadow_samples = 1;
+  options.picture = options.warm_up = false;
+  trace_frame(tracer, plan, camera, lights, options);
+}
+
+}  // namespace
+
 RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                            std::span<const std::uint32_t> lights, const RaytraceOptions& options) {
+  if (options.warm_up) warm_up(tracer, plan, camera, lights, options);
   const View view = make_view(camera, options.size);
   RayTracedFrame frame;
+  frame.options = options;
   const TracerPlan ways = choose_tracer(tracer, view, lights, options);
   const bool at_centres = ways.primary != PrimaryWay::none;
   QuantisedTiles tiles;

@@ -9,14 +9,19 @@
 #include "scene/camera.h"
 #include "scene/effects.h"
 #include "scene/image.h"
+#include "scene/repeats.h"
 #include "scene/timing.h"
 
 namespace gnomon::raytrace {
 
 struct RaytraceOptions {
   ImageSize size{1280, 720};
-  int runs = 1;  ///< timed repetitions of the primary and shadow passes (>= 1), after one warm-up when > 1
-  bool picture = true;  ///< shade and follow secondary rays; false: receivers and verdicts only
+  /// Timed repetitions of the primary and shadow passes (>= 1), at most: no further one once those made took
+  /// enough_ms together.
+  int runs = 1;
+  double enough_ms = never_enough_ms;
+  bool warm_up = false;  ///< trace the same in small first, untimed
+  bool picture = true;   ///< shade and follow secondary rays; false: receivers and verdicts only
   double min_contribution = 1.0 / 512.0;  ///< secondary rays below this share of a pixel are not followed
   int shadow_samples =
       0;  ///< rays per point to a light with size, <= max_shadow_samples; 0: as the light says
@@ -48,6 +53,7 @@ struct LightTruth {
   std::uint32_t light = 0;  ///< index in Scene::lights
   Image<Verdict> verdict;   ///< lit where no receiver; shadowed where the light cannot reach (facing away)
   Times shadow_rays;        ///< ms for the pixels that the light can reach
+  Times light_structure;    ///< the part of each of these runs that made the light's own structure; 0 of none
   std::uint64_t rays = 0;   ///< cast
 
   /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
@@ -66,6 +72,7 @@ struct LightTruth {
 };
 
 struct RayTracedFrame {
+  RaytraceOptions options;
   ColorImage color;              ///< linear radiance
   Image<SurfacePoint> receiver;  ///< primitive == no_id: background
   std::vector<LightTruth> lights;

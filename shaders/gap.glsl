@@ -5,6 +5,14 @@
 
 const float infinite = uintBitsToFloat(0x7f800000u);
 
+// What the technique's visibility takes of the map: texels compared, or filtered reads. Only the records count.
+#ifdef RECORDS
+int lookups = 0;
+#define COUNT_LOOKUPS(n) lookups += n
+#else
+#define COUNT_LOOKUPS(n)
+#endif
+
 layout(binding = depth_map_unit) uniform sampler2DArray depth_map;
 
 // Depth, along forward, at which the light ray offset by (du, dv) texels from `at` meets the plane through it with

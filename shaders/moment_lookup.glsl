@@ -27,6 +27,7 @@ float pixel_level(Texel at, vec3 position, vec3 normal) {
 MOMENTS filtered_moments(ShadowTest test, vec3 position, vec3 normal) {
   vec2 padded = test.at.uv + float(MOMENT_BORDER);
   vec3 where = vec3(padded / vec2(textureSize(moment_map, 0).xy), test.at.face);
+  COUNT_LOOKUPS(1);
   vec4 read = textureLod(moment_map, where, pixel_level(test.at, position, normal));
 #if defined(MOMENTS_ESM)
   return read.x;

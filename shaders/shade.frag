@@ -1,5 +1,6 @@
 // One light's share of the picture, from the visibility buffer and the light's depth map. Permutations: FIRST_LIGHT
 // adds what needs no light (ambient, emission, background); NO_LIGHT does only that; RECORDS writes, besides, what was tested.
+// UNSHADOWED looks nothing up, so that what shadows cost can be told from what the picture costs.
 // TECHNIQUE names the file of technique/ whose technique_visibility() says how much of the light the receiver gets.
 #include "shared_constants.h"
 #ifndef NO_LIGHT
@@ -18,7 +19,7 @@ layout(location = radiance_output) out vec4 radiance;
 #ifdef RECORDS
 layout(location = record_output) out vec4 record;  // texel u, v, distance, gap
 layout(location = flags_output) out uint flags;
-layout(location = visibility_output) out float visibility_record;
+layout(location = visibility_output) out vec2 visibility_record;  // and the map's texels that it took
 #endif
 
 const uint no_id = 0xffffffffu;
@@ -29,7 +30,7 @@ void main() {
 #ifdef RECORDS
   record = vec4(0.0);
   flags = 0u;
-  visibility_record = 1.0;
+  visibility_record = vec2(1.0, 0.0);
 #endif
   if (primitive == no_id) {
 #ifdef FIRST_LIGHT
@@ -48,7 +49,7 @@ void main() {
 #endif
 #ifndef NO_LIGHT
   LightAtPoint at = light_at(r.position);
-#if defined(EXTERNAL) && !defined(RECORDS)
+#if (defined(EXTERNAL) || defined(UNSHADOWED)) && !defined(RECORDS)
   ShadowTest test;  // nothing of it is read
 #else
   ShadowTest test = shadow_test(r.position, r.normal, at.to_light);
@@ -60,7 +61,7 @@ void main() {
 #ifdef RECORDS
   record = vec4(test.own.uv, test.own.distance, test.gap);
   flags = uint((test.outside ? flag_outside_map : 0) | (test.own.face << flag_face_shift));
-  visibility_record = visibility;
+  visibility_record = vec2(visibility, lookups);
 #endif
 #endif
 }

@@ -70,13 +70,17 @@ Tap tap_beyond_edge(Comparison c, ivec2 texel) {
   vec2 centre = (2.0 * (vec2(at.xy) + 0.5) / light.origin_and_size.w - 1.0) * light.extent_and_depths[at.z].xy;
   vec3 ray = to_face(c.at.face, light.right[at.z].xyz * centre.x + light.up[at.z].xyz * centre.y +
                                     light.forward[at.z].xyz);
+  COUNT_LOOKUPS(1);
   return Tap(receiver_depth(c, (ray.xy / ray.z - own) / extent),
              depth_or_infinite(at, texelFetch(depth_map, at, 0).r) * ray.z);
 }
 #endif
 
 Tap tap_at(Comparison c, ivec2 texel) {
-  if (on_face(texel)) return tap_on_face(c, texel, texelFetch(depth_map, ivec3(texel, c.at.face), 0).r);
+  if (on_face(texel)) {
+    COUNT_LOOKUPS(1);
+    return tap_on_face(c, texel, texelFetch(depth_map, ivec3(texel, c.at.face), 0).r);
+  }
 #ifdef CUBE
   return tap_beyond_edge(c, texel);
 #else
@@ -97,6 +101,7 @@ vec4 lit_at_four(Comparison c, ivec2 low) {
   if (!on_face(low) || !on_face(low + 1))
     return vec4(lit_at(c, low), lit_at(c, low + right), lit_at(c, low + up), lit_at(c, low + 1));
   vec2 corner = vec2(low + 1) / light.origin_and_size.w;
+  COUNT_LOOKUPS(4);
   vec4 stored = textureGather(depth_map, vec3(corner, c.at.face)).wzxy;
   return vec4(lit_by(c, tap_on_face(c, low, stored.x)), lit_by(c, tap_on_face(c, low + right, stored.y)),
               lit_by(c, tap_on_face(c, low + up, stored.z)), lit_by(c, tap_on_face(c, low + 1, stored.w)));

@@ -197,6 +197,28 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   fs::remove_all(folder);
 }
 
+TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
+  const auto made = make_synthetic();
+  const fs::path with = fresh_folder("with-page"), without = fresh_folder("without-page");
+  ASSERT_TRUE(write_outputs(made->comparison, {.folder = with.string()}));
+  const auto written = write_outputs(made->comparison, {.folder = without.string(), .page = false});
+  ASSERT_TRUE(written) << written.error().message();
+  fs::remove(with / "report.html");
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(with)) {
+    const std::string name = entry.path().filename().string();
+    ASSERT_TRUE(fs::exists(without / name)) << name;
+    if (!name.starts_with("result.")) {  // which hold times
+      EXPECT_EQ(file_text(without / name), file_text(with / name)) << name;
+    }
+    ++files;
+  }
+  EXPECT_EQ(written->paths.size(), files);
+  EXPECT_FALSE(fs::exists(without / "report.html"));
+  fs::remove_all(with);
+  fs::remove_all(without);
+}
+
 TEST(WriteOutputs, SaysWhereItCouldNotWrite) {
   const auto made = make_synthetic();
   const auto paths = write_outputs(made->comparison, {.folder = "/proc/no-such-folder/out"});

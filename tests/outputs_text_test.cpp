@@ -9,6 +9,7 @@
 #include "compare/outputs.h"
 #include "compare/report/lessons.h"
 #include "compare/report/shell.h"
+#include "compare/shadow_cost.h"
 #include "compare/text_layout.h"
 #include "tests/synthetic_comparison.h"
 
@@ -89,14 +90,52 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
-  EXPECT_EQ(c.verdict(),
-            "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), all of them acne. No other "
-            "constant bias does "
-            "better. No constant "
-            "bias can be right everywhere: 213 lit pixels need 0.031 or more, 97 shadowed pixels need less "
-            "than 0.012.");
+  EXPECT_EQ(
+      c.verdict(),
+      "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), all of them acne. No other "
+      "constant bias does "
+      "better. No constant "
+      "bias can be right everywhere: 213 lit pixels need 0.031 (2.5 texels) or more, 97 shadowed pixels "
+      "need less than 0.012 (0.96 texel).");
+  c.light.best_bias.needs_less_than = 1.55e-5;
+  EXPECT_NE(c.verdict().find("97 shadowed pixels need less than a hundredth of a texel."), std::string::npos)
+      << c.verdict();
+  c.light.best_bias.needs_less_than = -5.01e-6;
+  EXPECT_NE(c.verdict().find("everywhere: 213 lit pixels need 0.031 (2.5 texels) or more, 97 shadowed pixels "
+                             "are lit without any."),
+            std::string::npos)
+      << c.verdict();
+  c.light.best_bias.needs_more_than = -1e-6;
+  EXPECT_NE(c.verdict().find("everywhere: 97 shadowed pixels are lit without any."), std::string::npos)
+      << c.verdict();
   c.light.best_bias.needs_less_than = -infinity;
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
+}
+
+TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
+  Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
+  c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
+  c.light.bias_curve_withheld = "It filters.";
+  EXPECT_EQ(c.verdict(), "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), mostly acne.");
+}
+
+TEST(Repeats, StopWhereTheRunsMadeTookLongEnough) {
+  EXPECT_TRUE(times_again({}, 3, 0.0)) << "the first is always made";
+  EXPECT_TRUE(times_again({{10.0, 10.0}}, 3, 25.0));
+  EXPECT_FALSE(times_again({{30.0}}, 3, 25.0));
+  EXPECT_FALSE(times_again({{1.0, 1.0, 1.0}}, 3, 25.0));
+}
+
+TEST(ShadowCost, IsWhatIsLeftRunByRun) {
+  raster::LightRecord drawn;
+  drawn.shade_pass.runs = {10.0, 12.0};
+  EXPECT_TRUE(shadow_lookups(drawn).runs.empty()) << "not timed";
+  drawn.unshadowed_pass.runs = {8.0, 13.0};
+  EXPECT_EQ(shadow_lookups(drawn).runs, (std::vector<double>{2.0, -1.0}));
+  raytrace::LightTruth truth;
+  truth.shadow_rays.runs = {9.0};
+  truth.light_structure.runs = {4.0};
+  EXPECT_EQ(standing_rays(truth).runs, (std::vector<double>{5.0}));
 }
 
 TEST(Verdict, HandlesNoneFewAndNothing) {

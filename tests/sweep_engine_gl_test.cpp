@@ -4,6 +4,7 @@
 
 #include "compare/output_parts.h"
 #include "compare/sweep/engine.h"
+#include "scene/load.h"
 #include "support/one_world.h"
 #include "support/small_scenes.h"
 
@@ -116,6 +117,99 @@ TEST(Engine, EveryCurveIsWhatItsBiasesDraw) {
   expect_curve_is_drawn(scene, hard);
   scene.lights = {lights[2]};
   for (const raster::Technique technique : {hard, cube}) expect_curve_is_drawn(scene, technique);
+}
+
+// What a filter would draw with another bias does not follow from the gaps of a hard test.
+TEST(Engine, TechniquesWithoutACurveSayWhy) {
+  using enum raster::Technique;
+  Scene scene = boxes_and_ball();
+  scene.lights.resize(1);
+  Workshop shop(scene);
+  for (const raster::Technique technique : {pcf, pcss, vsm, esm, evsm, msm, izb}) {
+    Setting setting = shop.first;
+    setting.raster.map.technique = technique;
+    const auto drawn = shop.engine.compare(setting);
+    ASSERT_TRUE(drawn) << drawn.error().message();
+    const compare::LightComparison& light = (*drawn)->lights.front();
+    EXPECT_TRUE(light.bias_curve.empty()) << int(technique);
+    EXPECT_FALSE(light.bias_curve_withheld.empty()) << int(technique);
+    const std::string line = compare::result_line(**drawn, {});
+    EXPECT_NE(line.find("\"best_bias\":{\"constant_world\":null"), std::string::npos) << line;
+  }
+}
+
+// An endless plane goes on behind the map's last depth: what is not stored there is no rounding of the map's.
+TEST(Ladder, WhatLiesBeyondTheMapIsNotImprecise) {
+  OneWorld whitted(load_scene("whitted").value());
+  compare::CompareOptions options;
+  options.raster.size = options.raytrace.size = {480, 270};
+  options.raster.runs = 0;
+  options.perceptual = false;
+  const compare::LightComparison light = whitted.compare(options).lights.front();
+  EXPECT_LT(light.budget[static_cast<std::size_t>(compare::Cause::precision)].absolute_mean, 1e-6)
+      << "549 of 84,511 pixels at the horizon once";
+}
+
+/// Texels of a (2 reach + 1)^2 kernel around a place in a map of so many texels that lie in it.
+std::uint64_t texels_in_map(Vec2f uv, int reach, int map) {
+  const auto along = [&](float at) {
+    const int middle = static_cast<int>(std::floor(at));
+    return std::max(0, std::min(map - 1, middle + reach) - std::max(0, middle - reach) + 1);
+  };
+  const bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x < float(map) && uv.y < float(map);
+  return inside ? static_cast<std::uint64_t>(along(uv.x)) * static_cast<std::uint64_t>(along(uv.y)) : 0;
+}
+
+TEST(Lookups, AreCountedTexelByTexel) {
+  Scene scene = boxes_and_ball();
+  scene.lights.resize(1);
+  Workshop shop(scene);
+  for (const int reach : {0, 1, 3}) {
+    Setting setting = shop.first;
+    setting.raster.map.technique = reach == 0 ? raster::Technique::hard : raster::Technique::pcf;
+    setting.raster.map.filter.radius_texels = reach + 0.5;
+    const auto drawn = shop.engine.compare(setting);
+    ASSERT_TRUE(drawn) << drawn.error().message();
+    const compare::LightComparison& light = (*drawn)->lights.front();
+    const raster::LightRecord& record = (*drawn)->raster.lights.front();
+    std::uint64_t expected = 0;
+    for (std::size_t i = 0; i < light.labels.data.size(); ++i)
+      if (compare::is_compared(light.labels.data[i]))
+        expected += texels_in_map(record.texel_uv.data[i], reach, record.map.view.size);
+    EXPECT_EQ(light.lookups, std::optional(expected)) << "reach " << reach;
+  }
+  Setting exact = shop.first;
+  exact.raster.map.technique = raster::Technique::izb;
+  const auto drawn = shop.engine.compare(exact);
+  ASSERT_TRUE(drawn) << drawn.error().message();
+  EXPECT_FALSE((*drawn)->lights.front().lookups) << "lists are walked, and no map is looked up";
+}
+
+// The shading without shadows is timed beside the other and leaves no trace in the picture.
+TEST(ShadowCost, IsTimedInTurnAndDrawsNothing) {
+  for (const auto technique : {raster::Technique::hard, raster::Technique::pcf, raster::Technique::vsm}) {
+    OneWorld apart(boxes_and_ball()), plain(boxes_and_ball());
+    compare::CompareOptions options;
+    options.raster.size = options.raytrace.size = size;
+    options.raster.map.size = 128, options.raster.map.technique = technique;
+    options.raster.runs = 2;
+    options.raytrace.runs = 2, options.raytrace.warm_up = true;
+    options.perceptual = false;
+    const compare::Comparison without = plain.compare(options);
+    options.raster.shadow_cost = true;
+    const compare::Comparison with = apart.compare(options);
+    EXPECT_TRUE(with.raster.color.data == without.raster.color.data) << int(technique);
+    for (std::size_t i = 0; i < with.raster.lights.size(); ++i) {
+      const raster::LightRecord& record = with.raster.lights[i];
+      EXPECT_TRUE(record.visibility.data == without.raster.lights[i].visibility.data) << int(technique);
+      EXPECT_EQ(record.shade_pass.runs.size(), 2u);
+      EXPECT_EQ(record.unshadowed_pass.runs.size(), 2u);
+      EXPECT_TRUE(without.raster.lights[i].unshadowed_pass.runs.empty());
+      EXPECT_GT(record.first_map_ms, 0.0);
+      EXPECT_EQ(with.raytraced.lights[i].shadow_rays.runs.size(), 2u);
+      EXPECT_EQ(with.raytraced.lights[i].light_structure.runs.size(), 2u);
+    }
+  }
 }
 
 // Where the constant scales with the texel, a bias in world units is another drawing, not another constant.

@@ -51,7 +51,8 @@ std::vector<std::uint32_t> first_light(const Scene& scene) {
 
 raytrace::RayTracedFrame render(const BenchInput& input, const Tracer& tracer, int runs) {
   raytrace::RaytraceOptions options;
-  options.size = input.size, options.runs = runs, options.picture = false, options.shadow_samples = 1;
+  options.size = input.size, options.runs = runs, options.warm_up = runs > 1, options.picture = false,
+  options.shadow_samples = 1;
   return trace_frame(tracer, input.loaded.plan, input.loaded.scene->camera, first_light(*input.loaded.scene),
                      options);
 }

@@ -15,8 +15,10 @@ struct TechniqueRow {
   std::string technique;
   std::string refused;  ///< why it cannot be used here; the rest is then empty
   std::uint64_t compared = 0, wrong = 0;
-  double mean_absolute = 0.0;           ///< of V6 - V0 over compared pixels
-  double map_ms = 0.0, shade_ms = 0.0;  ///< medians, summed over lights
+  double mean_absolute = 0.0;  ///< of V6 - V0 over compared pixels
+  /// Medians, summed over lights: the map, what looking it up adds to the shading, and the shading without.
+  double map_ms = 0.0, lookup_ms = 0.0, unshadowed_ms = 0.0;
+  double lookups_per_pixel = 0.0;  ///< 0: none are counted
   std::uint64_t texels = 0, bytes = 0;
   std::string main_label;  ///< of most wrong pixels
 };
@@ -26,7 +28,8 @@ struct TechniqueTable {
   ImageSize size;
   int map_size = 0;
   std::vector<TechniqueRow> rows;
-  double rays_ms = 0.0;  ///< exact shadow rays of the same pixels: what the truth costs
+  /// Exact shadows of the same pixels: the lights' structures and the rays, which are what the truth costs.
+  double structure_ms = 0.0, rays_ms = 0.0;
 };
 
 /// Every technique of technique_names() with the options of `base`.

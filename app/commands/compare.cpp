@@ -83,9 +83,19 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   return comparison;
 }
 
-/// A large picture's shadow map and shading take long enough to be timed once.
-constexpr std::size_t large_picture = 1'000'000;  // pixels
-constexpr int runs_of_large = 1;
+/// Above this many pixels the shading without shadows takes longer than what it tells is worth, unless times
+/// are asked for.
+constexpr std::size_t large_picture = 1'000'000;
+
+/// One rule for both renderers.
+void set_runs(CompareCommand& command) {
+  raster::RasterOptions& raster = command.setting.options.raster;
+  raytrace::RaytraceOptions& rays = command.setting.options.raytrace;
+  raster.runs = rays.runs = command.runs.value_or(usual_runs);
+  raster.enough_ms = rays.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
+  raster.shadow_cost = command.runs.has_value() || raster.size.pixels() <= large_picture;
+  rays.warm_up = true;
+}
 
 Expected<ExitCode> run_compare(CompareCommand& command) {
   const Stopwatch total;
@@ -93,10 +103,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   const ThreadLimit thread_limit(command.threads, console);
   if (command.output.folder.empty() && !only_prints_json(command.output))
     command.output.folder = default_output(command.scene.name);
-  if (command.runs)
-    command.setting.options.raster.runs = command.setting.options.raytrace.runs = *command.runs;
-  else if (command.setting.options.raster.size.pixels() > large_picture)
-    command.setting.options.raster.runs = runs_of_large;
+  set_runs(command);
   command.setting.options.raytrace.size = command.setting.options.raster.size;
   command.setting.options.raytrace.seed = command.seed;
 
@@ -129,11 +136,14 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(
       app, command.runs,
-      fmt::format("{} for shadow maps ({} above a million pixels), {} for rays",
-                  command.setting.options.raster.runs, runs_of_large, command.setting.options.raytrace.runs)
+      fmt::format("{}, of maps, shading and rays alike, but no further one of a pass once those made took "
+                  "{:g} ms together",
+                  usual_runs, usual_enough_ms)
           .c_str());
   add_exposure(app, command.exposure);
   add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
+  app.add_flag("--no-report", command.output.no_report,
+               "write no report.html and spend no time on it; all other files as ever [default off]");
   add_result_limits(app, command.output);
 }
 

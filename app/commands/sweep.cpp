@@ -54,7 +54,8 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   if (std::filesystem::exists(compare::ray_points_path(command.folder))) return {};
   auto options = command.options.parse_cell(plan.grid, 0);
   if (!options) return fail(options.error());
-  options->options.raytrace.runs = command.runs.value_or(3);
+  options->options.raytrace.runs = command.runs.value_or(1);  // as the rasterizer's cells
+  options->options.raytrace.warm_up = true;
   options->options.raytrace.seed = command.seed;
   const auto setting = resolve_setting(*options, *loaded.scene, *loaded.world);
   if (!setting) return fail(setting.error());

@@ -108,6 +108,11 @@ std::string work_table(const Comparison& c) {
     rows +=
         plain_row("samples asked for", keyed_count("costs.soft_shadow_rays_asked", rays.soft_shadow_asked));
   }
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    if (c.lights[i].lookups)
+      rows += plain_row("map lookups of compared pixels" +
+                            (c.lights.size() > 1 ? ", " + escaped(shown_light_name(c, i)) : std::string()),
+                        keyed_count(light_key(i, "lookups.total"), *c.lights[i].lookups));
   rows += plain_row("reflection rays", keyed_count("costs.reflection_rays", rays.reflection));
   rows += plain_row("refraction rays", keyed_count("costs.refraction_rays", rays.refraction));
   if (rays.glossy > 0) rows += plain_row("glossy rays", keyed_count("costs.glossy_rays", rays.glossy));
@@ -188,7 +193,7 @@ std::string cost_section(const PageInput& in) {
 <h2 id="cost-title">Time and work</h2>
 <p>Wall-clock medians on this machine, each pass finished before the clock stops.</p>
 )" + time_table(in) +
-         (in.budget != nullptr ? time_budget_block(*in.budget) : std::string()) +
+         shadow_cost_table(in) + (in.budget != nullptr ? time_budget_block(*in.budget) : std::string()) +
          R"(<div class="columns">
 <div>)" + work_table(in.comparison) +
          "</div>\n<div>" + whole_table(in) + "</div>\n</div>\n</section>\n";

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compare/bias_advice.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -46,17 +47,7 @@ The best is {}{}, which leaves {} wrong.)",
       texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
       keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
   if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
-  text += " No constant bias can be right everywhere: ";
-  if (!std::isfinite(best.needs_less_than))
-    return text + "some shadowed pixels find no caster stored in the map.";
-  return text +
-         fmt::format("{} need{} {} or more, {} need{} less than {}.",
-                     keyed_things(b.key("best_bias.lit_pixels_above"), best.lit_pixels_above, "lit pixel"),
-                     best.lit_pixels_above == 1 ? "s" : "", value("needs_more_than", best.needs_more_than),
-                     keyed_things(b.key("best_bias.shadowed_pixels_below"), best.shadowed_pixels_below,
-                                  "shadowed pixel"),
-                     best.shadowed_pixels_below == 1 ? "s" : "",
-                     value("needs_less_than", best.needs_less_than));
+  return text + escaped(contradiction(b.light));
 }
 
 std::string fact(std::string_view name, const std::string& value, const std::string& what) {
@@ -199,16 +190,14 @@ picture.</p>
 }
 
 std::string bias_block(const LightBlock& b) {
-  const bool has_bias = draws_bias(b.in.comparison);
-  const double used = has_bias ? drawn_record(b.in.comparison, b.light).bias_constant_world : std::nan("");
+  if (b.light.pixels.compared == 0) return "";
+  if (!b.light.bias_curve_withheld.empty())
+    return "<h3>How the error depends on the bias</h3>\n<p>" + escaped(b.light.bias_curve_withheld) +
+           "</p>\n" + engine_units_table(b);
+  const double used = drawn_record(b.in.comparison, b.light).bias_constant_world;
   const std::string chart = bias_chart(b.light, used, fmt::format("bias-{}", b.index));
   if (chart.empty()) return "";
-  const std::string_view whose = !has_bias ? "if a hard test looked up a map of this size"
-                                 : biases_follow_from_gaps(b.in.comparison.raster)
-                                     ? "from this one render"
-                                     : "if a hard test looked up this map";
-  return fmt::format("<h3>How the error depends on the bias, {}</h3>\n<p>", whose) + bias_words(b) +
-         "</p>\n" +
+  return "<h3>How the error depends on the bias, from this one render</h3>\n<p>" + bias_words(b) + "</p>\n" +
          scroll_region("Chart of wrong pixels against the bias of light " + std::to_string(b.index + 1),
                        chart) +
          bias_kinds_table(b) + engine_units_table(b) + lesson_details(lesson("bias"));

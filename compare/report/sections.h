@@ -18,6 +18,8 @@ std::string light_section(const PageInput& input, std::size_t index);
 /// Times and what does not depend on the machine.
 std::string cost_section(const PageInput& input);
 /// Every stage of the run with its time, and their sum.
+/// What shadows cost apart from what the picture costs, on both sides.
+std::string shadow_cost_table(const PageInput& input);
 std::string time_budget_block(const TimeBudget& budget);
 /// What was simulated and what was not, and what the loader had to say.
 std::string effects_section(const PageInput& input);

@@ -2,5 +2,6 @@
 // exceeds the constant bias.
 
 float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {
+  COUNT_LOOKUPS(test.at.inside ? 1 : 0);
   return test.gap > light.bias.x ? 0.0 : 1.0;
 }

@@ -1,0 +1,34 @@
+// Pieces of result.json that its top and the blocks of its lights share.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/comparison.h"
+
+namespace gnomon::compare {
+
+using Json = nlohmann::ordered_json;
+
+/// null where it is not finite.
+inline Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// {median, runs[]}; the median of no runs is null.
+inline Json times_json(const Times& t) {
+  Json runs = Json::array();
+  for (const double run : t.runs) runs.push_back(number(run));
+  return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
+}
+
+inline Json one_time_json(double ms) {
+  return times_json(Times{{ms}});
+}
+
+/// One entry of "lights".
+Json light_block(const Comparison& comparison, const LightComparison& light);
+/// Its "times_ms".
+Json light_times_json(const Comparison& comparison, const LightComparison& light);
+
+}  // namespace gnomon::compare

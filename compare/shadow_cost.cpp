@@ -1,0 +1,59 @@
+#include "compare/shadow_cost.h"
+
+#include <algorithm>
+
+#include "raster/technique_traits.h"
+
+namespace gnomon::compare {
+namespace {
+
+Times difference(const Times& of, const Times& part) {
+  Times out;
+  for (std::size_t i = 0; i < std::min(of.runs.size(), part.runs.size()); ++i)
+    out.runs.push_back(of.runs[i] - part.runs[i]);
+  return out;
+}
+
+}  // namespace
+
+Times shadow_lookups(const raster::LightRecord& drawn) {
+  return difference(drawn.shade_pass, drawn.unshadowed_pass);
+}
+
+Times standing_rays(const raytrace::LightTruth& truth) {
+  return truth.is_soft() ? truth.soft_shadow_rays : difference(truth.shadow_rays, truth.light_structure);
+}
+
+bool is_software(const raster::ContextInfo& context) {
+  constexpr std::array names{"llvmpipe", "softpipe", "SWR", "swrast"};
+  return std::any_of(names.begin(), names.end(), [&context](const char* name) {
+    return context.renderer.find(name) != std::string::npos;
+  });
+}
+
+std::optional<std::uint64_t> count_lookups(const raster::RasterFrame& frame, const raster::LightRecord& drawn,
+                                           const Image<Label>& labels) {
+  if (!raster::compares_depths(frame.options.map.technique)) return std::nullopt;
+  if (frame.custom_shader || drawn.lookups.data.size() != labels.data.size()) return std::nullopt;
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    sum += is_compared(labels.data[i]) ? drawn.lookups.data[i] : 0u;
+  return sum;
+}
+
+RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
+                       const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
+  constexpr std::size_t about = 1024;  // rays
+  RayWork out;
+  raytrace::WorkCounts work;
+  const std::size_t step = std::max<std::size_t>(1, labels.data.size() / about);
+  for (std::size_t i = step / 2; i < labels.data.size(); i += step) {
+    if (!is_compared(labels.data[i])) continue;
+    static_cast<void>(tracer.occluded(tracer.shadow_ray(receivers.data[i], light), work));
+    ++out.rays;
+  }
+  out.boxes = work.boxes, out.primitives = work.primitives;
+  return out;
+}
+
+}  // namespace gnomon::compare

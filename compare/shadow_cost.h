@@ -1,0 +1,29 @@
+// What shadows cost apart from what the picture costs, on both sides: the map and its lookups against the
+// light's structure and its rays.
+#pragma once
+
+#include "compare/comparison.h"
+
+namespace gnomon::compare {
+
+/// What shading took beyond the same shading without shadows, run by run (ms); below 0 where the difference
+/// is lost in the spread of the times. Empty where RasterOptions::shadow_cost did not ask for it.
+Times shadow_lookups(const raster::LightRecord& drawn);
+/// The exact shadow of a light whose structure stands, run by run (ms): all but LightTruth::light_structure.
+Times standing_rays(const raytrace::LightTruth& truth);
+
+inline constexpr std::string_view software_note =
+    "a software rasterizer's times are not a GPU's; texels, lookups, rays and tests hold everywhere";
+
+/// Mesa's software rasterizers, by the name that OpenGL gives.
+bool is_software(const raster::ContextInfo& context);
+
+/// Counted over the compared pixels; none where the technique looks up no map or a shader of the user's own
+/// does.
+std::optional<std::uint64_t> count_lookups(const raster::RasterFrame& frame, const raster::LightRecord& drawn,
+                                           const Image<Label>& labels);
+/// Of some thousand compared pixels spread evenly over the picture.
+RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
+                       const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+
+}  // namespace gnomon::compare

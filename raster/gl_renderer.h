@@ -1,0 +1,127 @@
+// The renderer behind Renderer::create. renderer.cpp has the order of things, renderer_passes.cpp the timed
+// drawing of maps and pictures. Private to raster.
+#pragma once
+
+#include <functional>
+
+#include "raster/depth_map_pass.h"
+#include "raster/external_pass.h"
+#include "raster/renderer.h"
+#include "raster/shading_pass.h"
+#include "raster/technique_pass.h"
+#include "scene/stages.h"
+
+namespace gnomon::raster {
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<Context> context, std::unique_ptr<Gl> gl, const World& world,
+             const SceneFeatures& features, WorldBuffers buffers, double upload_ms)
+      : context_(std::move(context)),
+        gl_(std::move(gl)),
+        world_(&world),
+        programs_(*gl_, features),
+        buffers_(std::move(buffers)),
+        map_pass_(*gl_, programs_),
+        shading_(*gl_, programs_),
+        light_block_(*gl_),
+        external_(*gl_),
+        upload_ms_(upload_ms) {
+    info_ = {context_->backend(), gl_->text(GL_VERSION), gl_->text(GL_RENDERER), max_map_size(*gl_)};
+  }
+  GlRenderer(const GlRenderer&) = delete;
+  GlRenderer& operator=(const GlRenderer&) = delete;
+  ~GlRenderer() override { context_->make_current(); }  // the members below are destroyed next, context last
+
+  Expected<void> compile();
+  Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) override;
+  const ContextInfo& info() const override { return info_; }
+  void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) override {
+    external_.use(std::move(visibility));
+  }
+
+ private:
+  struct Job;  // one call of render()
+  Expected<RasterFrame> render_checked(const RasterOptions& options, std::span<const std::uint32_t> lights);
+  Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
+  Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
+  Expected<void> draw_map(const MapJob& map, bool with_ids);
+  Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
+  Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
+  Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
+  Expected<void> see(const Job& job, const VisibilityRequest* request);
+  Expected<void> find_external(const VisibilityRequest* request);
+  Expected<void> shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
+                       LightRecord* record);
+  Expected<void> shade_without_light(Job& job);
+  using Pass = std::function<Expected<void>()>;
+  /// The warm-up, then as many runs of `pass` as the options ask for; each adds to `times` itself. `repeats`:
+  /// the stage that all of it is charged to, for only frames that are kept count as made.
+  Expected<void> repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
+                        const Pass& warm_up, const Pass& pass);
+  /// The same with each run timed from an idle device to an idle device.
+  Expected<void> time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
+                           const Pass& warm_up, const Pass& pass);
+  Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
+                              LightRecord& record);
+  Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
+  /// The map of the last frame with records, as long as the device holds it.
+  struct KeptMap {
+    RasterOptions options;  ///< without the bias
+    Light light;
+    ShadowMap map;
+    Times map_pass;
+    double first_map_ms, id_map_ms;
+  };
+  bool take_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  void keep_map(const Job& job, const Light& light, const LightRecord& record);
+  void restore_state() const;
+
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<Gl> gl_;
+  const World* world_;
+  ContextInfo info_;
+  ProgramCache programs_;
+  WorldBuffers buffers_;
+  DepthMapPass map_pass_;
+  ShadingPass shading_;
+  Buffer light_block_;
+  std::unique_ptr<TechniquePass> technique_pass_;
+  Technique technique_ = Technique::hard;  ///< of technique_pass_
+  ExternalPass external_;
+  double upload_ms_;
+  std::optional<KeptMap> kept_map_;
+  std::optional<ShadePermutation> last_timed_;  ///< of the shading pass
+};
+
+struct GlRenderer::Job {
+  RasterOptions options;
+  View view;
+  RasterFrame frame{};
+  bool visibility_drawn = false;
+  bool first_light = true;
+  Stopwatch map_started{};  ///< since the memory of the light's map was asked for
+};
+
+/// Charges what is read back from the device to its stage and to the frame.
+class ReadBack {
+ public:
+  explicit ReadBack(RasterFrame& frame) : frame_(frame), stage_("read-back") {}
+  ~ReadBack() { frame_.read_back_ms += watch_.elapsed_ms(); }
+  ReadBack(const ReadBack&) = delete;
+  ReadBack& operator=(const ReadBack&) = delete;
+
+ private:
+  RasterFrame& frame_;
+  TimedStage stage_;
+  Stopwatch watch_;
+};
+
+ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bool first, bool records);
+/// The same light, with nothing looked up: every receiver is lit.
+ShadePermutation unshadowed(ShadePermutation shadowed);
+std::uint64_t texels_of(const LightView& view);
+/// Whether the records of a light hold its map: izb and hybrid draw one for the records alone.
+bool hands_on_map(const RasterOptions& options);
+
+}  // namespace gnomon::raster

@@ -1,0 +1,243 @@
+// The timed drawing: maps, shading with and without shadows, and what is read back of them.
+#include <algorithm>
+
+#include "raster/gl_renderer.h"
+#include "raster/map_shape.h"
+#include "raster/shader_folder.h"
+#include "raster/technique_shader.h"
+#include "raster/technique_traits.h"
+#include "scene/stages.h"
+
+namespace gnomon::raster {
+
+// Exact techniques draw a depth map for the records alone.
+bool hands_on_map(const RasterOptions& options) {
+  return options.analysis && (options.map_contents || !compares_depths(options.map.technique));
+}
+
+ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bool first, bool records) {
+  ShadePermutation p;
+  p.first_light = first;
+  p.records = records;
+  p.light = light.type;
+  p.slope_bias = map.bias.slope != 0.0;
+  p.normal_offset = map.bias.normal_offset_texels > 0.0;
+  p.receiver_plane = map.bias.receiver_plane;
+  p.technique = technique_shader(map, light);
+  for (std::string& define : map_defines(map)) p.technique.defines.push_back(std::move(define));
+  return p;
+}
+
+ShadePermutation unshadowed(ShadePermutation shadowed) {
+  shadowed.slope_bias = shadowed.normal_offset = shadowed.receiver_plane = false;
+  shadowed.technique = {"unshadowed", {"UNSHADOWED"}};
+  return shadowed;
+}
+
+std::uint64_t texels_of(const LightView& view) {
+  const auto side = static_cast<std::uint64_t>(view.size);
+  return static_cast<std::uint64_t>(view.face_count) * side * side;
+}
+
+Expected<void> GlRenderer::repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
+                                  const Pass& warm_up, const Pass& pass) {
+  if (options.runs == 0) return {};
+  const TimedStage stage(repeats, TimedStage::Inner::included);
+  if (auto ok = warm_up(); !ok) return ok;
+  (*gl_)->Finish();
+  while (times_again(times, options.runs, options.enough_ms))
+    if (auto ok = pass(); !ok) return ok;
+  return {};
+}
+
+Expected<void> GlRenderer::time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
+                                     const Pass& warm_up, const Pass& pass) {
+  return repeat(repeats, options, times, warm_up, [&] {
+    Expected<void> result;
+    time_run(times, [&] {
+      result = pass();
+      (*gl_)->Finish();
+    });
+    return result;
+  });
+}
+
+// The comparison's rungs below V6 are those of a depth map, which is drawn for them alone.
+Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record) {
+  if (auto ok = external_.check(); !ok) return ok;
+  job.frame.map_texels += texels_of(request.map);
+  if (record != nullptr) {
+    const Pass pass = [&] { return external_.prepare(request, true); };
+    if (auto ok = time_pass("sheet runs", job.options, record->map_pass, pass, pass); !ok) return ok;
+  }
+  const TimedStage stage("sheets");
+  return external_.prepare(request, false);
+}
+
+// The surfaces that the camera sees are read back where the technique fits its map to them.
+Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptions& map) {
+  std::vector<Vec3> visible;
+  if (fits_to_samples(map)) {
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return fail(ok.error());
+    job.visibility_drawn = true;
+    visible = shading_.read_positions(*world_, job.view);
+  }
+  return fit_map(*world_, light, double(job.options.size.width) / job.options.size.height, map, visible);
+}
+
+Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {
+  if (technique_ != map.options.technique) {
+    technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
+    technique_ = map.options.technique;
+  }
+  if (auto ok = map_pass_.prepare(map.view, map.options.depth_format, with_ids); !ok) return ok;
+  if (map.options.technique == Technique::hybrid) return {};  // drawn for the records alone
+  const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
+  if (!replaced) job.frame.map_texels += texels_of(map.view);
+  std::uint64_t bytes = replaced ? 0 : map_pass_.bytes();
+  if (technique_pass_ != nullptr) {
+    if (auto ok = technique_pass_->prepare(map); !ok) return ok;
+    job.frame.map_texels += technique_pass_->texels();
+    bytes += technique_pass_->bytes();
+  }
+  job.frame.map_bytes = std::max(job.frame.map_bytes, bytes);
+  return {};
+}
+
+Expected<void> GlRenderer::draw_map(const MapJob& map, bool with_ids) {
+  const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
+  if (!replaced || with_ids) {
+    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, with_ids); !ok) return ok;
+  }
+  return technique_pass_ != nullptr ? technique_pass_->draw(map) : Expected<void>{};
+}
+
+Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
+  if (technique_pass_ != nullptr && technique_pass_->replaces_map() && !job.visibility_drawn) {
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    job.visibility_drawn = true;
+  }
+  if (record != nullptr && map.options.technique != Technique::hybrid) {
+    const Pass pass = [&]() -> Expected<void> {
+      if (fits_to_samples(map.options)) {
+        if (auto fitted = fit(job, map.light, map.options); !fitted) return fail(fitted.error());
+      }
+      return draw_map(map, false);
+    };
+    const Pass first = [&]() -> Expected<void> {
+      auto done = pass();
+      (*gl_)->Finish();
+      record->first_map_ms = job.map_started.elapsed_ms();
+      return done;
+    };
+    if (auto ok = time_pass("map runs", job.options, record->map_pass, first, pass); !ok) return ok;
+  }
+  const bool with_ids = record != nullptr && hands_on_map(job.options);
+  TimedStage drawing(with_ids ? "map with ids" : "map");
+  const Stopwatch kept;
+  if (auto ok = draw_map(map, with_ids); !ok) return ok;
+  (*gl_)->Finish();
+  if (with_ids) record->id_map_ms = kept.elapsed_ms();
+  drawing.end();
+  const ReadBack reading(job.frame);
+  if (with_ids) map_pass_.read(record->map, true);
+  if (with_ids && technique_pass_ != nullptr) technique_pass_->read(record->map);
+  return gl_->check("drawing the shadow map");
+}
+
+/// What the camera sees and, with a request, how much of the light that gets.
+Expected<void> GlRenderer::see(const Job& job, const VisibilityRequest* request) {
+  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  return find_external(request);
+}
+
+Expected<void> GlRenderer::find_external(const VisibilityRequest* request) {
+  if (request == nullptr) return {};
+  if (auto ok = external_.find(*request, shading_); !ok) return ok;
+  external_.bind_for_lookup();
+  return {};
+}
+
+/// Each run draws what the camera sees, its shadows, and where RasterOptions::shadow_cost asks for it the same
+/// picture once more without them, so that both have the same moments of the machine.
+Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
+                                        LightRecord& record) {
+  const ShadePermutation timed = shade_permutation(map_job.light, map_job.options, job.first_light, false);
+  const ShadePermutation plain = unshadowed(timed);
+  const bool apart = job.options.shadow_cost;
+  const Pass pass = [&]() -> Expected<void> {
+    const Stopwatch shadowed;
+    if (auto seen = see(job, nullptr); !seen) return seen;
+    job.visibility_drawn = true;
+    if (apart) (*gl_)->Finish();
+    const double seen_ms = shadowed.elapsed_ms();
+    if (auto found = find_external(asked); !found) return found;
+    if (auto drawn = shading_.draw_light(buffers_, timed, !job.first_light); !drawn) return drawn;
+    (*gl_)->Finish();
+    record.shade_pass.runs.push_back(shadowed.elapsed_ms());
+    if (!apart) return {};
+    const Stopwatch without;
+    if (auto drawn = shading_.draw_light(buffers_, plain, !job.first_light); !drawn) return drawn;
+    (*gl_)->Finish();
+    record.unshadowed_pass.runs.push_back(seen_ms + without.elapsed_ms());
+    return {};
+  };
+  const Pass warm_up = [&]() -> Expected<void> {
+    if (apart)
+      if (auto ok = shading_.warm_up(buffers_, job.view, plain, !job.first_light); !ok) return ok;
+    if (last_timed_ == timed) return {};
+    if (asked == nullptr) return shading_.warm_up(buffers_, job.view, timed, !job.first_light);
+    if (auto seen = see(job, asked); !seen) return seen;
+    return shading_.draw_light(buffers_, timed, !job.first_light);
+  };
+  if (auto ok = repeat("shading runs", job.options, record.shade_pass, warm_up, pass); !ok) return ok;
+  if (job.options.runs > 0) last_timed_ = timed;
+  return {};
+}
+
+Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
+                                 LightRecord* record) {
+  const MapOptions& map = map_job.options;
+  const VisibilityRequest* asked = map.technique == Technique::hybrid ? &request : nullptr;
+  const bool records = record != nullptr && job.options.analysis;
+  if (asked == nullptr || records) map_pass_.bind_for_lookup();
+  if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
+  if (record != nullptr)
+    if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
+  if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {
+    if (auto ok = see(job, asked); !ok) return ok;
+    job.visibility_drawn = true;
+  }
+  const ShadePermutation kept = shade_permutation(map_job.light, map, job.first_light, records);
+  TimedStage shading(records ? "shading with records" : "shading");
+  if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
+  (*gl_)->Finish();
+  shading.end();
+  if (records)
+    if (auto ok = read_shading(job, map_job, *record); !ok) return ok;
+  if (asked != nullptr && record != nullptr) {
+    record->external = external_.costs(request, records);
+    job.frame.map_bytes = std::max(job.frame.map_bytes, record->external->bytes);
+  }
+  job.first_light = false;
+  return gl_->check("shading");
+}
+
+Expected<void> GlRenderer::read_shading(Job& job, const MapJob& map_job, LightRecord& record) {
+  const ReadBack reading(job.frame);
+  shading_.read_records(record);
+  if (gl_->shader_folder().replaced().empty()) return {};
+  const std::string file = technique_file(map_job.options, map_job.light);
+  return check_visibility(record.visibility, gl_->shader_folder(), file);
+}
+
+Expected<void> GlRenderer::shade_without_light(Job& job) {
+  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  ShadePermutation permutation;
+  permutation.no_light = true;
+  permutation.first_light = true;
+  if (auto ok = shading_.draw_light(buffers_, permutation, false); !ok) return ok;
+  return gl_->check("shading");
+}
+
+}  // namespace gnomon::raster
