@@ -98,12 +98,14 @@ Expected<raster::RasterFrame> Identifier::draw(const raster::MapOptions& map) {
 void Identifier::keep(const raster::MapOptions& map, double bias, double error, double handicap) {
   if (!(error * handicap < best_.error)) return;
   best_ = {map, bias, error};
-  best_.map.bias.constant = bias, best_.map.bias.unit = raster::BiasUnit::world;
+  if (map.bias.unit == raster::BiasUnit::world) best_.map.bias.constant = bias;
 }
 
 /// A pixel is lit from the bias on that its gap is: the picture's error against every bias is a running sum.
 Expected<void> Identifier::try_by_gaps(raster::MapOptions map) {
-  map.bias.constant = 0.0, map.bias.unit = raster::BiasUnit::world;
+  // Cascades' texels differ: their biases are usually meant in texels.
+  const bool scales = map.technique == Technique::csm;
+  map.bias.constant = 0.0, map.bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
   const auto frame = draw(map);
   if (!frame) return fail(frame.error());
   const raster::LightRecord& record = frame->lights.front();
@@ -131,6 +133,7 @@ Expected<void> Identifier::try_by_gaps(raster::MapOptions map) {
     hard_bias_[static_cast<std::size_t>(place)] = bias;
     texel_[static_cast<std::size_t>(place)] = record.texel_world;
   }
+  if (scales) map.bias.constant = bias / record.texel_world;
   keep(map, bias, error, map.bias.slope != 0.0 || map.technique == Technique::csm ? 1.0 / simpler : 1.0);
   return {};
 }
@@ -197,8 +200,10 @@ Expected<void> Identifier::run() {
         map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
         map.filter.radius_texels = radius;
         map.filter.receiver_plane = false;
-        if (technique == Technique::vsm && radius != radii.front()) continue;
-        const double bias = std::max(hard_bias_[s], 0.01 * texel_[s]);
+        // Moments have no radius here: other biases are tried in its place.
+        const double share = radius == radii[1] ? 0.3 : 1.0;
+        const bool of_hard = technique == Technique::pcf || radius == radii.front();
+        const double bias = of_hard ? std::max(hard_bias_[s], 0.01 * texel_[s]) : share * texel_[s];
         const auto error = error_at(map, bias);
         if (!error) return fail(error.error());
         keep(map, bias, *error, 1.0);

@@ -70,6 +70,7 @@ std::string raytraced_caption(const Comparison& c) {
 
 // What the two pictures show differently by design.
 std::string raster_remark(const Comparison& c) {
+  if (c.judged) return "";
   const bool glass = c.plan.simulates(Effect::refraction);
   if (!glass && !c.plan.simulates(Effect::reflection)) return "";
   return glass

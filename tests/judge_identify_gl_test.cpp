@@ -1,0 +1,76 @@
+// gnomon judge --identify on captures that Gnomon made with the map withheld: which map size and bias it finds.
+// Four settings by default; GNOMON_IDENTIFY=all in the environment tries 24 and prints what was found.
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "compare/judge/identify.h"
+#include "compare/option_names.h"
+#include "support/capture_support.h"
+
+namespace gnomon::test {
+namespace {
+
+using raster::Technique;
+
+constexpr ImageSize picture{320, 180};
+
+struct Found {
+  bool size = false, bias = false, technique = false;
+};
+
+Found identify_one(const std::string& name, const raster::MapOptions& map) {
+  const Compared drawn = draw_builtin(name, picture, map);
+  const raster::LightRecord& record = drawn.result.raster.lights[0];
+  const compare::Capture capture =
+      self_capture(drawn, testing::TempDir() + "/gnomon-identify", {.positions = true});
+  Verdict judged = judge(capture);
+  EXPECT_TRUE(judged.result);
+  if (!judged.result) return {};
+  auto context = raster::create_context(raster::Backend::automatic);
+  EXPECT_TRUE(context);
+  auto renderer = raster::Renderer::create(std::move(*context), *judged.world, plan_effects(*judged.scene));
+  EXPECT_TRUE(renderer);
+  const auto done = compare::identify(*judged.result, **renderer, {});
+  EXPECT_TRUE(done) << (done ? "" : done.error().message());
+  if (!done) return {};
+  const compare::Identified& found = *judged.result->judged->identified;
+  const double off = std::abs(found.bias_world - record.bias_constant_world) / record.texel_world;
+  fmt::print("{:14} {:5} {:5} bias {:.4f} -> {} ({:.3f} texels off), explained {:.1f} %, {} drawings\n", name,
+             compare::technique_name(map.technique), map.size, record.bias_constant_world, found.options, off,
+             100.0 * found.explained, found.renders);
+  const compare::LightComparison& light = judged.result->lights[0];
+  double signed_sum = 0.0;
+  for (const compare::BudgetStep& step : light.budget) signed_sum += step.signed_mean;
+  EXPECT_NEAR(signed_sum, light.rung_mean[6] - light.rung_mean[0], 1e-9);
+  return {found.map_size == map.size, off <= 0.5, found.technique == compare::technique_name(map.technique)};
+}
+
+raster::MapOptions setting(Technique technique, int size, double bias) {
+  raster::MapOptions map;
+  map.technique = technique, map.size = size;
+  map.bias = {.constant = bias, .unit = raster::BiasUnit::texel};
+  map.filter.radius_texels = 1.5;
+  map.filter.receiver_plane = false;
+  return map;
+}
+
+TEST(JudgeIdentify, FindsMapSizeAndBias) {
+  const bool all = std::getenv("GNOMON_IDENTIFY") != nullptr;
+  const std::vector<int> sizes = all ? std::vector{256, 512, 1024} : std::vector{512};
+  const std::vector<double> biases = all ? std::vector{0.3, 1.0} : std::vector{0.6};
+  int tried = 0, size = 0, bias = 0, technique = 0;
+  for (const Technique t : {Technique::hard, Technique::pcf, Technique::vsm, Technique::csm})
+    for (const int s : sizes)
+      for (const double b : biases) {
+        const Found found = identify_one("floating-box", setting(t, s, b));
+        ++tried, size += found.size, bias += found.bias, technique += found.technique;
+      }
+  fmt::print("of {}: technique {}, map size {}, bias within half a texel {}\n", tried, technique, size, bias);
+  // Of 24 settings at least 20.
+  EXPECT_GE(size * 24, tried * 20);
+  EXPECT_GE(bias * 24, tried * 20);
+}
+
+}  // namespace
+}  // namespace gnomon::test
