@@ -146,7 +146,6 @@ TEST(Sums, StepsAddUpAndLabelsAddUp) {
 TEST(BiasCurve, EqualsTheRenderAtThatBias) {
   const Compared base = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, 0.0));
   for (const double bias : {0.0, 0.003, 0.0171, 0.05, 0.23}) {
-    auto options = test_options({640, 360}, 256, 0.0);
     const Compared render = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, bias));
     for (std::size_t i = 0; i < base.result.lights.size(); ++i) {
       const auto& record = base.result.raster.lights[i];

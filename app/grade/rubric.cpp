@@ -53,7 +53,7 @@ std::string scene_path(const JsonNode& node, const std::string& folder) {
   const auto scenes = builtin_scenes();
   if (std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; }))
     return name;
-  const auto path = resolve_path(folder, name, true);
+  const auto path = resolve_path(folder, name, {.confine_paths = true});
   if (!path) {
     node.error(path.error().reason);
     return {};
