@@ -36,8 +36,8 @@ TEST(Palette, EveryLabelHasItsOwnColour) {
     colours.insert(packed(label_colour(static_cast<Label>(label))));
     names.insert(label_name(static_cast<Label>(label)));
   }
-  EXPECT_EQ(colours.size(), 17u);
-  EXPECT_EQ(names.size(), 16u);
+  EXPECT_EQ(colours.size(), 18u);
+  EXPECT_EQ(names.size(), 17u);
   EXPECT_EQ(names.count("unknown"), 0u);
 }
 

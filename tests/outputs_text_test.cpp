@@ -275,8 +275,12 @@ TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
           << one.name << " " << tag;
     }
   }
-  for (std::size_t k = 1; k <= class_count; ++k)
-    EXPECT_NE(lesson_of(static_cast<Label>(k)).name, "error-budget") << k;
+  for (std::size_t k = 1; k <= class_count; ++k) {
+    const auto label = static_cast<Label>(k);
+    const bool has_its_own =
+        label != Label::unexplained;  // of another renderer's picture: the budget as a whole
+    EXPECT_EQ(lesson_of(label).name != "error-budget", has_its_own) << k;
+  }
 }
 
 TEST(PageShell, DataFilesHoldWhatWasPutIn) {
