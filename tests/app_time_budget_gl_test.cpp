@@ -59,7 +59,7 @@ Account account_of(const Words& arguments, const TemporaryFolder& folder) {
 void expect_adds_up(const Words& arguments) {
   const TemporaryFolder folder;
   Account best;
-  for (int attempt = 0; attempt < 6; ++attempt) {
+  for (int attempt = 0; attempt < 15; ++attempt) {
     const Account account = account_of(arguments + Words{"-o", "out", "--quiet"}, folder);
     // Both come from the same readings of the clocks.
     EXPECT_NEAR(account.sum_ms, account.process_ms, 1e-6 * account.process_ms);
