@@ -43,7 +43,8 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
     primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
                  {.hits = {unstored.hits.data(), unstored.hits.size()},
                   .receivers = nullptr,
-                  .quantised = {tiles.data(), tiles.size()}});
+                  .quantised = {tiles.data(), tiles.size()}},
+                 options.stop);
   });
   frame.rays.primary = options.size.pixels();
 }
@@ -54,10 +55,11 @@ void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const
   frame.primary_rays = time_pass(primary_stages, options, [&] {
     if (way == PrimaryWay::blocks) {
       primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
-                   {.hits = {}, .receivers = &frame.receiver, .quantised = {tiles.data(), tiles.size()}});
+                   {.hits = {}, .receivers = &frame.receiver, .quantised = {tiles.data(), tiles.size()}},
+                   options.stop);
       return;
     }
-    for_each_pixel({options.size}, [&](int x, int y, std::size_t) {
+    for_each_pixel({options.size, options.stop}, [&](int x, int y, std::size_t) {
       const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
       const std::optional<Hit> hit = tracer.closest_hit(ray);
       frame.receiver.at(x, y) = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
@@ -78,7 +80,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
                    .verdict = Image<Verdict>(options.size, Verdict::lit),
                    .shadow_rays = {},
                    .light_structure = {}};
-  const TileGrid grid{options.size};
+  const TileGrid grid{options.size, options.stop};
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
     std::fill(rays.begin(), rays.end(), 0);
@@ -117,7 +119,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
   truth.samples = options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
   truth.visibility = Image<float>(options.size, 1.0f);
   truth.standard_error = Image<float>(options.size, 0.0f);
-  const TileGrid grid{options.size};
+  const TileGrid grid{options.size, options.stop};
   struct Counts {
     std::uint64_t asked = 0, cast = 0;
   };
@@ -183,7 +185,7 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
   else if (ways.receivers == ReceiverStore::stored)
     trace_primary(tracer, view, ways.primary, options, frame, tiles);
   for (const std::uint32_t light : lights) {
-    if (!at_centres) break;
+    if (!at_centres || options.stop.stop_requested()) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
       frame.lights.push_back(
@@ -199,7 +201,7 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
     frame.rays.soft_shadow_asked += truth.soft_rays_asked;
   }
   if (!at_centres) frame.rays.primary = options.size.pixels();
-  if (options.picture) {
+  if (options.picture && !options.stop.stop_requested()) {
     frame.color = ColorImage(options.size);
     const TimedStage stage("ray-traced picture");
     const Stopwatch watch;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "raytrace/tracer.h"
@@ -31,6 +32,8 @@ struct RaytraceOptions {
   /// false: only the picture is wanted, so no ray is cast that it does not need. Lights with size then have
   /// no verdicts, and with several samples per pixel there are neither receivers nor lights.
   bool records = true;
+  /// A request ends the call at the next tile; what it returns is then not to be read. The tracer stays whole.
+  std::stop_token stop{};
   bool operator==(const RaytraceOptions&) const = default;
 };
 

@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <stop_token>
+
 #include "scene/image.h"
 
 namespace gnomon::raytrace {
@@ -13,6 +15,7 @@ inline constexpr int tile_pixels = 16;
 
 struct TileGrid {
   ImageSize size;
+  std::stop_token stop{};  ///< once requested, no further tile is begun
   std::size_t columns() const {
     return static_cast<std::size_t>((size.width + tile_pixels - 1) / tile_pixels);
   }
@@ -25,7 +28,7 @@ template <class Tile>
 void for_each_tile(const TileGrid& grid, const Tile& tile) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.count(), 1),
                     [&](const tbb::blocked_range<std::size_t>& r) {
-                      for (std::size_t i = r.begin(); i != r.end(); ++i) {
+                      for (std::size_t i = r.begin(); i != r.end() && !grid.stop.stop_requested(); ++i) {
                         const int x0 = static_cast<int>(i % grid.columns()) * tile_pixels;
                         const int y0 = static_cast<int>(i / grid.columns()) * tile_pixels;
                         tile(i, x0, y0, std::min(x0 + tile_pixels, grid.size.width),

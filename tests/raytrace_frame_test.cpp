@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <chrono>
+#include <thread>
+
 #include "raytrace/frame.h"
 #include "raytrace/shading/fresnel.h"
 #include "raytrace_support.h"
@@ -245,6 +248,36 @@ TEST(Frame, SameForAnyNumberOfThreads) {
       ASSERT_TRUE(a.receiver.data[i].position == other->receiver.data[i].position);
     }
   }
+}
+
+// The window gives a comparison up at any moment: no structure may be left half made, and the tracer goes on.
+TEST(Frame, AStopAtAnyMomentLeavesTheTracerWhole) {
+  const Scene scene = everything();
+  const TestWorld w(scene);
+  const Tracer tracer(w.world(), Accel::bvh);
+  const EffectPlan plan = plan_effects(w.scene());
+  const std::vector<std::uint32_t> lights{0, 1};
+  RaytraceOptions options;
+  options.size = {320, 180};
+  const RayTracedFrame whole = trace_frame(tracer, plan, scene.camera, lights, options);
+  for (int moment = 0; moment < 40; ++moment) {
+    std::stop_source stop;
+    RaytraceOptions stopped = options;
+    stopped.stop = stop.get_token();
+    std::thread asking([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(200 * moment));
+      stop.request_stop();
+    });
+    if (moment == 0) asking.join();
+    const RayTracedFrame frame = trace_frame(tracer, plan, scene.camera, lights, stopped);
+    if (moment == 0)
+      EXPECT_TRUE(frame.lights.empty());
+    else
+      asking.join();
+  }
+  const RayTracedFrame again = trace_frame(tracer, plan, scene.camera, lights, options);
+  EXPECT_EQ(again.color.data, whole.color.data);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(again.lights[i].verdict.data, whole.lights[i].verdict.data);
 }
 
 TEST(Frame, EveryPixelIsFinite) {

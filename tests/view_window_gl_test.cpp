@@ -222,7 +222,7 @@ TEST_F(ViewWindow, WindowFollowsTheSizeAsked) {
 
 TEST_F(ViewWindow, WhatCannotBeDrawnEndsTheScriptWithItsLine) {
   const ProcessResult result = run_script("wait 1\nset map-size 65536\nwait done\nscreenshot never.png\n");
-  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_EQ(result.exit_code, 5) << "signal " << result.signal;
   EXPECT_EQ(result.err.substr(0, 13), "script.txt:2:") << result.err;
   EXPECT_FALSE(exists("never.png"));
 }

@@ -1,22 +1,20 @@
 #include "app/view/worker.h"
 
 #include <fmt/format.h>
-#include <tbb/task_group.h>
 
-#include <atomic>
 #include <exception>
+#include <stop_token>
 
 #include "compare/outputs.h"
 #include "scene/exposure.h"
 
 namespace gnomon::app {
 
-/// What is under way. Only tracing is ever cut short: cancelling the group ends the loops inside it, and what
-/// they leave behind is thrown away unread.
+/// What is under way. Only tracing is ever cut short, between two tiles: the tracer and the light's structures
+/// are always built whole.
 struct CompareWorker::Job {
   bool preview = false;
-  std::atomic<bool> given_up{false};
-  tbb::task_group tracing;
+  std::stop_source given_up;
 };
 
 namespace {
@@ -70,10 +68,7 @@ CompareWorker::~CompareWorker() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
-    if (job_) {
-      job_->given_up = true;
-      job_->tracing.cancel();
-    }
+    if (job_) job_->given_up.request_stop();
   }
   wake_.notify_one();
   thread_.join();
@@ -87,9 +82,7 @@ bool CompareWorker::busy() const {
 void CompareWorker::give_up() {
   const std::lock_guard lock(mutex_);
   if (request_ && !request_->preview) request_.reset();
-  if (!job_ || job_->preview) return;
-  job_->given_up = true;
-  job_->tracing.cancel();
+  if (job_ && !job_->preview) job_->given_up.request_stop();
 }
 
 void CompareWorker::start(ComparisonRequest request) {
@@ -151,10 +144,9 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   options.raster = comparison.raster.options;
   options.raytrace.size = comparison.raster.options.size;
   const std::vector<std::uint32_t> lights{comparison.raster.lights.front().light};
-  const tbb::task_group_status traced = job.tracing.run_and_wait([&] {
-    comparison.raytraced = raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
-  });
-  if (traced == tbb::task_group_status::canceled || job.given_up) return std::nullopt;
+  options.raytrace.stop = job.given_up.get_token();
+  comparison.raytraced = raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
+  if (job.given_up.stop_requested()) return std::nullopt;
 
   auto compared =
       compare::compare_frames(*world_, *tracer_, comparison.raster, comparison.raytraced, options);

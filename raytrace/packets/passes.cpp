@@ -116,11 +116,11 @@ void for_each_tile_of(const BlockRect& block, const Tile& tile) {
 
 /// block(rectangle) for every block of the picture, over all threads.
 template <class Block>
-void for_each_block(ImageSize size, const Block& block) {
+void for_each_block(ImageSize size, const std::stop_token& stop, const Block& block) {
   const int columns = (size.width + block_pixels - 1) / block_pixels;
   const int rows = (size.height + block_pixels - 1) / block_pixels;
   tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), [&](const tbb::blocked_range<int>& r) {
-    for (int i = r.begin(); i != r.end(); ++i) {
+    for (int i = r.begin(); i != r.end() && !stop.stop_requested(); ++i) {
       const int x = i % columns * block_pixels, y = i / columns * block_pixels;
       block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
     }
@@ -134,9 +134,10 @@ std::size_t tile_at(ImageSize size, const TileRect& rect) {
 
 }  // namespace
 
-void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks) {
+void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks,
+                  const std::stop_token& stop) {
   const bool hits_alone = sinks.receivers == nullptr && sinks.quantised.empty();
-  for_each_block(view.size, [&](const BlockRect& rect) {
+  for_each_block(view.size, stop, [&](const BlockRect& rect) {
     BlockHits block;
     closest_in_block(tracer.structures(), eye, view, rect, block);
     for_each_tile_of(rect, [&](std::size_t i, const TileRect& tile) {

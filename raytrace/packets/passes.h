@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 
 #include "raytrace/packets/sight.h"
 #include "raytrace/packets/tile.h"
@@ -25,8 +26,10 @@ struct PrimarySinks {
   std::span<QuantisedTile> quantised;  ///< by tile
 };
 
-/// The whole picture by blocks, over all threads. `eye`: edge_setup_of_eye().
-void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks);
+/// The whole picture by blocks, over all threads. `eye`: edge_setup_of_eye(). Once a stop is requested no further
+/// block is begun.
+void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks,
+                  const std::stop_token& stop = {});
 
 /// Where a tile's receivers are to be had in double: stored, or by tracing the pixel again.
 struct ReceiverSource {

@@ -69,7 +69,7 @@ template <class Policy>
 void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
   const Scene& scene = *input.tracer.world().scene;
   const std::vector<std::size_t> truth = truth_of_light(scene, frame);
-  const TileGrid grid{input.options.size};
+  const TileGrid grid{input.options.size, input.options.stop};
   std::vector<TileCounts> counts(grid.count());
   for_each_receiver(input, frame, grid, [&](int x, int y, std::size_t tile, const SurfacePoint& point) {
     if (point.primitive == no_id) {
@@ -107,7 +107,7 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
   const Tracer& tracer = input.tracer;
   const int per_pixel = input.options.samples_per_pixel;
   const bool traced_centres = !frame.receiver.data.empty();
-  const TileGrid grid{input.options.size};
+  const TileGrid grid{input.options.size, input.options.stop};
   std::vector<TileCounts> counts(grid.count());
   for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
     RayCounts& rays = counts[tile].rays;
