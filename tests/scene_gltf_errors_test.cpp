@@ -108,7 +108,7 @@ TEST_F(Gltf, MistakesHaveTheirPath) {
          primitive(b)["extensions"]["KHR_draco_mesh_compression"] = Json::object();
          for (Json& accessor : b.json["accessors"]) accessor.erase("bufferView");
        },
-       "meshes[0].primitives[0]: the geometry is compressed"},
+       "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression: bufferView or attributes is missing"},
       {"wrong types", [](Builder& b) { b.json["meshes"] = "none"; }, "meshes: wrong type"},
       {"number for object", [](Builder& b) { b.json["nodes"][0] = 5; },
        "nodes[0]: wrong type (got 5, allowed an object)"},

@@ -1,11 +1,9 @@
 // glTF 2.0 and GLB: checked by gltf_check, parsed by tinygltf, brought into the scene model here. One
-// instance for each node with a mesh; lights by KHR_lights_punctual in their own units (lux, candela); the
+// instance for each node with a mesh, or as many as EXT_mesh_gpu_instancing says; lights by KHR_lights_punctual in their own units (lux, candela); the
 // first perspective camera.
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <exception>
-#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -15,10 +13,14 @@
 #include "scene/files/defaults.h"
 #include "scene/files/formats.h"
 #include "scene/files/gltf_check.h"
+#include "scene/files/gltf_data.h"
+#include "scene/files/gltf_draco.h"
 #include "scene/files/gltf_extras.h"
+#include "scene/files/gltf_instancing.h"
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
-#include "scene/files/gltf_repair.h"
+#include "scene/files/gltf_model.h"
+#include "scene/files/gltf_skins.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
 
@@ -29,101 +31,7 @@ Error gltf_error(const std::string& file, std::string field, std::string reason)
   return {ErrorKind::bad_input, std::move(reason), file, 0, 0, std::move(field)};
 }
 
-// ---- parsing ----
-
-// What tinygltf asks of the file system: whole files, by plain paths (its own callbacks would let a shell
-// expand them).
-struct FileAccess {
-  std::string folder;
-  const LoadOptions& options;
-  std::string problem;
-};
-
-std::optional<std::string> allowed_path(FileAccess& access, const std::string& path) {
-  const auto relative = std::filesystem::path(path).lexically_relative(access.folder).string();
-  const auto allowed = resolve_path(access.folder, relative.empty() ? path : relative, access.options);
-  if (allowed) return *allowed;
-  access.problem = allowed.error().reason;
-  return std::nullopt;
-}
-
-tinygltf::FsCallbacks file_callbacks(FileAccess& access) {
-  tinygltf::FsCallbacks callbacks{};
-  callbacks.FileExists = [](const std::string& path, void*) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
-  };
-  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                               void* user) {
-    const auto allowed = allowed_path(*static_cast<FileAccess*>(user), path);
-    if (!allowed) return false;
-    const auto bytes = read_file(*allowed);
-    if (!bytes) {
-      if (error) *error += bytes.error().reason;
-      return false;
-    }
-    out->assign(bytes->begin(), bytes->end());
-    return true;
-  };
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  callbacks.user_data = &access;
-  return callbacks;
-}
-
-// Images stay encoded: only those that a material uses are decoded, through image_io.
-bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int size, void*) {
-  image->image.assign(bytes, bytes + size);
-  image->as_is = true;
-  return true;
-}
-
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "unknown reason" : text;
-}
-
-Expected<void> parse(tinygltf::Model& model, std::string_view bytes, bool binary, const std::string& file,
-                     const std::string& folder, const LoadOptions& options) {
-  FileAccess access{folder, options, {}};
-  tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks(file_callbacks(access));
-  loader.SetImageLoader(&keep_encoded, nullptr);
-  std::string errors, warnings;
-  const auto length = static_cast<unsigned int>(bytes.size());
-  const bool done =
-      binary
-          ? loader.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                        reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
-          : loader.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), length, folder);
-  if (!access.problem.empty()) return fail(gltf_error(file, "uri", access.problem));
-  const bool is_file = errors.starts_with("File ");  // a buffer's: images that are missing are no error yet
-  if (!done || !errors.empty()) return fail(gltf_error(file, is_file ? "buffers" : "", one_line(errors)));
-  return {};
-}
-
 // ---- nodes ----
-
-Mat4 local_matrix(const tinygltf::Node& node) {
-  Mat4 matrix(1.0);
-  if (node.matrix.size() == 16) {
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-    return matrix;
-  }
-  if (node.translation.size() == 3)
-    matrix = glm::translate(matrix, Vec3(node.translation[0], node.translation[1], node.translation[2]));
-  if (node.rotation.size() == 4) {
-    const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = glm::length(q);
-    if (length > 0.0) matrix *= glm::mat4_cast(q / length);
-  }
-  if (node.scale.size() == 3) matrix = glm::scale(matrix, Vec3(node.scale[0], node.scale[1], node.scale[2]));
-  return matrix;
-}
 
 // What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
 Vec3 unit(const Vec3& v) {
@@ -133,31 +41,35 @@ Vec3 unit(const Vec3& v) {
 
 class SceneBuilder {
  public:
-  SceneBuilder(LoadedFile& loaded, const tinygltf::Model& model, const GltfExtras& extras,
-               std::vector<Mesh> meshes)
+  SceneBuilder(LoadedFile& loaded, const tinygltf::Model& model, const GltfData& data, const JsonValue& root,
+               const GltfExtras& extras, GltfMeshReader& meshes, const std::string& file)
       : loaded_(loaded),
         scene_(loaded.scene),
         model_(model),
+        data_(data),
+        root_(root),
         extras_(extras),
-        meshes_(std::move(meshes)),
-        our_mesh_(meshes_.size(), no_id) {}
+        meshes_(meshes),
+        file_(file) {}
 
-  void run() {
-    for (const int root : roots()) visit_from(root);
+  Expected<void> run() {
+    for (const int root : roots())
+      if (const auto visited = visit_from(root); !visited) return visited;
     if (orthographic_) note("An orthographic camera was skipped: only perspective is supported.");
     if (flattened_ > 0)
       note(fmt::format("{} node(s) that flatten their mesh to nothing (a scale of 0) were skipped.",
                        flattened_));
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
-    if (skinned_) note("Skins are not applied: meshes are shown as they are stored.");
-    if (!model_.animations.empty()) note("Animations are not played.");
-    if (instanced_) note("EXT_mesh_gpu_instancing is not supported: those meshes are shown once.");
+    if (!gltf_list(root_, "animations").empty())
+      note("Animations are not played: everything is shown in the pose that it is stored in.");
+    meshes_.add_notes(scene_);
     const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
     for (std::size_t i = 0; i < loaded_.cameras.size(); ++i) {
       place_target(loaded_.cameras[i].camera, bounds);
       extras_.read_camera(gltf_cameras_[i], loaded_.cameras[i].camera);
     }
+    return {};
   }
 
  private:
@@ -183,38 +95,94 @@ class SceneBuilder {
     return {all.begin(), all.end()};
   }
 
+  /// KHR_node_visibility: with all that is below it.
+  static bool is_hidden(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    if (found == node.extensions.end() || !found->second.Has("visible")) return false;
+    const tinygltf::Value& visible = found->second.Get("visible");
+    return visible.IsBool() && !visible.Get<bool>();
+  }
+
   // Depth first, in the file's order, with a stack of its own: a long chain of nodes cannot overflow the
   // program's.
-  void visit_from(int root) {
+  Expected<void> visit_from(int root) {
     std::vector<Visit> stack{{root, Mat4(1.0)}};
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
-      const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(visit.node)];
-      const Mat4 world = visit.world_from_parent * local_matrix(node);
-      if (node.mesh >= 0) add_instance(node, visit.node, world);
+      const auto index = static_cast<std::size_t>(visit.node);
+      const tinygltf::Node& node = model_.nodes[index];
+      if (is_hidden(node)) continue;
+      const Mat4 world = visit.world_from_parent * local_matrix(model_, index);
+      if (node.mesh >= 0)
+        if (const auto added = add_mesh(node, visit.node, world); !added) return added;
       if (node.camera >= 0) add_camera(node, world);
       add_light(node, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         stack.push_back({*child, world});
     }
+    return {};
   }
 
-  void add_instance(const tinygltf::Node& node, int index, const Mat4& world) {
-    const auto from = static_cast<std::size_t>(node.mesh);
-    if (node.skin >= 0) skinned_ = true;
-    if (node.extensions.contains("EXT_mesh_gpu_instancing")) instanced_ = true;
-    if (meshes_[from].triangles.empty()) return;
-    if (is_singular(Mat3(world))) {
-      ++flattened_;
-      return;
+  /// The mesh in the node's pose, read when the first node asks for it; no_id: it has no triangles.
+  Expected<std::uint32_t> posed_mesh(const tinygltf::Node& node) {
+    const auto index = static_cast<std::size_t>(node.mesh);
+    GltfPose pose{node.weights.empty() ? model_.meshes[index].weights : node.weights};
+    const auto [known, is_new] = our_mesh_.try_emplace({node.mesh, skin_of(node), pose.weights}, no_id);
+    if (!is_new) return known->second;
+    if (skin_of(node) >= 0) {
+      if (node_transforms_.empty()) node_transforms_ = node_transforms(model_);
+      const JsonValue& skin = gltf_list(root_, "skins")[static_cast<std::size_t>(node.skin)];
+      pose.joints = joint_transforms(skin, node_transforms_, model_, data_);
     }
-    if (our_mesh_[from] == no_id) {
-      our_mesh_[from] = static_cast<std::uint32_t>(scene_.meshes.size());
-      scene_.meshes.push_back(meshes_[from]);
-    }
+    auto mesh = meshes_.read(index, pose);
+    if (!mesh) return fail(mesh.error());
+    if (mesh->triangles.empty()) return no_id;
+    known->second = static_cast<std::uint32_t>(scene_.meshes.size());
+    scene_.meshes.push_back(std::move(*mesh));
+    return known->second;
+  }
+
+  /// -1 where no primitive of the mesh is bound to it.
+  int skin_of(const tinygltf::Node& node) const {
+    const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+    const bool bound = std::any_of(primitives.begin(), primitives.end(), [](const tinygltf::Primitive& p) {
+      return p.attributes.contains("JOINTS_0") && p.attributes.contains("WEIGHTS_0");
+    });
+    return bound ? node.skin : -1;
+  }
+
+  Expected<void> add_mesh(const tinygltf::Node& node, int index, const Mat4& world) {
+    const auto mesh = posed_mesh(node);
+    if (!mesh) return fail(mesh.error());
+    if (*mesh == no_id) return {};
     const std::string name = !node.name.empty() ? node.name : fmt::format("node-{}", index);
-    scene_.instances.push_back({name, our_mesh_[from], world, 0});
+    if (skin_of(node) >= 0)  // in the world already
+      add_instance(name, *mesh, Mat4(1.0));
+    else if (const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
+             found != node.extensions.end())
+      return add_instances(name, *mesh, world, found->second, index);
+    else
+      add_instance(name, *mesh, world);
+    return {};
+  }
+
+  void add_instance(const std::string& name, std::uint32_t mesh, const Mat4& world) {
+    if (is_singular(Mat3(world)))
+      ++flattened_;
+    else
+      scene_.instances.push_back({name, mesh, world, 0});
+  }
+
+  Expected<void> add_instances(const std::string& name, std::uint32_t mesh, const Mat4& world,
+                               const tinygltf::Value& extension, int node) {
+    const auto places = gltf_instances(model_, data_, extension);
+    if (!places)
+      return fail(gltf_error(file_, fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node),
+                             places.error().reason));
+    for (std::size_t i = 0; i < places->size(); ++i)
+      add_instance(fmt::format("{}-{}", name, i), mesh, world * (*places)[i]);
+    return {};
   }
 
   void add_camera(const tinygltf::Node& node, const Mat4& world) {
@@ -293,34 +261,51 @@ class SceneBuilder {
   LoadedFile& loaded_;
   Scene& scene_;
   const tinygltf::Model& model_;
+  const GltfData& data_;
+  const JsonValue& root_;
   const GltfExtras& extras_;
-  std::vector<Mesh> meshes_;
-  std::vector<std::uint32_t> our_mesh_;    // of a glTF mesh, once an instance uses it
-  std::vector<std::size_t> gltf_cameras_;  // of loaded_.cameras
+  GltfMeshReader& meshes_;
+  const std::string& file_;
+  std::vector<Mat4> node_transforms_;                                            // once a skin needs them
+  std::map<std::tuple<int, int, std::vector<double>>, std::uint32_t> our_mesh_;  // by mesh, skin and weights
+  std::vector<std::size_t> gltf_cameras_;                                        // of loaded_.cameras
   std::set<std::string> light_names_;
   std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
-  bool orthographic_ = false, ranged_ = false, skinned_ = false, instanced_ = false;
+  bool orthographic_ = false, ranged_ = false;
 };
 
-Expected<LoadedFile> build(const tinygltf::Model& model, CheckedGltf checked, const std::string& file) {
+/// Where a primitive's accessor has no data, not even packed, it is all zeros: not without limit.
+std::optional<Error> empty_accessor_defect(const tinygltf::Model& model, const std::string& file) {
+  constexpr std::size_t most = 16777216;
+  for (std::size_t i = 0; i < model.accessors.size(); ++i)
+    if (model.accessors[i].bufferView < 0 && model.accessors[i].count > most)
+      return gltf_error(file, fmt::format("accessors[{}].count", i),
+                        fmt::format("no data stands behind these elements (got {}, allowed up to {} without "
+                                    "bufferView)",
+                                    model.accessors[i].count, most));
+  return std::nullopt;
+}
+
+Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, CheckedGltf& checked,
+                           const std::string& file) {
   LoadedFile loaded;
   loaded.is_model = true;
   loaded.scene.notes = std::move(checked.notes);
   JsonErrors errors{checked.document};
   const GltfExtras extras(errors, checked.document.root);
-  const auto sets = add_gltf_materials(loaded.scene, model, file);
+  const auto sets = add_gltf_materials(loaded.scene, model, data, file);
   if (!sets) return fail(sets.error());
   for (std::size_t i = 0; i < loaded.scene.materials.size(); ++i)
     extras.read_material(i, loaded.scene.materials[i]);
   const auto default_material = static_cast<std::uint32_t>(loaded.scene.materials.size());
   loaded.scene.materials.push_back(model_material("default"));
-  auto meshes = read_gltf_meshes(loaded.scene, model, *sets, default_material, file);
-  if (!meshes) return fail(meshes.error());
-  SceneBuilder(loaded, model, extras, std::move(meshes->meshes)).run();
+  GltfMeshReader meshes(model, data, *sets, default_material, file);
+  const auto built = SceneBuilder(loaded, model, data, checked.document.root, extras, meshes, file).run();
+  if (!built) return fail(built.error());
   extras.read_scene(loaded.scene);
   if (errors.first) return fail(std::move(*errors.first));
-  if (loaded.scene.instances.empty() && !meshes->skipped_points)
+  if (loaded.scene.instances.empty() && !meshes.skipped_points())
     return fail(gltf_error(file, "", "the file has no triangles"));
   if (loaded.scene.instances.empty())
     loaded.scene.notes.push_back("The file has no triangles: only what was made for it is shown.");
@@ -333,16 +318,17 @@ Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, 
                                const LoadOptions& options) try {
   auto checked = check_gltf(bytes, file);
   if (!checked) return fail(checked.error());
-  tinygltf::Model model;
-  const auto repaired = repaired_gltf(*checked, bytes, folder, options);
-  const auto parsed =
-      parse(model, repaired ? std::string_view(*repaired) : bytes, checked->is_binary, file, folder, options);
-  if (!parsed) return fail(parsed.error());
-  return build(model, std::move(*checked), file);
+  auto model = parse_gltf(*checked);
+  if (!model) return fail(model.error());
+  auto data = GltfData::open(*checked, bytes, folder, options);
+  if (!data) return fail(data.error());
+  if (const auto unpacked = unpack_draco(*model, *data, file); !unpacked) return fail(unpacked.error());
+  if (auto defect = empty_accessor_defect(*model, file)) return fail(std::move(*defect));
+  return build(*model, *data, *checked, file);
 } catch (const std::bad_alloc&) {
   throw;                             // load_scene answers for memory
-} catch (const std::exception& e) {  // tinygltf's JSON library throws on what its checks forget
-  return fail(gltf_error(file, "", one_line(e.what())));
+} catch (const std::exception& e) {  // the libraries' own, on what the checks forget
+  return fail(gltf_error(file, "", printable(e.what(), 200)));
 }
 
 }  // namespace gnomon

@@ -2,106 +2,118 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstring>
+
+#include "scene/files/gltf_data.h"
 
 namespace gnomon {
 namespace {
 
+// glTF 2.0, section 3.6.2.2: what a normalized component is divided by.
 template <class Value>
-double raw(const unsigned char* bytes) {
-  Value value;
-  std::memcpy(&value, bytes, sizeof(Value));
-  return static_cast<double>(value);
+constexpr double largest() {
+  if constexpr (std::is_same_v<Value, float> || sizeof(Value) == 4) return 1.0;
+  return static_cast<double>(std::numeric_limits<Value>::max());
 }
 
-// glTF 2.0, section 3.6.2.2 for the normalized ones.
-double component(int type, bool normalized, const unsigned char* bytes) {
+template <class Value>
+void convert(const char* bytes, std::size_t stride, std::size_t count, std::size_t components,
+             bool normalized, double* out) {
+  const double divisor = normalized ? largest<Value>() : 1.0;
+  for (std::size_t i = 0; i < count; ++i, bytes += stride)
+    for (std::size_t c = 0; c < components; ++c) {
+      Value value;
+      std::memcpy(&value, bytes + c * sizeof(Value), sizeof(Value));
+      double number = static_cast<double>(value);
+      if (normalized) number = std::max(number / divisor, -1.0);
+      *out++ = number;
+    }
+}
+
+void convert(int type, const char* bytes, std::size_t stride, std::size_t count, std::size_t components,
+             bool normalized, double* out) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return normalized ? std::max(raw<std::int8_t>(bytes) / 127.0, -1.0) : raw<std::int8_t>(bytes);
+      return convert<std::int8_t>(bytes, stride, count, components, normalized, out);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return raw<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
+      return convert<std::uint8_t>(bytes, stride, count, components, normalized, out);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return normalized ? std::max(raw<std::int16_t>(bytes) / 32767.0, -1.0) : raw<std::int16_t>(bytes);
+      return convert<std::int16_t>(bytes, stride, count, components, normalized, out);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return raw<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
+      return convert<std::uint16_t>(bytes, stride, count, components, normalized, out);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return raw<std::uint32_t>(bytes);
+      return convert<std::uint32_t>(bytes, stride, count, components, false, out);
     default:
-      return raw<float>(bytes);
+      return convert<float>(bytes, stride, count, components, false, out);
   }
 }
 
-// The bytes of a bufferView from an offset on; nothing where the loaded buffer is shorter than the file said.
-struct Bytes {
-  const unsigned char* data = nullptr;
-  std::size_t size = 0;
-};
-
-Bytes view_bytes(const tinygltf::Model& model, int view_index, std::size_t offset) {
-  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-  const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  const std::size_t begin = view.byteOffset + offset;
-  const std::size_t end = std::min(view.byteOffset + view.byteLength, data.size());
-  if (begin >= end) return {};
-  return {data.data() + begin, end - begin};
+std::size_t size_of(int type) {
+  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
 }
-
-class AccessorReader {
- public:
-  AccessorReader(const tinygltf::Model& model, const tinygltf::Accessor& accessor)
-      : model_(model),
-        accessor_(accessor),
-        components_(static_cast<std::size_t>(
-            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)))),
-        size_(static_cast<std::size_t>(
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)))) {}
-
-  AccessorData read() {
-    AccessorData out{accessor_.count, components_, std::vector<double>(accessor_.count * components_, 0.0)};
-    if (accessor_.bufferView >= 0) {
-      const std::size_t stride =
-          model_.bufferViews[static_cast<std::size_t>(accessor_.bufferView)].byteStride;
-      const Bytes bytes = view_bytes(model_, accessor_.bufferView, accessor_.byteOffset);
-      for (std::size_t i = 0; i < out.count; ++i)
-        read_element(bytes, i, std::max(stride, size_ * components_), &out.values[i * components_]);
-    }
-    if (accessor_.sparse.isSparse) read_sparse(out);
-    return out;
-  }
-
- private:
-  void read_element(const Bytes& bytes, std::size_t i, std::size_t stride, double* out) const {
-    if (i * stride + size_ * components_ > bytes.size) return;
-    for (std::size_t c = 0; c < components_; ++c)
-      out[c] = component(accessor_.componentType, accessor_.normalized, bytes.data + i * stride + c * size_);
-  }
-
-  void read_sparse(AccessorData& out) const {
-    const auto& sparse = accessor_.sparse;
-    const auto index_size = static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(sparse.indices.componentType)));
-    const Bytes indices =
-        view_bytes(model_, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
-    const Bytes values =
-        view_bytes(model_, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
-      if ((i + 1) * index_size > indices.size) return;
-      const auto target = static_cast<std::size_t>(
-          component(sparse.indices.componentType, false, indices.data + i * index_size));
-      if (target < out.count) read_element(values, i, size_ * components_, &out.values[target * components_]);
-    }
-  }
-
-  const tinygltf::Model& model_;
-  const tinygltf::Accessor& accessor_;
-  std::size_t components_, size_;
-};
 
 }  // namespace
 
-AccessorData read_accessor(const tinygltf::Model& model, int accessor) {
-  return AccessorReader(model, model.accessors[static_cast<std::size_t>(accessor)]).read();
+GltfAccessor::GltfAccessor(const tinygltf::Model& model, const GltfData& data, int accessor) {
+  const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(accessor)];
+  count_ = from.count;
+  components_ =
+      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(from.type)));
+  component_size_ = size_of(from.componentType);
+  type_ = from.componentType;
+  normalized_ = from.normalized;
+  if (from.bufferView >= 0) {
+    const auto view = static_cast<std::size_t>(from.bufferView);
+    plain_ = elements(data.view(view), from.byteOffset, model.bufferViews[view].byteStride);
+  }
+  if (from.sparse.isSparse) read_sparse(model, data, accessor);
+}
+
+GltfAccessor::Elements GltfAccessor::elements(std::string_view view, std::size_t offset,
+                                              std::size_t stride) const {
+  const std::size_t size = component_size_ * components_;
+  Elements out{view.data() + std::min(offset, view.size()), std::max(stride, size), 0};
+  if (view.size() >= size && view.size() - size >= offset)
+    out.count = (view.size() - size - offset) / out.stride + 1;
+  return out;
+}
+
+void GltfAccessor::read_sparse(const tinygltf::Model& model, const GltfData& data, int accessor) {
+  const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
+  sparse_ = elements(data.view(static_cast<std::size_t>(sparse.values.bufferView)),
+                     static_cast<std::size_t>(sparse.values.byteOffset), 0);
+  const std::string_view view = data.view(static_cast<std::size_t>(sparse.indices.bufferView));
+  const auto offset = static_cast<std::size_t>(sparse.indices.byteOffset);
+  const std::size_t size = size_of(sparse.indices.componentType);
+  if (view.size() < offset) return;
+  const std::size_t count =
+      std::min({static_cast<std::size_t>(sparse.count), sparse_.count, (view.size() - offset) / size});
+  for (std::size_t i = 0; i < count; ++i) {
+    double target = 0.0;
+    convert(sparse.indices.componentType, view.data() + offset + i * size, size, 1, 1, false, &target);
+    if (target < static_cast<double>(count_))
+      replaced_.emplace_back(static_cast<std::uint32_t>(target), static_cast<std::uint32_t>(i));
+  }
+  std::sort(replaced_.begin(), replaced_.end());
+}
+
+void GltfAccessor::decode(const Elements& from, std::size_t first, std::size_t last, double* out) const {
+  const std::size_t end = std::min(last, std::max(first, from.count));
+  convert(type_, from.bytes + first * from.stride, from.stride, end - first, components_, normalized_, out);
+  std::fill(out + (end - first) * components_, out + (last - first) * components_, 0.0);
+}
+
+void GltfAccessor::read(std::size_t first, std::size_t last, double* out) const {
+  if (first < plain_.count)
+    decode(plain_, first, last, out);
+  else
+    std::fill(out, out + (last - first) * components_, 0.0);
+  const auto at =
+      std::lower_bound(replaced_.begin(), replaced_.end(),
+                       std::pair<std::uint32_t, std::uint32_t>(static_cast<std::uint32_t>(first), 0));
+  for (auto i = at; i != replaced_.end() && i->first < last; ++i)
+    decode(sparse_, i->second, i->second + std::size_t{1}, out + (i->first - first) * components_);
 }
 
 }  // namespace gnomon

@@ -2,7 +2,13 @@
 // sparse.
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/math.h"
@@ -13,18 +19,49 @@ class Model;
 
 namespace gnomon {
 
-/// Element i, component c is at [i * components + c]. The file must have passed check_gltf.
-struct AccessorData {
-  std::size_t count = 0;
-  std::size_t components = 0;
-  std::vector<double> values;
+class GltfData;
 
-  Vec2 vec2(std::size_t i) const { return {values[i * components], values[i * components + 1]}; }
-  Vec3 vec3(std::size_t i) const {
-    return {values[i * components], values[i * components + 1], values[i * components + 2]};
+/// An accessor of a file that has passed check_gltf. Elements that no data stands behind are zero.
+class GltfAccessor {
+ public:
+  GltfAccessor(const tinygltf::Model& model, const GltfData& data, int accessor);
+
+  std::size_t count() const { return count_; }
+  std::size_t components() const { return components_; }
+
+  /// Elements first ... last - 1 into out[(last - first) * components].
+  void read(std::size_t first, std::size_t last, double* out) const;
+
+  /// visit(index, values): once for each element, on several threads at a time.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    constexpr std::size_t at_a_time = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count_, at_a_time), [&](const auto& range) {
+      std::array<double, at_a_time * 16> values;  // the largest element is a matrix of 4 x 4
+      for (std::size_t from = range.begin(); from < range.end(); from += at_a_time) {
+        const std::size_t to = std::min(from + at_a_time, range.end());
+        read(from, to, values.data());
+        for (std::size_t i = from; i < to; ++i) visit(i, &values[(i - from) * components_]);
+      }
+    });
   }
-};
 
-AccessorData read_accessor(const tinygltf::Model& model, int accessor);
+ private:
+  /// Elements `stride` bytes apart; `count` of them are whole.
+  struct Elements {
+    const char* bytes = nullptr;
+    std::size_t stride = 0, count = 0;
+  };
+  Elements elements(std::string_view view, std::size_t offset, std::size_t stride) const;
+  void decode(const Elements& from, std::size_t first, std::size_t last, double* out) const;
+  void read_sparse(const tinygltf::Model& model, const GltfData& data, int accessor);
+
+  std::size_t count_ = 0, components_ = 0, component_size_ = 0;
+  int type_ = 0;
+  bool normalized_ = false;
+  Elements plain_, sparse_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      replaced_;  // element, and its place in sparse_; sorted
+};
 
 }  // namespace gnomon

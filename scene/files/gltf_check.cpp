@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/files/gltf_container.h"
+#include "scene/files/gltf_extensions.h"
 #include "scene/files/gltf_tree.h"
 #include "scene/files/json_generate.h"
 #include "scene/files/json_reader.h"
@@ -20,17 +21,11 @@ constexpr double largest_integer = 9007199254740992.0;  // 2^53, as far as JSON 
 constexpr NumberRange size_range{0.0, largest_integer, false, false, true};
 constexpr NumberRange buffer_range{1.0, largest_integer, false, false, true};
 constexpr NumberRange count_range{1.0, 4294967295.0, false, false, true};
-constexpr double largest_empty_accessor = 16777216.0;  // elements that no data stands behind
-
-const std::vector<std::string_view> known_extensions_list{
-    "KHR_lights_punctual",   "KHR_materials_transmission",      "KHR_materials_ior",
-    "KHR_materials_volume",  "KHR_materials_emissive_strength", "KHR_materials_specular",
-    "KHR_texture_transform", "KHR_mesh_quantization",           "KHR_materials_unlit"};
 
 // Counts of the file's lists, for checking indices into them.
 struct Counts {
   double buffers, views, accessors, images, samplers, textures, materials, meshes, cameras, nodes, scenes,
-      lights;
+      lights, skins;
 };
 
 class GltfChecker {
@@ -43,7 +38,8 @@ class GltfChecker {
     check_extensions(notes);
     counts_ = {count("buffers"),  count("bufferViews"), count("accessors"), count("images"),
                count("samplers"), count("textures"),    count("materials"), count("meshes"),
-               count("cameras"),  count("nodes"),       count("scenes"),    count_lights()};
+               count("cameras"),  count("nodes"),       count("scenes"),    count_lights(),
+               count("skins")};
     each("buffers", [&](const JsonNode& n) {
       required_number(n, "byteLength", buffer_range), optional_string(n, "uri");
     });
@@ -57,6 +53,7 @@ class GltfChecker {
     });
     each("materials", [&](const JsonNode& n) { check_material(n); });
     each("meshes", [&](const JsonNode& n) { check_mesh(n); });
+    each("skins", [&](const JsonNode& n) { check_skin(n); });
     each("cameras", [&](const JsonNode& n) { check_camera(n); });
     each("nodes", [&](const JsonNode& n) { check_node(n); });
     each("scenes", [&](const JsonNode& n) { indices(n, "nodes", counts_.nodes); });
@@ -157,18 +154,15 @@ class GltfChecker {
   }
 
   void check_extensions(std::vector<std::string>& notes) {
-    const auto is_known = [](const std::string& name) {
-      return std::find(known_extensions_list.begin(), known_extensions_list.end(), name) !=
-             known_extensions_list.end();
-    };
     if (const auto list = root_.child("extensionsRequired"))
       for (const JsonNode& node : list->as_array())
-        if (const std::string name = node.as_string(); !is_known(name))
+        if (const std::string name = node.as_string();
+            !is_supported_extension(name) && !is_spared_extension(name))
           node.error(fmt::format("the file needs an extension that is not supported (got \"{}\", allowed {})",
-                                 printable(name), list_names(known_extensions_list)));
+                                 printable(name), list_names(supported_extensions())));
     if (const auto list = root_.child("extensionsUsed"))
       for (const JsonNode& node : list->as_array())
-        if (const std::string name = node.as_string(); !is_known(name))
+        if (const std::string name = node.as_string(); !is_supported_extension(name))
           notes.push_back(
               fmt::format("The extension {} is not supported and was not used.", printable(name)));
   }
@@ -227,9 +221,6 @@ class GltfChecker {
       type->wrong("unknown type", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
     if (const auto normalized = node.child("normalized")) normalized->as_boolean();
     check_extent(node, view, offset, count, element_size(type_name, component_size(component)));
-    if (view < 0.0 && count > largest_empty_accessor)
-      node.child("count")->wrong("no data stands behind these elements",
-                                 fmt::format("up to {:.0f} without bufferView", largest_empty_accessor));
     if (const auto sparse = node.child("sparse"))
       check_sparse(*sparse, count, element_size(type_name, component_size(component)));
   }
@@ -304,16 +295,26 @@ class GltfChecker {
     check_attribute(*attributes, "NORMAL", {"VEC3"});
     check_attribute(*attributes, "TEXCOORD_0", {"VEC2"});
     check_attribute(*attributes, "TEXCOORD_1", {"VEC2"});
-    const auto extensions = node.child("extensions");
-    if (extensions && extensions->child("KHR_draco_mesh_compression") && !has_own_positions(*attributes))
-      node.error("the geometry is compressed by KHR_draco_mesh_compression, which is not supported");
+    for (const char set : {'0', '1', '2', '3'}) {
+      check_attribute(*attributes, std::string("JOINTS_") + set, {"VEC4"});
+      check_attribute(*attributes, std::string("WEIGHTS_") + set, {"VEC4"});
+    }
+    check_attribute(*attributes, "COLOR_0", {"VEC3", "VEC4"});
+    optional_object(node, "extensions");
+    if (const auto targets = node.child("targets"))
+      for (const JsonNode& target : targets->as_array()) check_target(target);
   }
 
-  // Beside what an extension compresses, for those who do not know it.
-  bool has_own_positions(const JsonNode& attributes) {
-    const double accessor = index(attributes, "POSITION", counts_.accessors);
-    return !errors_.first && accessor >= 0.0 &&
-           item_value("accessors", accessor).find("bufferView") != nullptr;
+  void check_target(const JsonNode& node) {
+    if (!node.is(JsonValue::Type::object)) return node.wrong("wrong type", "an object");
+    for (const JsonMember& member : node.value().members) index(node, member.key, counts_.accessors);
+    check_attribute(node, "POSITION", {"VEC3"});
+    check_attribute(node, "NORMAL", {"VEC3"});
+  }
+
+  void check_skin(const JsonNode& node) {
+    indices(node, "joints", counts_.nodes);
+    check_attribute(node, "inverseBindMatrices", {"MAT4"});
   }
 
   void check_mesh(const JsonNode& node) {
@@ -321,6 +322,7 @@ class GltfChecker {
     const auto primitives = node.child("primitives");
     if (!primitives) return node.error("primitives is missing");
     for (const JsonNode& primitive : primitives->as_array()) check_primitive(primitive);
+    numbers(node, "weights", 0);
   }
 
   void check_camera(const JsonNode& node) {
@@ -335,6 +337,8 @@ class GltfChecker {
     optional_string(node, "name");
     index(node, "mesh", counts_.meshes);
     index(node, "camera", counts_.cameras);
+    index(node, "skin", counts_.skins);
+    numbers(node, "weights", 0);
     indices(node, "children", counts_.nodes);
     numbers(node, "matrix", 16);
     numbers(node, "translation", 3);

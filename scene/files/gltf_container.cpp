@@ -63,17 +63,4 @@ Expected<GlbChunks> read_glb(std::string_view bytes, const std::string& file) {
   return chunks;
 }
 
-std::string with_json(std::string_view glb, std::string json) {
-  while (json.size() % 4 != 0) json += ' ';
-  const auto put = [](std::string& out, std::size_t value) {
-    for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 0xffu);
-  };
-  const std::string_view rest = glb.substr(header_size + chunk_header_size + word(glb, header_size));
-  std::string out(glb.substr(0, 8));
-  put(out, header_size + chunk_header_size + json.size() + rest.size());
-  put(out, json.size());
-  put(out, json_type);
-  return out.append(json).append(rest);
-}
-
 }  // namespace gnomon

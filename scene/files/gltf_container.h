@@ -16,7 +16,5 @@ struct GlbChunks {
 
 bool is_glb(std::string_view bytes);
 Expected<GlbChunks> read_glb(std::string_view bytes, const std::string& file);
-/// A whole GLB with another JSON chunk.
-std::string with_json(std::string_view glb, std::string json);
 
 }  // namespace gnomon

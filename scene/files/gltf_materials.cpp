@@ -10,6 +10,7 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
 #include "scene/files/validate.h"
 #include "scene/texture_sample.h"
 
@@ -69,8 +70,8 @@ TextureStatistics statistics(const Texture& texture) {
 
 class MaterialReader {
  public:
-  MaterialReader(Scene& scene, const tinygltf::Model& model, const std::string& file)
-      : scene_(scene), model_(model), file_(file) {}
+  MaterialReader(Scene& scene, const tinygltf::Model& model, GltfData& data, const std::string& file)
+      : scene_(scene), model_(model), data_(data), file_(file) {}
 
   Expected<TexcoordSets> run() {
     for (std::size_t i = 0; i < model_.materials.size(); ++i) {
@@ -104,7 +105,6 @@ class MaterialReader {
     const tinygltf::Material& from = model_.materials[index];
     const auto& pbr = from.pbrMetallicRoughness;
     Material m = model_material(from.name.empty() ? fmt::format("material-{}", index + 1) : from.name);
-    path_ = fmt::format("materials[{}]", index);
     sets_.push_back(0);
     TextureStatistics base_texture;
     if (pbr.baseColorTexture.index >= 0)
@@ -232,13 +232,14 @@ class MaterialReader {
     Vec2 out(pbr.metallicFactor, pbr.roughnessFactor);
     const int index = pbr.metallicRoughnessTexture.index;
     if (index < 0) return out;
-    if (is_missing(index, from.name)) return out;
-    const int source = model_.textures[static_cast<std::size_t>(index)].source;
-    auto known = linear_means_.find(source);
+    const auto image = find_image(index, from.name);
+    if (!image) return fail(image.error());
+    if (!*image) return out;
+    auto known = linear_means_.find((*image)->index);
     if (known == linear_means_.end()) {
-      const auto texture = decode(index, false);
+      const auto texture = decode(**image, false);
       if (!texture) return fail(texture.error());
-      known = linear_means_.emplace(source, statistics(*texture).mean).first;
+      known = linear_means_.emplace((*image)->index, statistics(*texture).mean).first;
     }
     const Vec3f mean = known->second;
     unused_["Metallic-roughness textures are averaged, the rest of them"].insert(from.name);
@@ -260,11 +261,13 @@ class MaterialReader {
           "Material '{}': texture coordinates {} are not used (allowed 0 and 1).", m.name, sets_.back()));
       return {};
     }
-    if (is_missing(info.index, m.name)) return {};
+    const auto image = find_image(info.index, m.name);
+    if (!image) return fail(image.error());
+    if (!*image) return {};
     if (const auto known = textures_.find(info.index); known != textures_.end()) {
       m.diffuse_texture = known->second;
     } else {
-      auto texture = decode(info.index, true);
+      auto texture = decode(**image, true);
       if (!texture) return fail(texture.error());
       apply_sampler(info.index, *texture, m.name);
       m.diffuse_texture = static_cast<std::uint32_t>(scene_.textures.size());
@@ -277,17 +280,41 @@ class MaterialReader {
     return {};
   }
 
-  // The texture's file is not there: said, and the material's plain factors are used.
-  bool is_missing(int texture_index, const std::string& material) {
-    const int source = model_.textures[static_cast<std::size_t>(texture_index)].source;
-    if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size()) return false;
-    const tinygltf::Image& image = model_.images[static_cast<std::size_t>(source)];
-    if (!image.image.empty() || image.uri.empty() || image.uri.starts_with("data:")) return false;
-    std::string note = fmt::format("Material '{}': the texture {} is not there; its plain colour is used.",
-                                   material, image.uri);
+  void note_once(std::string note) {
     if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end())
       scene_.notes.push_back(std::move(note));
-    return true;
+  }
+
+  // Of a texture: the plain image first, then what an extension offers; -1 where there is none.
+  static std::vector<int> sources(const tinygltf::Texture& texture) {
+    std::vector<int> out;
+    if (texture.source >= 0) out.push_back(texture.source);
+    const tinygltf::Value* webp = extension(texture.extensions, "EXT_texture_webp");
+    if (const double source = number(webp, "source", -1.0); source >= 0.0)
+      out.push_back(static_cast<int>(std::min(source, 2147483647.0)));
+    return out;
+  }
+
+  // None where no file of it is there, or none that can be decoded: said, and the material's plain factors are
+  // used.
+  Expected<std::optional<GltfImage>> find_image(int texture_index, const std::string& material) {
+    const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(texture_index)];
+    std::string why = extension(texture.extensions, "KHR_texture_basisu") != nullptr
+                          ? "is in Basis Universal alone, which is not decoded"
+                          : "has no image";
+    for (const int source : sources(texture)) {
+      if (static_cast<std::size_t>(source) >= data_.image_count())
+        return fail(Error{ErrorKind::bad_input,
+                          fmt::format("there is no such image (got {}, allowed 0 to {})", source,
+                                      static_cast<std::int64_t>(data_.image_count()) - 1),
+                          file_, 0, 0, fmt::format("textures[{}].source", texture_index)});
+      auto image = data_.image(static_cast<std::size_t>(source));
+      if (!image) return fail(image.error());
+      if (!image->bytes.empty()) return std::move(*image);
+      why = image->uri.empty() ? "is empty" : fmt::format("{} is not there", printable(image->uri, 80));
+    }
+    note_once(fmt::format("Material '{}': the texture {}; its plain colour is used.", material, why));
+    return std::nullopt;
   }
 
   void apply_sampler(int texture_index, Texture& texture, const std::string& material) {
@@ -302,42 +329,30 @@ class MaterialReader {
       unused_["Mirrored repeat of textures (they repeat plainly) is"].insert(material);
   }
 
-  Expected<Texture> decode(int texture_index, bool srgb) {
-    const int source = model_.textures[static_cast<std::size_t>(texture_index)].source;
-    const auto bad = [&](std::string field, std::string reason) {
-      return fail(Error{ErrorKind::bad_input, std::move(reason), file_, 0, 0, std::move(field)});
-    };
-    if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size())
-      return bad(fmt::format("textures[{}].source", texture_index),
-                 fmt::format("there is no such image (got {}, allowed 0 to {})", source,
-                             static_cast<int>(model_.images.size()) - 1));
-    const std::string path = fmt::format("images[{}]", source);
-    const tinygltf::Image& image = model_.images[static_cast<std::size_t>(source)];
-    if (image.image.empty())
-      return bad(path, fmt::format("the image cannot be read (got \"{}\")", image.uri));
-    const std::string_view bytes(reinterpret_cast<const char*>(image.image.data()), image.image.size());
-    auto texture = read_texture_bytes(path, bytes, srgb);
-    if (!texture) return bad(path, texture.error().reason);
-    texture->name = image.name.empty() ? (image.uri.empty() ? path : image.uri) : image.name;
+  Expected<Texture> decode(const GltfImage& image, bool srgb) const {
+    const std::string path = fmt::format("images[{}]", image.index);
+    auto texture = read_texture_bytes(path, image.bytes, srgb);
+    if (!texture) return fail(Error{ErrorKind::bad_input, texture.error().reason, file_, 0, 0, path});
+    texture->name = image.name;
     return texture;
   }
 
   Scene& scene_;
   const tinygltf::Model& model_;
+  GltfData& data_;
   const std::string& file_;
-  std::string path_;
   TexcoordSets sets_;
   std::map<int, std::uint32_t> textures_;                                 // glTF texture to ours
   std::map<std::uint32_t, std::optional<TextureStatistics>> statistics_;  // of ours
-  std::map<int, Vec3f> linear_means_;                    // of glTF images that are no colours
+  std::map<std::size_t, Vec3f> linear_means_;            // of glTF images that are no colours
   std::map<std::string, std::set<std::string>> unused_;  // what, and by which materials
 };
 
 }  // namespace
 
-Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model,
+Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model, GltfData& data,
                                           const std::string& file) {
-  return MaterialReader(scene, model, file).run();
+  return MaterialReader(scene, model, data, file).run();
 }
 
 }  // namespace gnomon

@@ -20,6 +20,7 @@
 #include <string>
 
 #include "scene/expected.h"
+#include "scene/files/gltf_data.h"
 #include "scene/scene.h"
 
 namespace tinygltf {
@@ -31,9 +32,8 @@ namespace gnomon {
 /// Which set of texture coordinates each material's base colour texture uses, by glTF material index.
 using TexcoordSets = std::vector<int>;
 
-/// Appends every material and the textures that they use. `folder` is for messages alone: encoded images are
-/// in the model already.
-Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model,
+/// Appends every material and the textures that they use. `file` is for messages.
+Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model, GltfData& data,
                                           const std::string& file);
 
 }  // namespace gnomon

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <atomic>
 #include <numeric>
 
 #include "scene/files/gltf_accessor.h"
@@ -11,184 +12,274 @@
 namespace gnomon {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
-
 // glTF 2.0, section 3.7.2.1; a strip's every other triangle is turned round, and its stitches are dropped.
-std::vector<Triangle> assemble(int mode, const std::vector<std::uint32_t>& v) {
-  std::vector<Triangle> out;
+template <class Visit>
+void for_each_triangle(int mode, const std::vector<std::uint32_t>& v, const Visit& visit) {
   if (mode == TINYGLTF_MODE_TRIANGLES)
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3) out.push_back({v[i], v[i + 1], v[i + 2]});
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) visit(v[i], v[i + 1], v[i + 2]);
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
-    for (std::size_t i = 1; i + 1 < v.size(); ++i) out.push_back({v[i], v[i + 1], v[0]});
+    for (std::size_t i = 1; i + 1 < v.size(); ++i) visit(v[i], v[i + 1], v[0]);
   if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
       if (v[i] == v[i + 1] || v[i + 1] == v[i + 2] || v[i] == v[i + 2]) continue;
-      out.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
+      visit(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]);
     }
-  return out;
 }
 
-class GltfMeshReader {
+/// The least index that any thread reports.
+class FirstBad {
  public:
-  GltfMeshReader(const tinygltf::Model& model, const TexcoordSets& sets, std::uint32_t default_material,
-                 const std::string& file)
-      : model_(model), sets_(sets), default_material_(default_material), file_(file) {}
-
-  Expected<GltfMeshes> run(Scene& scene) {
-    std::vector<Mesh> meshes;
-    for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
-      const tinygltf::Mesh& from = model_.meshes[m];
-      Mesh mesh;
-      mesh.name = from.name.empty() ? fmt::format("mesh-{}", m + 1) : from.name;
-      for (std::size_t p = 0; p < from.primitives.size(); ++p) {
-        const auto added =
-            add_primitive(mesh, from.primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p));
-        if (!added) return fail(added.error());
-      }
-      drop_empty(mesh);
-      meshes.push_back(std::move(mesh));
+  void report(std::size_t index) {
+    std::size_t known = first_.load();
+    while (index < known && !first_.compare_exchange_weak(known, index)) {
     }
-    add_notes(scene);
-    return GltfMeshes{std::move(meshes), skipped_ > 0};
+  }
+  std::optional<std::size_t> get() const {
+    const std::size_t first = first_.load();
+    return first == none ? std::nullopt : std::optional(first);
   }
 
  private:
-  tl::unexpected<Error> error(std::string field, std::string reason) const {
-    return fail(Error{ErrorKind::bad_input, std::move(reason), file_, 0, 0, std::move(field)});
-  }
+  static constexpr std::size_t none = ~std::size_t{0};
+  std::atomic<std::size_t> first_{none};
+};
 
-  static int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
-  }
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
 
-  Expected<void> add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive, const std::string& path) {
-    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
-      ++skipped_;
-      return {};
-    }
-    const int position = attribute(primitive, "POSITION");
-    if (position < 0) {
-      ++without_position_;
-      return {};
-    }
-    if (attribute(primitive, "COLOR_0") >= 0) has_colors_ = true;
-    if (!primitive.targets.empty()) has_targets_ = true;
-    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-    const AccessorData positions = read_accessor(model_, position);
-    if (const auto added = add_positions(mesh, positions, path); !added) return added;
-    add_normals(mesh, primitive, positions.count);
-    add_uvs(mesh, primitive, positions.count);
-    return add_triangles(mesh, primitive, mode, base, positions.count, path);
-  }
+bool is_placeable(const Vec3& p) {
+  return std::abs(p.x) <= max_coordinate && std::abs(p.y) <= max_coordinate &&
+         std::abs(p.z) <= max_coordinate;
+}
 
-  Expected<void> add_positions(Mesh& mesh, const AccessorData& positions, const std::string& path) {
-    for (std::size_t i = 0; i < positions.count; ++i) {
-      const Vec3 p = positions.vec3(i);
-      if (!(std::abs(p.x) <= max_coordinate && std::abs(p.y) <= max_coordinate &&
-            std::abs(p.z) <= max_coordinate))
-        return error(fmt::format("{}.attributes.POSITION[{}]", path, i),
-                     fmt::format("position (got [{:g}, {:g}, {:g}], allowed up to {:g} in magnitude)", p.x,
-                                 p.y, p.z, max_coordinate));
-      mesh.positions.push_back(p);
-    }
-    return {};
-  }
+Vec3 vec3(const double* v) {
+  return {v[0], v[1], v[2]};
+}
 
-  // Normals and texture coordinates that are missing or not finite are zero: flat, and the texture's corner.
-  void add_normals(Mesh& mesh, const tinygltf::Primitive& primitive, std::size_t count) {
-    const std::size_t begin = mesh.normals.size();
-    mesh.normals.resize(begin + count, Vec3f(0.0f));
-    const int accessor = attribute(primitive, "NORMAL");
-    if (accessor < 0) return;
-    const AccessorData normals = read_accessor(model_, accessor);
-    for (std::size_t i = 0; i < std::min(count, normals.count); ++i) {
-      const Vec3f n(normals.vec3(i));
-      if (std::isfinite(glm::dot(n, n)))
-        mesh.normals[begin + i] = n;
-      else
-        ++bad_attributes_;
-    }
-  }
+void drop_empty(Mesh& mesh) {
+  const auto is_zero = [](const auto& v) { return v == std::decay_t<decltype(v)>(0.0f); };
+  if (std::all_of(mesh.normals.begin(), mesh.normals.end(), is_zero)) mesh.normals.clear();
+  if (std::all_of(mesh.uvs.begin(), mesh.uvs.end(), is_zero)) mesh.uvs.clear();
+}
 
-  void add_uvs(Mesh& mesh, const tinygltf::Primitive& primitive, std::size_t count) {
-    const std::size_t begin = mesh.uvs.size();
-    mesh.uvs.resize(begin + count, Vec2f(0.0f));
-    const int set = primitive.material < 0 ? 0 : sets_[static_cast<std::size_t>(primitive.material)];
-    const int accessor = attribute(primitive, fmt::format("TEXCOORD_{}", set));
-    if (accessor < 0) return;
-    const AccessorData uvs = read_accessor(model_, accessor);
-    for (std::size_t i = 0; i < std::min(count, uvs.count); ++i) {
-      const Vec2f uv(uvs.vec2(i));
-      if (std::isfinite(uv.x) && std::isfinite(uv.y))
-        mesh.uvs[begin + i] = uv;
-      else
-        ++bad_attributes_;
-    }
-  }
-
-  Expected<void> add_triangles(Mesh& mesh, const tinygltf::Primitive& primitive, int mode, std::uint32_t base,
-                               std::size_t count, const std::string& path) {
-    std::vector<std::uint32_t> vertices(count);
-    std::iota(vertices.begin(), vertices.end(), 0u);
-    if (primitive.indices >= 0) {
-      const AccessorData indices = read_accessor(model_, primitive.indices);
-      vertices.clear();
-      for (std::size_t i = 0; i < indices.count; ++i) {
-        const double index = indices.values[i * indices.components];
-        if (!(index >= 0.0) || index >= static_cast<double>(count))
-          return error(fmt::format("{}.indices[{}]", path, i),
-                       fmt::format("vertex index out of range (got {:g}, allowed 0 to {})", index,
-                                   static_cast<std::int64_t>(count) - 1));
-        vertices.push_back(static_cast<std::uint32_t>(index));
-      }
-    }
-    if (mode == TINYGLTF_MODE_TRIANGLES) lost_vertices_ += vertices.size() % 3;
-    const std::uint32_t material =
-        primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(primitive.material);
-    for (const Triangle& t : assemble(mode, vertices)) {
-      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-      mesh.triangle_materials.push_back(material);
-    }
-    return {};
-  }
-
-  static void drop_empty(Mesh& mesh) {
-    const auto is_zero = [](const auto& v) { return v == std::decay_t<decltype(v)>(0.0f); };
-    if (std::all_of(mesh.normals.begin(), mesh.normals.end(), is_zero)) mesh.normals.clear();
-    if (std::all_of(mesh.uvs.begin(), mesh.uvs.end(), is_zero)) mesh.uvs.clear();
-  }
-
-  void add_notes(Scene& scene) const {
-    const auto note = [&](std::string text) { scene.notes.push_back(std::move(text)); };
-    if (skipped_ > 0)
-      note(fmt::format("{} primitive(s) of points or lines were skipped: only triangles are drawn.",
-                       skipped_));
-    if (without_position_ > 0)
-      note(fmt::format("{} primitive(s) without POSITION were skipped.", without_position_));
-    if (bad_attributes_ > 0)
-      note(fmt::format("{} normals or texture coordinates are not finite and count as missing.",
-                       bad_attributes_));
-    if (lost_vertices_ > 0)
-      note(fmt::format("{} vertices at the ends of triangle lists do not make a triangle.", lost_vertices_));
-    if (has_colors_) note("Vertex colours are not used.");
-    if (has_targets_) note("Morph targets are not applied.");
-  }
-
-  const tinygltf::Model& model_;
-  const TexcoordSets& sets_;
-  std::uint32_t default_material_;
-  const std::string& file_;
-  std::size_t skipped_ = 0, without_position_ = 0, bad_attributes_ = 0, lost_vertices_ = 0;
-  bool has_colors_ = false, has_targets_ = false;
+/// A vertex's joints blended: the sum of its weights times their matrices, and that of the weights alone.
+struct Blend {
+  Mat4 matrix{0.0};
+  double weight = 0.0;
 };
 
 }  // namespace
 
-Expected<GltfMeshes> read_gltf_meshes(Scene& scene, const tinygltf::Model& model, const TexcoordSets& sets,
-                                      std::uint32_t default_material, const std::string& file) {
-  return GltfMeshReader(model, sets, default_material, file).run(scene);
+Expected<Mesh> GltfMeshReader::read(std::size_t index, const GltfPose& pose) {
+  const tinygltf::Mesh& from = model_.meshes[index];
+  Mesh mesh;
+  mesh.name = from.name.empty() ? fmt::format("mesh-{}", index + 1) : from.name;
+  for (std::size_t p = 0; p < from.primitives.size(); ++p)
+    if (const auto added =
+            add_primitive(mesh, from.primitives[p], pose, fmt::format("meshes[{}].primitives[{}]", index, p));
+        !added)
+      return fail(added.error());
+  drop_empty(mesh);
+  return mesh;
+}
+
+tl::unexpected<Error> GltfMeshReader::error(std::string field, std::string reason) const {
+  return fail(Error{ErrorKind::bad_input, std::move(reason), file_, 0, 0, std::move(field)});
+}
+
+GltfAccessor GltfMeshReader::accessor(int index) const {
+  return {model_, data_, index};
+}
+
+Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive,
+                                             const GltfPose& pose, std::string path) {
+  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  if (mode < TINYGLTF_MODE_TRIANGLES) {
+    ++skipped_;
+    return {};
+  }
+  const int position = attribute(primitive, "POSITION");
+  if (position < 0) {
+    ++without_position_;
+    return {};
+  }
+  if (attribute(primitive, "COLOR_0") >= 0) has_colors_ = true;
+  const Part part{primitive, std::move(path), mesh.positions.size(),
+                  model_.accessors[static_cast<std::size_t>(position)].count};
+  if (const auto added = add_positions(mesh, part); !added) return added;
+  add_normals(mesh, part);
+  add_uvs(mesh, part);
+  apply_targets(mesh, part, pose.weights);
+  apply_skin(mesh, part, pose.joints);
+  if (const auto sound = check_positions(mesh, part); !sound) return sound;
+  return add_triangles(mesh, part, mode);
+}
+
+Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const {
+  if (part.first + part.count >= no_id)
+    return error(part.path, fmt::format("the mesh has too many vertices (got {}, allowed {})",
+                                        part.first + part.count, no_id - 1));
+  mesh.positions.resize(part.first + part.count);
+  accessor(attribute(part.primitive, "POSITION")).for_each([&](std::size_t i, const double* v) {
+    mesh.positions[part.first + i] = vec3(v);
+  });
+  return {};
+}
+
+Expected<void> GltfMeshReader::check_positions(const Mesh& mesh, const Part& part) const {
+  const auto begin = mesh.positions.begin() + static_cast<std::ptrdiff_t>(part.first);
+  const auto bad = std::find_if_not(begin, mesh.positions.end(), is_placeable);
+  if (bad == mesh.positions.end()) return {};
+  return error(fmt::format("{}.attributes.POSITION[{}]", part.path, bad - begin),
+               fmt::format("position (got [{:g}, {:g}, {:g}], allowed up to {:g} in magnitude)", bad->x,
+                           bad->y, bad->z, max_coordinate));
+}
+
+// Normals and texture coordinates that are missing or not finite are zero: flat, and the texture's corner.
+void GltfMeshReader::add_normals(Mesh& mesh, const Part& part) {
+  mesh.normals.resize(part.first + part.count, Vec3f(0.0f));
+  const int index = attribute(part.primitive, "NORMAL");
+  if (index < 0) return;
+  std::atomic<std::size_t> bad = 0;
+  accessor(index).for_each([&](std::size_t i, const double* v) {
+    const Vec3f n(vec3(v));
+    if (i >= part.count) return;
+    if (std::isfinite(glm::dot(n, n)))
+      mesh.normals[part.first + i] = n;
+    else
+      ++bad;
+  });
+  bad_attributes_ += bad;
+}
+
+void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
+  mesh.uvs.resize(part.first + part.count, Vec2f(0.0f));
+  const int material = part.primitive.material;
+  const int set = material < 0 ? 0 : sets_[static_cast<std::size_t>(material)];
+  const int index = attribute(part.primitive, fmt::format("TEXCOORD_{}", set));
+  if (index < 0) return;
+  std::atomic<std::size_t> bad = 0;
+  accessor(index).for_each([&](std::size_t i, const double* v) {
+    const Vec2f uv(static_cast<float>(v[0]), static_cast<float>(v[1]));
+    if (i >= part.count) return;
+    if (std::isfinite(uv.x) && std::isfinite(uv.y))
+      mesh.uvs[part.first + i] = uv;
+    else
+      ++bad;
+  });
+  bad_attributes_ += bad;
+}
+
+// glTF 2.0, section 3.7.2.2: the displacements of the targets, weighted, are added.
+void GltfMeshReader::apply_targets(Mesh& mesh, const Part& part, const std::vector<double>& weights) const {
+  const auto& targets = part.primitive.targets;
+  for (std::size_t t = 0; t < std::min(targets.size(), weights.size()); ++t) {
+    if (weights[t] == 0.0) continue;
+    const auto add = [&](const char* name, auto&& put) {
+      const auto found = targets[t].find(name);
+      if (found == targets[t].end() || found->second < 0) return;
+      accessor(found->second).for_each([&](std::size_t i, const double* v) {
+        if (i < part.count) put(part.first + i, weights[t] * vec3(v));
+      });
+    };
+    add("POSITION", [&](std::size_t i, const Vec3& by) { mesh.positions[i] += by; });
+    add("NORMAL", [&](std::size_t i, const Vec3& by) {
+      const Vec3f moved = mesh.normals[i] + Vec3f(by);
+      if (std::isfinite(glm::dot(moved, moved))) mesh.normals[i] = moved;
+    });
+  }
+}
+
+// glTF 2.0, section 3.7.3.3. Weights are taken relative to their sum; a vertex without any stays where it is
+// stored.
+void GltfMeshReader::apply_skin(Mesh& mesh, const Part& part, const std::vector<Mat4>& joints) {
+  if (joints.empty()) return;
+  std::vector<Blend> blends(part.count);
+  for (int set = 0;; ++set) {
+    const int indices = attribute(part.primitive, fmt::format("JOINTS_{}", set));
+    const int weights = attribute(part.primitive, fmt::format("WEIGHTS_{}", set));
+    if (indices < 0 || weights < 0) break;
+    const GltfAccessor weight = accessor(weights);
+    const std::size_t known = std::min(part.count, weight.count());
+    accessor(indices).for_each([&](std::size_t i, const double* joint) {
+      if (i >= known) return;
+      std::array<double, 4> share{};
+      weight.read(i, i + 1, share.data());
+      for (std::size_t c = 0; c < 4; ++c) {
+        if (!(share[c] > 0.0) || !(joint[c] >= 0.0 && joint[c] < static_cast<double>(joints.size())))
+          continue;
+        blends[i].matrix += share[c] * joints[static_cast<std::size_t>(joint[c])];
+        blends[i].weight += share[c];
+      }
+    });
+  }
+  tbb::parallel_for(std::size_t{0}, part.count, [&](std::size_t i) {
+    if (!(blends[i].weight > 0.0)) return;
+    const Mat4 matrix = blends[i].matrix / blends[i].weight;
+    Vec3& position = mesh.positions[part.first + i];
+    position = Vec3(matrix * Vec4(position, 1.0));
+    const Mat3 m(matrix);
+    // The cofactors: the inverse transpose times the determinant, and no division by zero.
+    const Mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const Vec3 normal = cofactors * Vec3(mesh.normals[part.first + i]);
+    const double length = glm::length(normal);
+    mesh.normals[part.first + i] =
+        length > 0.0 && std::isfinite(length) ? Vec3f(normal / length) : Vec3f(0.0f);
+  });
+  unbound_ += static_cast<std::size_t>(
+      std::count_if(blends.begin(), blends.end(), [](const Blend& b) { return !(b.weight > 0.0); }));
+}
+
+Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int mode) {
+  std::vector<std::uint32_t> vertices(part.count);
+  std::iota(vertices.begin(), vertices.end(), 0u);
+  if (part.primitive.indices >= 0) {
+    const GltfAccessor indices = accessor(part.primitive.indices);
+    vertices.resize(indices.count());
+    FirstBad bad;
+    indices.for_each([&](std::size_t i, const double* index) {
+      if (*index >= 0.0 && *index < static_cast<double>(part.count))
+        vertices[i] = static_cast<std::uint32_t>(*index);
+      else
+        bad.report(i);
+    });
+    if (const auto first = bad.get()) {
+      std::array<double, 16> got{};
+      indices.read(*first, *first + 1, got.data());
+      return error(fmt::format("{}.indices[{}]", part.path, *first),
+                   fmt::format("vertex index out of range (got {:g}, allowed 0 to {})", got[0],
+                               static_cast<std::int64_t>(part.count) - 1));
+    }
+  }
+  if (mode == TINYGLTF_MODE_TRIANGLES) lost_vertices_ += vertices.size() % 3;
+  const std::uint32_t material =
+      part.primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(part.primitive.material);
+  const auto base = static_cast<std::uint32_t>(part.first);
+  if (mode == TINYGLTF_MODE_TRIANGLES) mesh.triangles.reserve(mesh.triangles.size() + vertices.size() / 3);
+  for_each_triangle(mode, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles.push_back({base + a, base + b, base + c});
+  });
+  mesh.triangle_materials.resize(mesh.triangles.size(), material);
+  return {};
+}
+
+void GltfMeshReader::add_notes(Scene& scene) const {
+  const auto note = [&](std::string text) { scene.notes.push_back(std::move(text)); };
+  if (skipped_ > 0)
+    note(fmt::format("{} primitive(s) of points or lines were skipped: only triangles are drawn.", skipped_));
+  if (without_position_ > 0)
+    note(fmt::format("{} primitive(s) without POSITION were skipped.", without_position_));
+  if (bad_attributes_ > 0)
+    note(fmt::format("{} normals or texture coordinates are not finite and count as missing.",
+                     bad_attributes_));
+  if (lost_vertices_ > 0)
+    note(fmt::format("{} vertices at the ends of triangle lists do not make a triangle.", lost_vertices_));
+  if (unbound_ > 0)
+    note(fmt::format("{} vertices of skinned meshes have no joint: they stay where they are stored.",
+                     unbound_));
+  if (has_colors_) note("Vertex colours are not used.");
 }
 
 }  // namespace gnomon

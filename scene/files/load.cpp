@@ -13,6 +13,7 @@
 #include "scene/files/defaults.h"
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
+#include "scene/files/mapped_file.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 #include "scene/files/validate.h"
@@ -103,14 +104,15 @@ Error unknown_name(const std::string& name) {
 }
 
 Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
-  const auto bytes = read_file(path);
-  if (!bytes) return fail(bytes.error());
+  const auto file = MappedFile::open(path);
+  if (!file) return fail(file.error());
+  const std::string_view bytes = file->bytes();
   IncludeState includes;
-  auto sha256 = hash_beside(*bytes);
+  auto sha256 = hash_beside(bytes);
   LoadOptions rooted = options;
   rooted.root = folder_of(path);
   if (options.files != nullptr) options.files->push_back(path);
-  return complete(read_by_extension(*bytes, path, rooted, includes), path, std::move(sha256), options);
+  return complete(read_by_extension(bytes, path, rooted, includes), path, std::move(sha256), options);
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
 // glTF as text with its buffer inside, and as GLB: the first byte says which.
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <meshoptimizer.h>
+
 #include "fuzz_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -33,11 +37,9 @@ void append(std::string& bytes, std::uint32_t word) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>(word >> 8 * i);
 }
 
-std::string container() {
-  std::string text = scene_text(R"({"byteLength":44})");
+std::string container(std::string text, std::string data) {
   while (text.size() % 4 != 0) text += ' ';
-  std::string data(44, '\0');
-  data[14] = '\x80', data[15] = '\x3f', data[26] = '\x80', data[27] = '\x3f', data[38] = 1, data[40] = 2;
+  while (data.size() % 4 != 0) data += '\0';
   std::string bytes = "glTF";
   append(bytes, 2);
   append(bytes, static_cast<std::uint32_t>(28 + text.size() + data.size()));
@@ -47,9 +49,85 @@ std::string container() {
   return bytes + std::string("BIN\0", 4) + data;
 }
 
+std::string plain_container() {
+  std::string data(44, '\0');
+  data[14] = '\x80', data[15] = '\x3f', data[26] = '\x80', data[27] = '\x3f', data[38] = 1, data[40] = 2;
+  return container(scene_text(R"({"byteLength":44})"), data);
+}
+
+constexpr float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5f};
+constexpr unsigned int indices[] = {0, 1, 2, 2, 1, 3};
+
+std::string meshopt_positions() {
+  std::string out(meshopt_encodeVertexBufferBound(4, 12), '\0');
+  auto* bytes = reinterpret_cast<unsigned char*>(out.data());
+  out.resize(meshopt_encodeVertexBuffer(bytes, out.size(), corners, 4, 12));
+  return out;
+}
+
+std::string meshopt_indices() {
+  std::string out(meshopt_encodeIndexBufferBound(6, 4), '\0');
+  auto* bytes = reinterpret_cast<unsigned char*>(out.data());
+  out.resize(meshopt_encodeIndexBuffer(bytes, out.size(), indices, 6));
+  return out;
+}
+
+std::string draco_mesh(int speed) {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(2);
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  for (std::uint32_t f = 0; f < 2; ++f)
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), corners + 3 * indices[3 * f],
+                                      corners + 3 * indices[3 * f + 1], corners + 3 * indices[3 * f + 2]);
+  draco::Encoder encoder;
+  encoder.SetSpeedOptions(speed, speed);
+  draco::EncoderBuffer out;
+  if (!encoder.EncodeMeshToBuffer(*builder.Finalize(), &out).ok())
+    gnomon::fuzz::broken("Draco does not pack");
+  return {out.data(), out.size()};
+}
+
+// Two meshes, one by meshoptimizer and one by Draco, with a morph target, a skin and instances.
+std::string packed_container(int speed) {
+  const std::string parts[] = {meshopt_positions(), meshopt_indices(), draco_mesh(speed)};
+  std::string data, views;
+  for (const std::string& part : parts) {
+    const std::string place = "\"buffer\":0,\"byteOffset\":" + std::to_string(data.size()) +
+                              ",\"byteLength\":" + std::to_string(part.size());
+    if (&part == &parts[0])
+      views =
+          R"({"buffer":1,"byteLength":48,"extensions":{"EXT_meshopt_compression":{"byteStride":12,"count":4,)"
+          R"("mode":"ATTRIBUTES",)" +
+          place + "}}},";
+    else if (&part == &parts[1])
+      views += R"({"buffer":1,"byteOffset":48,"byteLength":24,"extensions":{"EXT_meshopt_compression":)"
+               R"({"byteStride":4,"count":6,"mode":"TRIANGLES",)" +
+               place + "}}},";
+    else
+      views += "{" + place + "}";
+    data += part;
+    while (data.size() % 4 != 0) data += '\0';
+  }
+  return container(
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1,2]}],"nodes":[{"mesh":0,"skin":0,"weights":[0.5]},)"
+      R"({"mesh":1,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}},{}],)"
+      R"("skins":[{"joints":[2]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":4,"WEIGHTS_0":4},)"
+      R"("indices":1,"targets":[{"POSITION":0}]}]},{"primitives":[{"attributes":{"POSITION":2},"indices":3,)"
+      R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":2,"attributes":{"POSITION":0}}}}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5125,"count":6,"type":"SCALAR"},)"
+      R"({"componentType":5126,"count":4,"type":"VEC3"},{"componentType":5125,"count":6,"type":"SCALAR"},)"
+      R"({"componentType":5126,"count":4,"type":"VEC4","sparse":{"count":1,"indices":{"bufferView":1,)"
+      R"("byteOffset":4,"componentType":5125},"values":{"bufferView":0,"byteOffset":8}}}],"bufferViews":[)" +
+          views + R"(],"buffers":[{"byteLength":)" + std::to_string(data.size()) +
+          R"(},{"byteLength":72,"extensions":{"EXT_meshopt_compression":{"fallback":true}}}]})",
+      data);
+}
+
 }  // namespace
 
 std::vector<std::string> gnomon::fuzz::seeds() {
   const std::string uri = R"({"byteLength":44,"uri":"data:application/octet-stream;base64,)";
-  return {scene_text(uri + buffer_base64 + "\"}"), container()};
+  return {scene_text(uri + buffer_base64 + "\"}"), plain_container(), packed_container(5),
+          packed_container(10)};
 }

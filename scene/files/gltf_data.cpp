@@ -1,0 +1,191 @@
+#include "scene/files/gltf_data.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "scene/files/base64.h"
+#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_meshopt.h"
+#include "scene/files/read_file.h"
+
+namespace gnomon {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const char lower = static_cast<char>(c | 0x20);
+  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+/// RFC 3986, section 2.1.
+std::string decode_percent(std::string_view uri) {
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const int high = uri[i] == '%' && i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(uri[i + 2]) : -1;
+    out += low >= 0 ? static_cast<char>(high * 16 + low) : uri[i];
+    if (low >= 0) i += 2;
+  }
+  return out;
+}
+
+std::string text_of(const JsonValue* object, std::string_view key) {
+  const JsonValue* value = member(object, key);
+  return value != nullptr && value->type == JsonValue::Type::string ? value->text : std::string();
+}
+
+/// Data URIs' contents are not for messages.
+std::string shown(const std::string& uri) {
+  return uri.starts_with("data:") ? "data:..." : printable(uri);
+}
+
+const JsonValue* meshopt_of(const JsonValue& object) {
+  return member(member(&object, "extensions"), "EXT_meshopt_compression");
+}
+
+}  // namespace
+
+const std::vector<JsonValue>& gltf_list(const JsonValue& root, std::string_view key) {
+  static const std::vector<JsonValue> none;
+  const JsonMember* found = root.find(key);
+  return found == nullptr ? none : found->value.items;
+}
+
+const JsonValue* member(const JsonValue* object, std::string_view key) {
+  const JsonMember* found = object == nullptr ? nullptr : object->find(key);
+  return found == nullptr ? nullptr : &found->value;
+}
+
+double number_of(const JsonValue* object, std::string_view key, double otherwise) {
+  const JsonValue* value = member(object, key);
+  return value != nullptr && value->type == JsonValue::Type::number ? value->number : otherwise;
+}
+
+Expected<GltfData> GltfData::open(const CheckedGltf& checked, std::string_view bytes,
+                                  const std::string& folder, const LoadOptions& options) {
+  GltfData out(checked, bytes, folder, options);
+  out.images_.resize(gltf_list(checked.document.root, "images").size());
+  if (const auto opened = out.open_buffers(); !opened) return fail(opened.error());
+  if (const auto opened = out.open_views(); !opened) return fail(opened.error());
+  return out;
+}
+
+tl::unexpected<Error> GltfData::error(std::string field, std::string reason) const {
+  return fail(
+      Error{ErrorKind::bad_input, std::move(reason), checked_->document.file, 0, 0, std::move(field)});
+}
+
+Expected<std::string_view> GltfData::open_uri(const std::string& uri, const std::string& field) {
+  if (uri.starts_with("data:")) {
+    const std::size_t comma = uri.find(";base64,");
+    auto bytes =
+        comma == std::string::npos ? std::nullopt : from_base64(std::string_view(uri).substr(comma + 8));
+    if (!bytes) return error(field, "the data URI is not base64");
+    const std::vector<char>& kept = decoded_.emplace_back(std::move(*bytes));
+    return std::string_view(kept.data(), kept.size());
+  }
+  const auto path = resolve_path(folder_, decode_percent(uri), *options_);
+  if (!path) return error(field, path.error().reason);
+  auto file = MappedFile::open(*path);
+  if (!file) return error(field, fmt::format("{} (got \"{}\")", file.error().reason, shown(uri)));
+  return files_.emplace_back(std::move(*file)).bytes();
+}
+
+/// Empty for one that EXT_meshopt_compression stands in for.
+Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
+  const JsonValue& buffer = gltf_list(checked_->document.root, "buffers")[index];
+  const std::string field = fmt::format("buffers[{}]", index);
+  const auto length = static_cast<std::size_t>(number_of(&buffer, "byteLength", 0.0));
+  const std::string uri = text_of(&buffer, "uri");
+  std::string_view bytes;
+  if (!uri.empty()) {
+    const auto opened = open_uri(uri, field + ".uri");
+    if (!opened) return fail(opened.error());
+    bytes = *opened;
+  } else if (meshopt_of(buffer) != nullptr) {
+    return std::string_view();
+  } else if (index == 0 && checked_->is_binary) {
+    const auto chunks = read_glb(bytes_, checked_->document.file);
+    if (!chunks) return fail(chunks.error());
+    bytes = chunks->binary.value_or(std::string_view());
+  } else {
+    return error(field, "uri is missing");
+  }
+  if (bytes.size() < length)
+    return error(field, fmt::format("holds fewer bytes than it says (got {}, allowed {} or more)",
+                                    bytes.size(), length));
+  return bytes.substr(0, length);
+}
+
+Expected<void> GltfData::open_buffers() {
+  const std::size_t count = gltf_list(checked_->document.root, "buffers").size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto buffer = open_buffer(i);
+    if (!buffer) return fail(buffer.error());
+    buffers_.push_back(*buffer);
+  }
+  return {};
+}
+
+Expected<void> GltfData::open_views() {
+  const std::vector<JsonValue>& views = gltf_list(checked_->document.root, "bufferViews");
+  std::vector<Expected<std::vector<char>>> unpacked(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    if (const JsonValue* packed = meshopt_of(views[i]); packed != nullptr)
+      unpacked[i] = unpack_meshopt(*packed, buffers_, number_of(&views[i], "byteLength", 0.0));
+  });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::string field = fmt::format("bufferViews[{}]", i);
+    if (!unpacked[i]) return error(field + ".extensions.EXT_meshopt_compression", unpacked[i].error().reason);
+    if (meshopt_of(views[i]) != nullptr) {
+      const std::vector<char>& kept = decoded_.emplace_back(std::move(*unpacked[i]));
+      views_.emplace_back(kept.data(), kept.size());
+      continue;
+    }
+    const auto from = static_cast<std::size_t>(number_of(&views[i], "buffer", 0.0));
+    const auto length = static_cast<std::size_t>(number_of(&views[i], "byteLength", 0.0));
+    const auto offset = static_cast<std::size_t>(number_of(&views[i], "byteOffset", 0.0));
+    if (length > 0 && buffers_[from].empty()) return error(field, "its buffer has no data");
+    views_.push_back(length == 0 ? std::string_view() : buffers_[from].substr(offset, length));
+  }
+  return {};
+}
+
+Expected<GltfImage> GltfData::image(std::size_t index) {
+  std::optional<GltfImage>& known = images_[index];
+  if (known) return *known;
+  const JsonValue& image = gltf_list(checked_->document.root, "images")[index];
+  const std::string field = fmt::format("images[{}]", index);
+  GltfImage out{index, text_of(&image, "name"), text_of(&image, "uri")};
+  const bool inside = out.uri.starts_with("data:");
+  if (const double from = number_of(&image, "bufferView", -1.0); from >= 0.0) {
+    out.bytes = view(static_cast<std::size_t>(from));
+  } else if (inside) {
+    const auto bytes = open_uri(out.uri, field + ".uri");
+    if (!bytes) return fail(bytes.error());
+    out.bytes = *bytes;
+    out.uri.clear();
+  } else if (!out.uri.empty()) {
+    const auto path = resolve_path(folder_, decode_percent(out.uri), *options_);
+    if (!path) return error(field + ".uri", path.error().reason);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(*path, ignored)) {
+      auto file = MappedFile::open(*path);
+      if (!file) return error(field + ".uri", file.error().reason);
+      out.bytes = files_.emplace_back(std::move(*file)).bytes();
+    }
+  }
+  if (out.name.empty()) out.name = out.uri.empty() ? field : out.uri;
+  return known.emplace(std::move(out));
+}
+
+std::size_t GltfData::add_view(std::vector<char> bytes) {
+  const std::vector<char>& kept = decoded_.emplace_back(std::move(bytes));
+  views_.emplace_back(kept.data(), kept.size());
+  return views_.size() - 1;
+}
+
+}  // namespace gnomon

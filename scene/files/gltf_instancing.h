@@ -1,0 +1,22 @@
+// EXT_mesh_gpu_instancing: one node that shows its mesh many times.
+#pragma once
+
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/files/gltf_data.h"
+#include "scene/math.h"
+
+namespace tinygltf {
+class Model;
+class Value;
+}  // namespace tinygltf
+
+namespace gnomon {
+
+/// node_from_instance of each; `extension` is the node's object of that name. Attributes that are not there
+/// change nothing. The Error holds the reason alone.
+Expected<std::vector<Mat4>> gltf_instances(const tinygltf::Model& model, const GltfData& data,
+                                           const tinygltf::Value& extension);
+
+}  // namespace gnomon
