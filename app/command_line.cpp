@@ -166,10 +166,11 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_tune(*program, invocation);
   add_verify(*program, invocation);
   add_bench(*program, invocation);
+  add_shimmer(*program, invocation);
   add_judge(*program, invocation);
   add_grade(*program, invocation);
   add_view(*program, invocation);
-  for (const char* command : {"compare", "judge", "raster", "raytrace", "sweep", "tune"})
+  for (const char* command : {"compare", "judge", "raster", "raytrace", "shimmer", "sweep", "tune"})
     add_trace(*program->get_subcommand(command), invocation.trace);
   return program;
 }

@@ -38,5 +38,6 @@ void add_bench(CLI::App& program, Invocation& invocation);
 void add_verify(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program, Invocation& invocation);
 void add_judge(CLI::App& program, Invocation& invocation);
+void add_shimmer(CLI::App& program, Invocation& invocation);
 
 }  // namespace gnomon::app

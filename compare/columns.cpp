@@ -69,12 +69,14 @@ bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
 }
 
 // The lower rungs hang on sheets where the centre ray is stopped before the receiver's tangent plane, and by
-// another triangle than the receiver's.
-bool needs_sheets(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
+// another triangle than the receiver's. Triangles of two surfaces that nowhere hang together share no sheet.
+bool needs_sheets(const LadderInput& in, const Surfaces& surfaces, const TexelCentre& centre,
+                  std::uint32_t pixel) {
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   return centre.hit && centre.hit->primitive != receiver.primitive &&
          in.world.is_triangle(receiver.primitive) && in.world.is_triangle(centre.hit->primitive) &&
-         !meets_plane_unhindered(in, centre, receiver);
+         !meets_plane_unhindered(in, centre, receiver) &&
+         surfaces.same(receiver.primitive, centre.hit->primitive);
 }
 
 }  // namespace
@@ -100,7 +102,7 @@ ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
   std::vector<char> needed(groups.keys.size(), 0);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
     for (const std::uint32_t pixel : groups[g])
-      needed[g] |= static_cast<char>(needs_sheets(in, centres[g], pixel));
+      needed[g] |= static_cast<char>(needs_sheets(in, surfaces_, centres[g], pixel));
   });
   add(needed);
 }

@@ -6,6 +6,7 @@
 
 #include "raster/depth_map_pass.h"
 #include "raster/external_pass.h"
+#include "raster/map_camera.h"
 #include "raster/renderer.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"
@@ -39,6 +40,7 @@ class GlRenderer final : public Renderer {
   void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) override {
     external_.use(std::move(visibility));
   }
+  void fit_maps_to(const std::optional<MapCamera>& camera) { map_camera_ = camera; }
 
  private:
   struct Job;  // one call of render()
@@ -46,6 +48,7 @@ class GlRenderer final : public Renderer {
   Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
   Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
   Expected<void> draw_map(const MapJob& map, bool with_ids);
+  Expected<std::vector<Vec3>> visible_surfaces(Job& job, const Camera& camera);
   Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
   Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
   Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
@@ -89,6 +92,7 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<TechniquePass> technique_pass_;
   Technique technique_ = Technique::hard;  ///< of technique_pass_
   ExternalPass external_;
+  std::optional<MapCamera> map_camera_;
   double upload_ms_;
   std::optional<KeptMap> kept_map_;
   std::optional<ShadePermutation> last_timed_;  ///< of the shading pass

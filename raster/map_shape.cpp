@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "raster/technique_traits.h"
 
 namespace gnomon::raster {
@@ -27,9 +29,8 @@ bool fits_to_samples(const MapOptions& options) {
   return options.technique == Technique::csm && options.cascades.fit_samples;
 }
 
-Expected<LightView> fit_map(const World& world, const Light& light, double aspect, const MapOptions& options,
-                            std::span<const Vec3> visible) {
-  const Camera& camera = world.scene->camera;
+Expected<LightView> fit_map(const World& world, const Light& light, const Camera& camera, double aspect,
+                            const MapOptions& options, std::span<const Vec3> visible) {
   auto view = options.technique == Technique::csm
                   ? fit_cascades(world, light, camera, aspect, options.size, options.cascades, visible)
               : options.technique == Technique::lispsm
@@ -39,6 +40,26 @@ Expected<LightView> fit_map(const World& world, const Light& light, double aspec
   view->seamless = light.type == LightType::point;
   view->reversed = options.depth_format == DepthFormat::d32f_reversed;
   return view;
+}
+
+void move_window(const Vec3& shift, double margin, LightView& view) {
+  if (view.projection != LightProjection::orthographic) return;
+  for (int i = 0; i < view.face_count; ++i) {
+    LightFace& face = view.faces[static_cast<std::size_t>(i)];
+    if (face.warp == 0.0) face.half_extent += Vec2(margin);
+    face.center += Vec2(glm::dot(face.right, shift), glm::dot(face.up, shift));
+  }
+}
+
+bool same_window(const LightView& a, const LightView& b) {
+  const auto same_face = [](const LightFace& f, const LightFace& g) {
+    return f.right == g.right && f.up == g.up && f.forward == g.forward && f.center == g.center &&
+           f.half_extent == g.half_extent && f.near_depth == g.near_depth && f.far_depth == g.far_depth &&
+           f.warp == g.warp;
+  };
+  return a.projection == b.projection && a.size == b.size && a.face_count == b.face_count &&
+         a.origin == b.origin && a.seamless == b.seamless && a.reversed == b.reversed &&
+         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), same_face);
 }
 
 std::vector<std::string> map_defines(const MapOptions& options) {

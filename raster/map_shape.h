@@ -19,8 +19,15 @@ Expected<void> check_light(Technique technique, const Light& light);
 bool fits_to_samples(const MapOptions& options);
 
 /// `visible`: read only where fits_to_samples().
-Expected<LightView> fit_map(const World& world, const Light& light, double aspect, const MapOptions& options,
-                            std::span<const Vec3> visible);
+Expected<LightView> fit_map(const World& world, const Light& light, const Camera& camera, double aspect,
+                            const MapOptions& options, std::span<const Vec3> visible);
+
+/// Widens the window of an orthographic map that is not warped by `margin` on each side, and moves that of any
+/// orthographic map across the light by `shift`, both in world units.
+void move_window(const Vec3& shift, double margin, LightView& view);
+
+/// Whether two maps have the same texels at the same places.
+bool same_window(const LightView& a, const LightView& b);
 
 /// What shaders/light_map.glsl is to know, besides the light's type.
 std::vector<std::string> map_defines(const MapOptions& options);

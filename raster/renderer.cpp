@@ -109,6 +109,7 @@ std::optional<RasterOptions> map_key(const RasterOptions& options, std::size_t l
 bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& record) const {
   const auto key = map_key(job.options, world_->scene->lights.size());
   if (!key || !kept_map_ || kept_map_->options != *key || kept_map_->light != light) return false;
+  if (!same_window(kept_map_->map.view, record.map.view)) return false;  // fitted to another camera
   record.map = kept_map_->map;
   record.map_pass = kept_map_->map_pass;
   record.first_map_ms = kept_map_->first_map_ms;
@@ -178,6 +179,10 @@ void GlRenderer::restore_state() const {
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_BLEND);
   gl->DepthFunc(GL_LESS);
+}
+
+void set_map_camera(Renderer& renderer, const std::optional<MapCamera>& camera) {
+  static_cast<GlRenderer&>(renderer).fit_maps_to(camera);  // the one kind that Renderer::create makes
 }
 
 Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> context, const World& world,

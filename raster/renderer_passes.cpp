@@ -74,15 +74,31 @@ Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& r
   return external_.prepare(request, false);
 }
 
-// The surfaces that the camera sees are read back where the technique fits its map to them.
+// What a camera sees is read back where the technique fits its map to that. Of the picture's own camera the
+// visibility buffer is what the picture needs next.
+Expected<std::vector<Vec3>> GlRenderer::visible_surfaces(Job& job, const Camera& camera) {
+  const bool own = !map_camera_;
+  const View view = own ? job.view : make_view(camera, job.options.size);
+  if (!own) shading_.set_camera(buffers_, view);
+  if (auto ok = shading_.draw_visibility(buffers_, view); !ok) return fail(ok.error());
+  std::vector<Vec3> visible = shading_.read_positions(*world_, view);
+  if (!own) shading_.set_camera(buffers_, job.view);
+  job.visibility_drawn = own;
+  return visible;
+}
+
 Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptions& map) {
+  const Camera& camera = map_camera_ ? map_camera_->camera : world_->scene->camera;
   std::vector<Vec3> visible;
   if (fits_to_samples(map)) {
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return fail(ok.error());
-    job.visibility_drawn = true;
-    visible = shading_.read_positions(*world_, job.view);
+    auto seen = visible_surfaces(job, camera);
+    if (!seen) return fail(seen.error());
+    visible = std::move(*seen);
   }
-  return fit_map(*world_, light, double(job.options.size.width) / job.options.size.height, map, visible);
+  const double aspect = double(job.options.size.width) / job.options.size.height;
+  auto view = fit_map(*world_, light, camera, aspect, map, visible);
+  if (view && map_camera_) move_window(map_camera_->shift, map_camera_->margin, *view);
+  return view;
 }
 
 Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {

@@ -71,7 +71,7 @@ class MinimalProgram::Passes {
   void make_map() {
     const Light& light = world_.scene->lights[0];
     const double aspect = double(options_.size.width) / options_.size.height;
-    light_view_ = must(raster::fit_map(world_, light, aspect, options_.map, {}));
+    light_view_ = must(raster::fit_map(world_, light, world_.scene->camera, aspect, options_.map, {}));
     const Vec3& reference = buffers_->reference();
     const auto rounding = raster::bias_rounding(options_.map, light_view_, world_, reference);
     const double bias = raster::constant_bias_world(options_.map.bias, rounding, light_view_, world_);

@@ -1,0 +1,179 @@
+// gnomon shimmer: what shadows do from frame to frame that they should not.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+
+#include "app/effect_options.h"
+#include "app/interrupt.h"
+#include "app/invocation.h"
+#include "app/option_kinds.h"
+#include "app/options.h"
+#include "app/output_path.h"
+#include "app/session.h"
+#include "app/setting.h"
+#include "app/shimmer_options.h"
+#include "app/technique_options.h"
+#include "compare/shimmer/outputs.h"
+#include "scene/files/staged_folder.h"
+#include "scene/files/write_file.h"
+#include "scene/timing.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct ShimmerCommand {
+  SceneArgument scene;
+  std::string camera, folder, json, shader_folder;
+  SettingOptions setting;
+  MovementOptions movement;
+  compare::FilmTime time;
+  int anchors = 1;
+  std::optional<double> fail_above;  ///< flips per receiver and second
+  raster::Backend backend = raster::Backend::automatic;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  int tessellate = 0;
+  bool quiet = false;
+  std::string command_line;
+  std::vector<std::string> given;  ///< options
+};
+
+constexpr int most_frames = 10000;
+constexpr int most_anchors = 64;
+
+Expected<RunFiles> check_files(ShimmerCommand& command) {
+  if (command.folder.empty() && command.json != "-")
+    command.folder = default_output(command.scene.name) + "-shimmer";
+  RunFiles files;
+  files.reads(command.scene);
+  files.reads(path_file(command.movement));
+  files.writes("--json", command.json);
+  constexpr std::array<std::string_view, 1> names{"result.json"};
+  if (!command.folder.empty()) files.writes_folder("-o", command.folder, names);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  return files;
+}
+
+Expected<compare::Shimmer> make_film(const ShimmerCommand& command, const LoadedScene& loaded,
+                                     Console& console) {
+  const auto lights = choose_lights(*loaded.scene, command.setting.light);
+  if (!lights) return fail(lights.error());
+  for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
+  for (const std::string& note :
+       idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
+    console.note(note);
+  auto path = resolve_movement(command.movement, *loaded.scene);
+  if (!path) return fail(path.error());
+  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+  if (!renderer) return fail(renderer.error());
+  compare::ShimmerOptions options{command.setting.options, std::move(*path), command.time, command.anchors};
+  options.compare.raytrace.seed = command.seed;
+  return compare::film_shimmer(*loaded.world, *loaded.scene, **renderer, *lights, options, {},
+                               [&](std::string_view stage, double done) { console.progress(stage, done); });
+}
+
+Expected<void> write_all(const ShimmerCommand& command, const std::string& json, const RunFiles& files) {
+  const OutputGuard whole_outputs;
+  if (!command.folder.empty()) {
+    auto staged = StagedFolder::open(command.folder);
+    if (!staged) return fail(staged.error());
+    if (const auto written = write_file(staged->path() + "/result.json", json); !written) return written;
+    if (const auto published = staged->publish("result.json", files.inputs()); !published) return published;
+  }
+  if (command.json.empty() || command.json == "-") return {};
+  if (const auto made = make_folder_for(command.json); !made) return made;
+  return write_file(command.json, json);
+}
+
+ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& film, Console& console) {
+  ExitCode code = ExitCode::done;
+  if (!command.fail_above) return code;
+  for (const compare::ShimmerLight& light : film.lights) {
+    const double flips = compare::flips_per_receiver_second(film.options, light);
+    if (!(flips > *command.fail_above)) continue;
+    console.message(
+        fmt::format("light {}: {:g} flips per receiver and second; that is more than --fail-above {:g}",
+                    film.world->scene->lights[light.light].name, flips, *command.fail_above));
+    code = ExitCode::threshold_exceeded;
+  }
+  return code;
+}
+
+Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
+  const Stopwatch total;
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads, console);
+  auto files = check_files(command);
+  if (!files) return fail(files.error());
+  auto loaded = load(command.scene, *files, console, command.tessellate, command.camera);
+  if (!loaded) return fail(loaded.error());
+  const auto posed =
+      apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
+  if (!posed) return fail(posed.error());
+  const auto film = make_film(command, *loaded, console);
+  if (!film) return fail(film.error());
+  console.clear_progress();
+  const std::string json =
+      compare::shimmer_json(*film, {command.command_line, command.seed, total.elapsed_ms()});
+  if (const auto written = write_all(command, json, *files); !written) return fail(written.error());
+  if (command.json == "-")
+    print_data(json);
+  else if (!command.quiet)
+    print_data(compare::shimmer_table(*film));
+  if (!command.folder.empty())
+    console.message(
+        fmt::format("result: {}/result.json ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));
+  return judge_lights(command, *film, console);
+}
+
+void add_options(CLI::App& app, ShimmerCommand& command) {
+  add_scene(app, command.scene);
+  add_tessellate(app, command.tessellate);
+  add_camera(app, command.camera);
+  add_output(app, "-o,--output", command.folder, "DIR",
+             "folder for result.json [default out/NAME-shimmer; none with --json - alone]");
+  add_integer(app, "--frames", command.time.frames, 2, most_frames, "", "frames of the film");
+  add_number(app, "--fps", command.time.fps, {0.0, 1e6, true}, "frames a second", "speed of the film");
+  add_movement_options(app, command.movement);
+  add_integer(app, "--anchors", command.anchors, 1, most_anchors, "pixels",
+              "receivers at every so many pixels of the first frame, along both axes");
+  add_setting_options(app, command.setting);
+  add_backend(app, command.backend);
+  add_shader_dir(app, command.shader_folder);
+  add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
+  add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
+  add_value(app, "--fail-above", "NUMBER",
+            describe("exit with 1 when any light has more flips per receiver and second than this",
+                     "flips, 0 or more", "never"),
+            [&command](const std::string& text) {
+              return assign(command.fail_above, parse_number(text, {0.0, 1e9}));
+            });
+  add_json(app, command.json, "the result");
+  add_quiet(app, command.quiet);
+}
+
+}  // namespace
+
+void add_shimmer(CLI::App& program, Invocation& invocation) {
+  CLI::App* app = program.add_subcommand(
+      "shimmer",
+      "Move camera or light, and report what shadows do from frame to frame that they should not, and why.");
+  app->footer(
+      "gnomon shimmer courtyard\n"
+      "gnomon shimmer courtyard --technique csm --path walk --frames 120\n"
+      "gnomon shimmer fence --move light --path sun --speed 0.02\n"
+      "gnomon shimmer scene.json --path drift --drift 0.2,0.1 --json - | jq .lights[0].flips");
+  const auto command = std::make_shared<ShimmerCommand>();
+  command->command_line = invocation.command_line;
+  add_options(*app, *command);
+  app->callback([command, &invocation, app] {
+    invocation.finish = [command, app] { finish_map_options(*app, command->setting.options.raster.map); };
+    command->given = given_options(*app);
+    invocation.action = [command] { return run_shimmer(*command); };
+  });
+}
+
+}  // namespace gnomon::app

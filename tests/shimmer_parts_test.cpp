@@ -1,0 +1,145 @@
+// The parts of a film of shadows: where camera and light stand, keys from a file, and who made a flip.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "compare/shimmer/outputs.h"
+#include "json_schema_check.h"
+#include "support/one_world.h"
+#include "support/places.h"
+#include "support/small_scenes.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::CameraPath;
+using compare::Cause;
+using compare::FilmTime;
+using compare::LightPath;
+using compare::Pose;
+using compare::ShimmerPath;
+
+constexpr double rounding = 1e-12;  // of a few turns in doubles
+
+Pose boxes_pose() {
+  const Scene scene = boxes_under_three_lights();
+  return {scene.camera, scene.lights};
+}
+
+TEST(ShimmerPath, OrbitKeepsTheDistanceAndComesRound) {
+  const Pose first = boxes_pose();
+  ShimmerPath path;
+  path.camera = CameraPath::orbit, path.light = LightPath::orbit;
+  const FilmTime time{37, 1.0};  // 36 seconds at 10 degrees
+  const Vec3 centre(0.1, 0.2, 0.3);
+  const double distance = glm::length(first.camera.eye - first.camera.target);
+  for (const int frame : {5, 18}) {
+    const Pose pose = pose_at(path, time, first, centre, frame);
+    EXPECT_NEAR(glm::length(pose.camera.eye - pose.camera.target), distance, rounding);
+    EXPECT_NEAR(pose.camera.eye.y, first.camera.eye.y, rounding);
+    EXPECT_GT(glm::length(pose.camera.eye - first.camera.eye), 1.0);
+    EXPECT_NEAR(glm::length(pose.lights[1].position - centre), glm::length(first.lights[1].position - centre),
+                rounding);
+  }
+  EXPECT_NEAR(glm::length(pose_at(path, time, first, centre, 36).camera.eye - first.camera.eye), 0.0, 1e-11);
+  EXPECT_EQ(pose_at(path, time, first, centre, 0).lights, first.lights);
+}
+
+TEST(ShimmerPath, TheScenesSunStandsAtNoon) {
+  const Pose first = boxes_pose();
+  ShimmerPath path;
+  path.camera = CameraPath::still, path.light = LightPath::sun;
+  const FilmTime time{11, 30.0};
+  const Pose noon = pose_at(path, time, first, {}, 5);
+  EXPECT_NEAR(glm::length(noon.lights[0].direction - first.lights[0].direction), 0.0, rounding);
+  EXPECT_EQ(noon.camera, first.camera);
+  const Vec3 rising = pose_at(path, time, first, {}, 0).lights[0].direction;
+  const Vec3 setting = pose_at(path, time, first, {}, 10).lights[0].direction;
+  EXPECT_NEAR(glm::dot(rising, setting), std::cos(170.0 * pi / 180.0), rounding);
+  EXPECT_EQ(noon.lights[1], first.lights[1]);  // lamps have no day
+}
+
+TEST(ShimmerPath, KeysAreMetAndStepsStand) {
+  compare::KeyedVector keys{
+      compare::Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 2, 0}, {4, 2, 1}}};
+  for (std::size_t i = 0; i < keys.times.size(); ++i)
+    EXPECT_NEAR(glm::length(keys.at(keys.times[i]) - keys.values[i]), 0.0, rounding);
+  // Keys on a line, evenly in time: so is the curve.
+  const compare::KeyedVector line{
+      compare::Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}};
+  EXPECT_NEAR(line.at(2.2).x, 2.2, rounding);
+  keys.interpolation = compare::Interpolation::step;
+  EXPECT_EQ(keys.at(2.9), keys.values[1]);
+  keys.interpolation = compare::Interpolation::linear;
+  EXPECT_NEAR(keys.at(2.0).x, 2.5, rounding);
+  EXPECT_EQ(keys.at(9.0), keys.values[2]);
+}
+
+std::string path_error(const std::string& text) {
+  const std::string file = ::testing::TempDir() + "gnomon-shimmer-path.json";
+  std::ofstream(file) << text;
+  const auto read = compare::read_path(file);
+  return read ? std::string() : read.error().message();
+}
+
+TEST(ShimmerPath, BadFilesAreOneLine) {
+  EXPECT_EQ(
+      path_error(
+          R"({"schema": "gnomon/path/1", "camera": {"eye": {"times": [0, 1], "values": [[0,0,1],[0,0,2]]}}})"),
+      "");
+  EXPECT_NE(path_error(R"({"schema": "gnomon/path/2"})").find("gnomon/path/1"), std::string::npos);
+  EXPECT_NE(
+      path_error(
+          R"({"schema": "gnomon/path/1", "camera": {"eye": {"times": [1, 1], "values": [[0,0,1],[0,0,2]]}}})")
+          .find("rise"),
+      std::string::npos);
+  EXPECT_NE(path_error(R"({"schema": "gnomon/path/1", "camera": {"eye": {"times": [0], "values": []}}})")
+                .find("values"),
+            std::string::npos);
+  EXPECT_NE(
+      path_error(
+          R"({"schema": "gnomon/path/1", "lights": {"sun": {"direction": {"times": [0], "values": [[0,0,0]]}}}})")
+          .find("no length"),
+      std::string::npos);
+}
+
+// Rungs V0 … V6 before and after.
+TEST(ShimmerFlip, HasTheLabelOfItsWrongEnd) {
+  using Rungs = std::array<float, compare::rung_count>;
+  const Rungs lit{1, 1, 1, 1, 1, 1, 1}, aliased{1, 1, 0, 0, 0, 0, 0}, cured_acne{1, 1, 1, 0, 0, 1, 1};
+  EXPECT_EQ(compare::flip_cause(lit, aliased), Cause::sampling);
+  EXPECT_EQ(compare::flip_cause(aliased, lit), Cause::sampling);
+  // The acne that the bias cures is no part of what makes the shadow false in the next frame.
+  EXPECT_EQ(compare::flip_cause(cured_acne, aliased), Cause::sampling);
+  const Rungs acne{1, 1, 1, 0, 0, 0, 0}, leak{0, 0, 0, 0, 0, 1, 1};
+  EXPECT_EQ(compare::flip_cause(acne, lit), Cause::slope);
+  EXPECT_EQ(compare::flip_cause({0, 0, 0, 0, 0, 0, 0}, leak), Cause::bias);
+  // Less than one half wrong at both ends.
+  const Rungs darker{0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.125f},
+      lighter{0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.875f};
+  EXPECT_EQ(compare::flip_cause(darker, lighter), Cause::filter);
+}
+
+TEST(ShimmerJson, FitsItsSchema) {
+  OneWorld one(boxes_under_three_lights());
+  compare::ShimmerOptions options;
+  options.compare.raster.size = {48, 32};
+  options.compare.raster.map.size = 64;
+  options.time.frames = 4;
+  options.path.camera = CameraPath::drift;
+  const auto film =
+      compare::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options);
+  ASSERT_TRUE(film);
+  const auto json = nlohmann::json::parse(compare::shimmer_json(*film, {"gnomon shimmer", 0, 1.0}));
+  std::ifstream schema(source_dir() + "/compare/shimmer/shimmer.schema.json");
+  for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
+    ADD_FAILURE() << violation;
+  ASSERT_EQ(json["lights"].size(), 3u);
+  std::uint64_t flips = 0;
+  for (const auto& step : json["lights"][0]["by_frame"]) flips += step["flips"].get<std::uint64_t>();
+  EXPECT_EQ(flips, json["lights"][0]["flips"]);
+  EXPECT_EQ(json["lights"][0]["by_frame"].size(), 3u);
+  EXPECT_EQ(json["lights"][1]["flips"], 0);  // a lamp's map stays with the lamp
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,4 @@
+gnomon_test(shimmer_gl_test
+  SOURCES shimmer_gl_test.cpp shimmer_parts_test.cpp support/small_scenes.cpp
+  LIBS gnomon::compare nlohmann_json::nlohmann_json)
+target_include_directories(shimmer_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
