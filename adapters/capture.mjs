@@ -77,8 +77,11 @@ function drawInBlender(job) {
   const folder = mkdtempSync(join(tmpdir(), "capture-")), task = join(folder, "task.json"), result = join(folder, "result.json");
   writeFileSync(task, JSON.stringify(job));
   const script = join(here, "engines", `${job.engine}.py`);
-  const run = spawnSync("blender", ["--background", "--factory-startup", "--python-exit-code", "1", "--python", script, "--", task, result], { encoding: "utf8" });
-  if (run.error) throw new Error(`blender cannot be run: ${run.error.message}`);
+  // EEVEE draws with OpenGL, which Blender has on a display alone: Xvfb's, with Mesa's software.
+  const display = job.engine === "eevee" ? ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 640x480x24"] : [];
+  const [program, ...words] = [...display, "blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", script, "--", task, result];
+  const run = spawnSync(program, words, { encoding: "utf8", env: { ...process.env, ...(display.length > 0 && { LIBGL_ALWAYS_SOFTWARE: "1" }) } });
+  if (run.error) throw new Error(`${program} cannot be run: ${run.error.message}`);
   if (run.status !== 0) throw new Error(`blender failed: ${`${run.stdout}${run.stderr}`.trim().split("\n").slice(-3).join(" | ")}`);
   const drawn = JSON.parse(readFileSync(result, "utf8"));
   rmSync(folder, { recursive: true });
@@ -102,6 +105,7 @@ function write(job, result) {
       ? { visibility: put("visibility.exr", job.width, job.height, { V: result.visibility, A }) }
       : { shadowed: put("shadowed.exr", job.width, job.height, { Y: result.shadowed }), unshadowed: put("unshadowed.exr", job.width, job.height, { Y: result.unshadowed }) }),
     ...(X && { position: put("position.exr", job.width, job.height, { X, Y, Z, A }) }),
+    ...(result.depth && { depth: { file: put("depth.exr", job.width, job.height, { Z: result.depth.values }), convention: result.depth.convention } }),
   };
   if (result.map) {
     capture.map = result.map.map(({ texels, size, ...layer }, i) => ({ depth: put(`map-${i}.exr`, size, size, { Z: texels }), ...layer }));
@@ -113,7 +117,7 @@ function write(job, result) {
 
 const job = readArguments();
 if (!existsSync(job.scene)) stop(`${job.scene}: no such file`);
-const isIn = (extension) => existsSync(join(here, "engines", `${job.engine}.${extension}`));
+const isIn = (extension) => job.engine !== "common" && existsSync(join(here, "engines", `${job.engine}.${extension}`));
 if (!isIn("js") && !isIn("py")) stop(`no such engine (got ${job.engine}): see adapters/engines`);
 try {
   const result = isIn("py") ? drawInBlender(job) : await drawInPage(job);

@@ -136,6 +136,7 @@ Json map_json(const Comparison& c, const LightComparison& light) {
   const bool known = !lacks_map(c);
   Json json{{"technique", drawn_technique(c)},
             {"size", known ? Json(record.map.view.size) : Json(nullptr)},
+            {"inferred", c.judged && c.judged->identified.has_value()},
             {"faces", record.map.view.face_count},
             {"depth_format", depth_format_name(record.map.format)},
             {"cull", cull_name(map.cull)},

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes docs/engines.md: docs/make_engines.sh [PROGRAM [FOLDER]]. Needs the adapters' packages (npm install --prefix adapters),
-# Chromium and Blender; takes about ten minutes. What it draws stays in FOLDER [default build/engines].
+# Chromium, xvfb-run and Blender; takes about a quarter of an hour. What it draws stays in FOLDER [default build/engines].
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 program=${1:-$root/build/release/app/gnomon}

@@ -10,6 +10,7 @@
 #include "compare/judge/page.h"
 #include "compare/outputs.h"
 #include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
 #include "support/capture_support.h"
 #include "tests/json_schema_check.h"
 #include "tests/support/places.h"
@@ -24,18 +25,6 @@ constexpr ImageSize picture{192, 108};
 
 std::string folder_for(const std::string& name) {
   return testing::TempDir() + "/gnomon-judge-" + name;
-}
-
-raster::MapOptions hard_map(int size, Technique technique = Technique::hard) {
-  raster::MapOptions map;
-  map.technique = technique, map.size = size;
-  map.bias = {.constant = 0.02, .unit = raster::BiasUnit::world};
-  map.filter.receiver_plane = false;
-  return map;
-}
-
-std::string reason(const Verdict& verdict) {
-  return verdict.result ? std::string("judged") : verdict.result.error().message();
 }
 
 // Pixels that fall on a texel's border may look up either: of 20,000 pixels a few.
@@ -107,8 +96,31 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
     EXPECT_EQ(result["judged"]["map"], map);
     EXPECT_EQ(result["lights"][0]["budget"].size(), map ? 6U : 2U);
     EXPECT_EQ(result["judged"]["advice"].empty(), !map);
+    EXPECT_EQ(result["lights"][0]["map"]["inferred"], false);
+    const std::string page = *read_file(folder + "/report.html");
+    EXPECT_EQ(page.find("its map is not known") == std::string::npos, map);
+    EXPECT_EQ(page.find("; map of ") == std::string::npos, !map);
     EXPECT_NE(compare::summary_table(*judged.result, false).find("drawn by"), std::string::npos);
   }
+}
+
+// Thin wires under a sun: nearly every bias from a few hundredths on is as good as the best, which lies far out.
+TEST(JudgeAdvice, IsTheSmallestConstantThatIsHardlyWorseThanTheBest) {
+  const Compared drawn = draw_builtin("wires", picture, hard_map(512));
+  Capture capture = self_capture(drawn, folder_for("advice"), {.map = true});
+  capture.bias->constant_depth = 0.0;
+  const Verdict judged = judge(capture);
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::Advice& advice = judged.result->judged->advice.front();
+  const compare::BestBias& best = judged.result->lights[0].best_bias;
+  EXPECT_LT(advice.instead * judged.result->judged->unit_world, 0.5 * best.constant_world);
+  // compare/bias_kinds.h: one pixel in 100,000, or one wrong pixel in fifty.
+  EXPECT_LE(advice.wrong_instead, best.wrong_fraction + std::max(1e-5, best.wrong_fraction / 50.0));
+  // Where it is used already it stays.
+  capture.bias->constant_depth = advice.instead;
+  const Verdict again = judge(capture);
+  ASSERT_TRUE(again.result) << reason(again);
+  EXPECT_NEAR(again.result->judged->advice.front().instead, advice.instead, 1e-9);
 }
 
 // ---- conventions ----
@@ -144,6 +156,22 @@ void map_places(const Capture& capture, const Mat3& captured_from_scene) {
   });
 }
 
+/// The places that another view sees, so many pixels beside the centres.
+void show_places(const Capture& capture, const Compared& drawn, const View& view, double shift) {
+  const raytrace::Tracer tracer(*drawn.world, raytrace::Accel::bvh);
+  spoil(capture.position, [&](ChannelImage& image) {
+    for (int j = 0; j < picture.height; ++j)
+      for (int i = 0; i < picture.width; ++i) {
+        const Ray ray = pixel_ray(view, i + 0.5 + shift, j + 0.5 + shift);
+        const auto hit = tracer.closest_hit(ray);
+        const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
+        for (Channel& channel : image.channels)
+          channel.values[std::size_t(j * picture.width + i)] =
+              channel.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[channel.name[0] - 'X']);
+      }
+  });
+}
+
 /// The scene drawn by another camera or light than the file's.
 Capture drawn_otherwise(const Compared& drawn, const std::string& name,
                         const std::function<void(Scene&)>& change, const CaptureParts& parts) {
@@ -170,21 +198,7 @@ const std::vector<Convention>& conventions() {
        [](Capture& c, const Compared&) { flip(c.visibility, false, true); }},
       {"half a pixel",
        {},
-       [](Capture& c, const Compared& d) {
-         const View view = make_view(d.scene->camera, picture);
-         const raytrace::Tracer tracer(*d.world, raytrace::Accel::bvh);
-         spoil(c.position, [&](ChannelImage& image) {
-           for (int j = 0; j < picture.height; ++j)
-             for (int i = 0; i < picture.width; ++i) {
-               const Ray ray = pixel_ray(view, i + 1.0, j + 1.0);
-               const auto hit = tracer.closest_hit(ray);
-               const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
-               for (Channel& ch : image.channels)
-                 ch.values[std::size_t(j * picture.width + i)] =
-                     ch.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[ch.name[0] - 'X']);
-             }
-         });
-       }},
+       [](Capture& c, const Compared& d) { show_places(c, d, make_view(d.scene->camera, picture), 0.5); }},
       {"field of view",
        {.positions = false, .mask = true},
        [](Capture& c, const Compared& d) {
@@ -201,18 +215,7 @@ const std::vector<Convention>& conventions() {
        [](Capture& c, const Compared& d) {
          View view = make_view(d.scene->camera, picture);
          view.tan_half_x = view.tan_half_y * 4.0 / 3.0;
-         const raytrace::Tracer tracer(*d.world, raytrace::Accel::bvh);
-         spoil(c.position, [&](ChannelImage& image) {
-           for (int j = 0; j < picture.height; ++j)
-             for (int i = 0; i < picture.width; ++i) {
-               const Ray ray = pixel_ray(view, i + 0.5, j + 0.5);
-               const auto hit = tracer.closest_hit(ray);
-               const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
-               for (Channel& ch : image.channels)
-                 ch.values[std::size_t(j * picture.width + i)] =
-                     ch.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[ch.name[0] - 'X']);
-             }
-         });
+         show_places(c, d, view, 0.0);
        }},
       {"sRGB",
        {},

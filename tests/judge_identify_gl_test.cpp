@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "compare/judge/identify.h"
 #include "compare/option_names.h"
+#include "compare/outputs.h"
 #include "support/capture_support.h"
 
 namespace gnomon::test {
@@ -39,6 +41,8 @@ Found identify_one(const std::string& name, const raster::MapOptions& map) {
   fmt::print("{:14} {:5} {:5} bias {:.4f} -> {} ({:.3f} texels off), explained {:.1f} %, {} drawings\n", name,
              compare::technique_name(map.technique), map.size, record.bias_constant_world, found.options, off,
              100.0 * found.explained, found.renders);
+  const nlohmann::json json = nlohmann::json::parse(compare::result_json(*judged.result));
+  EXPECT_EQ(json["lights"][0]["map"]["inferred"], true);
   const compare::LightComparison& light = judged.result->lights[0];
   double signed_sum = 0.0;
   for (const compare::BudgetStep& step : light.budget) signed_sum += step.signed_mean;

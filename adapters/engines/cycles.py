@@ -1,143 +1,56 @@
 # Cycles, Blender's path tracer: a second truth beside Gnomon's. One sample at each pixel's centre, lights without size, no
 # bounces; the visibility is the ratio of two pictures in white, with the light's shadows and without. It has no
 # options. Run by capture.mjs: blender --background --factory-startup --python cycles.py -- TASK.json RESULT.json
-import base64
-import json
 import os
 import sys
 import tempfile
 
 import bpy
-import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import common  # noqa: E402
 
 
-if not hasattr(numpy, "bool"):
-    numpy.bool = bool  # the importer of Blender 3.4 asks for it; NumPy 1.24 has dropped it
+# Shadow rays start on the surface: Cycles would move those of smooth surfaces off it where the light grazes.
+def keep_rays_on_surfaces():
+    for item in bpy.data.objects:
+        item.cycles.shadow_terminator_geometry_offset = item.cycles.shadow_terminator_offset = 0.0
 
 
-def load(path):
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.delete()
-    bpy.ops.import_scene.gltf(filepath=path)
-
-
-def choose_light(wanted):
-    lights = [o for o in bpy.data.objects if o.type == "LIGHT"]
-    chosen = [o for o in lights if wanted is None or o.name == wanted][:1]
-    if not chosen:
-        raise SystemExit(f"--light: no such light (got {wanted}, allowed {', '.join(o.name for o in lights)})")
-    for light in lights:
-        light.hide_render = light is not chosen[0]
-    data = chosen[0].data
-    if data.type == "SUN":
-        data.angle = 0.0
-    else:
-        data.shadow_soft_size = 0.0
-    return chosen[0]
-
-
-# White and matte; a mask's own alpha stays.
-def whiten():
-    white = bpy.data.materials.new("white")
-    white.use_nodes = True
-    white.node_tree.nodes.clear()
-    diffuse, output = (white.node_tree.nodes.new(n) for n in ("ShaderNodeBsdfDiffuse", "ShaderNodeOutputMaterial"))
-    diffuse.inputs["Color"].default_value = (1, 1, 1, 1)
-    white.node_tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
-    for mesh in bpy.data.meshes:
-        for i, material in enumerate(mesh.materials):
-            if material is None or material.blend_method != "CLIP":
-                mesh.materials[i] = white
-        if len(mesh.materials) == 0:
-            mesh.materials.append(white)
-
-
-def set_up(width, height, yfov):
+def set_up_cycles():
     scene = bpy.context.scene
-    scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA")
-    scene.camera.data.sensor_fit = "VERTICAL"
-    scene.camera.data.angle_y = yfov
-    render, cycles = scene.render, scene.cycles
-    render.engine = "CYCLES"
-    render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
-    render.film_transparent = True
-    render.use_persistent_data = False
-    render.image_settings.file_format = "OPEN_EXR"
-    render.image_settings.color_depth = "32"
+    cycles = scene.cycles
     cycles.samples, cycles.max_bounces = 1, 0
     cycles.transparent_max_bounces = 64
     cycles.light_sampling_threshold = 0.0  # weak lights are not left to chance
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 0.01  # the pixel's centre
-    scene.world = None
-    scene.view_layers[0].use_pass_position = True
 
 
-# Writes the position pass beside the picture.
-def add_position_output(folder):
-    scene = bpy.context.scene
-    scene.use_nodes = True
-    tree = scene.node_tree
-    tree.nodes.clear()
-    layers, output = tree.nodes.new("CompositorNodeRLayers"), tree.nodes.new("CompositorNodeOutputFile")
-    composite = tree.nodes.new("CompositorNodeComposite")
-    output.base_path = folder
-    output.format.file_format, output.format.color_depth = "OPEN_EXR", "32"
-    output.file_slots[0].path = "position-"
-    tree.links.new(layers.outputs["Image"], composite.inputs["Image"])
-    tree.links.new(layers.outputs["Position"], output.inputs[0])
-
-
-# Four channels, the first row at the top.
-def pixels(path, width, height):
-    image = bpy.data.images.load(path)
-    image.colorspace_settings.name = "Non-Color"
-    image.alpha_mode = "CHANNEL_PACKED"
-    values = numpy.empty(width * height * 4, numpy.float32)
-    image.pixels.foreach_get(values)
-    return values.reshape(height, width, 4)[::-1]
-
-
-def draw(folder, name, width, height):
-    bpy.context.scene.render.filepath = os.path.join(folder, name)
-    bpy.ops.render.render(write_still=True)
-    return pixels(os.path.join(folder, name + ".exr"), width, height)
-
-
-def encoded(values):
-    return {"floats": base64.b64encode(numpy.ascontiguousarray(values, numpy.float32).tobytes()).decode()}
-
-
-def yfov_of(path):
-    with open(path, "rb") as file:
-        data = file.read()
-    text = data[20:20 + int.from_bytes(data[12:16], "little")] if data[:4] == b"glTF" else data
-    return json.loads(text)["cameras"][0]["perspective"]["yfov"]
-
-
-def main(task_path, result_path):
-    with open(task_path) as file:
-        task = json.load(file)
+def main():
+    task = common.read_task()
     if task["settings"]:
         raise SystemExit(f"--{next(iter(task['settings']))}: cycles has no options")
     width, height = task["width"], task["height"]
-    load(task["scene"])
-    light = choose_light(task.get("light"))
-    whiten()
-    set_up(width, height, yfov_of(task["scene"]))
+    common.load(task["scene"])
+    light = common.choose_light(task.get("light"))
+    common.whiten()
+    keep_rays_on_surfaces()
+    common.set_up(task["scene"], "CYCLES", width, height)
+    set_up_cycles()
     with tempfile.TemporaryDirectory() as folder:
-        add_position_output(folder)
-        shadowed = draw(folder, "shadowed", width, height)
-        position = pixels(os.path.join(folder, "position-0001.exr"), width, height)
+        common.add_output(folder, "Position")
+        shadowed = common.draw(folder, "shadowed", width, height)
+        position = common.pixels(os.path.join(folder, "Position-0001.exr"), width, height)
         light.data.use_shadow = light.data.cycles.cast_shadow = False
-        unshadowed = draw(folder, "unshadowed", width, height)
+        unshadowed = common.draw(folder, "unshadowed", width, height)
     # Blender's world has z up.
     x, y, z = position[..., 0], position[..., 2], -position[..., 1]
-    result = {"renderer": {"name": "Cycles", "version": f"Blender {bpy.app.version_string}", "settings": {"samples": 1}},
-              "light": light.name, "shadowed": encoded(shadowed[..., 0]), "unshadowed": encoded(unshadowed[..., 0]),
-              "covered": encoded(unshadowed[..., 3]), "position": [encoded(p) for p in (x, y, z)]}
-    with open(result_path, "w") as file:
-        json.dump(result, file)
+    encoded = common.encoded
+    common.write_result({
+        "renderer": {"name": "Cycles", "version": f"Blender {bpy.app.version_string}", "settings": {"samples": 1}},
+        "light": light.name, "shadowed": encoded(shadowed[..., 0]), "unshadowed": encoded(unshadowed[..., 0]),
+        "covered": encoded(unshadowed[..., 3]), "position": [encoded(p) for p in (x, y, z)]})
 
 
-main(*sys.argv[sys.argv.index("--") + 1:])
+main()

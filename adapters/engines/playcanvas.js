@@ -71,7 +71,11 @@ function dress(instances, originals, make) {
   });
 }
 
-const frame = (app) => new Promise((done) => app.once("frameend", done));
+/** One frame is drawn. Left alone the application draws sixty a second, which software falls ever farther behind. */
+function frame(app) {
+  app.renderNextFrame = true;
+  return new Promise((done) => app.once("frameend", done));
+}
 
 async function drawFloats(app, camera, width, height) {
   const texture = new pc.Texture(app.graphicsDevice, { width, height, format: pc.PIXELFORMAT_RGBA32F, mipmaps: false, minFilter: pc.FILTER_NEAREST, magFilter: pc.FILTER_NEAREST });
@@ -97,6 +101,7 @@ export async function capture(canvas, task) {
   const { shadowType, ...rest } = settings;
   Object.assign(light, { castShadows: true, shadowType: pc[`SHADOW_${shadowType}`], ...rest });
   if (light.type !== "directional") light.range = reach(root, light);
+  app.autoRender = false;
   app.start();
   await frame(app);
   await frame(app);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "compare/bias_curve.h"
+#include "compare/bias_kinds.h"
 #include "compare/biased_test.h"
 
 namespace gnomon::compare {
@@ -14,10 +14,23 @@ constexpr std::array tried_offsets{1.0, 2.0};
 /// An offset is worth changing for when it leaves less than this share of what the constant leaves.
 constexpr double worth = 0.9;
 
+/// A constant that is hardly wrong more often than the best one: the present one if it is, else the smallest.
+struct Constant {
+  double stored = 0.0;  ///< in the map's own numbers
+  double wrong = 0.0;   ///< share of the compared pixels
+};
+
 double wrong_share(const GapLists& gaps, double bias) {
   const BiasCurvePoint at = gaps.at(bias);
-  const auto count = static_cast<double>(gaps.lit.size() + gaps.shadowed.size());
+  const auto count = static_cast<double>(gaps.count());
   return count > 0.0 ? static_cast<double>(at.false_shadow + at.missed_shadow) / count : 0.0;
+}
+
+Constant good_constant(const GapLists& gaps, double unit_world, double now) {
+  const BiasRange range = smallest_good_range(gaps);
+  const bool stays = now * unit_world >= range.from && now * unit_world < range.to;
+  const double stored = stays ? now : short_number_in(range.from / unit_world, range.to / unit_world);
+  return {stored, wrong_share(gaps, stored * unit_world)};
 }
 
 GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
@@ -40,27 +53,29 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
   if (gaps.lit.empty() && gaps.shadowed.empty()) return out;
   const double now = record.bias_constant_world / test.unit_world;
   const double wrong_now = wrong_share(gaps, record.bias_constant_world);
-  const BestBias& best = light.best_bias;
-  out.push_back({"bias.constant_depth", now, best.constant_world / test.unit_world, unit, wrong_now,
-                 best.wrong_fraction, best.feasible});
-  double least = best.wrong_fraction;
+  const Constant best = good_constant(gaps, test.unit_world, now);
+  out.push_back({"bias.constant_depth", now, best.stored, unit, wrong_now, best.wrong, best.wrong == 0.0});
+  double least = best.wrong;
   for (const double texels : tried_offsets) {
     const double offset = texels * record.texel_world;
     if (offset <= test.normal_offset_world) continue;
     const GapLists moved = gaps_with_offset(in, bias, light, record, offset);
-    const BestBias there = find_best_bias(moved);
-    if (!(there.wrong_fraction < worth * least)) continue;
-    least = there.wrong_fraction;
+    const Constant there = good_constant(moved, test.unit_world, now);
+    if (!(there.wrong < worth * least)) continue;
+    least = there.wrong;
     out.resize(1);
     out.push_back({"bias.normal_offset_world", test.normal_offset_world, offset, "world units", wrong_now,
-                   there.wrong_fraction, there.feasible});
-    out.push_back({"bias.constant_depth, with that offset", now, there.constant_world / test.unit_world, unit,
-                   wrong_now, there.wrong_fraction, there.feasible});
+                   there.wrong, there.wrong == 0.0});
+    out.push_back({"bias.constant_depth, with that offset", now, there.stored, unit, wrong_now, there.wrong,
+                   there.wrong == 0.0});
   }
   return out;
 }
 
 std::string advice_text(const Advice& a) {
+  if (a.instead == a.now)
+    return fmt::format("{} stays {:.4g} ({}): {:.3g} % of the pixels wrong, hardly more than with any other",
+                       a.setting, a.now, a.unit, 100.0 * a.wrong_now);
   return fmt::format("{} {:.4g} instead of {:.4g} ({}): {:.3g} % of the pixels wrong, with this one {:.3g} %",
                      a.setting, a.instead, a.now, a.unit, 100.0 * a.wrong_instead, 100.0 * a.wrong_now);
 }

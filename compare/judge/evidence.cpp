@@ -16,6 +16,10 @@ constexpr double place_slack = 0.25;  // pixels
 /// Depth may differ by what a quarter of a pixel's step to its neighbours changes, and by a float's rounding.
 constexpr double depth_slack = 1e-4;
 
+/// A light in a surface's own plane: the sign of n.l is rounding there, and the light that arrives less than
+/// one step of a picture of eight bits. Cosine.
+constexpr double grazing = 1.0 / 256.0;
+
 /// Whether the picture says that something (with `ratio`: something that the light reaches) was drawn.
 bool tells_drawn(const CapturedPictures& pictures) {
   return !pictures.drawn.data.empty() || pictures.ratio;
@@ -60,6 +64,9 @@ class Gatherer {
   void place(std::uint32_t pixel, const Shown& shown, Tally& out) const;
   void depth(std::uint32_t pixel, const Shown& shown, Tally& out) const;
   void visibility(const Shown& shown, Tallies& out) const;
+  bool grazes(const raytrace::SurfacePoint& point) const {
+    return std::abs(glm::dot(point.normal, light_at(light_, point.position).to_light)) < grazing;
+  }
   bool drawn(std::size_t pixel) const {
     return in_.pictures.drawn.data.empty() || in_.pictures.drawn.data[pixel] != 0;
   }
@@ -135,6 +142,7 @@ void Gatherer::border(std::uint32_t pixel, Tallies& out) const {
   const bool hit = shown.point.primitive != no_id;
   const bool reached = hit && !light_cannot_reach(light_, shown.point.position, shown.point.normal);
   const bool masked = !in_.pictures.drawn.data.empty();
+  if (!masked && hit && grazes(shown.point)) return;
   const bool captured = masked ? drawn(pixel) : in_.pictures.reached.data[pixel] != 0;
   ++out.border.count;
   out.border.agree += captured == (masked ? hit : reached) ? 1 : 0;

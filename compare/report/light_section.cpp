@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/judge/judged.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -38,7 +39,7 @@ in every picture.)",
 }
 
 std::string bias_text(const Comparison& c, const LightComparison& light) {
-  if (!draws_bias(c)) return "";
+  if (!draws_bias(c) || lacks_map(c)) return "";
   return fmt::format(", bias {} world units", plain_number(drawn_record(c, light).bias_constant_world));
 }
 
@@ -152,6 +153,14 @@ std::string where(const Light& light) {
   return "at " + text(light.position) + ", shining along " + text(light.direction);
 }
 
+std::string map_size_text(const Comparison& c, const LightComparison& light) {
+  if (lacks_map(c)) return "its map is not known";
+  const LightView& view = drawn_record(c, light).map.view;
+  return fmt::format(
+      "{}map of {}\u202f×\u202f{}{} texels", c.judged && c.judged->identified ? "inferred " : "", view.size,
+      view.size, view.face_count > 1 ? fmt::format("\u202f\u00d7\u202f{}", view.face_count) : std::string());
+}
+
 }  // namespace
 
 std::size_t labelled_light(const Comparison& c) {
@@ -202,16 +211,13 @@ class="pane"><img alt=""><span class="tag"></span></div><div class="divider"></d
 std::string light_section(const PageInput& in, std::size_t i) {
   const LightBlock b{in, i, in.comparison.lights[i]};
   const Light& light = light_of(in.comparison, b.light);
-  const raster::ShadowMap& map = drawn_record(in.comparison, b.light).map;
   std::string out = fmt::format(
       R"(<section id="light-{0}" aria-labelledby="light-{0}-title">
 <h2 id="light-{0}-title">Light: {1}</h2>
-<p class="setting">{2}, {3}; map of {4} × {4}{5} texels{6}</p>
-{7})",
+<p class="setting">{2}, {3}; {4}{5}</p>
+{6})",
       i, escaped(shown_light_name(in.comparison, i)), light_type_name(light.type), where(light),
-      map.view.size,
-      map.view.face_count > 1 ? fmt::format("\u202f\u00d7\u202f{}", map.view.face_count) : std::string(),
-      bias_text(in.comparison, b.light),
+      map_size_text(in.comparison, b.light), bias_text(in.comparison, b.light),
       // A single light's verdict stands right above, on the first screen.
       in.comparison.lights.size() == 1 ? ""
                                        : fmt::format(R"(<p class="lead">{}</p>

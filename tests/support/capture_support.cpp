@@ -30,51 +30,115 @@ std::vector<Channel> position_channels(const raytrace::RayTracedFrame& frame) {
   return out;
 }
 
-/// World units along each texel's ray, of the stored depths of a perspective map.
-std::vector<float> distances(const raster::ShadowMap& map, int face) {
-  const LightView& view = map.view;
+/// What a texel of the capture's map holds for one of the drawn map.
+double converted(const LightView& view, int face, Vec2 texel, double stored, const LightView& captured,
+                 compare::StoredDepth convention) {
+  const bool distance = convention == compare::StoredDepth::distance;
+  if (!holds_caster(view, stored)) return distance || captured.reversed ? 0.0 : 1.0;
+  if (!distance && view.reversed == captured.reversed) return stored;
+  const double depth = depth_from_stored(view, face, texel.y, stored);
+  if (!distance) return stored_from_depth(captured, face, texel.y, depth);
+  return depth / glm::dot(texel_ray(view, face, texel.x, texel.y).direction, view.face(face).forward);
+}
+
+std::vector<float> layer_texels(const raster::ShadowMap& map, int face, const LightView& captured,
+                                const compare::CapturedLayer& layer) {
+  const int n = map.view.size;
   std::vector<float> out;
-  for (int row = 0; row < view.size; ++row)
-    for (int column = 0; column < view.size; ++column) {
+  for (int y = 0; y < n; ++y)
+    for (int column = 0; column < n; ++column) {
+      const int row = layer.rows == compare::RowOrder::top_down ? n - 1 - y : y;
       const double stored = map.depth[map.texel_index(face, column, row)];
-      const Vec3 ray = texel_ray(view, face, column + 0.5, row + 0.5).direction;
-      out.push_back(holds_caster(view, stored)
-                        ? static_cast<float>(depth_from_stored(view, face, row + 0.5, stored) /
-                                             glm::dot(ray, view.face(face).forward))
-                        : 0.0f);
+      out.push_back(static_cast<float>(
+          converted(map.view, face, {column + 0.5, row + 0.5}, stored, captured, *layer.convention)));
     }
   return out;
 }
 
-std::vector<float> stored(const raster::ShadowMap& map, int face) {
-  const auto texels = static_cast<std::size_t>(map.view.size) * static_cast<std::size_t>(map.view.size);
-  const auto first = map.depth.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(face) * texels);
-  return {first, first + static_cast<std::ptrdiff_t>(texels)};
+/// As the convention has it: z from [0, w] to [-w, w] for two of them.
+Mat4 layer_matrix(const LightView& captured, int face, compare::StoredDepth convention) {
+  Mat4 matrix = light_clip_from_relative(captured, face, Vec3(0.0));
+  if (convention == compare::StoredDepth::minus_one_to_one || convention == compare::StoredDepth::distance)
+    for (int column = 0; column < 4; ++column)
+      matrix[column][2] = 2.0 * matrix[column][2] - matrix[column][3];
+  return matrix;
 }
 
-void capture_map(const Compared& drawn, const std::string& folder, compare::Capture& out) {
+void capture_map(const Compared& drawn, const std::string& folder, const CaptureParts& parts,
+                 compare::Capture& out) {
   const raster::LightRecord& record = drawn.result.raster.lights[0];
   LightView view = record.map.view;
-  view.reversed = false;
   const bool parallel = view.projection == LightProjection::orthographic;
+  const compare::StoredDepth convention =
+      parts.stored.value_or(parallel ? compare::StoredDepth::zero_to_one : compare::StoredDepth::distance);
+  view.reversed = convention == compare::StoredDepth::reversed;
   for (int face = 0; face < view.face_count; ++face) {
     compare::CapturedLayer& layer = out.map.emplace_back();
     layer.depth = folder + "/map" + std::to_string(face) + ".exr";
-    layer.convention = parallel ? compare::StoredDepth::zero_to_one : compare::StoredDepth::distance;
-    layer.rows = compare::RowOrder::bottom_up;
-    Mat4 matrix = light_clip_from_relative(view, face, Vec3(0.0));
-    if (!parallel)  // z from [0, w] to [-w, w]
-      for (int column = 0; column < 4; ++column)
-        matrix[column][2] = 2.0 * matrix[column][2] - matrix[column][3];
-    layer.clip_from_world = matrix;
-    write(layer.depth, {view.size, view.size},
-          {{"Z", parallel ? stored(record.map, face) : distances(record.map, face)}});
+    layer.convention = convention;
+    layer.rows = parts.rows;
+    layer.clip_from_world = layer_matrix(view, face, convention);
+    write(layer.depth, {view.size, view.size}, {{"Z", layer_texels(record.map, face, view, layer)}});
   }
-  const LightFace& face = view.face(0);
-  const double unit = parallel ? face.far_depth - face.near_depth : 1.0;
+  // One difference of stored numbers is one distance of a sun's map, and of distances; else only none is.
+  const bool even = parallel || convention == compare::StoredDepth::distance;
+  EXPECT_TRUE(even || record.bias_constant_world == 0.0);
+  const double unit = parallel ? view.face(0).far_depth - view.face(0).near_depth : 1.0;
   out.bias = compare::CapturedBias{.constant_depth = record.bias_constant_world / unit,
                                    .slope = drawn.result.raster.options.map.bias.slope};
   out.filter = compare::CapturedFilter{};
+}
+
+/// Two pictures of a surface with colours of its own, whose ratio is the visibility.
+void capture_ratio(const Compared& drawn, const std::vector<float>& visibility, const std::string& folder,
+                   compare::Capture& out) {
+  const raytrace::RayTracedFrame& frame = drawn.result.raytraced;
+  const Light& light = drawn.scene->lights[frame.lights[0].light];
+  std::vector<Channel> lit{{"R", {}}, {"G", {}}, {"B", {}}}, dark = lit;
+  for (std::size_t i = 0; i < visibility.size(); ++i) {
+    const raytrace::SurfacePoint& point = frame.receiver.data[i];
+    const bool reached = point.primitive != no_id && !light_cannot_reach(light, point.position, point.normal);
+    const double facing =
+        reached ? 0.05 + glm::dot(point.normal, light_at(light, point.position).to_light) : 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto colour = static_cast<float>(facing * (0.2 + 0.1 * double((point.primitive + 2 * c) % 7)));
+      lit[c].values.push_back(colour), dark[c].values.push_back(colour * visibility[i]);
+    }
+  }
+  out.shadowed = folder + "/shadowed.exr", out.unshadowed = folder + "/unshadowed.exr";
+  write(out.shadowed, out.size, dark), write(out.unshadowed, out.size, lit);
+}
+
+/// A number of the camera's depth buffer (docs/judge.md).
+double buffer_value(const compare::CapturedDepth& depth, double along_axis, double along_ray) {
+  const double n = depth.near.value_or(0.0), z = along_axis;
+  switch (*depth.convention) {
+    case compare::PixelDepth::view_z:
+      return z;
+    case compare::PixelDepth::distance:
+      return along_ray;
+    case compare::PixelDepth::zero_to_one:
+      return (*depth.far / (*depth.far - n)) * (1.0 - n / z);
+    case compare::PixelDepth::reversed:
+      break;
+  }
+  return depth.far ? n / (*depth.far - n) * (*depth.far / z - 1.0) : n / z;
+}
+
+void capture_depth(const Compared& drawn, const compare::CapturedDepth& depth, const std::string& folder,
+                   compare::Capture& out) {
+  const View view = make_view(drawn.scene->camera, out.size);
+  std::vector<Channel> channels{{"Z", {}}};
+  for (const raytrace::SurfacePoint& point : drawn.result.raytraced.receiver.data) {
+    const Vec3 off = point.position - view.eye;
+    const bool hit = point.primitive != no_id;
+    const double nothing = *depth.convention == compare::PixelDepth::zero_to_one ? 1.0 : 0.0;
+    channels[0].values.push_back(static_cast<float>(
+        hit ? buffer_value(depth, glm::dot(off, view.forward), glm::length(off)) : nothing));
+  }
+  out.depth = depth;
+  out.depth->file = folder + "/depth.exr";
+  write(out.depth->file, out.size, channels);
 }
 
 std::string quoted(const std::string& text) {
@@ -119,11 +183,23 @@ std::string write_json(const compare::Capture& c, const std::string& folder) {
 Compared draw_builtin(const std::string& name, ImageSize size, const raster::MapOptions& map) {
   auto scene = load_scene(name);
   EXPECT_TRUE(scene);
+  scene->lights.resize(1);
+  return draw_scene(std::move(*scene), size, map);
+}
+
+Compared draw_scene(Scene scene, ImageSize size, const raster::MapOptions& map) {
   compare::CompareOptions options = test_options(size, map.size);
   options.raster.map = map;
-  scene->lights.resize(1);
   options.perceptual = false;
-  return run_comparison(std::move(*scene), options);
+  return run_comparison(std::move(scene), options);
+}
+
+raster::MapOptions hard_map(int size, raster::Technique technique) {
+  raster::MapOptions map;
+  map.technique = technique, map.size = size;
+  map.bias = {.constant = 0.02, .unit = raster::BiasUnit::world};
+  map.filter.receiver_plane = false;
+  return map;
 }
 
 compare::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts) {
@@ -131,22 +207,27 @@ compare::Capture self_capture(const Compared& drawn, const std::string& folder, 
   std::filesystem::create_directories(folder);
   compare::Capture out;
   out.renderer = "gnomon";
-  out.scene = drawn.scene->path;
+  out.scene = drawn.scene->path.empty() ? "made in code" : drawn.scene->path;
   out.light = drawn.scene->lights[drawn.light().light].name;
   out.size = drawn.result.raster.options.size;
-  out.visibility = folder + "/visibility.exr";
   std::vector<Channel> shadow{channel_of("V", drawn.result.raster.lights[0].visibility)};
   // What faces away from the light is dark, whatever the map says.
   for (std::size_t i = 0; i < shadow[0].values.size(); ++i)
     if (drawn.light().labels.data[i] == compare::Label::facing_away) shadow[0].values[i] = 0.0f;
   const std::vector<Channel> positions = position_channels(drawn.result.raytraced);
   if (parts.mask) shadow.push_back(positions[3]);
-  write(out.visibility, out.size, shadow);
+  if (parts.ratio) {
+    capture_ratio(drawn, shadow[0].values, folder, out);
+  } else {
+    out.visibility = folder + "/visibility.exr";
+    write(out.visibility, out.size, shadow);
+  }
+  if (parts.depth != nullptr) capture_depth(drawn, *parts.depth, folder, out);
   if (parts.positions) {
     out.position = folder + "/position.exr";
     write(out.position, out.size, positions);
   }
-  if (parts.map) capture_map(drawn, folder, out);
+  if (parts.map) capture_map(drawn, folder, parts, out);
   return out;
 }
 
@@ -158,13 +239,20 @@ void spoil(const std::string& file, const Spoil& change) {
 }
 
 Verdict judge(const compare::Capture& capture, const compare::JudgeOptions& options) {
+  const auto scene = load_scene(capture.scene);
+  return scene ? judge(capture, *scene, options) : Verdict{};
+}
+
+Verdict judge(const compare::Capture& capture, const Scene& scene, const compare::JudgeOptions& options) {
   Verdict out;
-  auto scene = load_scene(capture.scene);
-  if (!scene) return out;
-  out.scene = std::make_unique<Scene>(std::move(*scene));
+  out.scene = std::make_unique<Scene>(scene);
   out.world = std::make_unique<World>(make_world(*out.scene));
   out.result = compare::judge_capture(capture, *out.scene, *out.world, options);
   return out;
+}
+
+std::string reason(const Verdict& verdict) {
+  return verdict.result ? std::string("judged") : verdict.result.error().message();
 }
 
 }  // namespace gnomon::test

@@ -12,8 +12,17 @@ namespace gnomon::test {
 /// Draws a built-in scene's first light and compares; the picture is what is captured.
 Compared draw_builtin(const std::string& name, ImageSize size, const raster::MapOptions& map);
 
+/// The same of a scene made in code.
+Compared draw_scene(Scene scene, ImageSize size, const raster::MapOptions& map);
+/// A hard map with a constant bias of 0.02 world units.
+raster::MapOptions hard_map(int size, raster::Technique technique = raster::Technique::hard);
+
 struct CaptureParts {
   bool positions = true, mask = false, map = false;
+  bool ratio = false;                               ///< `shadowed` and `unshadowed` for `visibility`
+  std::optional<compare::StoredDepth> stored = {};  ///< of the map [a sun's zero_to_one, else distance]
+  compare::RowOrder rows = compare::RowOrder::bottom_up;
+  const compare::CapturedDepth* depth = nullptr;  ///< of the camera; its file is named here
 };
 
 /// Writes the pictures of the first light compared into `folder` (made anew) and says what they are.
@@ -33,5 +42,8 @@ struct Verdict {
   Expected<compare::Comparison> result = fail(ErrorKind::internal, "not judged");
 };
 Verdict judge(const compare::Capture& capture, const compare::JudgeOptions& options = {});
+Verdict judge(const compare::Capture& capture, const Scene& scene, const compare::JudgeOptions& options = {});
+/// "judged", or why not.
+std::string reason(const Verdict& verdict);
 
 }  // namespace gnomon::test

@@ -1,0 +1,56 @@
+// The adapters of engines for the web, each run in headless Chromium on small scenes and judged.
+//   node adapters_browser_test.mjs GNOMON FOLDER
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { captured, isThere, judge, makeScenes, refused } from "./support/adapters.mjs";
+
+const [gnomon, folder] = process.argv.slice(2);
+if (!isThere("playwright-core") || !["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].some(existsSync)) {
+  console.log("skipped: the adapters' packages or Chromium are not installed: npm install --prefix adapters");
+  process.exit(77);
+}
+makeScenes(gnomon, folder);
+const only = process.env.GNOMON_ENGINE;  // one engine instead of all
+
+/** The ladder's V5 on an engine's own map is its picture: of 9,000 pixels a few lie on the border of two texels, where floats and
+    doubles may look up either. */
+function climbed(scene, ...options) {
+  const result = judge(gnomon, captured(folder, "three", scene, "--type", "basic", ...options));
+  assert.equal(result.judged.renderer.name, "three.js");
+  assert.match(result.judged.renderer.version, /^r\d+$/);
+  assert.ok(result.judged.biased_is_drawn > 0.998, `${scene}: ${result.judged.biased_is_drawn}`);
+  assert.ok(result.judged.agreement.find(({ of }) => of === "positions").share > 0.99, scene);
+  return result;
+}
+
+/** three.js hands over its map: of a spot, a cube of six layers, and a sun's, where the advice must keep its promise. */
+function three() {
+  climbed("spot-rim", "--bias", "-0.001");
+  climbed("cube-seams", "--bias", "-0.001");
+  const { instead, wrong_now: now, wrong_instead: promised } = climbed("floating-box").judged.advice.find(({ setting }) => setting === "bias.constant_depth");
+  assert.ok(now > 0.2 && promised < 0.01, `${now} ${promised}`);
+  const { pixels, error } = climbed("floating-box", "--bias", String(-instead)).lights[0];
+  // Within a tenth, or two pixels: those on borders again.
+  assert.ok(Math.abs(error.wrong_fraction - promised) < Math.max(0.1 * promised, 2 / pixels.compared), `${error.wrong_fraction} for ${promised}`);
+  assert.match(refused(folder, "three", "floating-box", "--light", "moon"), /--light: no such light \(got moon/);
+}
+
+/** The others are judged by their pictures: a sun's shadow at the engine's own settings is mostly right. */
+function plain(engine, name, ...options) {
+  const result = judge(gnomon, captured(folder, engine, "floating-box", ...options));
+  assert.equal(result.judged.renderer.name, name);
+  assert.ok(result.lights[0].pixels.compared > 8000, engine);
+  assert.ok(result.lights[0].error.wrong_fraction < 0.05, `${engine}: ${result.lights[0].error.wrong_fraction}`);
+}
+
+const engines = {
+  three: ["three", three],
+  filament: ["filament", () => plain("filament", "Filament")],
+  babylon: ["babylonjs", () => plain("babylon", "Babylon.js", "--type", "pcf", "--bias", "0.001")],
+  playcanvas: ["playcanvas", () => plain("playcanvas", "PlayCanvas")],
+};
+for (const [engine, [packageName, run]] of Object.entries(engines)) {
+  if (only && engine !== only) continue;
+  if (!isThere(packageName)) console.log(`skipped: adapter ${engine}: its npm package is not installed`);
+  else run(), console.log(`${engine}: fine`);
+}

@@ -1,0 +1,277 @@
+// gnomon judge on every kind of map, camera depth and pair of pictures that a capture may have. Each is judged twice: as
+// Gnomon's own drawing, and as that of a shadow test written here with nothing but the capture's matrix and texels.
+#include "scene/files/image_io.h"
+#include "support/capture_support.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+using compare::PixelDepth;
+using compare::RowOrder;
+using compare::StoredDepth;
+using raster::Technique;
+
+constexpr ImageSize picture{192, 108};
+// Pixels that fall on a texel's border may look up either, in floats and in doubles: of 20,000 pixels a few.
+constexpr double border_share = 0.003;
+
+std::string folder_for(const std::string& name) {
+  return testing::TempDir() + "/gnomon-judge-parts-" + name;
+}
+
+/// Floor and boxes under one light: "sun", "lamp" (spot) or "bulb" (point).
+Scene scene_under(const std::string& light) {
+  Scene scene = boxes_under_three_lights();
+  std::erase_if(scene.lights, [&](const Light& l) { return l.name != light; });
+  EXPECT_EQ(scene.lights.size(), 1U) << light;
+  return scene;
+}
+
+struct Kind {
+  std::string light;
+  Technique technique;
+  StoredDepth stored;
+};
+
+std::string name_of(const Kind& kind) {
+  return kind.light + (kind.technique == Technique::csm ? "_cascades_" : "_") +
+         std::string(compare::stored_depth_names[static_cast<std::size_t>(kind.stored)]);
+}
+
+std::vector<Kind> kinds(bool distances) {
+  std::vector<Kind> out;
+  for (const StoredDepth stored :
+       {StoredDepth::zero_to_one, StoredDepth::minus_one_to_one, StoredDepth::reversed}) {
+    for (const char* light : {"sun", "lamp", "bulb"}) out.push_back({light, Technique::hard, stored});
+    out.push_back({"sun", Technique::csm, stored});
+  }
+  if (!distances) return out;
+  out.push_back({"lamp", Technique::hard, StoredDepth::distance});
+  out.push_back({"bulb", Technique::hard, StoredDepth::distance});
+  return out;
+}
+
+/// Without a constant: a world distance is one difference of stored numbers for a sun alone.
+Compared draw(const Kind& kind) {
+  raster::MapOptions map = hard_map(128, kind.technique);
+  map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 2.0};
+  if (kind.stored == StoredDepth::reversed) map.depth_format = raster::DepthFormat::d32f_reversed;
+  return draw_scene(scene_under(kind.light), picture, map);
+}
+
+double share_as_drawn(const Verdict& judged) {
+  return judged.result ? judged.result->judged->biased_is_drawn : 0.0;
+}
+
+/// The share of the compared pixels whose V5 is what was drawn in Gnomon's own ladder, and not in the capture's.
+double lost_share(const compare::LightComparison& own, const compare::LightComparison& its) {
+  std::size_t count = 0, lost = 0;
+  for (std::size_t i = 0; i < own.labels.data.size(); ++i) {
+    if (!compare::is_compared(own.labels.data[i])) continue;
+    const float drawn = own.rungs[6].data[i];
+    ++count, lost += own.rungs[5].data[i] == drawn && its.rungs[5].data[i] != drawn ? 1 : 0;
+  }
+  return static_cast<double>(lost) / static_cast<double>(count);
+}
+
+class JudgeMaps : public testing::TestWithParam<Kind> {};
+
+TEST_P(JudgeMaps, GiveTheLadderOfGnomonsOwn) {
+  const Compared drawn = draw(GetParam());
+  const CaptureParts parts{.map = true, .stored = GetParam().stored};
+  const Verdict judged = judge(self_capture(drawn, folder_for(name_of(GetParam())), parts), *drawn.scene);
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
+  EXPECT_LT(lost_share(own, its), border_share);
+  // A floor that squarely faces the bulb's map is one float deep, and shadowed by rounding in the rasterizer's floats.
+  EXPECT_GT(share_as_drawn(judged), GetParam().light == "bulb" ? 0.98 : 1.0 - border_share);
+  EXPECT_GT(own.error.wrong, 20U);
+  for (std::size_t k = 0; k < compare::rung_count; ++k)
+    EXPECT_NEAR(own.rung_mean[k], its.rung_mean[k], border_share) << "V" << k;
+}
+INSTANTIATE_TEST_SUITE_P(Of, JudgeMaps, testing::ValuesIn(kinds(false)),
+                         [](const auto& kind) { return name_of(kind.param); });
+
+// ---- a shadow test of its own ----
+
+/// As engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
+class OtherRenderer {
+ public:
+  OtherRenderer(const Capture& capture, const Light& light) : capture_(capture), light_(light) {
+    for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
+  }
+
+  float visibility(const Vec3& surface, const Vec3& normal) const {
+    const Vec3 place = surface + capture_.bias->normal_offset_world * normal;
+    const auto layer = layer_of(place);
+    if (!layer) return 1.0f;
+    const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
+    const int n = texels_[*layer].size.width;
+    const auto texel = [&](double ndc) {
+      return std::clamp(static_cast<int>((0.5 * ndc + 0.5) * n), 0, n - 1);
+    };
+    const int x = texel(clip.x / clip.w), y = texel(clip.y / clip.w);
+    const int row = capture_.map[*layer].rows == RowOrder::top_down ? n - 1 - y : y;
+    const double stored = texels_[*layer].channels[0].values[static_cast<std::size_t>(row * n + x)];
+    return is_dark(clip.z / clip.w, glm::length(place - light_.position), stored) ? 0.0f : 1.0f;
+  }
+
+ private:
+  bool is_dark(double z, double distance, double stored) const {
+    const double bias = capture_.bias->constant_depth;
+    switch (*capture_.map.front().convention) {
+      case StoredDepth::zero_to_one:
+        return stored < 1.0 && z - stored > bias;
+      case StoredDepth::minus_one_to_one:
+        return stored < 1.0 && 0.5 * z + 0.5 - stored > bias;
+      case StoredDepth::reversed:
+        return stored > 0.0 && stored - z > bias;
+      case StoredDepth::distance:
+        break;
+    }
+    return stored > 0.0 && distance - stored > bias;
+  }
+
+  /// A cube's face that looks at the place, or the first cascade that holds it and its neighbouring texels.
+  std::optional<std::size_t> layer_of(const Vec3& place) const {
+    std::optional<std::size_t> best;
+    double most = 0.0;
+    for (std::size_t i = 0; i < texels_.size(); ++i) {
+      const Vec4 clip = *capture_.map[i].clip_from_world * Vec4(place, 1.0);
+      const bool perspective = light_.type != LightType::directional, cube = texels_.size() == 6;
+      const double margin = i + 1 < texels_.size() ? 1.0 - 2.0 / texels_[i].size.width : 1.0;
+      const double beside = std::max(std::abs(clip.x), std::abs(clip.y)) / clip.w;
+      if (clip.w <= most || (!cube && beside >= margin)) continue;
+      best = i, most = clip.w;
+      if (!perspective) break;
+    }
+    return best;
+  }
+
+  const Capture& capture_;
+  const Light& light_;
+  std::vector<ChannelImage> texels_;
+};
+
+/// The picture that the other renderer draws on the capture's map.
+void draw_again(const Capture& capture, const Compared& drawn) {
+  const OtherRenderer other(capture, drawn.scene->lights[0]);
+  spoil(capture.visibility, [&](ChannelImage& image) {
+    for (Channel& channel : image.channels)
+      for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {
+        const raytrace::SurfacePoint& point = drawn.result.raytraced.receiver.data[i];
+        channel.values[i] = point.primitive == no_id ? 1.0f : other.visibility(point.position, point.normal);
+      }
+  });
+}
+
+class JudgeOtherTests : public testing::TestWithParam<Kind> {};
+
+// Both test in doubles at the same places: one pixel may lie on a texel's border to the last bit.
+TEST_P(JudgeOtherTests, AreClimbedToWhatTheyDrew) {
+  const Kind& kind = GetParam();
+  const Compared drawn = draw(kind);
+  for (const RowOrder rows : {RowOrder::bottom_up, RowOrder::top_down}) {
+    Capture capture =
+        self_capture(drawn, folder_for("other-" + name_of(kind)),
+                     {.positions = false, .mask = true, .map = true, .stored = kind.stored, .rows = rows});
+    const bool world = kind.stored == StoredDepth::distance;
+    capture.bias =
+        compare::CapturedBias{.constant_depth = world ? 0.03 : 0.0004, .normal_offset_world = 0.01};
+    if (kind.technique != Technique::csm) std::reverse(capture.map.begin(), capture.map.end());
+    draw_again(capture, drawn);
+    const Verdict judged = judge(capture, *drawn.scene);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_GT(share_as_drawn(judged), 1.0 - 1e-4);
+    EXPECT_GT(judged.result->lights[0].error.wrong, 20U);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Of, JudgeOtherTests, testing::ValuesIn(kinds(true)),
+                         [](const auto& kind) { return name_of(kind.param); });
+
+// ---- where the pixels are, and two pictures for one ----
+
+using compare::CapturedDepth;
+
+class JudgeCameraDepths : public testing::Test {
+ protected:
+  const Compared drawn_ = draw_scene(scene_under("sun"), picture, hard_map(256));
+  Capture capture(const CapturedDepth& depth) const {
+    return self_capture(drawn_, folder_for("depth"), {.positions = false, .map = true, .depth = &depth});
+  }
+};
+
+TEST_F(JudgeCameraDepths, OfEveryConventionGiveTheSameVerdict) {
+  for (const CapturedDepth& depth :
+       {CapturedDepth{"", PixelDepth::view_z, {}, {}}, CapturedDepth{"", PixelDepth::distance, {}, {}},
+        CapturedDepth{"", PixelDepth::zero_to_one, 0.1, 200.0},
+        CapturedDepth{"", PixelDepth::reversed, 0.1, 200.0},
+        CapturedDepth{"", PixelDepth::reversed, 0.1, {}}}) {
+    const std::string_view name = compare::pixel_depth_names[static_cast<std::size_t>(*depth.convention)];
+    const Verdict judged = judge(capture(depth), *drawn_.scene);
+    ASSERT_TRUE(judged.result) << name << ": " << reason(judged);
+    EXPECT_GT(share_as_drawn(judged), 1.0 - border_share) << name;
+    double agreement = 0.0;
+    for (const compare::Agreement& one : judged.result->judged->agreement)
+      if (one.what == "depths") agreement = one.share;
+    EXPECT_GT(agreement, 0.99) << name;
+    EXPECT_NEAR(double(judged.result->lights[0].error.wrong), double(drawn_.light().error.wrong),
+                border_share * double(drawn_.light().pixels.compared))
+        << name;
+  }
+}
+
+TEST_F(JudgeCameraDepths, AlongTheRayForThoseAlongTheAxisAreNamed) {
+  for (const auto& [is, said] : {std::pair{PixelDepth::view_z, PixelDepth::distance},
+                                 std::pair{PixelDepth::distance, PixelDepth::view_z}}) {
+    Capture wrong = capture({"", is, {}, {}});
+    wrong.depth->convention = said;
+    EXPECT_NE(reason(judge(wrong, *drawn_.scene)).find("along the ray"), std::string::npos)
+        << reason(judge(wrong, *drawn_.scene));
+    compare::JudgeOptions fixing;
+    fixing.fix = true;
+    EXPECT_TRUE(judge(wrong, *drawn_.scene, fixing).result);
+  }
+  Capture wrong = capture({"", PixelDepth::reversed, 0.1, 200.0});
+  wrong.depth->near = 0.2;
+  EXPECT_NE(reason(judge(wrong, *drawn_.scene)).find("of the depths agree"), std::string::npos)
+      << reason(judge(wrong, *drawn_.scene));
+}
+
+TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
+  const Compared drawn = draw_scene(scene_under("sun"), picture, hard_map(256));
+  for (const bool positions : {true, false}) {
+    const CaptureParts parts{.positions = positions, .map = true, .ratio = true};
+    const Verdict judged = judge(self_capture(drawn, folder_for("ratio"), parts), *drawn.scene);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_TRUE(judged.result->judged->of_ratio);
+    EXPECT_GT(share_as_drawn(judged), 1.0 - border_share);
+    const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
+    const double allowed = border_share * double(own.pixels.compared);
+    EXPECT_NEAR(double(its.pixels.compared), double(own.pixels.compared), allowed);
+    EXPECT_NEAR(double(its.error.wrong), double(own.error.wrong), allowed);
+    EXPECT_NEAR(double(its.pixels.facing_away), double(own.pixels.facing_away), allowed);
+  }
+}
+
+TEST(JudgeRatios, UpsideDownAreNamedByWhatTheLightReaches) {
+  const Compared drawn = draw_scene(scene_under("sun"), picture, hard_map(256));
+  const Capture capture =
+      self_capture(drawn, folder_for("ratio-flipped"), {.positions = false, .ratio = true});
+  for (const std::string& file : {capture.shadowed, capture.unshadowed})
+    spoil(file, [](ChannelImage& image) {
+      const auto width = static_cast<std::size_t>(image.size.width),
+                 height = static_cast<std::size_t>(image.size.height);
+      for (Channel& channel : image.channels)
+        for (std::size_t y = 0; y < height / 2; ++y)
+          std::swap_ranges(channel.values.begin() + std::ptrdiff_t(y * width),
+                           channel.values.begin() + std::ptrdiff_t((y + 1) * width),
+                           channel.values.begin() + std::ptrdiff_t((height - 1 - y) * width));
+    });
+  EXPECT_NE(reason(judge(capture, *drawn.scene)).find("upside down"), std::string::npos)
+      << reason(judge(capture, *drawn.scene));
+}
+
+}  // namespace
+}  // namespace gnomon::test
