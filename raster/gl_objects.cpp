@@ -60,8 +60,29 @@ void Texture2D::set_linear_filtering() {
 }
 
 void Buffer::reserve(std::size_t size) {
+  constexpr std::size_t least = 64;  // as in write_bytes()
   size_ = size;
-  gl()->NamedBufferData(id(), static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_DRAW);
+  gl()->NamedBufferData(id(), static_cast<GLsizeiptr>(std::max(size, least)), nullptr, GL_DYNAMIC_DRAW);
+}
+
+void* Buffer::map() {
+  return gl()->MapNamedBufferRange(id(), 0, static_cast<GLsizeiptr>(size_),
+                                   GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+}
+
+void Buffer::unmap() {
+  gl()->UnmapNamedBuffer(id());
+}
+
+BufferTexture::BufferTexture(const Gl& gl)
+    : GlObject(gl, created([&](GLuint* id) { gl->CreateTextures(GL_TEXTURE_BUFFER, 1, id); })) {}
+
+void BufferTexture::attach(const Buffer& buffer, GLenum format) {
+  gl()->TextureBuffer(id(), format, buffer.id());
+}
+
+void BufferTexture::bind(int unit) const {
+  gl()->BindTextureUnit(static_cast<GLuint>(unit), id());
 }
 
 void Texture2D::bind(int unit) const {

@@ -61,12 +61,32 @@ class Buffer : public GlObject<GlKind::buffer> {
   }
   /// So many bytes, of no particular value.
   void reserve(std::size_t size);
+  /// `count` values that put(span) writes where they will lie: nothing is held twice.
+  template <class T, class Put>
+  void fill(std::size_t count, const Put& put) {
+    reserve(count * sizeof(T));
+    if (count == 0) return;
+    put(std::span<T>(static_cast<T*>(map()), count));
+    unmap();
+  }
   std::size_t size() const { return size_; }
   void bind(GLenum target, int binding) const;
 
  private:
   void write_bytes(const void* data, std::size_t size);
+  void* map();
+  void unmap();
   std::size_t size_ = 0;
+};
+
+/// What shaders read of a buffer through a sampler: more than a storage block may hold.
+class BufferTexture : public GlObject<GlKind::texture> {
+ public:
+  BufferTexture() = default;
+  explicit BufferTexture(const Gl& gl);
+  /// Reads the buffer as texels of this format (GL_RGB32F ...), as long as both live.
+  void attach(const Buffer& buffer, GLenum format);
+  void bind(int unit) const;
 };
 
 /// A 2D texture, or a 2D array texture when layers > 0; nearest filtering, clamped to the edge.

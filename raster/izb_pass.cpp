@@ -77,6 +77,15 @@ IzbPass::IzbPass(Gl& gl, ProgramCache& programs)
 
 Expected<void> IzbPass::upload_world(const World& world) {
   if (world_ == &world) return {};
+  GLint64 limit = 0;
+  (*gl_)->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  const std::size_t allowed = static_cast<std::size_t>(limit) / sizeof(Vec3);
+  if (world.positions.size() > allowed)
+    return fail(
+        ErrorKind::graphics,
+        fmt::format("the scene is too large for technique izb on this OpenGL (got {} vertices, allowed "
+                    "{}: GL_MAX_SHADER_STORAGE_BLOCK_SIZE)",
+                    world.positions.size(), allowed));
   vertices_.write(std::span<const Vec3>(world.positions));
   std::vector<DoubleShape> shapes;
   for (const Shape& shape : world.shapes) shapes.push_back(double_shape(shape));

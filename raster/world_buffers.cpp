@@ -1,6 +1,8 @@
 #include "raster/world_buffers.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
 
@@ -87,6 +89,30 @@ Vec4f triangle_plane(const World& world, std::uint32_t triangle, const Vec3& ref
   return Vec4f(Vec4(n, glm::dot(n, a - reference)) / length);
 }
 
+/// Triangles and vertices are texels of buffer textures.
+Expected<void> check_size(const Gl& gl, const World& world) {
+  GLint limit = 0;
+  gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  const auto check = [&](std::size_t got, const char* what) -> Expected<void> {
+    if (got <= static_cast<std::size_t>(limit)) return {};
+    return fail(ErrorKind::graphics,
+                fmt::format("the scene is too large for this OpenGL's GL_MAX_TEXTURE_BUFFER_SIZE (got {} {}, "
+                            "allowed {})",
+                            got, what, limit));
+  };
+  if (const auto fits = check(world.triangles.size(), "triangles"); !fits) return fits;
+  return check(world.positions.size(), "vertices");
+}
+
+/// put(i) for 0 ... count - 1, on every thread.
+template <class Put>
+void for_each_index(std::size_t count, const Put& put) {
+  constexpr std::size_t at_a_time = 8192;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, at_a_time), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) put(i);
+  });
+}
+
 }  // namespace
 
 Vec3 reference_point(const World& world, const Vec3& eye) {
@@ -116,19 +142,15 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       triangles_(gl),
       planes_(gl),
       shapes_(gl),
-      materials_(gl) {}
+      materials_(gl),
+      position_texels_(gl),
+      normal_texels_(gl),
+      uv_texels_(gl),
+      triangle_texels_(gl),
+      plane_texels_(gl) {}
 
 Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
-  const std::uint64_t largest =
-      std::max<std::uint64_t>(16 * std::uint64_t{world.triangle_count()}, 12 * world.positions.size());
-  GLint64 limit = 0;
-  gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  if (largest > static_cast<std::uint64_t>(limit)) {
-    return fail(ErrorKind::graphics,
-                fmt::format("the scene is too large for this OpenGL's GL_MAX_SHADER_STORAGE_BLOCK_SIZE "
-                            "(got {} bytes, allowed {})",
-                            largest, limit));
-  }
+  if (const auto fits = check_size(gl, world); !fits) return fail(fits.error());
   WorldBuffers out(gl, world);
   out.upload_fixed(features);
   out.make_runs(features.alpha_mask);
@@ -145,13 +167,12 @@ void WorldBuffers::upload_fixed(const SceneFeatures& features) {
   const World& world = *world_;
   using Corners = std::array<std::uint32_t, 3>;
   indices_.write(std::span<const Corners>(world.triangles));
-  std::vector<glm::uvec4> triangles;
-  triangles.reserve(world.triangle_count());
-  for (std::uint32_t i = 0; i < world.triangle_count(); ++i) {
-    const Corners& t = world.triangles[i];
-    triangles.emplace_back(t[0], t[1], t[2], world.triangle_material[i]);
-  }
-  triangles_.write(std::span<const glm::uvec4>(triangles));
+  triangles_.fill<glm::uvec4>(world.triangles.size(), [&](std::span<glm::uvec4> out) {
+    for_each_index(out.size(), [&](std::size_t i) {
+      const Corners& t = world.triangles[i];
+      out[i] = {t[0], t[1], t[2], world.triangle_material[i]};
+    });
+  });
   std::vector<MaterialData> materials;
   for (const Material& m : world.scene->materials) materials.push_back(material_data(m));
   materials_.write(std::span<const MaterialData>(materials));
@@ -160,6 +181,14 @@ void WorldBuffers::upload_fixed(const SceneFeatures& features) {
   vertex_array_.set_indices(indices_);
   vertex_array_.set_floats(shaders::position_attribute, positions_, 3);
   if (features.alpha_mask) vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
+}
+
+void WorldBuffers::attach_textures() {
+  position_texels_.attach(positions_, GL_RGB32F);
+  normal_texels_.attach(normals_, GL_RGB32F);
+  uv_texels_.attach(uvs_, GL_RG32F);
+  triangle_texels_.attach(triangles_, GL_RGBA32UI);
+  plane_texels_.attach(planes_, GL_RGBA32F);
 }
 
 void WorldBuffers::make_runs(bool alpha_mask) {
@@ -174,30 +203,30 @@ void WorldBuffers::make_runs(bool alpha_mask) {
 void WorldBuffers::set_reference(const Vec3& reference) {
   if (reference_ == reference) return;
   reference_ = reference;
-  std::vector<Vec3f> positions;
-  positions.reserve(world_->positions.size());
-  for (const Vec3& p : world_->positions) positions.emplace_back(p - reference);
-  positions_.write(std::span<const Vec3f>(positions));
-  std::vector<Vec4f> planes;
-  planes.reserve(world_->triangle_count());
-  for (std::uint32_t i = 0; i < world_->triangle_count(); ++i)
-    planes.push_back(triangle_plane(*world_, i, reference));
-  planes_.write(std::span<const Vec4f>(planes));
+  positions_.fill<Vec3f>(world_->positions.size(), [&](std::span<Vec3f> out) {
+    for_each_index(out.size(), [&](std::size_t i) { out[i] = Vec3f(world_->positions[i] - reference); });
+  });
+  planes_.fill<Vec4f>(world_->triangles.size(), [&](std::span<Vec4f> out) {
+    for_each_index(out.size(), [&](std::size_t i) {
+      out[i] = triangle_plane(*world_, static_cast<std::uint32_t>(i), reference);
+    });
+  });
   std::vector<ShapeData> shapes;
   const FunctionTable table = function_table(*world_);
   for (std::size_t i = 0; i < world_->shapes.size(); ++i)
     shapes.push_back(shape_data(world_->shapes[i], world_->triangle_count() + static_cast<std::uint32_t>(i),
                                 table.of_shape[i], reference));
   shapes_.write(std::span<const ShapeData>(shapes));
+  attach_textures();  // to the memory that the buffers have now
 }
 
 void WorldBuffers::bind() const {
   (*gl_)->BindVertexArray(vertex_array_.id());
-  positions_.bind(GL_SHADER_STORAGE_BUFFER, shaders::positions_buffer);
-  normals_.bind(GL_SHADER_STORAGE_BUFFER, shaders::normals_buffer);
-  uvs_.bind(GL_SHADER_STORAGE_BUFFER, shaders::uvs_buffer);
-  triangles_.bind(GL_SHADER_STORAGE_BUFFER, shaders::triangles_buffer);
-  planes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::planes_buffer);
+  position_texels_.bind(shaders::positions_unit);
+  normal_texels_.bind(shaders::normals_unit);
+  uv_texels_.bind(shaders::uvs_unit);
+  triangle_texels_.bind(shaders::triangles_unit);
+  plane_texels_.bind(shaders::planes_unit);
   shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::shapes_buffer);
   materials_.bind(GL_SHADER_STORAGE_BUFFER, shaders::materials_buffer);
   if (texels_) texels_->bind();

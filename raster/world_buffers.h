@@ -62,6 +62,7 @@ class WorldBuffers {
  private:
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
+  void attach_textures();
   void make_runs(bool alpha_mask);
 
   const Gl* gl_;
@@ -70,6 +71,7 @@ class WorldBuffers {
   std::vector<TriangleRun> runs_;
   VertexArray vertex_array_;
   Buffer positions_, normals_, uvs_, indices_, triangles_, planes_, shapes_, materials_;
+  BufferTexture position_texels_, normal_texels_, uv_texels_, triangle_texels_, plane_texels_;
   std::optional<TexelPages> texels_;
 };
 

@@ -9,21 +9,7 @@
 #include "solid_surface.glsl"
 #endif
 #include "material.glsl"
-
-struct TriangleData {
-  uint a, b, c;
-  uint material;
-};
-
-layout(std430, binding = positions_buffer) readonly buffer Positions { float positions[]; };
-#ifdef SMOOTH_NORMALS
-layout(std430, binding = normals_buffer) readonly buffer Normals { float normals[]; };
-#endif
-#ifdef TEXTURES
-layout(std430, binding = uvs_buffer) readonly buffer Uvs { vec2 uvs[]; };
-#endif
-layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
-layout(std430, binding = planes_buffer) readonly buffer Planes { vec4 planes[]; };  // unit normal, dot(normal, corner)
+#include "triangles.glsl"
 
 struct Receiver {
   vec3 position;   // relative to the frame's reference
@@ -33,10 +19,6 @@ struct Receiver {
   vec2 uv;
   uint material;
 };
-
-vec3 position_of(uint vertex) {
-  return vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]);
-}
 
 vec3 face_forward(vec3 n, vec3 direction) { return dot(n, direction) > 0.0 ? -n : n; }
 
@@ -50,12 +32,6 @@ vec3 meet_plane(vec3 direction, vec3 n, float d, float t_min, float t_max) {
   vec3 p = eye + t * direction;
   return p - n * (dot(n, p) - d);
 }
-
-#ifdef SMOOTH_NORMALS
-vec3 normal_of(uint vertex) {
-  return vec3(normals[3u * vertex], normals[3u * vertex + 1u], normals[3u * vertex + 2u]);
-}
-#endif
 
 void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
 #if defined(SMOOTH_NORMALS) || defined(TEXTURES)
@@ -72,20 +48,20 @@ void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
   }
 #endif
 #ifdef TEXTURES
-  r.uv = wa * uvs[t.a] + wb * uvs[t.b] + wc * uvs[t.c];
+  r.uv = wa * uv_of(t.a) + wb * uv_of(t.b) + wc * uv_of(t.c);
 #endif
 #endif
 }
 
 Receiver triangle_receiver(uint id, vec3 direction) {
   Receiver r;
-  TriangleData t = triangles[id];
+  TriangleData t = triangle_at(id);
   vec3 a = position_of(t.a), b = position_of(t.b), c = position_of(t.c);
   vec3 eye = camera.eye_and_near.xyz;
   vec3 depths = vec3(dot(camera.forward.xyz, a - eye), dot(camera.forward.xyz, b - eye),
                      dot(camera.forward.xyz, c - eye));
   float t_min = min(depths.x, min(depths.y, depths.z)), t_max = max(depths.x, max(depths.y, depths.z));
-  vec4 plane = planes[id];
+  vec4 plane = plane_of(id);
   r.position = meet_plane(direction, plane.xyz, plane.w, max(t_min, 0.0), t_max);
   r.normal = face_forward(plane.xyz, direction);
   r.shading = r.normal;

@@ -29,11 +29,6 @@ const int peel_uniform = 9;
 const int triangle_count_uniform = 6;
 
 // Shader storage buffers
-const int positions_buffer = 0;
-const int normals_buffer = 1;
-const int uvs_buffer = 2;
-const int triangles_buffer = 3;
-const int planes_buffer = 4;
 const int shapes_buffer = 5;
 const int materials_buffer = 6;
 const int textures_buffer = 7;
@@ -58,6 +53,11 @@ const int external_visibility_unit = 15;
 const int solid_distance_unit = 5;
 const int first_layer_unit = 8;  // midpoint maps
 const int second_layer_unit = 9;
+const int positions_unit = 10;  // buffer textures
+const int normals_unit = 11;
+const int uvs_unit = 12;
+const int triangles_unit = 13;
+const int planes_unit = 14;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -12,11 +12,7 @@ layout(location = 0) out uint primitive_id;
 #endif
 #ifdef ALPHA_MASK
 #include "material.glsl"
-struct TriangleData {
-  uint a, b, c;
-  uint material;
-};
-layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+#include "triangles.glsl"
 in vec2 vertex_uv;
 #endif
 
@@ -26,7 +22,7 @@ void main() {
 #endif
   uint primitive = first_primitive + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-  if (is_hole(materials[triangles[primitive].material], vertex_uv)) discard;
+  if (is_hole(materials[triangle_at(primitive).material], vertex_uv)) discard;
 #endif
 #ifdef PRIMITIVE_IDS
   primitive_id = primitive;

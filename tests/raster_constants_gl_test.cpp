@@ -30,11 +30,11 @@ constexpr Named constants[] = {
     GNOMON_NAMED(layer_uniform),
     GNOMON_NAMED(step_uniform),
     GNOMON_NAMED(blur_radius_uniform),
-    GNOMON_NAMED(positions_buffer),
-    GNOMON_NAMED(normals_buffer),
-    GNOMON_NAMED(uvs_buffer),
-    GNOMON_NAMED(triangles_buffer),
-    GNOMON_NAMED(planes_buffer),
+    GNOMON_NAMED(positions_unit),
+    GNOMON_NAMED(normals_unit),
+    GNOMON_NAMED(uvs_unit),
+    GNOMON_NAMED(triangles_unit),
+    GNOMON_NAMED(planes_unit),
     GNOMON_NAMED(shapes_buffer),
     GNOMON_NAMED(materials_buffer),
     GNOMON_NAMED(textures_buffer),
@@ -162,7 +162,6 @@ TEST_F(SharedConstants, BlocksAndBuffersHaveTheSizesOfTheirTwins) {
             static_cast<GLint>(sizeof(raster::ShapeData)));
   EXPECT_EQ(block_size(*gl_, id, GL_SHADER_STORAGE_BLOCK, "Materials"),
             static_cast<GLint>(sizeof(raster::MaterialData)));
-  EXPECT_EQ(block_size(*gl_, id, GL_SHADER_STORAGE_BLOCK, "Triangles"), 16);
 }
 
 TEST_F(SharedConstants, AShaderErrorNamesItsFileAndLine) {

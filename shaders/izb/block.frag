@@ -5,12 +5,7 @@
 layout(location = face_uniform) uniform int face;
 #include "izb/izb.glsl"
 #include "world.glsl"
-
-struct TriangleData {
-  uint a, b, c;
-  uint material;
-};
-layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+#include "triangles.glsl"
 
 #ifdef SPHERE
 layout(location = shape_uniform) uniform int shape_index;
@@ -71,13 +66,10 @@ bool blocks(Receiver64 r, ShadowRay ray) {
 }
 #else
 flat in uint primitive;
-#ifdef ALPHA_MASK
-layout(std430, binding = uvs_buffer) readonly buffer Uvs { vec2 uvs[]; };
-#endif
 
 bool triangle_is_hole(TriangleData t, dvec2 weights) {
 #ifdef ALPHA_MASK
-  dvec2 uv = (1.0LF - weights.x - weights.y) * dvec2(uvs[t.a]) + weights.x * dvec2(uvs[t.b]) + weights.y * dvec2(uvs[t.c]);
+  dvec2 uv = (1.0LF - weights.x - weights.y) * dvec2(uv_of(t.a)) + weights.x * dvec2(uv_of(t.b)) + weights.y * dvec2(uv_of(t.c));
   return masked_hole(t.material, vec2(uv));
 #else
   return false;
@@ -86,7 +78,7 @@ bool triangle_is_hole(TriangleData t, dvec2 weights) {
 
 bool blocks(Receiver64 r, ShadowRay ray) {
   if (r.primitive == primitive) return false;
-  TriangleData t = triangles[primitive];
+  TriangleData t = triangle_at(primitive);
   dvec3 a = vertex(t.a), b = vertex(t.b), c = vertex(t.c);
   double at;
   dvec2 weights;

@@ -4,12 +4,7 @@
 layout(binding = visibility_unit) uniform usampler2D visible_primitive;
 #include "izb/izb.glsl"
 #include "world.glsl"
-
-struct TriangleData {
-  uint a, b, c;
-  uint material;
-};
-layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+#include "triangles.glsl"
 #ifdef SOLIDS
 #define NO_SLOPES
 #include "izb/solid.glsl"
@@ -27,7 +22,8 @@ dvec3 pixel_direction64(dvec2 window) {
 }
 
 Receiver64 triangle_receiver(uint id, dvec3 direction) {
-  dvec3 a = vertex(triangles[id].a), b = vertex(triangles[id].b), c = vertex(triangles[id].c);
+  TriangleData triangle = triangle_at(id);
+  dvec3 a = vertex(triangle.a), b = vertex(triangle.b), c = vertex(triangle.c);
   double t;
   dvec2 w;
   sheared_crossing(izb.eye.xyz, direction, a, b, c, true, t, w);

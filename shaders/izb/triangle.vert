@@ -2,12 +2,7 @@
 // triangle that reaches behind a point or spot light covers the whole face unless it lies beside the face's pyramid.
 #include "shared_constants.h"
 #include "izb/izb.glsl"
-
-struct TriangleData {
-  uint a, b, c;
-  uint material;
-};
-layout(std430, binding = triangles_buffer) readonly buffer Triangles { TriangleData triangles[]; };
+#include "triangles.glsl"
 layout(location = face_uniform) uniform int face;
 flat out uint primitive;
 
@@ -50,7 +45,7 @@ void texel_rectangle(dvec3 a, dvec3 b, dvec3 c, out dvec2 low, out dvec2 high) {
 
 void main() {
   primitive = uint(gl_VertexID) / 6u;
-  TriangleData t = triangles[primitive];
+  TriangleData t = triangle_at(primitive);
   dvec2 low, high;
   texel_rectangle(local(vertex(t.a)), local(vertex(t.b)), local(vertex(t.c)), low, high);
   int corner = gl_VertexID % 6;  // 0 1 2, 2 1 3 of a strip
