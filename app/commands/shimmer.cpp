@@ -15,8 +15,7 @@
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "app/technique_options.h"
-#include "compare/shimmer/outputs.h"
-#include "scene/files/staged_folder.h"
+#include "compare/shimmer/write.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
@@ -31,6 +30,7 @@ struct ShimmerCommand {
   MovementOptions movement;
   compare::FilmTime time;
   int anchors = 1;
+  double report_max_mb = compare::default_film_max_mb;
   std::optional<double> fail_above;  ///< flips per receiver and second
   raster::Backend backend = raster::Backend::automatic;
   std::uint64_t seed = 0;
@@ -51,14 +51,18 @@ Expected<RunFiles> check_files(ShimmerCommand& command) {
   files.reads(command.scene);
   files.reads(path_file(command.movement));
   files.writes("--json", command.json);
-  constexpr std::array<std::string_view, 1> names{"result.json"};
+  constexpr std::array<std::string_view, 2> names{"report.html", "result.json"};
   if (!command.folder.empty()) files.writes_folder("-o", command.folder, names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   return files;
 }
 
-Expected<compare::Shimmer> make_film(const ShimmerCommand& command, const LoadedScene& loaded,
-                                     Console& console) {
+struct Filmed {
+  compare::Shimmer shimmer;
+  std::optional<compare::FilmKeeper> pictures;  ///< where a folder is asked for
+};
+
+Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loaded, Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
   for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
@@ -71,17 +75,30 @@ Expected<compare::Shimmer> make_film(const ShimmerCommand& command, const Loaded
   if (!renderer) return fail(renderer.error());
   compare::ShimmerOptions options{command.setting.options, std::move(*path), command.time, command.anchors};
   options.compare.raytrace.seed = command.seed;
-  return compare::film_shimmer(*loaded.world, *loaded.scene, **renderer, *lights, options, {},
-                               [&](std::string_view stage, double done) { console.progress(stage, done); });
+  Filmed out;
+  compare::FrameSink sink;
+  if (!command.folder.empty()) {
+    auto base = compare::unshadowed_picture(*loaded.scene, **renderer, options);
+    if (!base) return fail(base.error());
+    out.pictures.emplace(std::move(*base), command.time.fps);
+    sink = [&](const compare::ShimmerFrame& frame) { return out.pictures->add(frame); };
+  }
+  auto shimmer =
+      compare::film_shimmer(*loaded.world, *loaded.scene, **renderer, *lights, options, sink,
+                            [&](std::string_view stage, double done) { console.progress(stage, done); });
+  if (!shimmer) return fail(shimmer.error());
+  out.shimmer = std::move(*shimmer);
+  return out;
 }
 
-Expected<void> write_all(const ShimmerCommand& command, const std::string& json, const RunFiles& files) {
+Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, const std::string& json,
+                         const RunFiles& files, Console& console) {
   const OutputGuard whole_outputs;
-  if (!command.folder.empty()) {
-    auto staged = StagedFolder::open(command.folder);
-    if (!staged) return fail(staged.error());
-    if (const auto written = write_file(staged->path() + "/result.json", json); !written) return written;
-    if (const auto published = staged->publish("result.json", files.inputs()); !published) return published;
+  if (film.pictures) {
+    const auto megabytes = compare::write_shimmer(film.shimmer, *film.pictures, command.command_line, json,
+                                                  {command.folder, command.report_max_mb, files.inputs()});
+    if (!megabytes) return fail(megabytes.error());
+    if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));
   }
   if (command.json.empty() || command.json == "-") return {};
   if (const auto made = make_folder_for(command.json); !made) return made;
@@ -117,16 +134,17 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   if (!film) return fail(film.error());
   console.clear_progress();
   const std::string json =
-      compare::shimmer_json(*film, {command.command_line, command.seed, total.elapsed_ms()});
-  if (const auto written = write_all(command, json, *files); !written) return fail(written.error());
+      compare::shimmer_json(film->shimmer, {command.command_line, command.seed, total.elapsed_ms()});
+  if (const auto written = write_all(command, *film, json, *files, console); !written)
+    return fail(written.error());
   if (command.json == "-")
     print_data(json);
   else if (!command.quiet)
-    print_data(compare::shimmer_table(*film));
+    print_data(compare::shimmer_table(film->shimmer));
   if (!command.folder.empty())
     console.message(
-        fmt::format("result: {}/result.json ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));
-  return judge_lights(command, *film, console);
+        fmt::format("report: {}/report.html ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));
+  return judge_lights(command, film->shimmer, console);
 }
 
 void add_options(CLI::App& app, ShimmerCommand& command) {
@@ -134,7 +152,8 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
   add_output(app, "-o,--output", command.folder, "DIR",
-             "folder for result.json [default out/NAME-shimmer; none with --json - alone]");
+             "folder for report.html, result.json and the films as animated PNG [default out/NAME-shimmer; "
+             "none with --json - alone]");
   add_integer(app, "--frames", command.time.frames, 2, most_frames, "", "frames of the film");
   add_number(app, "--fps", command.time.fps, {0.0, 1e6, true}, "frames a second", "speed of the film");
   add_movement_options(app, command.movement);
@@ -151,6 +170,7 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
             [&command](const std::string& text) {
               return assign(command.fail_above, parse_number(text, {0.0, 1e9}));
             });
+  add_report_max_mb(app, command.report_max_mb);
   add_json(app, command.json, "the result");
   add_quiet(app, command.quiet);
 }

@@ -2,7 +2,7 @@
 // that these files are scripts that leave their value in gnomonFiles (../../shell.h).
 
 interface Parted {
-  kind: "compare" | "sweep";
+  kind: "compare" | "shimmer" | "sweep";
   parts?: Record<string, unknown>;
   folder?: string;
 }

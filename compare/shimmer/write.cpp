@@ -1,0 +1,51 @@
+#include "compare/shimmer/write.h"
+
+#include <fmt/format.h>
+
+#include "scene/files/staged_folder.h"
+#include "scene/files/write_file.h"
+#include "scene/stages.h"
+
+namespace gnomon::compare {
+namespace {
+
+Expected<void> write_films(const FilmKeeper& films, const std::string& folder) {
+  for (std::size_t i = 0; i < films.lights().size(); ++i) {
+    const FilmOfLight& film = films.lights()[i];
+    for (const auto& [name, one] : {std::pair("drawn", &film.drawn), std::pair("truth", &film.truth),
+                                    std::pair("flips", &film.flipped)}) {
+      const auto bytes = one->file();
+      if (!bytes) return fail(bytes.error());
+      if (const auto written = write_file(fmt::format("{}/film-{}-{}.png", folder, i, name), *bytes);
+          !written)
+        return written;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
+                               const std::string& json, const ShimmerFolder& output) {
+  const TimedStage stage("page");
+  const auto page = shimmer_page(shimmer, films, command, json, output.report_max_mb);
+  if (!page) return fail(page.error());
+  auto staged = StagedFolder::open(output.folder);
+  if (!staged) return fail(staged.error());
+  const std::string& folder = staged->path();
+  if (const auto written = write_films(films, folder); !written) return fail(written.error());
+  for (const PageFile& file : page->files) {
+    if (const auto made = make_output_folder(folder + "/" + file.name.substr(0, file.name.rfind('/'))); !made)
+      return fail(made.error());
+    if (const auto written = write_file(folder + "/" + file.name, file.bytes); !written)
+      return fail(written.error());
+  }
+  if (const auto written = write_file(folder + "/result.json", json); !written) return fail(written.error());
+  if (const auto written = write_file(folder + "/report.html", page->html); !written)
+    return fail(written.error());
+  if (const auto there = staged->publish("report.html", output.inputs); !there) return fail(there.error());
+  return page->megabytes();
+}
+
+}  // namespace gnomon::compare
