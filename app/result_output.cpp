@@ -15,7 +15,9 @@
 #include "compare/output_parts.h"
 #include "compare/report/page.h"
 #include "compare/time_budget.h"
+#include "raytrace/kept_arrays.h"
 #include "scene/files/write_file.h"
+#include "scene/freed_memory.h"
 #include "scene/stages.h"
 
 namespace gnomon::app {
@@ -99,11 +101,14 @@ ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& com
   return code;
 }
 
-/// Before result.json is written, so that what it takes is in its time budget.
+/// Before result.json is written, so that what it takes is in its time budget: the system would take the
+/// memory back after the last reading of the clocks otherwise.
 void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
   const TimedStage stage("exit");
   comparison = {};
   loaded = {};
+  raytrace::return_kept_arrays();
+  return_freed_memory();
 }
 
 /// A page of an earlier run is left as it is, but not in silence.

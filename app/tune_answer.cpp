@@ -63,6 +63,16 @@ Json units_json(const compare::TuneResult& result) {
   return list;
 }
 
+Json just_over_json(const compare::TuneResult& result) {
+  Json list = Json::array();
+  for (const compare::JustOver& over : result.just_over)
+    list.push_back({{"family", result.families[over.family].family.name},
+                    {"map_size", over.attempt.size},
+                    {"error", over.attempt.error},
+                    {"time_ms", over.attempt.time_ms}});
+  return list;
+}
+
 Json shaders_json(const std::vector<raster::ReplacedShader>& shaders) {
   Json list = Json::array();
   for (const raster::ReplacedShader& shader : shaders)
@@ -161,6 +171,7 @@ std::string TuneAnswer::json() const {
   json["feasible"] = result.feasible;
   json["goal"] = goal_json(question.goal);
   json["as_fast"] = result.families[result.winner].as_fast;
+  json["just_over_limit"] = just_over_json(result);
   json["renders"] = result.renders;
   json["engine_units"] = units_json(result);
   json["shaders"] = shaders_json(question.shaders);

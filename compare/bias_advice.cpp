@@ -11,7 +11,7 @@ namespace gnomon::compare {
 namespace {
 
 constexpr double few_fraction = 1e-4;  // below 0.01 % a count says more than a share
-constexpr double clear_gain = 0.02;    // of the wrong pixels, so as to be worth another bias
+constexpr double clear_gain = 0.05;    // of the wrong pixels, so as to be worth another bias
 
 std::string bias_text(const LightComparison& light, double bias) {
   const std::string world = plain_number(bias) + " world units";
@@ -20,37 +20,43 @@ std::string bias_text(const LightComparison& light, double bias) {
                                             : world;
 }
 
-// "0.5 texel (0.0031)"; tiny numbers of world units say nothing to a reader.
-std::string bound_text(const LightComparison& light, double bias) {
-  constexpr double tiny = 0.01;  // texels
-  const double texel = light.bias_texel_world;
-  if (!(texel > 0.0)) return plain_number(bias);
-  if (bias < tiny * texel) return "a hundredth of a texel";
-  return fmt::format("{} ({})", plain_number(bias), texels_text(bias / texel));
+bool is_tiny(const LightComparison& light, double bias) {
+  return bias < 0.01 * light.bias_texel_world;
 }
 
-// "213 lit pixels need 0.031 (2 texels) or more"; nothing where they are lit without any.
+// "0.5 texel"; tiny numbers say nothing to a reader.
+std::string bound_text(const LightComparison& light, double bias) {
+  const double texel = light.bias_texel_world;
+  if (!(texel > 0.0)) return plain_number(bias) + " world units";
+  return is_tiny(light, bias) ? "a hundredth of a texel" : texels_text(bias / texel);
+}
+
+// "213 lit pixels need at least 2 texels"; nothing where they are lit without any.
 std::string need_of_lit(const LightComparison& light) {
   const BestBias& best = light.best_bias;
   if (!(best.needs_more_than > 0.0)) return {};
-  const bool tiny = bound_text(light, best.needs_more_than).starts_with("a ");
-  return fmt::format("{} lit pixel{} {}{}{}", grouped(best.lit_pixels_above),
-                     best.lit_pixels_above == 1 ? " needs" : "s need", tiny ? "up to " : "",
-                     bound_text(light, best.needs_more_than), tiny ? "" : " or more");
+  const std::string who = fmt::format("{} lit pixel{} ", grouped(best.lit_pixels_above),
+                                      best.lit_pixels_above == 1 ? " needs" : "s need");
+  const std::string bound = bound_text(light, best.needs_more_than);
+  return who +
+         (is_tiny(light, best.needs_more_than) ? "some, though not " + bound + "," : "at least " + bound) +
+         " and ";
 }
 
 std::string need_of_shadowed(const LightComparison& light) {
   const BestBias& best = light.best_bias;
   const std::uint64_t count = best.shadowed_pixels_below;
-  if (best.needs_less_than > 0.0)
-    return fmt::format("{} shadowed pixel{} less than {}", grouped(count), count == 1 ? " needs" : "s need",
-                       bound_text(light, best.needs_less_than));
-  return fmt::format("{} shadowed pixel{} lit without any", grouped(count), count == 1 ? " is" : "s are");
+  if (!(best.needs_less_than > 0.0))
+    return fmt::format("{} shadowed pixel{} lit even without one", grouped(count),
+                       count == 1 ? " is" : "s are");
+  const std::string bound = bound_text(light, best.needs_less_than);
+  const bool said = best.needs_more_than > 0.0 && bound == bound_text(light, best.needs_more_than);
+  return fmt::format("{} shadowed pixel{} less{}", grouped(count), count == 1 ? " needs" : "s need",
+                     said ? "" : " than " + bound);
 }
 
 std::string opposing_needs(const LightComparison& light) {
-  const std::string lit = need_of_lit(light);
-  return fmt::format(" No constant bias can be right everywhere: {}{}{}.", lit, lit.empty() ? "" : ", ",
+  return fmt::format(" No constant bias can be right everywhere: {}{}.", need_of_lit(light),
                      need_of_shadowed(light));
 }
 
@@ -74,15 +80,16 @@ std::string subject(const BiasKind& kind, const LightComparison& light) {
     case raster::BiasUnit::world:
       break;
   }
-  return "A constant bias of " + bias_text(light, kind.bias.constant);
+  return "A constant bias of " + bound_text(light, kind.bias.constant);
 }
 
 // Settings that do as well, where there is room beside the one named.
 std::string range_text(const BiasKind& kind) {
   if (!kind.of_slope || !(kind.to > 1.2 * kind.bias.slope)) return {};
   return std::isfinite(kind.to)
-             ? fmt::format("; {} to {} hardly differ", plain_number(kind.from), plain_number(kind.to))
-             : fmt::format("; more hardly differs from {} on", plain_number(kind.from));
+             ? fmt::format("; anything from {} to {} does about as well", plain_number(kind.from),
+                           plain_number(kind.to))
+             : fmt::format("; anything from {} on does about as well", plain_number(kind.from));
 }
 
 // Of all kinds the best, and beside it what a constant alone comes to.
@@ -96,7 +103,8 @@ std::string kinds_part(const LightComparison& light) {
                   range_text(best), rest_text(best.wrong_fraction, light));
   for (const BiasKind& kind : light.bias_kinds)
     if (kind.name == "constant bias" && best.wrong_fraction < (1.0 - clear_gain) * kind.wrong_fraction)
-      text += fmt::format(" A constant bias alone leaves {} at best.", rest_text(kind.wrong_fraction, light));
+      text += fmt::format(" A constant bias alone would leave {} at best.",
+                          rest_text(kind.wrong_fraction, light));
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include "compare/light_comparison.h"
 
+#include <tbb/parallel_for.h>
+
 #include "compare/bias_curve.h"
 #include "compare/bias_kinds.h"
 #include "compare/bleeding.h"
@@ -8,6 +10,7 @@
 #include "compare/flip.h"
 #include "compare/option_names.h"
 #include "compare/penumbra.h"
+#include "compare/pixel_list.h"
 #include "compare/shadow_cost.h"
 #include "compare/ssim.h"
 #include "compare/sweep/engine.h"
@@ -70,14 +73,15 @@ std::vector<BiasKind> kinds_of_bias(const LadderInput& in, const Image<float>& t
 
 std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& labels) {
   const LightView& view = in.record.map.view;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < labels.data.size(); ++i) {
-    if (!is_compared(labels.data[i])) continue;
-    const Vec3& x = in.traced.receiver.data[i].position;
-    sizes.push_back(texel_world_size(view, project_to_face(view, in.record.face.data[i], x)));
-    if (has_one_texel_size(view)) break;
-  }
-  if (sizes.empty()) return {};
+  std::vector<std::uint32_t> pixels =
+      pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
+  if (pixels.empty()) return {};
+  if (has_one_texel_size(view)) pixels.erase(pixels.begin() + 1, pixels.end());
+  std::vector<double> sizes(pixels.size());
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    const Vec3& x = in.traced.receiver.data[pixels[i]].position;
+    sizes[i] = texel_world_size(view, project_to_face(view, in.record.face.data[pixels[i]], x));
+  });
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const auto [low, high] = std::minmax_element(sizes.begin(), sizes.end());

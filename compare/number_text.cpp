@@ -49,7 +49,9 @@ std::string signed_number(double value) {
 }
 
 std::string texels_text(double texels) {
-  const std::string text = fmt::format("{:.2g}", texels);
+  const double size = std::abs(texels);
+  if (size > 0.0 && size < 0.001) return "less than 0.001 texel";
+  const std::string text = size < 99.5 ? fmt::format("{:.2g}", texels) : fmt::format("{:.0f}", texels);
   return text + (std::abs(texels) > 1.0 && text != "1" ? " texels" : " texel");
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "compare/number_text.h"
 #include "compare/text_layout.h"
@@ -11,17 +10,24 @@
 namespace gnomon::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Stages with less than this share of the process are counted together in the short form.
 constexpr double named_share = 0.03;
 
-Json budget_json(const TimeBudget& budget) {
-  Json stages = Json::array();
-  for (const StageTime& s : budget.stages)
-    stages.push_back({{"stage", s.stage}, {"wall_ms", s.wall_ms}, {"cpu_ms", s.cpu_ms}});
-  return {{"process", {{"wall_ms", budget.wall_ms}, {"cpu_ms", budget.cpu_ms}}},
-          {"time_budget", std::move(stages)}};
+/// Milliseconds down to the clock's nanoseconds, in columns: a later reading is as long as an earlier one.
+std::string clocks_text(double wall_ms, double cpu_ms) {
+  return fmt::format(R"("wall_ms": {:17.6f}, "cpu_ms": {:17.6f})", wall_ms, cpu_ms);
+}
+
+std::string budget_text(const TimeBudget& budget) {
+  std::string text =
+      fmt::format("  \"process\": {{{}}},\n  \"time_budget\": [", clocks_text(budget.wall_ms, budget.cpu_ms));
+  std::string_view between = "\n";
+  for (const StageTime& s : budget.stages) {
+    text +=
+        fmt::format("{}    {{\"stage\": \"{}\", {}}}", between, s.stage, clocks_text(s.wall_ms, s.cpu_ms));
+    between = ",\n";
+  }
+  return text + "\n  ]\n}\n";
 }
 
 std::string short_form(const TimeBudget& budget) {
@@ -44,9 +50,8 @@ std::string short_form(const TimeBudget& budget) {
 }  // namespace
 
 std::string with_time_budget(std::string document, const TimeBudget& budget) {
-  const std::string added = budget_json(budget).dump(2);
   document.erase(document.rfind("\n}"));
-  return document + "," + added.substr(added.find('\n'), std::string::npos) + "\n";
+  return document + ",\n" + budget_text(budget);
 }
 
 std::string with_time_budget(std::string document) {

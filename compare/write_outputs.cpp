@@ -123,12 +123,22 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Outp
 }
 
 Expected<void> write_result(WrittenOutputs& written) {
-  written.result = with_time_budget(std::move(written.result));
-  Expected<Names> names = write_files(written.staged.path(), {{"result.json", written.result}});
-  if (!names) return fail(names.error());
-  written.paths.push_back(std::move(names->front()));
-  if (const auto there = written.staged.publish(written.page ? "report.html" : "result.json", written.inputs);
-      !there)
+  const std::string path = written.staged.path() + "/result.json";
+  const auto with_times = [&] { return with_time_budget(written.result); };
+  TimedStage writing("write");
+  const std::string early = with_times();
+  if (const auto there = write_file(path, early); !there) return fail(there.error());
+  if (const auto sealed = written.staged.seal(written.inputs); !sealed) return fail(sealed.error());
+  writing.end();
+  // What it took until the disk had this file is known only now, and a reading is as long as another.
+  const std::string late = with_times();
+  const auto amended = late.size() == early.size()
+                           ? write_over_end(path, std::string_view(late).substr(written.result.rfind("\n}")))
+                           : write_file(path, late);
+  if (!amended) return fail(amended.error());
+  written.result = late;
+  written.paths.push_back("result.json");
+  if (const auto there = written.staged.publish(written.page ? "report.html" : "result.json"); !there)
     return fail(there.error());
   for (std::string& name : written.paths) name = (std::filesystem::path(written.folder) / name).string();
   return {};

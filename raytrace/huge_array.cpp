@@ -5,6 +5,8 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "raytrace/kept_arrays.h"
+
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -41,12 +43,13 @@ class Pages {
     if (block == used_.end()) return false;
     kept_.push_back({data, block->second}), kept_bytes_ += block->second;
     used_.erase(block);
-    while (kept_bytes_ > most_kept_bytes) {
-      kept_bytes_ -= kept_.front().size;
-      std::free(kept_.front().data);
-      kept_.erase(kept_.begin());
-    }
+    keep_at_most(most_kept_bytes);
     return true;
+  }
+
+  void return_kept() {
+    const std::lock_guard lock(mutex_);
+    keep_at_most(0);
   }
 
  private:
@@ -54,6 +57,14 @@ class Pages {
     void* data;
     std::size_t size;
   };
+
+  void keep_at_most(std::size_t bytes) {
+    while (kept_bytes_ > bytes) {
+      kept_bytes_ -= kept_.front().size;
+      std::free(kept_.front().data);
+      kept_.erase(kept_.begin());
+    }
+  }
 
   // The smallest that holds it, unless half of it were idle.
   void* take_kept(std::size_t size) {
@@ -75,6 +86,10 @@ class Pages {
 };
 
 }  // namespace
+
+void return_kept_arrays() {
+  Pages::instance().return_kept();
+}
 
 void* allocate_huge(std::size_t bytes) {
   if (bytes >= 2 * page) return Pages::instance().take((bytes + page - 1) / page * page);

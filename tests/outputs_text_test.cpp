@@ -42,6 +42,8 @@ TEST(NumberText, WritesCountsSharesAndTimes) {
   EXPECT_EQ(texels_text(0.8), "0.8 texel");
   EXPECT_EQ(texels_text(1.0), "1 texel");
   EXPECT_EQ(texels_text(1.56), "1.6 texels");
+  EXPECT_EQ(texels_text(149.6), "150 texels");
+  EXPECT_EQ(texels_text(1e-5), "less than 0.001 texel");
 }
 
 // A light whose counts are set by hand.
@@ -90,23 +92,31 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
-  EXPECT_EQ(
-      c.verdict(),
-      "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), all of them acne. No other "
-      "constant bias does "
-      "better. No constant "
-      "bias can be right everywhere: 213 lit pixels need 0.031 (2.5 texels) or more, 97 shadowed pixels "
-      "need less than 0.012 (0.96 texel).");
+  EXPECT_EQ(c.verdict(),
+            "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), all of them acne. No other "
+            "constant bias does "
+            "better. No constant "
+            "bias can be right everywhere: 213 lit pixels need at least 2.5 texels and 97 shadowed pixels "
+            "need less than 0.96 texel.");
+  c.light.best_bias.needs_less_than = 0.0309;
+  EXPECT_NE(c.verdict().find("213 lit pixels need at least 2.5 texels and 97 shadowed pixels need less."),
+            std::string::npos)
+      << c.verdict();
+  c.light.best_bias.needs_more_than = 1e-4;
+  EXPECT_NE(c.verdict().find("213 lit pixels need some, though not a hundredth of a texel, and 97"),
+            std::string::npos)
+      << c.verdict();
+  c.light.best_bias.needs_more_than = 0.031;
   c.light.best_bias.needs_less_than = 1.55e-5;
   EXPECT_NE(c.verdict().find("97 shadowed pixels need less than a hundredth of a texel."), std::string::npos)
       << c.verdict();
   c.light.best_bias.needs_less_than = -5.01e-6;
-  EXPECT_NE(c.verdict().find("everywhere: 213 lit pixels need 0.031 (2.5 texels) or more, 97 shadowed pixels "
-                             "are lit without any."),
+  EXPECT_NE(c.verdict().find("everywhere: 213 lit pixels need at least 2.5 texels and 97 shadowed pixels "
+                             "are lit even without one."),
             std::string::npos)
       << c.verdict();
   c.light.best_bias.needs_more_than = -1e-6;
-  EXPECT_NE(c.verdict().find("everywhere: 97 shadowed pixels are lit without any."), std::string::npos)
+  EXPECT_NE(c.verdict().find("everywhere: 97 shadowed pixels are lit even without one."), std::string::npos)
       << c.verdict();
   c.light.best_bias.needs_less_than = -infinity;
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);

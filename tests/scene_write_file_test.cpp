@@ -21,6 +21,17 @@ TEST(WriteFile, WritesAndReplaces) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(WriteFile, EndIsWrittenOverInItsPlace) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  ASSERT_TRUE(write_file(path, "takes 1 s"));
+  ASSERT_TRUE(write_over_end(path, "2 s"));
+  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_FALSE(write_over_end(path, "longer than the file"));
+  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_FALSE(write_over_end(folder.file("none.txt"), "x"));
+}
+
 TEST(WriteFile, KeepsPermissionsAndLinks) {
   const TemporaryFolder folder;
   const std::string path = folder.put("real.txt", "old");

@@ -135,7 +135,8 @@ TEST(Defaults, CascadesAndWarpAreWrongLessThanTheOneMap) {
     const Figures hard = measure(Technique::hard), cascades = measure(Technique::csm);
     EXPECT_LT(cascades.texel_side, 0.6 * hard.texel_side) << name;     // measured: 0.51 and 0.55
     EXPECT_LT(cascades.by_sampling, 0.75 * hard.by_sampling) << name;  // measured: 0.69 and 0.71
-    EXPECT_LT(cascades.wrong, hard.wrong) << name;                     // measured: 0.68 and 0.75
+    // The rest, which is the bias's own, does not grow: so much less is wrong in all.
+    EXPECT_LT(cascades.wrong, hard.wrong - 0.25 * hard.by_sampling) << name;  // measured: 0.68 and 0.75 of it
     EXPECT_LT(measure(Technique::lispsm).wrong, hard.wrong) << name;
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/tune/full_grid.h"
+#include "compare/tune/ties.h"
 #include "scene/load.h"
 #include "support/one_world.h"
 
@@ -105,6 +106,53 @@ TEST(TuneAgainstGrid, ExactTechniqueIsTakenAtItsCheapestSize) {
   EXPECT_EQ(winner.family.name, "izb");
   EXPECT_EQ(winner.answer->size, 64);
   EXPECT_EQ(checked.ratio(), 1.0);
+}
+
+compare::FamilyResult measured(const char* name, double error, std::vector<double> runs_ms,
+                               std::uint64_t texels) {
+  compare::FamilyResult out;
+  out.family.name = name;
+  compare::Attempt answer;
+  answer.error = error, answer.times.runs = std::move(runs_ms), answer.map_texels = texels;
+  answer.cost = answer.time_ms = answer.times.least();
+  out.tried = {answer}, out.answer = std::move(answer);
+  return out;
+}
+
+compare::TuneGoal error_goal(double limit) {
+  compare::TuneGoal goal;
+  goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, limit};
+  return goal;
+}
+
+compare::TuneGoal time_goal(double ms) {
+  compare::TuneGoal goal;
+  goal.max_time_ms = ms;
+  return goal;
+}
+
+// Where the goal is an error, times alone tie; where it is a time, the errors have to be the same as well.
+TEST(TuneTies, AreToldForBothGoalsAndDecidedByTheCheaper) {
+  const std::vector<compare::FamilyResult> families{
+      measured("best", 0.01, {10.0, 12.0, 14.0}, 200),
+      measured("same error, fewer texels", 0.01, {11.5, 13.0}, 100),
+      measured("other error", 0.02, {11.0, 11.5}, 50), measured("slow", 0.01, {12.5, 13.0}, 10)};
+  const compare::Ties by_error = ties_with(0, families, error_goal(0.05));
+  EXPECT_EQ(by_error.chosen, 2u);
+  EXPECT_EQ(by_error.others, (std::vector<std::size_t>{1, 0}));
+  const compare::Ties by_time = ties_with(0, families, time_goal(20.0));
+  EXPECT_EQ(by_time.chosen, 1u);
+  EXPECT_EQ(by_time.others, (std::vector<std::size_t>{0}));
+}
+
+TEST(TuneTies, SettingsJustOverTheLimitAreTold) {
+  std::vector<compare::FamilyResult> families{
+      measured("answer", 0.02, {18.0, 19.0}, 1), measured("more accurate", 0.01, {22.0}, 1),
+      measured("less accurate", 0.03, {22.0}, 1), measured("far too slow", 0.001, {26.0}, 1)};
+  const auto over = just_over_limit(0, families, time_goal(20.0));
+  ASSERT_EQ(over.size(), 1u);
+  EXPECT_EQ(over[0].family, 1u);
+  EXPECT_TRUE(just_over_limit(0, families, error_goal(0.05)).empty());
 }
 
 // A family that is left because its error levels off is not good enough at the largest size either.

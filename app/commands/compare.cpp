@@ -83,17 +83,13 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
   return comparison;
 }
 
-/// Above this many pixels the shading without shadows takes longer than what it tells is worth, unless times
-/// are asked for.
-constexpr std::size_t large_picture = 1'000'000;
-
 /// One rule for both renderers.
 void set_runs(CompareCommand& command) {
   raster::RasterOptions& raster = command.setting.options.raster;
   raytrace::RaytraceOptions& rays = command.setting.options.raytrace;
   raster.runs = rays.runs = command.runs.value_or(usual_runs);
   raster.enough_ms = rays.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
-  raster.shadow_cost = command.runs.has_value() || raster.size.pixels() <= large_picture;
+  raster.shadow_cost = true;
   rays.warm_up = true;
 }
 

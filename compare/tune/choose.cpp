@@ -1,50 +1,20 @@
-// Which of the measured families is the answer. Times that lie within each other's spread do not decide: of
-// such families one that renders no more texels, takes no more bytes and casts no more rays than the fastest,
-// and less of something, is preferred, on any machine. The answer is then held to its word: the comparison
+// Which of the measured families is the answer. Times that lie within each other's spread do not decide
+// (ties.h). The answer is then held to its word: the comparison
 // that its command runs measures its error.
-#include <algorithm>
-
 #include "compare/output_parts.h"
+#include "compare/tune/ties.h"
 #include "compare/tune/tuner.h"
 
 namespace gnomon::compare {
-namespace {
-
-// What one run may be off by: the share of its time that measure_in_turn.cpp allows for the same reason.
-constexpr double single_run = 1.25;
-
-// Half of the runs lie below this.
-double usual_time(const Attempt& a) {
-  return a.times.runs.size() > 1 ? a.times.median() : single_run * a.times.least();
-}
-
-bool costs_less(const Attempt& a, const Attempt& b) {
-  const bool no_more = a.map_texels <= b.map_texels && a.map_bytes <= b.map_bytes && a.rays <= b.rays;
-  return no_more && (a.map_texels < b.map_texels || a.map_bytes < b.map_bytes || a.rays < b.rays);
-}
-
-}  // namespace
-
 std::size_t Tuner::prefer_by_cost(TuneResult& result, std::size_t fastest) const {
-  FamilyResult& first = result.families[fastest];
-  if (!options_.goal.max_error || options_.cost || !first.answer || first.answer->times.runs.empty())
-    return fastest;
-  std::size_t chosen = fastest;
-  std::vector<std::size_t> close;
-  for (std::size_t i = 0; i < result.families.size(); ++i) {
-    const std::optional<Attempt>& other = result.families[i].answer;
-    if (i == fastest || !other || other->times.runs.empty()) continue;
-    if (other->times.least() > usual_time(*first.answer)) continue;
-    close.push_back(i);
-    if (costs_less(*other, *result.families[chosen].answer)) chosen = i;
-  }
-  close.push_back(fastest);
-  FamilyResult& winner = result.families[chosen];
-  winner.by_cost = chosen != fastest;
+  const FamilyResult& first = result.families[fastest];
+  if (options_.cost || !first.answer || first.answer->times.runs.empty()) return fastest;
+  const Ties ties = ties_with(fastest, result.families, options_.goal);
+  FamilyResult& winner = result.families[ties.chosen];
+  winner.by_cost = ties.chosen != fastest;
   winner.as_fast.clear();
-  for (const std::size_t i : close)
-    if (i != chosen) winner.as_fast.push_back(result.families[i].family.name);
-  return chosen;
+  for (const std::size_t i : ties.others) winner.as_fast.push_back(result.families[i].family.name);
+  return ties.chosen;
 }
 
 // What the answer's own command will say.
@@ -82,6 +52,8 @@ Expected<void> Tuner::choose(TuneResult& result) {
     const bool promised = result.families[result.winner].answer.has_value();
     if (auto verified = verify(result); !verified) return verified;
     result.feasible = result.families[result.winner].answer.has_value();
+    if (result.feasible && !options_.cost)
+      result.just_over = just_over_limit(result.winner, result.families, options_.goal);
     if (result.feasible || !promised) return {};
   }
 }

@@ -34,15 +34,28 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string close_race(const FamilyResult& winner) {
+std::string close_race(const FamilyResult& winner, const TuneGoal& goal) {
   if (winner.as_fast.empty()) return {};
-  const std::string others = joined(winner.as_fast);
-  if (winner.by_cost)
-    return fmt::format(
-        "; {} took as long within the spread of the times, and this one costs less on any "
-        "machine (texels, bytes, rays)",
-        others);
-  return fmt::format("; {} took as long within the spread of the times", others);
+  return fmt::format("; {} {}took as long within the spread of the times{}", joined(winner.as_fast),
+                     goal.max_time_ms ? "did as well and " : "",
+                     winner.by_cost ? ", and this one costs less on any machine (texels, bytes, rays)" : "");
+}
+
+std::string just_over_text(const TuneResult& result, ErrorMeasure measure) {
+  std::string text;
+  for (const JustOver& over : result.just_over)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", result.families[over.family].family.name,
+                        setting_text(over.attempt, measure));
+  return text.empty()
+             ? text
+             : "; more accurate, but longer than the limit by no more than one time may be off: " + text;
+}
+
+// The answer's own times, where they do not settle that it is cheap enough.
+std::string doubtful_time(const Attempt& answer, const TuneGoal& goal) {
+  return goal.max_time_ms && answer.times.median() > *goal.max_time_ms
+             ? "; half of its own runs took longer than the limit"
+             : "";
 }
 
 std::string floor_text(double floor, ErrorMeasure measure) {
@@ -109,7 +122,9 @@ void Tuner::explain(TuneResult& result) const {
     else if (result.feasible)
       family.why = (options_.goal.max_error ? "the cheapest that is good enough: "
                                             : "the best that is cheap enough: ") +
-                   setting_text(*family.answer, options_.goal.measure()) + close_race(family);
+                   setting_text(*family.answer, options_.goal.measure()) +
+                   doubtful_time(*family.answer, options_.goal) + close_race(family, options_.goal) +
+                   just_over_text(result, options_.goal.measure());
     else
       family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
                    doubt(options_.goal.max_error, family.closest.figures) + proof(family.closest.best);

@@ -87,11 +87,18 @@ struct FamilyResult {
   double floor = 0.0;  ///< levels_off: the share of wrong pixels that no map size lessens, as estimated
   std::string like;    ///< no_smaller: that family's name
   std::vector<Attempt> tried;  ///< each size drawn, at its best bias, without curves
-  /// Of the winner: families whose times lie within the spread of its own, and whether it was preferred to
+  /// Of the winner: families whose times lie within the spread of its own (and whose error is the same, where
+  /// the goal is a time), and whether it was preferred to
   /// the fastest of them for rendering fewer texels, taking fewer bytes or casting fewer rays.
   std::vector<std::string> as_fast;
   bool by_cost = false;
   std::string why;  ///< why it lost, or won
+};
+
+/// A setting that would be more accurate than the answer, but for a time that may be within the limit or not.
+struct JustOver {
+  std::size_t family = 0;  ///< index in TuneResult::families
+  Attempt attempt;
 };
 
 struct TuneResult {
@@ -99,6 +106,7 @@ struct TuneResult {
   std::size_t winner = 0;  ///< index in families; the one that comes nearest when nothing is feasible
   std::vector<FamilyResult> families;
   std::uint64_t renders = 0;
+  std::vector<JustOver> just_over;  ///< where the goal is a time (ties.h)
   /// The winner's bias as engines ask for it, of each light compared (engine_units.h).
   struct LightUnits {
     std::string light;  ///< its name; may be empty

@@ -57,18 +57,18 @@ void flush_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-Expected<std::vector<fs::path>> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
+Expected<std::vector<std::string>> files_in(const fs::path& folder) {
+  std::vector<std::string> files;
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (!it->is_directory(error)) files.push_back(it->path().lexically_relative(folder));
+    if (!it->is_directory(error)) files.push_back(it->path().lexically_relative(folder).string());
   if (error) return cannot_write(folder.string(), "cannot list it", error.message());
   return files;
 }
 
-Expected<void> check_targets(const fs::path& folder, const std::vector<fs::path>& files,
+Expected<void> check_targets(const fs::path& folder, const std::vector<std::string>& files,
                              std::span<const std::string> inputs) {
-  for (const fs::path& file : files) {
+  for (const std::string& file : files) {
     const fs::path target = folder / file;
     std::error_code error;
     if (fs::is_directory(target, error))
@@ -98,6 +98,7 @@ StagedFolder::StagedFolder(std::string folder, std::string path, int lock)
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
       path_(std::exchange(other.path_, {})),
+      files_(std::move(other.files_)),
       lock_(std::exchange(other.lock_, -1)) {}
 
 StagedFolder::~StagedFolder() {
@@ -122,26 +123,28 @@ Expected<StagedFolder> StagedFolder::open(const std::string& folder) {
   return StagedFolder(target.string(), staged.string(), lock_folder(staged));
 }
 
-Expected<void> StagedFolder::publish(const std::string& last, std::span<const std::string> inputs) {
-  const fs::path folder(folder_), staged(path_);
-  auto files = files_in(staged);
+Expected<void> StagedFolder::seal(std::span<const std::string> inputs) {
+  auto files = files_in(path_);
   if (!files) return fail(files.error());
-  if (auto fine = check_targets(folder, *files, inputs); !fine) return fine;
-  flush_folder(staged);
+  files_ = std::move(*files);
+  if (auto fine = check_targets(folder_, files_, inputs); !fine) return fine;
+  flush_folder(path_);
+  return {};
+}
+
+Expected<void> StagedFolder::publish(const std::string& last) {
+  const fs::path folder(folder_), staged(path_);
   // One rename where nothing, or an empty folder, is in the way.
   if (staged.parent_path() != folder && ::rename(path_.c_str(), folder_.c_str()) == 0) {
     path_.clear();
-    flush_folder(folder.parent_path());
     return {};
   }
   std::error_code error;
   fs::remove(folder / last, error);
-  for (const fs::path& file : *files)
-    if (file != fs::path(last))
+  for (const std::string& file : files_)
+    if (file != last)
       if (auto moved = move_file(staged / file, folder / file); !moved) return moved;
-  if (auto moved = move_file(staged / last, folder / last); !moved) return moved;
-  flush_folder(folder);
-  return {};
+  return move_file(staged / last, folder / last);
 }
 
 }  // namespace gnomon

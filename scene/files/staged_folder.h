@@ -1,11 +1,13 @@
 // A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder
 // appears by one rename. Into one that exists its files move one by one, after all of them have reached the
 // disk; the last of them (the page) is taken away first and put back last, so that a folder which has it is
-// never a mixture. What else lies in the folder stays.
+// never a mixture. What else lies in the folder stays. Nobody waits until the disk has the new names too: after
+// a cut of power the folder is the old one or the new one.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scene/expected.h"
 
@@ -22,14 +24,17 @@ class StagedFolder {
 
   /// Where the files are written until they are published.
   const std::string& path() const { return path_; }
-  /// Errors: ErrorKind::usage when a file would take the place of one of `inputs`, ErrorKind::cannot_write;
-  /// after the former the folder is as it was.
-  Expected<void> publish(const std::string& last, std::span<const std::string> inputs);
+  /// Once every file is there: looks where they will go and waits until the disk has them all. Errors:
+  /// ErrorKind::usage when a file would take the place of one of `inputs`, ErrorKind::cannot_write.
+  Expected<void> seal(std::span<const std::string> inputs);
+  /// After seal(): the renaming alone. Errors: ErrorKind::cannot_write.
+  Expected<void> publish(const std::string& last);
 
  private:
   StagedFolder(std::string folder, std::string path, int lock);
   std::string folder_, path_;
-  int lock_ = -1;  ///< of the staged folder, held while this process lives
+  std::vector<std::string> files_;  ///< names in path_, from seal() on
+  int lock_ = -1;                   ///< of the staged folder, held while this process lives
 };
 
 }  // namespace gnomon

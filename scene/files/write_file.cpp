@@ -133,6 +133,16 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
   return filled;
 }
 
+Expected<void> write_over_end(const std::string& path, std::string_view end) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0) return cannot_write(path, "cannot open it", errno);
+  if (::lseek(file.number(), -static_cast<off_t>(end.size()), SEEK_END) < 0)
+    return cannot_write(path, "cannot write over its end", errno);
+  if (const int error = write_all(file.number(), end)) return cannot_write(path, "cannot write", error);
+  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+  return {};
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status status = fs::status(a, error);

@@ -14,6 +14,10 @@ namespace gnomon {
 /// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
+/// Writes over the end of a file that write_file() wrote, in its place and without waiting for the disk: after
+/// a cut of power parts of the old end may stand there. ErrorKind::cannot_write.
+Expected<void> write_over_end(const std::string& path, std::string_view end);
+
 /// Whether two paths lead to one file, which need not exist yet; a device is nobody's.
 bool is_same_file(const std::string& a, const std::string& b);
 

@@ -1,0 +1,14 @@
+// What becomes of memory that was freed. The C library hands large blocks back to the system at once, which
+// clears their pages anew for the next picture of the same size.
+#pragma once
+
+namespace gnomon {
+
+/// From now on freed blocks are kept for the next ones, whatever their size. Nothing where the C library has
+/// no such choice.
+void keep_freed_memory();
+
+/// Hands back what is kept.
+void return_freed_memory();
+
+}  // namespace gnomon
