@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "compare/bias_advice.h"
+#include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/outputs.h"
 #include "compare/sweep/engine.h"
@@ -87,11 +88,20 @@ std::string nothing_compared(const PixelCounts& p) {
       p.uncertain == 1 ? "is" : "are");
 }
 
+// Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there.
+std::string judged_advice(const Judged& judged) {
+  if (judged.advice.empty() || judged.advice[0].instead == judged.advice[0].now) return {};
+  const Advice& first = judged.advice[0];
+  return fmt::format(" {} {:.4g} instead of {:.4g} would leave {}.", first.setting, first.instead, first.now,
+                     percent(first.wrong_instead));
+}
+
 }  // namespace
 
 // What other biases would do follows from the gaps of a hard test alone.
 std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
+  if (c.judged) return error_part(light) + judged_advice(*c.judged);
   return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_advice(light) : "");
 }
 

@@ -2,10 +2,12 @@
 //   node adapters_browser_test.mjs GNOMON FOLDER
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
+import { join, resolve } from "node:path";
 import { captured, isThere, judge, makeScenes, refused } from "./support/adapters.mjs";
 
 const [gnomon, folder] = process.argv.slice(2);
-if (!isThere("playwright-core") || !["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].some(existsSync)) {
+const chromiumPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync);
+if (!isThere("playwright-core") || !chromiumPath) {
   console.log("skipped: the adapters' packages or Chromium are not installed: npm install --prefix adapters");
   process.exit(77);
 }
@@ -43,14 +45,31 @@ function plain(engine, name, ...options) {
   assert.ok(result.lights[0].error.wrong_fraction < 0.05, `${engine}: ${result.lights[0].error.wrong_fraction}`);
 }
 
+/** The page of a picture whose map is not known: viewer and probe say what was drawn, and nothing of light space. */
+async function openReport(engine) {
+  const verdict = join(folder, `${engine}-floating-box`);
+  judge(gnomon, verdict, "-o", join(verdict, "report"));
+  const { chromium } = await import(new URL("../adapters/node_modules/playwright-core/index.mjs", import.meta.url));
+  const browser = await chromium.launch({ executablePath: chromiumPath });
+  const page = await browser.newPage(), errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  await page.goto(`file://${resolve(verdict, "report", "report.html")}`);
+  const words = await page.waitForSelector(".probe-words .story", { state: "attached" }).then((story) => story.textContent());
+  assert.match(words, /^Drawn [\d.]+; the exact rays give|^Not compared/);
+  assert.equal(await page.locator(".left-out").count(), 0);
+  assert.equal(await page.locator(".section-bar").isVisible(), false);
+  assert.deepEqual(errors, []);
+  await browser.close();
+}
+
 const engines = {
   three: ["three", three],
-  filament: ["filament", () => plain("filament", "Filament")],
+  filament: ["filament", async () => { plain("filament", "Filament"); await openReport("filament"); }],
   babylon: ["babylonjs", () => plain("babylon", "Babylon.js", "--type", "pcf", "--bias", "0.001")],
   playcanvas: ["playcanvas", () => plain("playcanvas", "PlayCanvas")],
 };
 for (const [engine, [packageName, run]] of Object.entries(engines)) {
   if (only && engine !== only) continue;
   if (!isThere(packageName)) console.log(`skipped: adapter ${engine}: its npm package is not installed`);
-  else run(), console.log(`${engine}: fine`);
+  else await run(), console.log(`${engine}: fine`);
 }

@@ -107,6 +107,15 @@ def yfov_of(path):
     return json.loads(text)["cameras"][0]["perspective"]["yfov"]
 
 
+# The task's own settings over the defaults; an unknown name is an error.
+def settings_of(task, defaults):
+    for name in task["settings"]:
+        if name not in defaults:
+            raise SystemExit(f"--{name}: no such option (allowed {', '.join(defaults)})")
+    given = {**defaults, **task["settings"]}
+    return {name: given[name] in (True, "true") if isinstance(defaults[name], bool) else given[name] for name in defaults}
+
+
 def read_task():
     with open(sys.argv[sys.argv.index("--") + 1]) as file:
         return json.load(file)

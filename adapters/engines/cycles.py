@@ -1,6 +1,6 @@
 # Cycles, Blender's path tracer: a second truth beside Gnomon's. One sample at each pixel's centre, lights without size, no
-# bounces; the visibility is the ratio of two pictures in white, with the light's shadows and without. It has no
-# options. Run by capture.mjs: blender --background --factory-startup --python cycles.py -- TASK.json RESULT.json
+# bounces; the visibility is the ratio of two pictures in white, with the light's shadows and without. Options:
+# --shadowTerminatorOffset, Blender's geometry offset: how far rays start off a smooth surface where the light grazes; 0 here. Run by capture.mjs: blender --background --factory-startup --python cycles.py -- TASK.json RESULT.json
 import os
 import sys
 import tempfile
@@ -11,10 +11,14 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
 
 
-# Shadow rays start on the surface: Cycles would move those of smooth surfaces off it where the light grazes.
-def keep_rays_on_surfaces():
+defaults = {"shadowTerminatorOffset": 0.0}
+
+
+# Of the geometry, where a shadow ray starts; the other one would change the light that arrives.
+def set_terminator_offset(offset):
     for item in bpy.data.objects:
-        item.cycles.shadow_terminator_geometry_offset = item.cycles.shadow_terminator_offset = 0.0
+        item.cycles.shadow_terminator_geometry_offset = offset
+        item.cycles.shadow_terminator_offset = 0.0
 
 
 def set_up_cycles():
@@ -29,13 +33,12 @@ def set_up_cycles():
 
 def main():
     task = common.read_task()
-    if task["settings"]:
-        raise SystemExit(f"--{next(iter(task['settings']))}: cycles has no options")
+    settings = common.settings_of(task, defaults)
     width, height = task["width"], task["height"]
     common.load(task["scene"])
     light = common.choose_light(task.get("light"))
     common.whiten()
-    keep_rays_on_surfaces()
+    set_terminator_offset(settings["shadowTerminatorOffset"])
     common.set_up(task["scene"], "CYCLES", width, height)
     set_up_cycles()
     with tempfile.TemporaryDirectory() as folder:
@@ -48,7 +51,7 @@ def main():
     x, y, z = position[..., 0], position[..., 2], -position[..., 1]
     encoded = common.encoded
     common.write_result({
-        "renderer": {"name": "Cycles", "version": f"Blender {bpy.app.version_string}", "settings": {"samples": 1}},
+        "renderer": {"name": "Cycles", "version": f"Blender {bpy.app.version_string}", "settings": {"samples": 1, **settings}},
         "light": light.name, "shadowed": encoded(shadowed[..., 0]), "unshadowed": encoded(unshadowed[..., 0]),
         "covered": encoded(unshadowed[..., 3]), "position": [encoded(p) for p in (x, y, z)]})
 

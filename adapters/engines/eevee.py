@@ -14,14 +14,6 @@ import common  # noqa: E402
 defaults = {"cascadeSize": 1024, "cubeSize": 512, "highBitDepth": False, "softShadows": True, "bias": 1.0, "clipStart": 0.05, "samples": 64}
 
 
-def settings_of(task):
-    for name in task["settings"]:
-        if name not in defaults:
-            raise SystemExit(f"--{name}: no such option (allowed {', '.join(defaults)})")
-    given = {**defaults, **task["settings"]}
-    return {name: given[name] in (True, "true") if isinstance(defaults[name], bool) else given[name] for name in defaults}
-
-
 def set_up_eevee(settings, light):
     eevee = bpy.context.scene.eevee
     eevee.shadow_cascade_size, eevee.shadow_cube_size = str(settings["cascadeSize"]), str(settings["cubeSize"])
@@ -34,7 +26,7 @@ def set_up_eevee(settings, light):
 
 def main():
     task = common.read_task()
-    settings = settings_of(task)
+    settings = common.settings_of(task, defaults)
     width, height = task["width"], task["height"]
     common.load(task["scene"])
     light = common.choose_light(task.get("light"))

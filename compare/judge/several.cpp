@@ -50,7 +50,7 @@ class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td><td>{}</td
 )",
       escaped(row.name), escaped(row.name), escaped(row.scene), escaped(row.renderer), percent(row.wrong),
       percent(row.mean_error), escaped(row.labels), plain_number(row.edge_pixels),
-      plain_number(row.detachment_world), escaped(row.advice));
+      row.detachment_world ? plain_number(*row.detachment_world) : "\u2013", escaped(row.advice));
 }
 
 std::string judged_page(const JudgedSet& set) {
@@ -88,7 +88,7 @@ JudgedRow judged_row(const std::string& name, const Comparison& c) {
   row.compared = light.pixels.compared;
   row.wrong = light.error.wrong_fraction, row.mean_error = light.error.mean_absolute;
   row.edge_pixels = light.edges.rms_pixels;
-  row.detachment_world = light.detachment.mean_world;
+  if (light.detachment.pixels > 0) row.detachment_world = light.detachment.mean_world;
   for (const Advice& advice : judged.advice)
     row.advice += (row.advice.empty() ? "" : "; ") + advice_text(advice);
   return row;

@@ -1,6 +1,7 @@
 // Several captures on one page and in one table, the worst first; each row opens its own report.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct JudgedRow {
   std::string refused;  ///< why it was not judged; the rest is then empty
   std::string scene, renderer, ladder, labels, advice;
   std::uint64_t compared = 0;
-  double wrong = 0.0, mean_error = 0.0;  ///< shares of the compared pixels
-  double edge_pixels = 0.0;              ///< RMS displacement of shadow edges
-  double detachment_world = 0.0;         ///< mean
+  double wrong = 0.0, mean_error = 0.0;    ///< shares of the compared pixels
+  double edge_pixels = 0.0;                ///< RMS displacement of shadow edges
+  std::optional<double> detachment_world;  ///< mean; none where no shadow stands off
 };
 JudgedRow judged_row(const std::string& name, const Comparison& comparison);
 

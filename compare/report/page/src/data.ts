@@ -25,6 +25,7 @@ type Shape = { name: string } & ({ center: Vec3; radius: number } | { point: Vec
 export interface LightJson {
   name: string;
   view: LightView;
+  map_known: boolean;  // false: of another renderer's picture without its map; nothing is drawn in light space
   technique: string;
   gaps_decide: boolean;  // a pixel is drawn dark exactly when its gap exceeds the constant bias
   compares_depths: boolean;  // false: an exact technique, without a bias

@@ -18,7 +18,7 @@ export class LightPanel {
   private readonly probe: Probe;
   private readonly labels: LabelTable;
   private readonly bias: BiasPanel | null;
-  private readonly map: MapMarker;
+  private readonly map: MapMarker | null;
   private readonly line: HTMLElement;
   private frame = 0;
   private passing = false;  // the pointer is on its way, nothing is chosen
@@ -35,14 +35,15 @@ export class LightPanel {
     this.probe = new Probe(light, index, host, this.state, () => this.redraw());
     this.labels = new LabelTable(section, index, light.label, (label) => this.choose(label));
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
-    this.map = new MapMarker(light, section.querySelector<HTMLImageElement>(".depth img")!);
+    const depths = section.querySelector<HTMLImageElement>(".depth img");
+    this.map = depths && new MapMarker(light, depths);
     this.shown = this.example();
     this.viewer = new Viewer(root, this.state, page, {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveLight(this.index, this.state),
     });
     this.probe.show(this.shown, light.json.bias.constant);
-    this.map.show(this.shown);
+    this.map?.show(this.shown);
     this.coloured = light.json.bias.constant;
     this.bias?.show(this.coloured);
     this.bias?.mark(this.shown.x, this.shown.y);
@@ -147,7 +148,7 @@ export class LightPanel {
     const bias = this.state.bias ?? this.light.json.bias.constant;
     this.viewer.show();
     this.probe.show(this.shown, bias, this.passing);
-    this.map.show(this.shown);
+    this.map?.show(this.shown);
     if (bias !== this.coloured) this.bias?.show(bias);
     this.bias?.mark(this.shown.x, this.shown.y);
     this.coloured = bias;

@@ -71,7 +71,9 @@ export class Probe {
       (value) => { state.texels = Number(value); changed(); });
     this.ways = choice("Way across the map", "cut", [["row", "row"], ["column", "column"]], (value) => { state.cut = value; changed(); });
     this.bar = html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths);
-    host.append(html("h3", {}, "One pixel, in light space"), html("div", { class: "probe-body" }, this.words, this.drawing), this.bar, this.below);
+    const known = light.json.map_known;
+    this.bar.hidden = !known;
+    host.append(html("h3", {}, known ? "One pixel, in light space" : "One pixel"), html("div", { class: "probe-body" }, this.words, this.drawing), this.bar, this.below);
     void geometry().then((scene) => { this.scene = scene; this.redraw(); });
   }
 
@@ -84,7 +86,7 @@ export class Probe {
   private redraw(passing = false): void {
     if (!this.shown) return;
     const { pixel, bias } = this.shown, words = wordsOf(pixel.label), id = `probe-${this.index}`;
-    const drawable = pixel.seen && isFinite(pixel.at.depth);
+    const known = this.light.json.map_known, drawable = known && pixel.seen && isFinite(pixel.at.depth);
     const axis = drawable ? sectionAxis(this.light, pixel, this.state.cut) : 0;
     press(this.widths, "texels", String(this.state.texels));
     press(this.ways, "cut", axis === 0 ? "row" : "column");
@@ -92,12 +94,12 @@ export class Probe {
     swatch.style.background = words.colour;
     this.words.replaceChildren(html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
       html("p", { class: "story" }, story(this.light, pixel, bias)),
-      ...(pixel.seen ? remarks(pixel).map((text) => html("p", { class: "remark" }, text)) : []), ...(pixel.seen ? [ladder(pixel), facts(this.light, pixel)] : []));
+      ...(pixel.seen ? remarks(pixel).map((text) => html("p", { class: "remark" }, text)) : []), ...(pixel.seen && known ? [ladder(pixel), facts(this.light, pixel)] : []));
     this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
     const section = () => this.below.replaceChildren(drawable && this.scene
       ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`)
-      : html("p", {}, "No surface here to cut through."));
+      : known ? html("p", {}, "No surface here to cut through.") : "");
     if (passing) this.resting = window.setTimeout(section, 120);
     else section();
   }

@@ -73,7 +73,14 @@ function filtered(light: Light, pixel: Pixel, bias: number): string {
   return `${test} ${pixel.label === 0 ? "So it is right to within one half." : wentWrong(pixel)}`;
 }
 
+/** Of a picture whose map is not known. */
+function comparedAlone(pixel: Pixel): string {
+  return `Drawn ${number(pixel.rungs[6]!, 3)}; the exact rays give ${number(pixel.rungs[0]!, 3)}. ` +
+    (pixel.label === 0 ? "So it is right to within one half." : `${wordsOf(pixel.label).what}.`);
+}
+
 function compared(light: Light, pixel: Pixel, bias: number): string {
+  if (!light.json.map_known) return comparedAlone(pixel);
   if (!light.json.compares_depths) return exactly(light, pixel, bias);
   if (!light.json.gaps_decide) return filtered(light, pixel, bias);
   const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
