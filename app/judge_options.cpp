@@ -46,6 +46,10 @@ void add_real(CLI::App& app, const char* name, NumberRange range, const char* un
 }
 
 void add_lists(CLI::App& app, CaptureOptions& options) {
+  app.add_option("--renderer-setting", options.settings,
+                 "what its shadow was drawn with, for the report; may be given again [default the capture's]")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   app.add_option("--map", options.map_files,
                  "the layers of the light's depth map [EXR; default the capture's]")
       ->type_name("FILE.exr...");
@@ -62,25 +66,17 @@ void add_map_parts(CLI::App& app, CaptureOptions& o) {
                                   compare::stored_depth_names, o, [&o](auto v) { o.map_convention = v; });
   add_named<compare::RowOrder>(app, "--map-rows", "which row of the map comes first",
                                compare::row_order_names, o, [&o](auto v) { o.map_rows = v; });
-  const auto bias = [&o]() -> compare::CapturedBias& {
-    if (!o.given.bias) o.given.bias.emplace();
-    return *o.given.bias;
-  };
   add_real(app, "--map-bias", bias_range, "stored depth",
            "constant bias of the test; positive takes shadow away", o,
-           [bias](double v) { bias().constant_depth = v; });
+           [&o](double v) { o.bias_constant = v; });
   add_real(app, "--map-slope-bias", bias_range, "multiples of the texel's own depth slope",
-           "slope bias of the test", o, [bias](double v) { bias().slope = v; });
+           "slope bias of the test", o, [&o](double v) { o.bias_slope = v; });
   add_real(app, "--map-normal-offset", {0.0, 1e30}, "world units", "offset along the receiver's normal", o,
-           [bias](double v) { bias().normal_offset_world = v; });
-  const auto filter = [&o]() -> compare::CapturedFilter& {
-    if (!o.given.filter) o.given.filter.emplace();
-    return *o.given.filter;
-  };
+           [&o](double v) { o.bias_normal_offset = v; });
   add_named<compare::FilterName>(app, "--map-filter", "what the renderer averages", compare::filter_names, o,
-                                 [filter](auto v) { filter().kind = v; });
+                                 [&o](auto v) { o.filter_kind = v; });
   add_real(app, "--map-filter-radius", {0.0, 64.0, true}, "texels", "how far the filter reads", o,
-           [filter](double v) { filter().radius_texels = v; });
+           [&o](double v) { o.filter_radius = v; });
 }
 
 void add_depth_parts(CLI::App& app, CaptureOptions& o) {
@@ -140,6 +136,19 @@ Expected<void> set_map(Capture& capture, const CaptureOptions& o) {
   return {};
 }
 
+Expected<void> set_settings(Capture& capture, const std::vector<std::string>& settings) {
+  for (const std::string& text : settings) {
+    const std::size_t at = text.find('=');
+    if (at == 0 || at == std::string::npos)
+      return fail(ErrorKind::usage,
+                  fmt::format("--renderer-setting: not understood (got {}, allowed NAME=VALUE)", text));
+    const std::string name = text.substr(0, at);
+    std::erase_if(capture.settings, [&](const auto& setting) { return setting.first == name; });
+    capture.settings.emplace_back(name, text.substr(at + 1));
+  }
+  return {};
+}
+
 }  // namespace
 
 void add_capture_options(CLI::App& app, CaptureOptions& o) {
@@ -167,11 +176,16 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
 
 Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
   const Capture& given = o.given;
+  if (!given.visibility.empty()) capture.shadowed.clear(), capture.unshadowed.clear();
+  if (!given.shadowed.empty() || !given.unshadowed.empty()) capture.visibility.clear();
+  if (!given.position.empty()) capture.depth.reset();
+  if (given.depth) capture.position.clear();
   for (std::string Capture::*field :
        {&Capture::renderer, &Capture::version, &Capture::scene, &Capture::camera, &Capture::light,
         &Capture::visibility, &Capture::shadowed, &Capture::unshadowed, &Capture::position})
     if (!(given.*field).empty()) capture.*field = given.*field;
   if (given.size.pixels() > 0) capture.size = given.size;
+  if (const auto set = set_settings(capture, o.settings); !set) return fail(set.error());
   if (given.depth) {
     compare::CapturedDepth& depth = capture.depth ? *capture.depth : capture.depth.emplace();
     if (!given.depth->file.empty()) depth.file = given.depth->file;
@@ -179,8 +193,15 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
     if (given.depth->near) depth.near = given.depth->near;
     if (given.depth->far) depth.far = given.depth->far;
   }
-  if (given.bias) capture.bias = given.bias;
-  if (given.filter) capture.filter = given.filter;
+  if (o.bias_constant || o.bias_slope || o.bias_normal_offset) {
+    compare::CapturedBias& bias = capture.bias ? *capture.bias : capture.bias.emplace();
+    bias = {o.bias_constant.value_or(bias.constant_depth), o.bias_slope.value_or(bias.slope),
+            o.bias_normal_offset.value_or(bias.normal_offset_world)};
+  }
+  if (o.filter_kind || o.filter_radius) {
+    compare::CapturedFilter& filter = capture.filter ? *capture.filter : capture.filter.emplace();
+    filter = {o.filter_kind.value_or(filter.kind), o.filter_radius.value_or(filter.radius_texels)};
+  }
   if (const auto set = set_map(capture, o); !set) return fail(set.error());
   return capture;
 }

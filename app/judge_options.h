@@ -12,16 +12,20 @@ namespace gnomon::app {
 /// Parts given on the command line; they take the place of the file's.
 struct CaptureOptions {
   compare::Capture given;
-  std::vector<std::string> map_files, map_matrices;
+  std::vector<std::string> map_files, map_matrices, settings;
   std::optional<compare::StoredDepth> map_convention;
   std::optional<compare::RowOrder> map_rows;
+  std::optional<double> bias_constant, bias_slope, bias_normal_offset;  ///< as compare::CapturedBias
+  std::optional<compare::FilterName> filter_kind;
+  std::optional<double> filter_radius;  ///< texels
   std::optional<ImageSize> size;
   bool any = false;
 };
 
 void add_capture_options(CLI::App& app, CaptureOptions& options);
 
-/// The capture with the options' parts in place of its own. Error (usage) where matrices and layers do not go
+/// The capture with the options' parts in place of its own: a part alone, such as one of the bias' numbers, leaves the
+/// others as they are; a picture of another kind (visibility for a ratio, positions for depths) replaces that. Error (usage) where matrices and layers do not go
 /// together.
 Expected<compare::Capture> with_options(compare::Capture capture, const CaptureOptions& options);
 

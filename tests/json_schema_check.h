@@ -2,6 +2,7 @@
 // it does not know is itself an error, so that nothing in a schema is silently not checked.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -52,7 +53,9 @@ class SchemaCheck {
     for (const auto& [key, member] : value.items()) {
       if (properties.contains(key))
         check(properties[key], member, std::string(path).append(".").append(key));
-      else if (!schema.value("additionalProperties", true))
+      else if (const Json others = schema.value("additionalProperties", Json(true)); others.is_object())
+        check(others, member, std::string(path).append(".").append(key));
+      else if (!others.get<bool>())
         report(path, "has the unknown key " + key);
     }
   }
@@ -62,6 +65,26 @@ class SchemaCheck {
     if (value.size() > schema.value("maxItems", std::size_t(-1))) report(path, "has too many items");
     for (std::size_t i = 0; schema.contains("items") && i < value.size(); ++i)
       check(schema["items"], value[i], path + "[" + std::to_string(i) + "]");
+  }
+
+  bool fits(const Json& schema, const Json& value) const {
+    SchemaCheck alone(root_);
+    alone.check(schema, value, "$");
+    return alone.found_.empty();
+  }
+
+  void check_combined(const std::string& keyword, const Json& rule, const Json& value,
+                      const std::string& path) {
+    if (keyword == "not") {
+      if (fits(rule, value)) report(path, "fits what it must not: " + rule.dump());
+      return;
+    }
+    const auto count =
+        std::count_if(rule.begin(), rule.end(), [&](const Json& one) { return fits(one, value); });
+    const bool right = keyword == "allOf"   ? count == static_cast<std::ptrdiff_t>(rule.size())
+                       : keyword == "anyOf" ? count > 0
+                                            : count == 1;
+    if (!right) report(path, "fits " + std::to_string(count) + " of " + keyword + " " + rule.dump());
   }
 
   void check(const Json& schema, const Json& value, const std::string& path) {
@@ -77,12 +100,19 @@ class SchemaCheck {
         if (value.is_number() && value < rule) report(path, value.dump() + " is below " + rule.dump());
       } else if (keyword == "maximum") {
         if (value.is_number() && value > rule) report(path, value.dump() + " is above " + rule.dump());
+      } else if (keyword == "exclusiveMinimum") {
+        if (value.is_number() && value <= rule) report(path, value.dump() + " is not above " + rule.dump());
+      } else if (keyword == "minLength") {
+        if (value.is_string() && value.get<std::string>().size() < rule.get<std::size_t>())
+          report(path, "is too short");
       } else if (keyword == "pattern") {
         if (value.is_string() &&
             !std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())))
           report(path, "does not match " + rule.dump());
       } else if (keyword == "$ref")
         check(root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value, path);
+      else if (keyword == "allOf" || keyword == "anyOf" || keyword == "oneOf" || keyword == "not")
+        check_combined(keyword, rule, value, path);
       else if (!known(keyword))
         report(path, "the schema's keyword " + keyword + " is not checked here");
     }

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "compare/judge/judge.h"
 #include "scene/files/image_io.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
+#include "tests/json_schema_check.h"
+#include "tests/support/places.h"
 
 namespace gnomon::test {
 namespace {
@@ -117,6 +120,68 @@ TEST(BadCaptures, OfAnotherSceneAreRefused) {
   // Something drawn all over, at one place.
   capture.position = image("elsewhere.exr", picture, {"X", "Y", "Z"}, 123.0f);
   expect_named(capture, "does not show this scene");
+}
+
+/// What the published schema and the reader say of a capture's text: whether each takes it.
+std::pair<bool, bool> taken(const nlohmann::json& capture) {
+  const std::string file = folder() + "/schema.json";
+  EXPECT_TRUE(write_file(file, capture.dump()));
+  const auto read = compare::read_capture(file);
+  std::ifstream schema(source_dir() + "/compare/judge/capture.schema.json");
+  return {SchemaCheck(nlohmann::json::parse(schema)).violations(capture).empty(),
+          read && compare::check_capture(*read)};
+}
+
+TEST(CaptureSchema, TakesWhatTheReaderTakes) {
+  using Json = nlohmann::json;
+  const Json plain =
+      Json::parse(R"({"schema": "gnomon/capture/1", "renderer": {"name": "x", "settings": {"soft": true,
+    "bias": 0.5}}, "scene": "fence", "light": 0, "size": [64, 36], "visibility": "v.exr"})");
+  Json whole = plain;
+  whole["map"] = Json::array({{{"depth", "z.exr"},
+                               {"convention", "reversed"},
+                               {"rows", "top_down"},
+                               {"clip_from_world", std::vector<double>(16, 1.0)}}});
+  whole["bias"] = {{"constant_depth", 0.1}, {"slope", 1}, {"normal_offset_world", 0}};
+  whole["filter"] = {{"kind", "pcf"}, {"radius_texels", 2}};
+  whole["depth"] = {{"file", "d.exr"}, {"convention", "reversed"}, {"near", 0.1}};
+  EXPECT_EQ(taken(plain), std::pair(true, true));
+  EXPECT_EQ(taken(whole), std::pair(true, true));
+  const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/2"},
+                                                        {"/renderer/name", ""},
+                                                        {"/renderer/settings/soft", Json::array()},
+                                                        {"/light", -1},
+                                                        {"/size", {64}},
+                                                        {"/size/0", 0},
+                                                        {"/size/0", 1.5},
+                                                        {"/visibility", ""},
+                                                        {"/visibility", 1},
+                                                        {"/shadowed", "s.exr"},
+                                                        {"/position", "p.exr"},
+                                                        {"/depth/convention", "linear"},
+                                                        {"/depth/near", 0},
+                                                        {"/map", Json::array()},
+                                                        {"/map/0/rows", "left"},
+                                                        {"/map/0/convention", "metres"},
+                                                        {"/map/0/face", 1},
+                                                        {"/map/0/clip_from_world", {1, 2, 3}},
+                                                        {"/bias/normal_offset_world", -1},
+                                                        {"/bias/constant", 1},
+                                                        {"/filter/kind", "soft"},
+                                                        {"/filter/radius_texels", 0},
+                                                        {"/filter/radius_texels", 65},
+                                                        {"/colour", 1}};
+  for (const auto& [path, value] : wrong) {
+    Json capture = whole;
+    capture[Json::json_pointer(path)] = value;
+    EXPECT_EQ(taken(capture), std::pair(false, false)) << path << " " << value;
+  }
+  for (const char* path :
+       {"/schema", "/renderer", "/scene", "/size", "/visibility", "/map", "/map/0/depth", "/map/0/rows",
+        "/map/0/convention", "/map/0/clip_from_world", "/depth/file", "/depth/convention", "/filter/kind"}) {
+    const Json capture = whole.patch({{{"op", "remove"}, {"path", path}}});
+    EXPECT_EQ(taken(capture), std::pair(false, false)) << path;
+  }
 }
 
 TEST(BadCaptures, WithUnknownKeysAreRefusedWithLineAndColumn) {

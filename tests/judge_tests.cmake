@@ -2,7 +2,7 @@ gnomon_test(judge_gl_test
   SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp support/capture_support.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
 target_include_directories(judge_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp LIBS gnomon::compare)
+gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 gnomon_test(judge_identify_gl_test
   SOURCES judge_identify_gl_test.cpp support/capture_support.cpp support/compare_support.cpp support/small_scenes.cpp
   LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
