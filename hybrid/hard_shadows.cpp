@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "hybrid/classify.h"
+#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::hybrid {
@@ -171,13 +172,13 @@ double share_of_rays(const ShadowCounts& counts) {
   return static_cast<double>(counts.rays) / static_cast<double>(std::max<std::uint64_t>(counts.asked, 1));
 }
 
-/// For packets of rays from the receivers of these tiles; null where packets do not apply.
-const raytrace::Sight* find_sight(const raytrace::Tracer& tracer, LightCache& cache,
-                                  const Receivers& receivers, std::span<const std::uint8_t> wanted) {
-  if (!packets_apply(tracer)) return nullptr;
-  if (!cache.sight || !covers(*cache.sight, receivers.quantised(), wanted))
-    cache.sight = sight_of_light(tracer, cache.light, receivers.quantised(), wanted);
-  return &*cache.sight;
+raytrace::PictureReceivers all_of(const raytrace::Tracer& tracer, const Receivers& receivers) {
+  return {.tracer = tracer,
+          .size = receivers.points.size,
+          .stored = &receivers.points,
+          .view = nullptr,
+          .hits = {},
+          .quantised = receivers.quantised()};
 }
 
 /// One light's pass over a picture.
@@ -192,8 +193,7 @@ class Pass {
         decisions_(decisions),
         grid_{receivers.points.size},
         tiles_(grid_.count()),
-        unsure_(grid_.count()),
-        wanted_(grid_.count()) {}
+        unsure_(grid_.count()) {}
 
   ShadowCounts run() {
     const bool pays = cache_.frames >= cache_.frames_to_pay(receivers_.points.data.size());
@@ -224,27 +224,22 @@ class Pass {
       Tile tile(cache_, receivers_, i, {x0, y0, x1, y1});
       tiles_[i] = tile.classify(verdicts_, decisions_);
       unsure_[i] = tile.unsure();
-      wanted_[i] = tiles_[i].rays > 0 ? 1 : 0;
     });
     return sum_of(tiles_);
   }
   /// As the pure tracer does.
   ShadowCounts trace_all() {
-    const raytrace::Sight* sight = find_sight(tracer_, cache_, receivers_, {});
-    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
-    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      tiles_[i].rays = tiles_[i].asked =
-          shadow_tile(source, cache_.light, *sight, {x0, y0, x1, y1}, &receivers_.tiles[i], verdicts_);
-    });
-    return sum_of(tiles_);
+    ShadowCounts counts;
+    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, verdicts_);
+    return counts;
   }
   void trace() {
-    const raytrace::Sight* sight = find_sight(tracer_, cache_, receivers_, wanted_);
-    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
+    if (packets_apply(tracer_))
+      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, unsure_, verdicts_);
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      if (wanted_[i] != 0)
-        shadow_lanes(source, cache_.light, sight, {x0, y0, x1, y1}, &receivers_.tiles[i], unsure_[i],
-                     verdicts_);
+      for_each_lane({x0, y0, x1, y1}, unsure_[i], [&](int x, int y, std::size_t) {
+        verdicts_.at(x, y) = tracer_.light_verdict(receivers_.points.at(x, y), cache_.light);
+      });
     });
   }
 
@@ -256,7 +251,6 @@ class Pass {
   raytrace::TileGrid grid_;
   std::vector<ShadowCounts> tiles_;
   std::vector<LaneMask> unsure_;
-  std::vector<std::uint8_t> wanted_;
 };
 
 }  // namespace
@@ -277,9 +271,7 @@ std::uint64_t LightCache::frames_to_pay(std::uint64_t pixels) const {
 }
 
 std::uint64_t LightCache::bytes() const {
-  std::uint64_t bytes = sheets.stats().bytes;
-  if (sight) bytes += sight->setup.primitives.bytes() + sight->bins.bytes();
-  return bytes;
+  return sheets.stats().bytes;
 }
 
 ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,

@@ -37,9 +37,8 @@ class LightCache {
 
   Light light;
   LightSheets sheets;
-  std::optional<raytrace::Sight> sight;  ///< for packets of rays, as the pure tracer makes it for each frame
-  double share_left = 0.0;               ///< of the receivers, unsure after the sheets were last refined
-  std::uint64_t frames = 0;              ///< that the light has been looked at
+  double share_left = 0.0;   ///< of the receivers, unsure after the sheets were last refined
+  std::uint64_t frames = 0;  ///< that the light has been looked at
   std::optional<std::uint64_t>
       pattern;  ///< a hash of which receivers the sheets left unsure, in the last frame
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "raytrace/packets/sight.h"
+#include "raytrace/packets/light_setup.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -65,12 +65,10 @@ void choose_shadow(const Tracer& tracer, std::span<const std::uint32_t> lights,
   } else if (!obstacle.empty()) {
     plan.shadow = ShadowWay::single_rays, plan.shadow_reason = obstacle;
   } else {
-    plan.shadow = ShadowWay::packets;
-    plan.shadow_reason = plan.primary == PrimaryWay::blocks
-                             ? "light-space bins where a light's receivers number at least a quarter of the "
-                               "primitives and the bins' "
-                               "lists are short, else a tile at a time through the hierarchy"
-                             : "a tile at a time through the hierarchy";
+    plan.shadow = ShadowWay::blocks;
+    plan.shadow_reason =
+        "neighbouring receivers see the light past the same primitives, and what lies elsewhere costs "
+        "nothing";
   }
 }
 
@@ -85,7 +83,7 @@ std::string_view name_of(ReceiverStore store) {
   return names[static_cast<std::size_t>(store)];
 }
 std::string_view name_of(ShadowWay way) {
-  constexpr std::array<std::string_view, 3> names{"none", "packets", "single rays"};
+  constexpr std::array<std::string_view, 3> names{"none", "blocks of 64 x 64", "single rays"};
   return names[static_cast<std::size_t>(way)];
 }
 

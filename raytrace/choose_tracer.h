@@ -29,8 +29,7 @@ enum class ReceiverStore : std::uint8_t {
 /// How rays to a light's centre find what stands between.
 enum class ShadowWay : std::uint8_t {
   none,
-  packets,     ///< tiles of packets: by light-space bins where sight_of_light() finds that they pay, else by
-               ///< traverses
+  blocks,      ///< blocks of 64 x 64 receivers, packets of 16 rays (raytrace/packets/shadow_block.h)
   single_rays  ///< each by itself
 };
 

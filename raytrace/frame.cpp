@@ -1,6 +1,9 @@
 #include "raytrace/frame.h"
 
+#include <numeric>
+
 #include "raytrace/choose_tracer.h"
+#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/packets/unstored.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/picture.h"
@@ -80,25 +83,21 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
                    .verdict = Image<Verdict>(options.size, Verdict::lit),
                    .shadow_rays = {},
                    .light_structure = {}};
+  const PictureReceivers source{.tracer = tracer,
+                                .size = options.size,
+                                .stored = unstored.apply() ? nullptr : &receivers,
+                                .view = &view,
+                                .hits = {unstored.hits.data(), unstored.hits.size()},
+                                .quantised = {tiles.data(), tiles.size()}};
   const TileGrid grid{options.size, options.stop};
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
-    std::fill(rays.begin(), rays.end(), 0);
-    if (way == ShadowWay::packets) {
-      TimedStage structure("light structure");
-      const Stopwatch building;
-      const Sight sight = sight_of_light(tracer, light, {tiles.data(), tiles.size()});
-      truth.light_structure.runs.push_back(building.elapsed_ms());
-      structure.end();
-      for_each_tile(grid, [&](std::size_t tile, int x0, int y0, int x1, int y1) {
-        const ReceiverSource source = unstored.apply()
-                                          ? unstored.source(tracer, view, tile)
-                                          : ReceiverSource{.tracer = tracer, .stored = &receivers};
-        const QuantisedTile* quantised = tiles.size() > 0 ? &tiles[tile] : nullptr;
-        rays[tile] = shadow_tile(source, light, sight, {x0, y0, x1, y1}, quantised, truth.verdict);
-      });
+    truth.light_structure.runs.push_back(0.0);
+    if (way == ShadowWay::blocks) {
+      truth.rays = shadow_pass(source, light, truth.verdict, options.stop);
       return;
     }
+    std::fill(rays.begin(), rays.end(), 0);
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;
@@ -106,9 +105,8 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
       truth.verdict.at(x, y) = reached ? tracer.light_verdict(point, light) : Verdict::shadowed;
       rays[tile] += reached ? 1 : 0;
     });
-    truth.light_structure.runs.push_back(0.0);
+    truth.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
   });
-  for (const std::uint64_t n : rays) truth.rays += n;
   return truth;
 }
 

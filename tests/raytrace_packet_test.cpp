@@ -12,7 +12,7 @@
 #include "every_target.h"
 #include "raytrace/frame.h"
 #include "raytrace/packets/edge_setup.h"
-#include "raytrace/packets/passes.h"
+#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
@@ -103,13 +103,14 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
   primary_pass(tracer, view, eye,
                {.hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    const raytrace::Sight sight = sight_of_light(tracer, scene.lights[l], {tiles.data(), tiles.size()});
     Image<Verdict> verdicts(size, Verdict::lit);
-    for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      const raytrace::ReceiverSource source{
-          .tracer = tracer, .stored = nullptr, .view = &view, .hits = &hits[i]};
-      shadow_tile(source, scene.lights[l], sight, {x0, y0, x1, y1}, &tiles[i], verdicts);
-    });
+    shadow_pass({.tracer = tracer,
+                 .size = size,
+                 .stored = nullptr,
+                 .view = &view,
+                 .hits = hits,
+                 .quantised = {tiles.data(), tiles.size()}},
+                scene.lights[l], verdicts);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < verdicts.data.size(); ++i)
       wrong += verdicts.data[i] == reference.verdicts[l][i] ? 0 : 1;
@@ -221,41 +222,6 @@ Scene body_on_a_plain(double tilt) {
 
 TEST(Packets, ReceiversFarBeyondAllThatIsFinite) {
   for (const double tilt : {0.0, 0.4, 4.0}) check(body_on_a_plain(tilt), {128, 72});
-}
-
-raytrace::HugeArray<raytrace::QuantisedTile> tiles_of(const Tracer& tracer, const Camera& camera,
-                                                      ImageSize size) {
-  const View view = make_view(camera, size);
-  raytrace::HugeArray<raytrace::QuantisedTile> tiles(raytrace::TileGrid{size}.count());
-  primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
-               {.hits = {}, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
-  return tiles;
-}
-
-// Else a few cells would hold all that there is, and every ray there would be tried against all of it.
-TEST(Packets, CellsDoNotStretchBeyondAllThatIsFinite) {
-  const TestWorld w(body_on_a_plain(0.4));
-  const Tracer tracer(w.world(), Accel::bvh);
-  const auto tiles = tiles_of(tracer, w.scene().camera, {128, 72});
-  const raytrace::Sight sight = sight_of_light(tracer, w.scene().lights[0], {tiles.data(), tiles.size()});
-  ASSERT_TRUE(sight.by_bins);
-  const double size = w.world().finite_bounds.diagonal();
-  for (const raytrace::BinAxis& axis : {sight.bins.u, sight.bins.v})
-    EXPECT_LT(axis.count * axis.width, 1.01 * size);
-  EXPECT_TRUE(covers(sight, {tiles.data(), tiles.size()}, {}));
-}
-
-// All of the teapot's lies in a cell or two of the stadium's.
-TEST(Packets, SmallThingsInALargeWorldAreLeftToTheHierarchy) {
-  for (const bool large : {false, true}) {
-    const Expected<Scene> scene = load_scene(large ? "stadium" : "teapot");
-    ASSERT_TRUE(scene.has_value());
-    const TestWorld w(*scene);
-    const Tracer tracer(w.world(), Accel::bvh);
-    const auto tiles = tiles_of(tracer, w.scene().camera, {320, 180});
-    const raytrace::Sight sight = sight_of_light(tracer, w.scene().lights[0], {tiles.data(), tiles.size()});
-    EXPECT_EQ(sight.by_bins, !large);
-  }
 }
 
 TEST(Packets, SheetsNearerThanFloatsCanTell) {

@@ -116,11 +116,11 @@ TEST(Ways, EveryWayHasItsReason) {
     return ways_of(scene, Accel::bvh, Precision::robust, options);
   };
   const Case cases[] = {
-      {robust(plain, records), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::packets},
-      {robust(plain, picture), PrimaryWay::blocks, ReceiverStore::found_again, ShadowWay::packets},
-      {robust(spot, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::packets},
+      {robust(plain, records), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::blocks},
+      {robust(plain, picture), PrimaryWay::blocks, ReceiverStore::found_again, ShadowWay::blocks},
+      {robust(spot, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::blocks},
       {robust(soft, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::none},
-      {robust(wide, picture), PrimaryWay::single_rays, ReceiverStore::stored, ShadowWay::packets},
+      {robust(wide, picture), PrimaryWay::single_rays, ReceiverStore::stored, ShadowWay::blocks},
       {robust(plain, samples), PrimaryWay::none, ReceiverStore::none, ShadowWay::none},
       {ways_of(plain, Accel::bvh, Precision::fast, records), PrimaryWay::single_rays, ReceiverStore::stored,
        ShadowWay::single_rays},

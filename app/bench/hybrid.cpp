@@ -1,7 +1,6 @@
 // The hybrid's hard shadows against pure ray tracing of the same receivers, in turn: rays, triangles tested,
 // and time: of a new light as the cost estimate has it, with the sheets built anew, and with the sheets kept.
-// Ray tracing makes its own view of the light for every frame; when the light stands still it could keep that
-// too, and the last row compares with this. An error when the two differ.
+// An error when the two differ.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -10,6 +9,7 @@
 #include "app/bench/row.h"
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
+#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
 
 namespace gnomon::app {
@@ -56,11 +56,11 @@ class HybridBench {
 
  private:
   struct Runs {
-    Times by_cost, anew, kept, pure, pure_kept;
+    Times by_cost, anew, kept, pure;
     void append(const Runs& now) {
       const auto add = [](Times& times, const Times& more) { times.runs.push_back(more.runs[0]); };
       add(by_cost, now.by_cost), add(anew, now.anew), add(kept, now.kept);
-      add(pure, now.pure), add(pure_kept, now.pure_kept);
+      add(pure, now.pure);
     }
   };
 
@@ -73,7 +73,7 @@ class HybridBench {
       cache_.emplace(tracer_, topology_, light_, view, when);
       trace();
     };
-    const auto pure = [&] { time_run(now.pure, [&] { trace_all(nullptr); }); };
+    const auto pure = [&] { time_run(now.pure, [&] { trace_all(); }); };
     cache_.reset();
     if (pure_first) pure();
     time_run(now.by_cost, [&] { renew(Sheets::when_they_pay), cache_.reset(); });
@@ -84,30 +84,25 @@ class HybridBench {
     wrong += differences();
     time_run(now.kept, trace);
     wrong += differences();
-    std::optional<raytrace::Sight> sight;
-    if (packets_apply(tracer_)) sight = sight_of_light(tracer_, light_, receivers_.quantised());
-    time_run(now.pure_kept, [&] { trace_all(sight ? &*sight : nullptr); });
     if (wrong == 0) return {};
     return fail(ErrorKind::internal, fmt::format("hybrid and ray tracing disagree on {} pixels", wrong));
   }
 
-  /// kept: a view of the light that was made before.
-  void trace_all(const raytrace::Sight* kept) {
-    const raytrace::TileGrid grid{input_.size};
+  void trace_all() {
     if (!packets_apply(tracer_)) {
-      for_each_pixel(grid, [&](int x, int y, std::size_t) {
+      for_each_pixel(raytrace::TileGrid{input_.size}, [&](int x, int y, std::size_t) {
         const SurfacePoint& p = receivers_.points.at(x, y);
         pure_.at(x, y) = p.primitive == no_id ? Verdict::lit : tracer_.light_verdict(p, light_);
       });
       return;
     }
-    std::optional<raytrace::Sight> made;
-    if (kept == nullptr) made = sight_of_light(tracer_, light_, receivers_.quantised());
-    const raytrace::Sight& sight = kept != nullptr ? *kept : *made;
-    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &receivers_.points};
-    for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      shadow_tile(source, light_, sight, {x0, y0, x1, y1}, &receivers_.tiles[i], pure_);
-    });
+    shadow_pass({.tracer = tracer_,
+                 .size = input_.size,
+                 .stored = &receivers_.points,
+                 .view = nullptr,
+                 .hits = {},
+                 .quantised = receivers_.quantised()},
+                light_, pure_);
   }
 
   // Where there is a receiver and the ray tracer is certain.
@@ -139,7 +134,7 @@ class HybridBench {
 
   BenchResult result(const Runs& times) const {
     const auto [cast, all] = triangle_tests();
-    const double pure = times.pure.median(), pure_kept = times.pure_kept.median();
+    const double pure = times.pure.median();
     const auto row = [&](std::string name, double value, std::string unit, std::string peer,
                          double peer_value, std::optional<double> goal) {
       return BenchRow{std::move(name),
@@ -151,7 +146,7 @@ class HybridBench {
                       BenchPeer{std::move(peer), peer_value},
                       goal};
     };
-    const std::string tracing = "ray tracing", still = "ray tracing, its view of the light kept";
+    const std::string tracing = "ray tracing";
     const double asked = double(counts_.asked), goal_rays = input_.scene == "courtyard" ? 0.08 : 0.03;
     BenchResult out;
     out.rows = {
@@ -160,19 +155,18 @@ class HybridBench {
         row("hybrid triangle tests", double(cast), "triangles", tracing, double(all), {}),
         row("hybrid shadows, a new light by cost", times.by_cost.median(), "ms", tracing, pure, 1.0),
         row("hybrid shadows, sheets built anew", times.anew.median(), "ms", tracing, pure, {}),
-        row("hybrid shadows, sheets kept", times.kept.median(), "ms", tracing, pure, 2.0),
-        row("hybrid shadows, sheets kept", times.kept.median(), "ms", still, pure_kept, {})};
+        row("hybrid shadows, sheets kept", times.kept.median(), "ms", tracing, pure, 2.0)};
     out.table = fmt::format(
         "{}: hybrid hard shadows of {}, {} x {} pixels, {}² map: the same as ray tracing at every pixel\n"
         "  {} of {} shadow rays ({:.2f} %), {:.2f} % of the triangle tests; surely lit {:.2f} %, surely "
         "shadowed {:.2f} %\n"
         "  {:.1f} ms with the sheets kept, {:.1f} ms with the sheets built anew ({:.1f} MiB); ray tracing "
-        "{:.1f} ms, {:.1f} ms with its view of the light kept\n"
+        "{:.1f} ms\n"
         "  a new light, whose sheets pay from frame {} on: {:.1f} ms, {:.2f} % of the rays\n",
         input_.scene, light_.name, input_.size.width, input_.size.height, map_size, counts_.rays,
         counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
         percent(counts_.lit, counts_.asked), percent(counts_.shadowed, counts_.asked), times.kept.median(),
-        times.anew.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure, pure_kept,
+        times.anew.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure,
         cache_->frames_to_pay(receivers_.points.data.size()) + 1, times.by_cost.median(),
         percent(new_light_rays_, counts_.asked));
     return out;

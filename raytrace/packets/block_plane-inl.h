@@ -13,18 +13,13 @@
 
 #include <algorithm>
 
+#include "raytrace/packets/block_traverse-inl.h"
 #include "raytrace/packets/lanes-inl.h"
-#include "raytrace/packets/light_bins.h"
+#include "raytrace/packets/packet_grid.h"
 #include "raytrace/packets/view_block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
-using Eight = hn::CappedTag<float, 8>;
-using V8 = hn::Vec<Eight>;
-constexpr Eight eight;
-alignas(32) constexpr float corner_bit[3][8] = {
-    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
-
 constexpr std::size_t block_side = std::size_t{4} * block_tiles;  // packets
 constexpr std::size_t block_packets = block_side * block_side, block_rays = block_packets * packet_rays;
 
@@ -48,13 +43,11 @@ class alignas(64) BlockPlane {
  public:
   float u[block_side][packet_rays], v[block_side][packet_rays];  ///< of a column's packets, of a row's
   float u_min, u_max, v_min, v_max;
-  BinAxis columns, rows;  ///< of the whole picture's packets
-  PacketRect packets;     ///< the block's
+  PacketAxis columns, rows;  ///< of the whole picture's packets
+  PacketRect packets;        ///< the block's
 
   BlockPlane(const Structures& s, const EdgeSetup& setup, const View& view, const BlockRect& rect)
-      : packets{rect.x0 / 4, rect.y0 / 4, (rect.x1 - 1) / 4, (rect.y1 - 1) / 4},
-        setup_(setup),
-        origin_(setup.origin - s.bvh.center) {
+      : packets{rect.x0 / 4, rect.y0 / 4, (rect.x1 - 1) / 4, (rect.y1 - 1) / 4}, projection_(s, setup) {
     const auto at = [](int pixel, int size, double tan_half) {
       return static_cast<float>((2.0 * (pixel + 0.5) / size - 1.0) * tan_half);
     };
@@ -69,56 +62,30 @@ class alignas(64) BlockPlane {
     v_min = v[0][0], v_max = at(rect.y1 - 1, view.size.height, view.tan_half_y);
     const auto axis = [](double tan_half, int pixels) {
       const double width = 2.0 * tan_half / pixels, first = 0.5 * width - tan_half;
-      return BinAxis{first, first, width, pixels, 4, 0.0f, 0.0f};
+      return PacketAxis{first, width, pixels};
     };
     columns = axis(view.tan_half_x, view.size.width), rows = axis(view.tan_half_y, view.size.height);
   }
 
   /// Conservative. A box that is not clear of the eye may cover everything.
   BoxPlace packets_of(const BoxRef& box) const {
-    const auto set = [](double number) { return hn::Set(eight, static_cast<float>(number)); };
-    const float slack = float_above(setup_.slack);
-    float nearest = inf, left = inf, right = -inf, top = inf, bottom = -inf;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 across = hn::Zero(eight), down = across, depth = across;
-      for (int a = 0; a < 3; ++a) {
-        const auto axis = static_cast<std::size_t>(a);
-        const V8 low = hn::Set(eight, box.min[axis]), high = hn::Set(eight, box.max[axis]);
-        const V8 corner =
-            hn::IfThenElse(hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight)), high, low);
-        const V8 p = hn::Sub(corner, set(origin_[a]));
-        across = hn::MulAdd(p, set(setup_.axes[0][a]), across);
-        down = hn::MulAdd(p, set(setup_.axes[1][a]), down);
-        depth = hn::MulAdd(p, set(setup_.axes[2][a]), depth);
-      }
-      nearest = std::min(nearest, hn::GetLane(hn::MinOfLanes(eight, depth)));
-      if (!(nearest > 64.0f * slack)) return {packets, inf};
-      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), depth);
-      const V8 relative_error = hn::MulAdd(hn::Set(eight, 2.0f * slack), per_depth, hn::Set(eight, 0x1p-20f));
-      const auto grow = [&](V8 along, float& min, float& max) {
-        const V8 at = hn::Mul(along, per_depth);
-        const V8 margin = hn::MulAdd(hn::Abs(at), relative_error, relative_error);
-        min = std::min(min, hn::GetLane(hn::MinOfLanes(eight, hn::Sub(at, margin))));
-        max = std::max(max, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(at, margin))));
-      };
-      grow(across, left, right), grow(down, top, bottom);
-    }
-    const auto range = [&](float low, float high, const BinAxis& axis, int first, int last, int& begin,
+    const PrimitiveBounds bounds = projection_.of(box);
+    if (bounds.nearest == inf) return {packets, inf};
+    const auto range = [&](float low, float high, const PacketAxis& axis, int first, int last, int& begin,
                            int& end) {
-      const float start = static_cast<float>(axis.lo), per = static_cast<float>(0.25 / axis.width);
+      const float start = static_cast<float>(axis.first), per = static_cast<float>(0.25 / axis.width);
       const float most = static_cast<float>(last);
       begin = std::max(first, static_cast<int>(std::min(std::max((low - start) * per, 0.0f), most + 1.0f)));
       end = std::min(last, static_cast<int>(std::min(std::max((high - start) * per, -1.0f), most)));
     };
     PacketRect covered;
-    range(left, right, columns, packets.x0, packets.x1, covered.x0, covered.x1);
-    range(top, bottom, rows, packets.y0, packets.y1, covered.y0, covered.y1);
-    return {covered, (1.0f + 0x1p-20f) / (nearest - slack)};
+    range(bounds.u_min, bounds.u_max, columns, packets.x0, packets.x1, covered.x0, covered.x1);
+    range(bounds.v_min, bounds.v_max, rows, packets.y0, packets.y1, covered.y0, covered.y1);
+    return {covered, bounds.nearest};
   }
 
  private:
-  const EdgeSetup& setup_;
-  Vec3 origin_;  // from the middle that boxes count from
+  BoxProjection projection_;
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

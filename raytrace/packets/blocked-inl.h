@@ -1,5 +1,4 @@
-// One primitive against a vector of shadow rays: the rule of both shadow kernels (bin_shadows.cpp,
-// tile_shadows.cpp). Along a ray, what the primitive's depth may be is an interval: wholly behind the
+// One primitive against a vector of shadow rays (shadow_block.cpp). Along a ray, what the primitive's depth may be is an interval: wholly behind the
 // receiver it does not matter, wholly before it and inside all edges it surely blocks, and between the two
 // nobody knows.
 

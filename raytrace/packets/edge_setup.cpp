@@ -1,8 +1,5 @@
 #include "raytrace/packets/edge_setup.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "raytrace/packets/edge_setup_rows.h"
 
 namespace gnomon::raytrace {
@@ -16,15 +13,6 @@ PrimitiveEdges void_edges(std::uint32_t id) {
           .depth_error = inf,
           .depth_floor = -inf,
           .id = id | never_sure};
-}
-
-PrimitiveEdges edges_at(const EdgeSetupRows& rows, std::size_t i, std::uint32_t id) {
-  PrimitiveEdges p;
-  for (std::size_t k = 0; k < 9; ++k) p.edge[k / 3][k % 3] = rows.out[k][i];
-  for (std::size_t k = 0; k < 3; ++k) p.reciprocal_depth[k] = rows.out[9 + k][i];
-  p.edge_error = rows.out[12][i], p.depth_error = rows.out[13][i], p.depth_floor = rows.out[14][i];
-  p.id = id;
-  return p;
 }
 
 bool is_masked(const World& world, std::uint32_t id) {
@@ -42,7 +30,7 @@ PrimitiveEdges set_up_plane(const Structures& s, const EdgeSetup& setup, const E
       !(std::abs(slope) > 0x1p-30 * length * (pass.directional ? 1.0 : pass.largest)))
     return void_edges(id);
   Vec3 m = n / height;
-  if (setup.framed)
+  if (!setup.directional)
     m = Vec3(glm::dot(m, setup.axes[0]), glm::dot(m, setup.axes[1]), glm::dot(m, setup.axes[2]));
   double error = 0x1p-19 * glm::length(m) + 0x1p-36 * pass.largest * glm::dot(m, m);
   if (setup.directional) {
@@ -67,47 +55,14 @@ EdgeSetupPass edge_setup_pass(const Structures& s, const EdgeSetup& setup) {
           .radius = 0.5 * s.world->finite_bounds.diagonal(),
           .farthest = 0.5 * s.world->finite_bounds.diagonal() +
                       glm::length(Vec3(setup.lateral, setup.lateral, setup.height)),
-          .directional = setup.directional,
-          .turned = setup.directional || setup.framed};
+          .directional = setup.directional};
 }
 
 namespace {
 
-// The last leaf stands in for those beyond the end.
-void set_up_rows(const Structures& s, const EdgeSetupPass& pass, std::size_t first, EdgeSetupRows& rows) {
-  const std::size_t last = s.bvh.primitives.size() - 1;
-  for (std::size_t i = 0; i < 8; ++i)
-    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = s.bvh.primitives[std::min(first + i, last)].v[k];
-  set_up_eight_triangles(rows, pass);
-}
-
-PrimitiveEdges edges_of_leaf(const Structures& s, const EdgeSetupRows& rows, std::size_t i,
-                             std::size_t leaf) {
-  const std::uint32_t id = s.bvh.ids[leaf];
-  // Spheres are beyond this; a masked triangle is still surely missed where it is missed.
-  if (!s.world->is_triangle(id)) return void_edges(id);
-  return edges_at(rows, i, s.has_masks && is_masked(*s.world, id) ? id | never_sure : id);
-}
-
 void set_up_planes(const Structures& s, EdgeSetup& setup) {
   const EdgeSetupPass pass = edge_setup_pass(s, setup);
   for (const std::uint32_t id : s.planes) setup.planes.push_back(set_up_plane(s, setup, pass, id));
-}
-
-void set_up_all(const Structures& s, EdgeSetup& setup) {
-  const std::size_t count = s.bvh.primitives.size();
-  const EdgeSetupPass pass = edge_setup_pass(s, setup);
-  setup.primitives = HugeArray<PrimitiveEdges>(count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (count + 7) / 8, 256),
-                    [&](const tbb::blocked_range<std::size_t>& r) {
-                      EdgeSetupRows rows;
-                      for (std::size_t first = 8 * r.begin(); first < std::min(8 * r.end(), count);
-                           first += 8) {
-                        set_up_rows(s, pass, first, rows);
-                        for (std::size_t i = 0; i < std::min<std::size_t>(8, count - first); ++i)
-                          setup.primitives[first + i] = edges_of_leaf(s, rows, i, first + i);
-                      }
-                    });
 }
 
 double largest_coordinate(const Vec3& v) {
@@ -124,10 +79,11 @@ double world_reach(const Structures& s) {
 
 }  // namespace
 
-EdgeSetup open_edge_setup_from(const Structures& s, const Vec3& origin, bool receivers) {
+EdgeSetup edge_setup_from(const Structures& s, const Vec3& origin, bool receivers, const Vec3& right,
+                          const Vec3& depth) {
   EdgeSetup setup;
   setup.origin = origin;
-  setup.axes[0] = {1, 0, 0}, setup.axes[1] = {0, 1, 0}, setup.axes[2] = {0, 0, 1};
+  setup.axes[0] = right, setup.axes[1] = glm::cross(depth, right), setup.axes[2] = depth;
   const double world = std::max(world_reach(s), largest_coordinate(origin));
   setup.reach = receivers ? (s.planes.empty() ? 1.0 + 0x1p-10 : 4.0) * world : world;
   setup.slack =
@@ -137,14 +93,7 @@ EdgeSetup open_edge_setup_from(const Structures& s, const Vec3& origin, bool rec
   return setup;
 }
 
-void frame_edge_setup(const Structures& s, const Vec3& right, const Vec3& depth, EdgeSetup& setup) {
-  setup.axes[0] = right, setup.axes[1] = glm::cross(depth, right), setup.axes[2] = depth;
-  setup.framed = true;
-  setup.planes.clear();
-  set_up_planes(s, setup);
-}
-
-EdgeSetup open_edge_setup_along(const Structures& s, const Vec3& to_light) {
+EdgeSetup edge_setup_along(const Structures& s, const Vec3& to_light) {
   EdgeSetup setup;
   setup.directional = true;
   setup.origin = s.bvh.center;
@@ -159,32 +108,6 @@ EdgeSetup open_edge_setup_along(const Structures& s, const Vec3& to_light) {
   setup.slack = 0x1p-17 * radius + 0x1p-38 * setup.reach;
   set_up_planes(s, setup);
   return setup;
-}
-
-EdgeSetup edge_setup_from(const Structures& s, const Vec3& origin, bool receivers) {
-  EdgeSetup setup = open_edge_setup_from(s, origin, receivers);
-  set_up_all(s, setup);
-  return setup;
-}
-
-EdgeSetup edge_setup_along(const Structures& s, const Vec3& to_light) {
-  EdgeSetup setup = open_edge_setup_along(s, to_light);
-  set_up_all(s, setup);
-  return setup;
-}
-
-void set_up_block(const Structures& s, const EdgeSetupPass& pass, std::size_t first, EdgeSetupBlock& block) {
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  set_up_rows(s, pass, first, block.rows);
-  const auto set = [&](std::size_t i, float sign) {
-    const float bounds[EdgeSetupRows::bounds] = {-sign * inf, sign * inf, -sign * inf, sign * inf, inf};
-    for (std::size_t k = 0; k < EdgeSetupRows::bounds; ++k)
-      block.rows.out[EdgeSetupRows::numbers + k][i] = bounds[k];
-  };
-  const std::size_t count = std::min<std::size_t>(8, s.bvh.primitives.size() - first);
-  for (std::size_t i = 0; i < count; ++i)
-    if (!s.world->is_triangle(s.bvh.ids[first + i])) set(i, 1.0f);
-  for (std::size_t i = count; i < 8; ++i) set(i, -1.0f);
 }
 
 unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span<const std::uint32_t> leaves,
@@ -210,11 +133,6 @@ unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span
     }
   }
   return never;
-}
-
-PrimitiveEdges primitive_in(const Structures& s, const EdgeSetupBlock& block, std::size_t i,
-                            std::size_t leaf) {
-  return edges_of_leaf(s, block.rows, i, leaf);
 }
 
 }  // namespace gnomon::raytrace

@@ -1,7 +1,7 @@
-// The world as seen from one point (the eye, a light) or along one direction (a sun): for every leaf
+// The world as seen from one point (the eye, a light) or along one direction (a sun): for a leaf
 // primitive the float numbers that let 16 rays at once be told *surely hit*, *surely missed* or *ambiguous*
 // with a handful of fused operations. Rays through a common origin are points d = (u, v, 1) of a projective
-// plane (the axis of depth is chosen per tile), rays along a common direction are points (u, v, 1) of the
+// plane across their frame, rays along a common direction are points (u, v, 1) of the
 // plane across it: in both cases a triangle is three edge functions n_k·d and one depth function m·d. Every
 // error, of the floats and of the double kernels alike, enters the bounds, so that what is sure here is what
 // the double kernels say.
@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "raytrace/huge_array.h"
 #include "raytrace/kernels.h"
 
 namespace gnomon::raytrace {
@@ -31,36 +30,30 @@ static_assert(sizeof(PrimitiveEdges) == 64);
 inline constexpr std::uint32_t never_sure = 0x80000000u;
 
 struct EdgeSetup {
-  HugeArray<PrimitiveEdges> primitives;  ///< in leaf order, as many as Bvh::primitives
-  std::vector<PrimitiveEdges> planes;    ///< of Structures::planes; their edge functions are not used
+  std::vector<PrimitiveEdges> planes;  ///< of Structures::planes; their edge functions are not used
   bool directional = false;
-  Vec3 origin{0.0};     ///< the common origin; of a direction: the middle of the world
-  Vec3 axes[3];         ///< of u, v and depth, orthonormal
-  bool framed = false;  ///< all rays have axes[2] as their axis of depth; else a point's axes are the world's
-  double reach = 0.0;   ///< receivers with a coordinate beyond it are left to the double kernels
+  Vec3 origin{0.0};      ///< the common origin; of a direction: the middle of the world
+  Vec3 axes[3];          ///< of u, v and depth, orthonormal
+  double reach = 0.0;    ///< receivers with a coordinate beyond it are left to the double kernels
   double lateral = 0.0;  ///< of a direction: so are those with |u| or |v| beyond it,
   double height = 0.0;   ///< or with the third coordinate beyond this
   double slack = 0.0;    ///< world units by which boxes are widened against rounding
 };
 
-/// What the bins of raytrace/packets/light_bins.h need of a primitive besides: a box of (u, v) that holds
-/// all rays that do not surely miss it, and a reciprocal depth that is not surely behind none of them.
+/// What says which packets a primitive may concern: a box of (u, v) that holds all rays that do not surely miss it,
+/// and a reciprocal depth that is not surely behind none of them.
 struct PrimitiveBounds {
   float u_min, u_max, v_min, v_max;  ///< infinite: not known; min above max: no ray
   float nearest;
 };
 
 /// Point receivers may lie anywhere within EdgeSetup::reach of the coordinates' origin; `receivers`: whether there
-/// are any (shadow rays) or the rays start at the point itself (primary rays).
-EdgeSetup edge_setup_from(const Structures& structures, const Vec3& origin, bool receivers);
+/// are any (shadow rays) or the rays start at the point itself (primary rays). `right` and `depth` are unit and
+/// perpendicular.
+EdgeSetup edge_setup_from(const Structures& structures, const Vec3& origin, bool receivers, const Vec3& right,
+                          const Vec3& depth);
 /// `to_light`: any length above zero.
 EdgeSetup edge_setup_along(const Structures& structures, const Vec3& to_light);
-
-/// The same without primitives, for set_up_block() and frame_edge_setup().
-EdgeSetup open_edge_setup_from(const Structures& structures, const Vec3& origin, bool receivers);
-EdgeSetup open_edge_setup_along(const Structures& structures, const Vec3& to_light);
-/// Turns a point's axes; `right` and `depth` are unit and perpendicular.
-void frame_edge_setup(const Structures& structures, const Vec3& right, const Vec3& depth, EdgeSetup& setup);
 
 /// The instruction set in use, as Highway names it.
 const char* packet_target();

@@ -271,14 +271,13 @@ void see_eight(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
       const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
       const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
       corner[k] = p;
-      if (!pass.turned) continue;
       const auto along = [&](const Vec3& axis) { return dot(p, V3{all(axis.x), all(axis.y), all(axis.z)}); };
       corner[k] = {along(pass.axes[0]), along(pass.axes[1]), along(pass.axes[2])};
     }
     const Out out = pass.directional ? along_direction(corner[0], corner[1], corner[2], pass)
                                      : from_point(corner[0], corner[1], corner[2], pass.largest);
     store(out, rows, first);
-    if (pass.bounds) bound(rows, first);
+    bound(rows, first);
   }
 }
 

@@ -8,7 +8,7 @@
 namespace gnomon::raytrace {
 
 /// Eight triangles by rows: nine corner coordinates in; edges (9), reciprocal depth (3) and the three bounds
-/// out, those rounded up, in the order of PrimitiveEdges; where asked for, PrimitiveBounds after them.
+/// out, those rounded up, in the order of PrimitiveEdges; PrimitiveBounds after them.
 struct alignas(64) EdgeSetupRows {
   static constexpr std::size_t numbers = 15, bounds = 5, count = numbers + bounds;
   double corner[9][8];
@@ -22,13 +22,11 @@ struct EdgeSetupPass {
   double radius = 0.0;    ///< of the world, for a direction
   double farthest = 0.0;  ///< for a direction: no corner is farther from any receiver
   bool directional = false;
-  bool turned = false;  ///< the axes are not the world's
-  bool bounds = false;  ///< PrimitiveBounds are asked for
 };
 
 EdgeSetupPass edge_setup_pass(const Structures& structures, const EdgeSetup& setup);
 
-/// Eight leaves from `first` on, or as many as there are (those beyond: no ray). pass.bounds must be set.
+/// Eight leaves' numbers.
 struct EdgeSetupBlock {
   EdgeSetupRows rows;
   const float* u_min() const { return rows.out[EdgeSetupRows::numbers]; }
@@ -37,14 +35,8 @@ struct EdgeSetupBlock {
   const float* v_max() const { return rows.out[EdgeSetupRows::numbers + 3]; }
   const float* nearest() const { return rows.out[EdgeSetupRows::numbers + 4]; }
 };
-void set_up_block(const Structures& structures, const EdgeSetupPass& pass, std::size_t first,
-                  EdgeSetupBlock& block);
-/// The block's i-th, which is this leaf.
-PrimitiveEdges primitive_in(const Structures& structures, const EdgeSetupBlock& block, std::size_t i,
-                            std::size_t leaf);
-
-/// The same for up to eight leaves by their numbers, of which those that are no triangles are void. Bit i:
-/// the i-th is never sure.
+/// Up to eight leaves by their numbers, of which those that are no triangles are void. Bit i: the i-th is never
+/// sure.
 unsigned set_up_leaves(const Structures& structures, const EdgeSetupPass& pass,
                        std::span<const std::uint32_t> leaves, EdgeSetupBlock& block);
 

@@ -47,25 +47,13 @@ inline M mask_of(unsigned bits) {
   return hn::LoadMaskBits(f, bytes);
 }
 
-/// A function of d = (u, v, 1), in the tile's axes.
+/// A function of d = (u, v, 1).
 struct Linear {
   float u, v, constant;
 };
 /// The order of operations that everything here shares.
 inline V value(V cu, V cv, V constant, V u, V v) {
   return hn::MulAdd(cu, u, hn::MulAdd(cv, v, constant));
-}
-
-struct Axes {
-  std::size_t u, v, depth;
-  float sign;
-  Linear of(const float (&n)[3]) const { return {n[u], n[v], sign * n[depth]}; }
-};
-
-inline Axes axes_of(const EdgeSetup& setup, const TileRays& rays) {
-  if (setup.directional) return {0, 1, 2, 1.0f};
-  const auto depth = static_cast<std::size_t>(rays.axis);
-  return {(depth + 1) % 3, (depth + 2) % 3, depth, rays.sign};
 }
 
 inline float smallest(const float* values) {
@@ -80,14 +68,12 @@ inline float largest(const float* values) {
   return hn::GetLane(hn::MaxOfLanes(f, most));
 }
 
-/// One primitive's functions in the tile's axes.
+/// One primitive's functions.
 struct Functions {
   Linear edge[3], reciprocal_depth;
-  /// Of a primitive seen in the axes of the rays: a direction's, or a framed point's.
-  explicit Functions(const PrimitiveEdges& p) : Functions(p, Axes{0, 1, 2, 1.0f}) {}
-  Functions(const PrimitiveEdges& p, const Axes& axes)
-      : edge{axes.of(p.edge[0]), axes.of(p.edge[1]), axes.of(p.edge[2])},
-        reciprocal_depth(axes.of(p.reciprocal_depth)) {}
+  explicit Functions(const PrimitiveEdges& p)
+      : edge{of(p.edge[0]), of(p.edge[1]), of(p.edge[2])}, reciprocal_depth(of(p.reciprocal_depth)) {}
+  static Linear of(const float (&n)[3]) { return {n[0], n[1], n[2]}; }
 };
 
 /// Rays against one primitive: the least edge function and the reciprocal depth.

@@ -103,35 +103,6 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
   if (quantised != nullptr) quantised->finish(draft, view.eye);
 }
 
-/// tile(index in the block, its rectangle) for every tile of a block's rectangle.
-template <class Tile>
-void for_each_tile_of(const BlockRect& block, const Tile& tile) {
-  for (int y = block.y0; y < block.y1; y += tile_pixels)
-    for (int x = block.x0; x < block.x1; x += tile_pixels) {
-      const int index = (y - block.y0) / tile_pixels * block_tiles + (x - block.x0) / tile_pixels;
-      tile(static_cast<std::size_t>(index),
-           TileRect{x, y, std::min(x + tile_pixels, block.x1), std::min(y + tile_pixels, block.y1)});
-    }
-}
-
-/// block(rectangle) for every block of the picture, over all threads.
-template <class Block>
-void for_each_block(ImageSize size, const std::stop_token& stop, const Block& block) {
-  const int columns = (size.width + block_pixels - 1) / block_pixels;
-  const int rows = (size.height + block_pixels - 1) / block_pixels;
-  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), [&](const tbb::blocked_range<int>& r) {
-    for (int i = r.begin(); i != r.end() && !stop.stop_requested(); ++i) {
-      const int x = i % columns * block_pixels, y = i / columns * block_pixels;
-      block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
-    }
-  });
-}
-
-std::size_t tile_at(ImageSize size, const TileRect& rect) {
-  return static_cast<std::size_t>(rect.y0 / tile_pixels) * TileGrid{size}.columns() +
-         static_cast<std::size_t>(rect.x0 / tile_pixels);
-}
-
 }  // namespace
 
 void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks,
@@ -153,13 +124,13 @@ void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, 
 SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
   const TilePixel place = tile_pixel(lane);
   const int x = rect.x0 + place.x, y = rect.y0 + place.y;
-  return stored != nullptr ? stored->at(x, y) : receiver_of(tracer, *view, x, y, hits->leaf[lane]);
+  return stored != nullptr ? stored->at(x, y) : receiver_of(*tracer, *view, x, y, hits->leaf[lane]);
 }
 
 void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const {
   LaneMask left = asked;
   if (stored == nullptr) {
-    const Bvh& bvh = tracer.structures().bvh;
+    const Bvh& bvh = tracer->structures().bvh;
     for_each_place(rect, asked, [&](int, int, std::size_t lane) {
       if (hits->leaf[lane] < bvh.primitives.size()) bvh.prefetch(hits->leaf[lane]);
     });
@@ -167,7 +138,7 @@ void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePo
         store_receivers(bvh, *view, rect.x0, rect.y0, axis_of(*view, rect), those_of(*hits, asked),
                         {.points = points, .stride = tile_pixels});
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
-    const LaneMask found = find_plane_receivers(tracer.structures(), *view, rect, *hits, left, points);
+    const LaneMask found = find_plane_receivers(tracer->structures(), *view, rect, *hits, left, points);
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= static_cast<std::uint16_t>(~found[p]);
   }
   for_each_place(rect, left,

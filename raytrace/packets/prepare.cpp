@@ -14,14 +14,10 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using Half = hn::Rebind<float, D>;
-using Index = hn::RebindToSigned<D>;
-using HalfIndex = hn::Rebind<std::int32_t, D>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 constexpr D d;
 constexpr Half half;
-constexpr Index index;
-[[maybe_unused]] constexpr HalfIndex half_index;
 
 inline V all(double v) {
   return hn::Set(d, v);
@@ -36,99 +32,16 @@ inline V dot(const V (&a)[3], const Vec3& b) {
   return hn::Add(hn::Add(hn::Mul(a[0], all(b.x)), hn::Mul(a[1], all(b.y))), hn::Mul(a[2], all(b.z)));
 }
 
-/// Offsets from a point as (u, v, 1 / depth); the mask says which are in range.
-inline M project(const V (&offset)[3], const TileRays& rays, double least_depth, V (&out)[3]) {
-  const auto k = static_cast<std::size_t>(rays.axis);
-  const V depth = hn::Mul(offset[k], all(static_cast<double>(rays.sign)));
-  out[2] = hn::Div(all(1.0), depth);
-  out[0] = hn::Mul(offset[(k + 1) % 3], out[2]), out[1] = hn::Mul(offset[(k + 2) % 3], out[2]);
-  const V slope = hn::Max(hn::Abs(out[0]), hn::Abs(out[1]));
-  return hn::And(hn::Gt(depth, all(least_depth)), hn::Lt(slope, all(widest_slope)));
-}
-
 inline void store(V v, float* at) {
   hn::Store(hn::DemoteTo(half, v), half, at);
-}
-
-/// Fields of eight receivers, gathered.
-class Receivers {
- public:
-  Receivers(const SurfacePoint* first, std::size_t stride) {
-    static_assert(sizeof(SurfacePoint) % sizeof(double) == 0);
-    constexpr std::size_t step = sizeof(SurfacePoint) / sizeof(double);
-    (void)first;
-    for (std::size_t i = 0; i < packet_rays; ++i)
-      offsets_[i] = static_cast<std::int64_t>((i / 4 * stride + i % 4) * step);
-  }
-  /// Component `at` (in doubles from the record's start) of places i … of the packet that starts at `packet`.
-  V number(const SurfacePoint* packet, std::size_t i, std::size_t at) const {
-    return hn::GatherIndex(d, reinterpret_cast<const double*>(packet) + at, hn::Load(index, offsets_ + i));
-  }
-  V component(const SurfacePoint* packet, std::size_t i, std::size_t byte_offset, int axis) const {
-    return number(packet, i, byte_offset / sizeof(double) + static_cast<std::size_t>(axis));
-  }
-
- private:
-  alignas(64) std::int64_t offsets_[packet_rays];
-};
-
-void shadow_kernel(const Light& light, const EdgeSetup& setup, const SurfacePoint* receivers,
-                   std::size_t stride, TileRays& rays, ShadowLanes& lanes) {
-  const Receivers gather(receivers, stride);
-  const bool directional = light.type == LightType::directional;
-  for (std::size_t p = 0; p < tile_packets; ++p) {
-    const SurfacePoint* packet = receivers + (p / 4 * 4) * stride + p % 4 * 4;
-    unsigned present = 0, reached = 0, usable = 0;
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-      const std::uint32_t primitive = packet[i / 4 * stride + i % 4].primitive;
-      rays.source[p * packet_rays + i] = primitive;
-      present |= static_cast<unsigned>(primitive != no_id) << i;
-    }
-    for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(d)) {
-      V position[3], normal[3], offset[3], out[3];
-      for (int a = 0; a < 3; ++a) {
-        position[a] = gather.component(packet, i, offsetof(SurfacePoint, position), a);
-        normal[a] = gather.component(packet, i, offsetof(SurfacePoint, normal), a);
-        offset[a] = hn::Sub(position[a], all(setup.origin[a]));
-      }
-      V cosine;
-      if (directional) {
-        cosine = dot(normal, -light.direction);
-      } else {
-        V to_light[3];
-        for (int a = 0; a < 3; ++a)
-          to_light[a] = hn::Mul(normal[a], hn::Sub(all(light.position[a]), position[a]));
-        cosine = hn::Add(hn::Add(to_light[0], to_light[1]), to_light[2]);
-      }
-      reached |= bits_of(hn::Gt(cosine, all(0.0))) << i;
-      M fits;
-      if (directional) {
-        for (int a = 0; a < 3; ++a) out[a] = dot(offset, setup.axes[a]);
-        fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(setup.lateral)),
-                       hn::Lt(hn::Abs(out[2]), all(setup.height)));
-      } else {
-        fits = project(offset, rays, 0x1p-30 * setup.reach, out);
-      }
-      const V largest = hn::Max(hn::Abs(position[0]), hn::Max(hn::Abs(position[1]), hn::Abs(position[2])));
-      usable |= bits_of(hn::And(fits, hn::Lt(largest, all(setup.reach)))) << i;
-      const std::size_t at = p * packet_rays + i;
-      store(out[0], rays.u + at), store(out[1], rays.v + at), store(out[2], rays.far + at);
-    }
-    rays.alive[p] = static_cast<std::uint16_t>(present & reached & usable);
-    lanes.apart[p] = static_cast<std::uint16_t>(present & reached & ~usable);
-    lanes.unreached[p] = static_cast<std::uint16_t>(present & ~reached);
-    lanes.grazing[p] = 0;
-  }
 }
 
 /// Eight receivers of a quantised tile as seen from the light.
 class QuantisedRays {
  public:
-  QuantisedRays(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile, const TileRays& rays)
+  QuantisedRays(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile)
       : tile_(tile), directional_(light.type == LightType::directional), light_(light) {
-    const auto k = static_cast<std::size_t>(directional_ || setup.framed ? 2 : rays.axis);
-    axes_[0] = setup.axes[(k + 1) % 3], axes_[1] = setup.axes[(k + 2) % 3];
-    axes_[2] = static_cast<double>(directional_ ? 1.0f : rays.sign) * setup.axes[k];
+    for (int a = 0; a < 3; ++a) axes_[a] = setup.axes[a];
     from_light_ = tile.origin - setup.origin;
     // A direction's heights are rounded to floats as well, so that less of their bound is left.
     lateral_ = setup.lateral, height_ = std::min(setup.height, 4.0 * setup.lateral);
@@ -193,7 +106,7 @@ class QuantisedRays {
 
 void quantised_kernel(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
                       const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
-  QuantisedRays some(light, setup, tile, rays);
+  QuantisedRays some(light, setup, tile);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     unsigned reached = 0, perhaps = 0, usable = 0;
     const unsigned present = tile.present[p] & asked[p];
@@ -220,16 +133,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace gnomon::raytrace {
-HWY_EXPORT(shadow_kernel);
 HWY_EXPORT(quantised_kernel);
 
 void prepare_quantised(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
                        const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
   HWY_DYNAMIC_DISPATCH(quantised_kernel)(light, setup, tile, asked, rays, lanes);
-}
-void prepare_shadows(const Light& light, const EdgeSetup& setup, const SurfacePoint* receivers,
-                     std::size_t stride, TileRays& rays, ShadowLanes& lanes) {
-  HWY_DYNAMIC_DISPATCH(shadow_kernel)(light, setup, receivers, stride, rays, lanes);
 }
 
 }  // namespace gnomon::raytrace

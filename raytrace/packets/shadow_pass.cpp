@@ -1,50 +1,21 @@
-// Shadow rays of a tile: raytrace/packets/passes.h.
-#include <cstring>
+#include "raytrace/packets/shadow_pass.h"
 
-#include "raytrace/packets/bin_shadows.h"
-#include "raytrace/packets/known_hit.h"
-#include "raytrace/packets/passes.h"
+#include <tbb/enumerable_thread_specific.h>
+
+#include <atomic>
+#include <cstring>
+#include <optional>
+
+#include "raytrace/packets/light_setup.h"
 #include "raytrace/packets/places.h"
 #include "raytrace/packets/prepare.h"
-#include "raytrace/packets/unstored.h"
-#include "raytrace/tiles.h"
+#include "raytrace/packets/shadow_block.h"
 
 namespace gnomon::raytrace {
 namespace {
 
-bool start(const EdgeSetup& setup, const SurfacePoint& point, TileRays& rays, std::size_t lane) {
-  if (!(max_component(glm::abs(point.position)) < setup.reach)) return false;
-  const Vec3 offset = point.position - setup.origin;
-  const auto k = static_cast<std::size_t>(setup.directional ? 2 : rays.axis);
-  double u = glm::dot(offset, setup.axes[(k + 1) % 3]), v = glm::dot(offset, setup.axes[(k + 2) % 3]);
-  double far = glm::dot(offset, setup.axes[k]);
-  if (setup.directional) {
-    if (!(std::abs(u) < setup.lateral && std::abs(v) < setup.lateral && std::abs(far) < setup.height))
-      return false;
-  } else {
-    const double depth = static_cast<double>(rays.sign) * far;
-    far = 1.0 / depth, u *= far, v *= far;
-    if (!(depth > 0x1p-30 * setup.reach && std::abs(u) < widest_slope && std::abs(v) < widest_slope))
-      return false;
-  }
-  rays.u[lane] = static_cast<float>(u), rays.v[lane] = static_cast<float>(v);
-  rays.far[lane] = static_cast<float>(far);
-  return true;
-}
-
-void choose_axis(const EdgeSetup& setup, const Vec3& receiver, TileRays& rays) {
-  rays.axis = 2, rays.sign = 1.0f;
-  if (setup.directional || setup.framed) return;
-  const Vec3 offset = receiver - setup.origin;
-  rays.axis = longest_axis(offset);
-  rays.sign = offset[rays.axis] < 0.0 ? -1.0f : 1.0f;
-}
-
-/// Whether floats from the tile's origin are near enough to its receivers.
-bool quantisation_applies(const EdgeSetup& setup, const QuantisedTile& tile) {
-  const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
-  return max_component(largest) < setup.reach && (!setup.directional || tile.extent < setup.lateral);
-}
+/// Below this many rays a block's traversal costs more than single rays.
+constexpr std::uint64_t few_rays = 12;
 
 /// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit that is not set.
 constexpr auto four_visibilities = [] {
@@ -56,9 +27,6 @@ constexpr auto four_visibilities = [] {
   return table;
 }();
 
-/// Below this many rays a tile's traversal of the hierarchy costs more than single rays.
-constexpr int few_rays = 6;
-
 std::uint64_t number_of(const LaneMask& bits) {
   std::array<std::uint64_t, sizeof(LaneMask) / sizeof(std::uint64_t)> words;
   std::memcpy(words.data(), bits.data(), sizeof bits);
@@ -68,152 +36,229 @@ std::uint64_t number_of(const LaneMask& bits) {
 }
 
 /// One tile on its way from receivers to verdicts.
-class ShadowTile {
+struct Tile {
+  TileRays rays;
+  ShadowLanes lanes;
+  TileShadows shadows;
+  TileRect rect;
+  ReceiverSource source;
+  const QuantisedTile* quantised;
+  LaneMask asked;
+};
+
+/// A light's pass; `asked`: by tile, empty: everything.
+class ShadowPass {
  public:
-  ShadowTile(const ReceiverSource& receivers, const Light& light, const Sight& sight, const TileRect& rect)
-      : receivers_(receivers), light_(light), sight_(sight), rect_(rect) {}
+  ShadowPass(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
+             Image<Verdict>& verdicts)
+      : receivers_(receivers), light_(light), asked_(asked), verdicts_(verdicts) {}
 
-  std::uint64_t run(const QuantisedTile* quantised, Image<Verdict>& verdicts) {
-    for (int y = rect_.y0; y < rect_.y1; ++y) __builtin_prefetch(&verdicts.at(rect_.x0, y), 1);
-    prepare(quantised, every_lane, false);
-    if (quantised != nullptr) prefetch(quantised + 1);
-    trace();
-    LaneMask dark, traced;
-    for (std::size_t p = 0; p < tile_packets; ++p) {
-      dark[p] = shadows_.shadowed[p] | lanes_.unreached[p];
-      traced[p] = rays_.alive[p] | lanes_.apart[p];
-    }
-    const std::uint64_t count = number_of(traced);
-    store_verdicts(rect_, dark, verdicts);
-    decide_rest(verdicts);
-    return count;
-  }
-
-  /// Of asked receivers that the light reaches.
-  void run_lanes(const QuantisedTile* quantised, const LaneMask& asked, Image<Verdict>& verdicts) {
-    prepare(quantised, asked, true);
-    for (std::size_t p = 0; p < tile_packets; ++p) {
-      // What floats hold to be facing away is asked in double.
-      rays_.alive[p] &= asked[p];
-      lanes_.apart[p] = static_cast<std::uint16_t>(asked[p] & ~rays_.alive[p]);
-    }
-    trace();
-    for_each_place(rect_, asked, [&](int x, int y, std::size_t lane) {
-      const bool dark = (shadows_.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
-      verdicts.at(x, y) = dark ? Verdict::shadowed : Verdict::lit;
-    });
-    decide_rest(verdicts);
+  std::uint64_t run(const std::stop_token& stop) {
+    tbb::enumerable_thread_specific<Scratch> scratch;
+    std::atomic<std::uint64_t> rays = 0;
+    for_each_block(receivers_.size, stop,
+                   [&](const BlockRect& rect) { rays += run_block(rect, scratch.local()); });
+    return rays;
   }
 
  private:
-  /// The next tile comes from memory while this one is traced. Beyond the last one nothing is read.
-  static void prefetch(const QuantisedTile* next) {
-    const char* bytes = reinterpret_cast<const char*>(next);
-    for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
-  }
+  /// The light as a block's receivers see it.
+  struct LightFrame {
+    EdgeSetup setup;
+    std::optional<PlaneLimits> limits;  ///< where there is but one plane
+  };
+  struct Scratch {
+    HugeArray<Tile> tiles{most_shadow_tiles};
+    HugeArray<SurfacePoint> points{tile_rays};
+  };
 
-  void trace() {
-    if (sight_.by_bins)
-      shadows_in_bins(sight_.bins, sight_.setup, rays_, shadows_, outside_);
+  std::uint64_t run_block(const BlockRect& rect, Scratch& scratch) const {
+    std::size_t count = 0;
+    Aabb bounds;
+    for_each_tile_of(rect, [&](std::size_t, const TileRect& tile) {
+      if (begin(tile, scratch.tiles[count], bounds)) ++count;
+    });
+    if (count == 0) return 0;
+    const std::span<Tile> tiles(scratch.tiles.data(), count);
+    const LightFrame frame = frame_of(bounds);
+    std::uint64_t rays = 0;
+    std::array<ShadowTileRays, most_shadow_tiles> in_block;
+    for (std::size_t t = 0; t < count; ++t) {
+      rays += prepare(frame.setup, tiles[t]);
+      in_block[t] = {&tiles[t].rays, &tiles[t].shadows};
+    }
+    if (rays <= few_rays)
+      for (Tile& tile : tiles) leave_to_single_rays(tile);
     else
-      shadows_in_tile(receivers_.tracer.structures().bvh, sight_.setup, rays_, shadows_);
+      shadows_in_block(receivers_.tracer.structures(), frame.setup, {in_block.data(), count});
+    for (const Tile& tile : tiles) finish(frame, tile, scratch.points.data());
+    return rays;
   }
 
-  /// reached: the light is known to reach all that is asked for.
-  void prepare(const QuantisedTile* quantised, const LaneMask& asked, bool reached) {
-    const EdgeSetup& setup = sight_.setup;
-    if (quantised != nullptr && (reached || light_.type != LightType::spot) &&
-        quantisation_applies(setup, *quantised)) {
-      choose_axis(setup, quantised->origin, rays_);
-      prepare_quantised(light_, setup, *quantised, asked, rays_, lanes_);
-      if (!reached) decide_grazing();
-      return;
-    }
-    if (receivers_.stored != nullptr && is_whole(rect_) && light_.type != LightType::spot && !setup.framed) {
-      const Image<SurfacePoint>& stored = *receivers_.stored;
-      choose_axis(setup, some_receiver(), rays_);
-      prepare_shadows(light_, setup, &stored.at(rect_.x0, rect_.y0),
-                      static_cast<std::size_t>(stored.size.width), rays_, lanes_);
+  LightFrame frame_of(const Aabb& bounds) const {
+    const Structures& s = receivers_.tracer.structures();
+    LightFrame frame{edge_setup_of_light(receivers_.tracer, light_, bounds), std::nullopt};
+    if (s.planes.size() == 1) frame.limits = limits_of(s, frame.setup);
+    return frame;
+  }
+
+  /// False when nothing is asked of the tile.
+  bool begin(const TileRect& rect, Tile& tile, Aabb& bounds) const {
+    const std::size_t at = tile_at(receivers_.size, rect);
+    tile.rect = rect;
+    tile.quantised = receivers_.quantised.empty() ? nullptr : &receivers_.quantised[at];
+    tile.asked = asked_.empty() ? every_lane : asked_[at];
+    tile.source = {.tracer = &receivers_.tracer,
+                   .stored = receivers_.stored,
+                   .view = receivers_.view,
+                   .hits = receivers_.hits.empty() ? nullptr : &receivers_.hits[at]};
+    bool any = false;
+    if (tile.quantised != nullptr) {
+      any = tile.quantised->any;
+      if (any && tile.asked != LaneMask{}) bounds.grow(tile.quantised->bounds);
     } else {
-      choose_axis(setup, some_receiver(), rays_);
-      prepare_one_by_one();
+      for_each_place(rect, tile.asked, [&](int x, int y, std::size_t) {
+        const SurfacePoint& point = receivers_.stored->at(x, y);
+        if (point.primitive != no_id) any = true, bounds.grow(point.position);
+      });
     }
+    if (!any && asked_.empty()) store_verdicts(rect, {}, verdicts_);
+    return any && tile.asked != LaneMask{};
   }
 
-  void prepare_one_by_one() {
-    rays_.alive.fill(0);
+  /// Returns the number of rays.
+  std::uint64_t prepare(const EdgeSetup& setup, Tile& tile) const {
+    const bool reached = !asked_.empty();  // the light is known to reach all that is asked for
+    if (tile.quantised != nullptr && (reached || light_.type != LightType::spot) &&
+        quantisation_applies(setup, *tile.quantised)) {
+      prepare_quantised(light_, setup, *tile.quantised, tile.asked, tile.rays, tile.lanes);
+      if (!reached) decide_grazing(tile);
+    } else {
+      prepare_one_by_one(setup, tile);
+    }
+    LaneMask traced;
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      if (reached) {  // what floats hold to be facing away is asked in double
+        tile.rays.alive[p] &= tile.asked[p];
+        tile.lanes.apart[p] = static_cast<std::uint16_t>(tile.asked[p] & ~tile.rays.alive[p]);
+      }
+      traced[p] = tile.rays.alive[p] | tile.lanes.apart[p];
+    }
+    return number_of(traced);
+  }
+
+  /// Whether floats from the tile's origin are near enough to its receivers.
+  static bool quantisation_applies(const EdgeSetup& setup, const QuantisedTile& tile) {
+    const Vec3 largest = glm::max(glm::abs(tile.bounds.min), glm::abs(tile.bounds.max));
+    return max_component(largest) < setup.reach && (!setup.directional || tile.extent < setup.lateral);
+  }
+
+  void prepare_one_by_one(const EdgeSetup& setup, Tile& tile) const {
+    TileRays& rays = tile.rays;
+    rays.alive.fill(0);
     for (std::size_t i = 0; i < tile_rays; ++i)
-      rays_.u[i] = rays_.v[i] = rays_.far[i] = 0.0f, rays_.source[i] = no_id;
-    lanes_.apart.fill(0), lanes_.unreached.fill(0), lanes_.grazing.fill(0);
-    for_each_place(rect_, [&](int, int, std::size_t lane) {
-      const SurfacePoint point = receivers_.at(rect_, lane);
+      rays.u[i] = rays.v[i] = rays.far[i] = 0.0f, rays.source[i] = no_id;
+    tile.lanes.apart.fill(0), tile.lanes.unreached.fill(0), tile.lanes.grazing.fill(0);
+    for_each_place(tile.rect, [&](int, int, std::size_t lane) {
+      const SurfacePoint point = tile.source.at(tile.rect, lane);
       if (point.primitive == no_id) return;
-      rays_.source[lane] = point.primitive;
+      rays.source[lane] = point.primitive;
       const bool reached = !light_cannot_reach(light_, point.position, point.normal);
-      auto& bits = !reached                                  ? lanes_.unreached
-                   : start(sight_.setup, point, rays_, lane) ? rays_.alive
-                                                             : lanes_.apart;
+      auto& bits = !reached                            ? tile.lanes.unreached
+                   : project(setup, point, rays, lane) ? rays.alive
+                                                       : tile.lanes.apart;
       bits[lane / packet_rays] |= bit_of(lane);
     });
   }
 
-  /// The tile's middle receiver, or the first one where there is none.
-  Vec3 some_receiver() const {
-    SurfacePoint point =
-        receivers_.at(rect_, tile_lane((rect_.x1 - rect_.x0) / 2, (rect_.y1 - rect_.y0) / 2));
-    for_each_place(rect_, [&](int, int, std::size_t lane) {
-      if (point.primitive == no_id) point = receivers_.at(rect_, lane);
-    });
-    return point.position;
+  /// False when the frame cannot hold the ray.
+  static bool project(const EdgeSetup& setup, const SurfacePoint& point, TileRays& rays, std::size_t lane) {
+    if (!(max_component(glm::abs(point.position)) < setup.reach)) return false;
+    const Vec3 offset = point.position - setup.origin;
+    double u = glm::dot(offset, setup.axes[0]), v = glm::dot(offset, setup.axes[1]);
+    double far = glm::dot(offset, setup.axes[2]);
+    if (setup.directional) {
+      if (!(std::abs(u) < setup.lateral && std::abs(v) < setup.lateral && std::abs(far) < setup.height))
+        return false;
+    } else {
+      const double depth = far;
+      far = 1.0 / depth, u *= far, v *= far;
+      if (!(depth > 0x1p-30 * setup.reach && std::abs(u) < widest_slope && std::abs(v) < widest_slope))
+        return false;
+    }
+    rays.u[lane] = static_cast<float>(u), rays.v[lane] = static_cast<float>(v);
+    rays.far[lane] = static_cast<float>(far);
+    return true;
   }
 
-  void decide_grazing() {
-    for_each_place(rect_, lanes_.grazing, [&](int, int, std::size_t lane) {
-      const SurfacePoint point = receivers_.at(rect_, lane);
+  void decide_grazing(Tile& tile) const {
+    for_each_place(tile.rect, tile.lanes.grazing, [&](int, int, std::size_t lane) {
+      const SurfacePoint point = tile.source.at(tile.rect, lane);
       if (!light_cannot_reach(light_, point.position, point.normal)) return;
       const std::size_t p = lane / packet_rays;
       const auto others = static_cast<std::uint16_t>(~bit_of(lane));
-      rays_.alive[p] &= others, lanes_.apart[p] &= others, lanes_.unreached[p] |= bit_of(lane);
+      tile.rays.alive[p] &= others, tile.lanes.apart[p] &= others, tile.lanes.unreached[p] |= bit_of(lane);
     });
   }
 
-  void decide_rest(Image<Verdict>& verdicts) {
-    LaneMask asked;
-    for (std::size_t p = 0; p < tile_packets; ++p) asked[p] = shadows_.ambiguous[p] | lanes_.apart[p];
-    if (asked == LaneMask{}) return;
-    HugeArray<SurfacePoint> points(tile_rays);
-    receivers_.fill(rect_, asked, points.data());
-    const bool listed = shadows_.ambiguous_count <= TileShadows::most_ambiguous;
-    for_each_place(rect_, asked, [&](int x, int y, std::size_t lane) {
+  static void leave_to_single_rays(Tile& tile) {
+    for (std::size_t p = 0; p < tile_packets; ++p) tile.lanes.apart[p] |= tile.rays.alive[p];
+    tile.shadows.shadowed.fill(0), tile.shadows.ambiguous.fill(0), tile.shadows.ambiguous_count = 0;
+  }
+
+  void finish(const LightFrame& frame, const Tile& tile, SurfacePoint* points) const {
+    if (asked_.empty()) {
+      LaneMask dark;
+      for (std::size_t p = 0; p < tile_packets; ++p)
+        dark[p] = tile.shadows.shadowed[p] | tile.lanes.unreached[p];
+      store_verdicts(tile.rect, dark, verdicts_);
+    } else {
+      for_each_place(tile.rect, tile.asked, [&](int x, int y, std::size_t lane) {
+        const bool dark = (tile.shadows.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
+        verdicts_.at(x, y) = dark ? Verdict::shadowed : Verdict::lit;
+      });
+    }
+    decide_rest(frame, tile, points);
+  }
+
+  void decide_rest(const LightFrame& frame, const Tile& tile, SurfacePoint* points) const {
+    LaneMask left;
+    for (std::size_t p = 0; p < tile_packets; ++p) left[p] = tile.shadows.ambiguous[p] | tile.lanes.apart[p];
+    if (left == LaneMask{}) return;
+    tile.source.fill(tile.rect, left, points);
+    const bool listed = tile.shadows.ambiguous_count <= TileShadows::most_ambiguous;
+    for_each_place(tile.rect, left, [&](int x, int y, std::size_t lane) {
       const SurfacePoint& point =
-          points[static_cast<std::size_t>(tile_pixels * (y - rect_.y0) + x - rect_.x0)];
-      const std::size_t p = lane / packet_rays;
-      const bool in_list = listed && ((outside_[p] | lanes_.apart[p]) & bit_of(lane)) == 0;
-      verdicts.at(x, y) = in_list ? visibility_among(point, lane) : full_visibility(point);
+          points[static_cast<std::size_t>(tile_pixels * (y - tile.rect.y0) + x - tile.rect.x0)];
+      const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
+      verdicts_.at(x, y) =
+          in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point);
     });
   }
 
-  Verdict full_visibility(const SurfacePoint& point) const {
-    if (is_beyond_all(receivers_.tracer.structures(), sight_, point)) return Verdict::lit;
-    return receivers_.tracer.light_verdict(point, light_);
+  Verdict full_visibility(const LightFrame& frame, const SurfacePoint& point) const {
+    return is_beyond_all(frame, point) ? Verdict::lit : receivers_.tracer.light_verdict(point, light_);
   }
 
-  Verdict visibility_among(const SurfacePoint& point, std::size_t lane) const {
+  /// The receiver lies on the only plane there is, and its ray beyond all that is finite: nothing shadows it.
+  bool is_beyond_all(const LightFrame& frame, const SurfacePoint& receiver) const {
+    if (!frame.limits || receiver.primitive != receivers_.tracer.structures().planes.front()) return false;
+    double u = 0.0, v = 0.0;
+    return project_point(frame.setup, receiver.position, u, v) && !frame.limits->hold(u, v);
+  }
+
+  Verdict visibility_among(const TileShadows& shadows, const SurfacePoint& point, std::size_t lane) const {
     std::array<std::uint32_t, TileShadows::most_ambiguous> leaves;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < shadows_.ambiguous_count; ++i)
-      if (shadows_.ambiguous_hits[i].lane == lane) leaves[count++] = shadows_.ambiguous_hits[i].leaf;
+    for (std::size_t i = 0; i < shadows.ambiguous_count; ++i)
+      if (shadows.ambiguous_hits[i].lane == lane) leaves[count++] = shadows.ambiguous_hits[i].leaf;
     return receivers_.tracer.light_verdict_among(point, light_, {leaves.data(), count});
   }
 
-  const ReceiverSource& receivers_;
+  const PictureReceivers& receivers_;
   const Light& light_;
-  const Sight& sight_;
-  const TileRect& rect_;
-  TileRays rays_;
-  ShadowLanes lanes_;
-  TileShadows shadows_;
-  LaneMask outside_{};
+  std::span<const LaneMask> asked_;
+  Image<Verdict>& verdicts_;
 };
 
 }  // namespace
@@ -234,27 +279,14 @@ void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& 
   });
 }
 
-std::uint64_t shadow_tile(const ReceiverSource& receivers, const Light& light, const Sight& sight,
-                          const TileRect& rect, const QuantisedTile* quantised, Image<Verdict>& verdicts) {
-  if (quantised != nullptr && !quantised->any) {
-    store_verdicts(rect, {}, verdicts);
-    return 0;
-  }
-  return ShadowTile(receivers, light, sight, rect).run(quantised, verdicts);
+std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light, Image<Verdict>& verdicts,
+                          const std::stop_token& stop) {
+  return ShadowPass(receivers, light, {}, verdicts).run(stop);
 }
 
-void shadow_lanes(const ReceiverSource& receivers, const Light& light, const Sight* sight,
-                  const TileRect& rect, const QuantisedTile* quantised, const LaneMask& asked,
-                  Image<Verdict>& verdicts) {
-  int count = 0;
-  for (const std::uint16_t bits : asked) count += std::popcount(bits);
-  if (sight == nullptr || (!sight->by_bins && count <= few_rays)) {
-    for_each_place(rect, asked, [&](int x, int y, std::size_t lane) {
-      verdicts.at(x, y) = receivers.tracer.light_verdict(receivers.at(rect, lane), light);
-    });
-    return;
-  }
-  ShadowTile(receivers, light, *sight, rect).run_lanes(quantised, asked, verdicts);
+void shadow_pass_of(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
+                    Image<Verdict>& verdicts) {
+  ShadowPass(receivers, light, asked, verdicts).run({});
 }
 
 }  // namespace gnomon::raytrace

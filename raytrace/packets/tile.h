@@ -30,15 +30,18 @@ constexpr TilePixel tile_pixel(std::size_t lane) {
 
 /// Bit i of a packet's number: ray i of it.
 using LaneMask = std::array<std::uint16_t, tile_packets>;
+inline constexpr LaneMask every_lane = [] {
+  LaneMask all{};
+  for (std::uint16_t& bits : all) bits = 0xffff;
+  return all;
+}();
 
+/// Shadow rays.
 struct alignas(64) TileRays {
   float u[tile_rays], v[tile_rays];
-  /// Shadow rays: the receiver's reciprocal depth. Primary rays: unused.
-  float far[tile_rays];
-  std::uint32_t source[tile_rays];  ///< shadow rays: the primitive that they leave
+  float far[tile_rays];             ///< the receiver's reciprocal depth
+  std::uint32_t source[tile_rays];  ///< the primitive that the ray leaves
   LaneMask alive;                   ///< bit i: ray i of the packet is asked for
-  int axis = 2;  ///< a point's: the world axis of depth, and the sign that makes depth positive
-  float sign = 1.0f;
 };
 
 /// Of each ray the leaf position of its nearest hit; or first_plane and the place in Structures::planes; or:
@@ -70,8 +73,5 @@ struct TileShadows {
                                                      static_cast<std::uint32_t>(std::countr_zero(bits))};
   }
 };
-
-/// The world's tree must have nodes.
-void shadows_in_tile(const Bvh& bvh, const EdgeSetup& setup, const TileRays& rays, TileShadows& shadows);
 
 }  // namespace gnomon::raytrace

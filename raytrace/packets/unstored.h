@@ -13,15 +13,8 @@ struct UnstoredReceivers {
 
   bool apply() const { return hits.size() > 0; }
   ReceiverSource source(const Tracer& tracer, const View& view, std::size_t tile) const {
-    return {.tracer = tracer, .stored = nullptr, .view = &view, .hits = &hits[tile]};
+    return {.tracer = &tracer, .stored = nullptr, .view = &view, .hits = &hits[tile]};
   }
 };
-
-/// Every place of a tile.
-inline constexpr LaneMask every_lane = [] {
-  LaneMask all{};
-  for (std::uint16_t& bits : all) bits = 0xffff;
-  return all;
-}();
 
 }  // namespace gnomon::raytrace

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 
-#include "raytrace/packets/bin_cover.h"
 #include "raytrace/packets/block_plane-inl.h"
 #include "raytrace/packets/edge_setup_rows.h"
-#include "raytrace/packets/frustum-inl.h"
+#include "raytrace/packets/packet_grid.h"
 #include "raytrace/packets/view_block.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,7 +47,6 @@ class BlockClosest {
         packets_(plane_.packets),
         rect_(rect),
         out_(out) {
-    pass_.bounds = true;
     start();
   }
 
@@ -62,15 +60,19 @@ class BlockClosest {
       intervals.u_min[p] = plane_.u_min, intervals.u_max[p] = plane_.u_max;
       intervals.v_min[p] = plane_.v_min, intervals.v_max[p] = plane_.v_max;
     }
-    const Frustum frustum(s_.bvh, setup_, Axes{0, 1, 2, 1.0f}, intervals);
+    const Frustum frustum(s_.bvh, setup_, intervals);
     update_limit();
-    traverse(frustum);
+    traverse_block(
+        s_.bvh, frustum, [&] { return limit_; },
+        [&](const BvhNode& node, std::uint32_t child, LeafRange leaves) {
+          if (!is_hidden(node, child)) put(leaves);
+        });
     while (pending_count_ > 0) flush();
     finish();
   }
 
  private:
-  static constexpr std::uint32_t run_size = 32, batch = 32;
+  static constexpr std::uint32_t batch = 32;
 
   // Rays outside the picture ask nothing.
   void start() {
@@ -104,49 +106,6 @@ class BlockClosest {
 
   std::uint32_t* leaf_at(std::size_t place) { return out_.tiles[place / tile_rays].leaf + place % tile_rays; }
 
-  /// A child of a node.
-  struct Entry {
-    const BvhNode* parent;
-    std::uint32_t child;
-    float priority;
-  };
-
-  /// Nearest first, but several nodes at a time: memory takes longer to bring a node than its test takes.
-  void traverse(const Frustum& frustum) {
-    constexpr std::size_t together = 4;
-    Entry stack[together * Bvh::stack_size];
-    std::size_t size = 0;
-    std::uint32_t nodes[together] = {0};
-    std::size_t count = 1;
-    while (count > 0) {
-      for (std::size_t k = count; k-- > 0;) {  // the nearest last, on top of the stack
-        const BvhNode& node = s_.bvh.nodes[nodes[k]];
-        alignas(16) float priority[4];
-        const std::size_t base = size;
-        for (unsigned mask = frustum.hits(node, limit_, priority); mask != 0; mask &= mask - 1) {
-          const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
-          std::size_t at = size++;
-          for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
-          stack[at] = {&node, i, priority[i]};
-        }
-      }
-      for (count = 0; size > 0 && count < together;) {
-        const Entry entry = stack[--size];
-        if (entry.priority < limit_) continue;
-        const BvhChild child = entry.parent->child[entry.child];
-        const LeafRange below =
-            child.is_leaf() ? LeafRange{child.first(), child.count()} : s_.bvh.below[child.index()];
-        if (below.count > run_size) {
-          nodes[count++] = child.index();
-          const char* node = reinterpret_cast<const char*>(&s_.bvh.nodes[child.index()]);
-          __builtin_prefetch(node), __builtin_prefetch(node + 64);
-        } else if (!is_hidden(*entry.parent, entry.child)) {
-          put(below);
-        }
-      }
-    }
-  }
-
   void put(LeafRange run) {
     const char* bytes = reinterpret_cast<const char*>(&s_.bvh.primitives[run.first]);
     for (std::size_t at = 0; at < run.count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
@@ -156,10 +115,7 @@ class BlockClosest {
 
   /// Whether no ray of the block can find anything in the child's box that is nearer than what it has.
   bool is_hidden(const BvhNode& node, std::uint32_t child) const {
-    BoxRef box{};
-    for (std::size_t a = 0; a < 3; ++a)
-      box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
-    const BoxPlace place = plane_.packets_of(box);
+    const BoxPlace place = plane_.packets_of(box_of(node, child));
     if (place.covered.x0 > place.covered.x1) return true;
     for (int y = place.covered.y0; y <= place.covered.y1; ++y)
       if (asking(place.nearest, place.covered, y) != 0) return false;
@@ -185,9 +141,9 @@ class BlockClosest {
       EdgeSetupBlock& block = blocks_[first / 8];
       never[first / 8] =
           set_up_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
-      place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.lo), block.u_min(), block.u_max(),
+      place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), block.u_min(), block.u_max(),
                   u_[first / 8]);
-      place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.lo), block.v_min(), block.v_max(),
+      place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), block.v_min(), block.v_max(),
                   v_[first / 8]);
       std::copy_n(block.nearest(), 8, nearest + first);
     }
@@ -197,7 +153,7 @@ class BlockClosest {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t b = order[k] / 8, i = order[k] % 8;
       const std::uint32_t leaf = pending_[order[k]];
-      const BinSpans &u = u_[b], &v = v_[b];
+      const PacketSpans &u = u_[b], &v = v_[b];
       PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
                          std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
       // A sphere's or a solid's own numbers have no bounds.
@@ -320,7 +276,7 @@ class BlockClosest {
   std::uint32_t pending_[batch + 2 * run_size];
   std::size_t pending_count_ = 0;
   EdgeSetupBlock blocks_[batch / 8];
-  BinSpans u_[batch / 8], v_[batch / 8];
+  PacketSpans u_[batch / 8], v_[batch / 8];
   alignas(64) float nearest_asked_[block_side]
                                   [block_side];  ///< of packets; what is nowhere nearer is of no interest
   alignas(64) float low_[block_rays], high_[block_rays], rival_[block_rays];

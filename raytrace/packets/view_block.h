@@ -6,18 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/packets/blocks.h"
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {
-
-inline constexpr int block_tiles = 4, block_pixels = 16 * block_tiles;
-
-/// A block's rectangle of pixels begins at a multiple of 16 and holds at most 64 x 64.
-struct BlockRect {
-  int x0, y0, x1, y1;
-};
 
 /// A primitive that a ray may intersect where its nearest hit is ambiguous. place: tile by tile, as in
 /// BlockHits.
@@ -35,7 +29,7 @@ struct BlockHits {
   std::span<const AmbiguousBlockHit> ambiguous_at(std::size_t place) const;
 };
 
-/// `setup`: framed to the view, without primitives. Rays outside the rectangle are ambiguous_hit.
+/// `setup`: edge_setup_of_eye(). Rays outside the rectangle are ambiguous_hit.
 void closest_in_block(const Structures& structures, const EdgeSetup& setup, const View& view,
                       const BlockRect& rect, BlockHits& hits);
 

@@ -13,7 +13,7 @@
 #include "cpu_time.h"
 #include "embree_peer.h"
 #include "instruction_set.h"
-#include "raytrace/packets/passes.h"
+#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
 
@@ -25,7 +25,6 @@ using raytrace::Accel;
 using raytrace::HugeArray;
 using raytrace::QuantisedTile;
 using raytrace::RayTracedFrame;
-using raytrace::Sight;
 using raytrace::Tracer;
 using raytrace::Verdict;
 
@@ -128,15 +127,15 @@ class Bench {
     primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
                  {.hits = {}, .receivers = &frame_.receiver, .quantised = {tiles_.data(), tiles_.size()}});
   }
-  Sight sight_of(std::size_t light) const {
-    return sight_of_light(tracer_, scene_.scene.lights[light], {tiles_.data(), tiles_.size()});
-  }
-  void our_shadows(std::size_t light, const Sight& sight) {
-    const raytrace::ReceiverSource source{.tracer = tracer_, .stored = &frame_.receiver};
-    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      shadow_tile(source, scene_.scene.lights[light], sight, {x0, y0, x1, y1}, &tiles_[i],
-                  frame_.lights[light].verdict);
-    });
+  /// The product's pass: a fresh light.
+  void our_shadows(std::size_t light) {
+    shadow_pass({.tracer = tracer_,
+                 .size = settings_.size,
+                 .stored = &frame_.receiver,
+                 .view = nullptr,
+                 .hits = {},
+                 .quantised = {tiles_.data(), tiles_.size()}},
+                scene_.scene.lights[light], frame_.lights[light].verdict);
   }
 
   void primary(int threads) {
@@ -162,13 +161,8 @@ class Bench {
     const auto rays = static_cast<double>(shadow_[light].count);
     our_receivers();
     const auto packets = [&] { embree_.occluded_packets(shadow_[light], occluded_); };
-    const auto ours = [&] { our_shadows(light, sight_of(light)); };
-    add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 2.0);
-    const Sight kept = sight_of(light);
-    add(name + ", cells kept over frames", threads, rays,
-        in_turn(
-            settings_.runs, threads, [&] { our_shadows(light, kept); }, packets),
-        "Embree 16 coherent", std::nullopt);
+    const auto ours = [&] { our_shadows(light); };
+    add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 1.5);
     if (threads == 1)
       add(name, threads, rays,
           in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
@@ -188,7 +182,7 @@ class Bench {
       add(name, 2, rays, ms, "one thread", 1.8);
     };
     row("primary, stored receivers", static_cast<double>(primary_.count), [&] { our_receivers(); });
-    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0, sight_of(0)); });
+    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0); });
   }
 
   /// One ray at a time, here and there.
@@ -252,7 +246,7 @@ class Bench {
           const Stopwatch watch;
           tracer_ = Tracer(world_, Accel::bvh);
           build = watch.elapsed_ms();
-          our_receivers(), our_shadows(0, sight_of(0));
+          our_receivers(), our_shadows(0);
         },
         [&] {
           const Stopwatch watch;

@@ -1,0 +1,133 @@
+// The traversal of a block of tiles through the hierarchy (view_block.cpp, shadow_block.cpp): the nodes that the
+// block's frustum touches, nearest first, down to runs of a few leaves; and where a box lies before the block.
+
+#if defined(GNOMON_RAYTRACE_PACKETS_BLOCK_TRAVERSE_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_PACKETS_BLOCK_TRAVERSE_INL_H_
+#undef GNOMON_RAYTRACE_PACKETS_BLOCK_TRAVERSE_INL_H_
+#else
+#define GNOMON_RAYTRACE_PACKETS_BLOCK_TRAVERSE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raytrace/packets/frustum-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+
+/// Runs of leaves are not divided below this.
+constexpr std::uint32_t run_size = 32;
+
+/// run(node, child, leaves) for every run that the frustum touches at a priority of at least limit(). Nearest
+/// first, but several nodes at a time: memory takes longer to bring a node than its test takes.
+template <class Limit, class Run>
+void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Run& run) {
+  struct Entry {
+    const BvhNode* parent;
+    std::uint32_t child;
+    float priority;
+  };
+  constexpr std::size_t together = 4;
+  Entry stack[together * Bvh::stack_size];
+  std::size_t size = 0;
+  std::uint32_t nodes[together] = {0};
+  std::size_t count = 1;
+  while (count > 0) {
+    for (std::size_t k = count; k-- > 0;) {  // the nearest last, on top of the stack
+      const BvhNode& node = bvh.nodes[nodes[k]];
+      alignas(16) float priority[4];
+      const std::size_t base = size;
+      for (unsigned mask = frustum.hits(node, limit(), priority); mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+        std::size_t at = size++;
+        for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
+        stack[at] = {&node, i, priority[i]};
+      }
+    }
+    for (count = 0; size > 0 && count < together;) {
+      const Entry entry = stack[--size];
+      if (entry.priority < limit()) continue;
+      const BvhChild child = entry.parent->child[entry.child];
+      const LeafRange below =
+          child.is_leaf() ? LeafRange{child.first(), child.count()} : bvh.below[child.index()];
+      if (below.count > run_size) {
+        nodes[count++] = child.index();
+        const char* node = reinterpret_cast<const char*>(&bvh.nodes[child.index()]);
+        __builtin_prefetch(node), __builtin_prefetch(node + 64);
+      } else {
+        run(*entry.parent, entry.child, below);
+      }
+    }
+  }
+}
+
+inline BoxRef box_of(const BvhNode& node, std::uint32_t child) {
+  BoxRef box{};
+  for (std::size_t a = 0; a < 3; ++a)
+    box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
+  return box;
+}
+
+using Eight = hn::CappedTag<float, 8>;
+using V8 = hn::Vec<Eight>;
+constexpr Eight eight;
+alignas(32) constexpr float corner_bit[3][8] = {
+    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
+
+/// Where in the plane boxes lie that count from the hierarchy's centre.
+class BoxProjection {
+ public:
+  BoxProjection(const Structures& s, const EdgeSetup& setup)
+      : setup_(setup), origin_(setup.origin - s.bvh.center), slack_(float_above(setup.slack)) {}
+
+  /// Conservative; infinite, and nearest with it, of a box that is not clear of the common origin.
+  PrimitiveBounds of(const BoxRef& box) const {
+    const auto set = [](double number) { return hn::Set(eight, static_cast<float>(number)); };
+    PrimitiveBounds bounds{inf, -inf, inf, -inf, setup_.directional ? -inf : inf};
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
+      V8 across = hn::Zero(eight), down = across, depth = across;
+      for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        const V8 low = hn::Set(eight, box.min[axis]), high = hn::Set(eight, box.max[axis]);
+        const V8 corner =
+            hn::IfThenElse(hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight)), high, low);
+        const V8 p = hn::Sub(corner, set(origin_[a]));
+        across = hn::MulAdd(p, set(setup_.axes[0][a]), across);
+        down = hn::MulAdd(p, set(setup_.axes[1][a]), down);
+        depth = hn::MulAdd(p, set(setup_.axes[2][a]), depth);
+      }
+      if (setup_.directional) {
+        const V8 margin = hn::Set(eight, 4.0f * slack_);
+        grow(across, margin, bounds.u_min, bounds.u_max), grow(down, margin, bounds.v_min, bounds.v_max);
+        bounds.nearest = std::max(bounds.nearest, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(depth, margin))));
+        continue;
+      }
+      bounds.nearest = std::min(bounds.nearest, hn::GetLane(hn::MinOfLanes(eight, depth)));  // as a depth
+      if (!(bounds.nearest > 64.0f * slack_)) return {-inf, inf, -inf, inf, inf};
+      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), depth);
+      const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
+      const V8 u = hn::Mul(across, per_depth), v = hn::Mul(down, per_depth);
+      grow(u, hn::MulAdd(hn::Abs(u), relative, relative), bounds.u_min, bounds.u_max);
+      grow(v, hn::MulAdd(hn::Abs(v), relative, relative), bounds.v_min, bounds.v_max);
+    }
+    if (!setup_.directional) bounds.nearest = (1.0f + 0x1p-20f) / (bounds.nearest - slack_);
+    return bounds;
+  }
+
+ private:
+  static void grow(V8 at, V8 margin, float& min, float& max) {
+    min = std::min(min, hn::GetLane(hn::MinOfLanes(eight, hn::Sub(at, margin))));
+    max = std::max(max, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(at, margin))));
+  }
+
+  const EdgeSetup& setup_;
+  Vec3 origin_;  // from the middle that boxes count from
+  float slack_;
+};
+
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard

@@ -1,0 +1,35 @@
+// A light's hard shadows over a picture: blocks of 64 x 64 receivers, each in one traversal of the hierarchy
+// (shadow_block.h). Needs packets_apply().
+#pragma once
+
+#include <span>
+#include <stop_token>
+
+#include "raytrace/packets/passes.h"
+
+namespace gnomon::raytrace {
+
+/// A picture's receivers, as a light's pass reads them.
+struct PictureReceivers {
+  const Tracer& tracer;
+  ImageSize size;
+  const Image<SurfacePoint>* stored = nullptr;
+  const View* view = nullptr;                  ///< these two when none are stored
+  std::span<const TileHits> hits{};            ///< by tile
+  std::span<const QuantisedTile> quantised{};  ///< by tile; empty: the receivers are stored
+};
+
+/// Fills the verdicts as Tracer::light_verdict does, `shadowed` where the light cannot reach, and returns the number
+/// of rays. Once a stop is requested no further block is begun.
+std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light, Image<Verdict>& verdicts,
+                          const std::stop_token& stop = {});
+
+/// The verdicts of the asked receivers alone (by tile, bits per packet), which exist and which the light reaches; the
+/// others' are left as they are. The receivers are stored.
+void shadow_pass_of(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
+                    Image<Verdict>& verdicts);
+
+/// The whole tile: lit, or shadowed where the bit is set.
+void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts);
+
+}  // namespace gnomon::raytrace
