@@ -62,8 +62,7 @@ std::string time_budget_block(const TimeBudget& budget) {
   std::string rows;
   for (std::size_t i = 0; i < budget.stages.size(); ++i) rows += row(i, budget.stages[i], longest);
   return fmt::format(
-      R"(<table class="times"><caption>The time budget: every stage of the run, up to this page</caption><thead
-class="quiet"><tr><th scope="col">stage</th><th scope="col">share of the longest</th><th scope="col"
+      R"(<table class="times"><caption>The time budget: every stage of the run, up to this page</caption><thead><tr><th scope="col">stage</th><th scope="col">share of the longest</th><th scope="col"
 class="n">wall clock</th><th scope="col" class="n">processor</th></tr></thead><tbody>
 {}<tr class="sum"><th scope="row">sum: the process</th><td class="wide"></td><td class="n">{}</td><td
 class="n">{}</td></tr></tbody></table>

@@ -20,11 +20,11 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 
 std::string proof(const BestBias& best) {
   if (best.feasible || best.lit_pixels_above == 0) return {};
-  return fmt::format("; no constant bias is right everywhere: {} need{} {} or more, {} less than {}",
-                     counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
-                     plain_number(best.needs_more_than),
-                     counted(best.shadowed_pixels_below, "shadowed pixel"),
-                     plain_number(best.needs_less_than));
+  return fmt::format(
+      "; no constant bias is right everywhere: {} need{} at least {} world units, {} less than {}",
+      counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
+      plain_number(best.needs_more_than), counted(best.shadowed_pixels_below, "shadowed pixel"),
+      plain_number(best.needs_less_than));
 }
 
 std::string joined(const std::vector<std::string>& names) {
