@@ -222,6 +222,33 @@ TEST_F(Gltf, TexturesComeThroughOpenImageIO) {
   EXPECT_EQ(error(b.text()).substr(0, 34), "images[0]: the PNG file is cut off");
 }
 
+TEST_F(Gltf, UnlitMaterialsShowTheirColour) {
+  Builder b = simple();
+  b.json["materials"] = Json::array({{{"extensions", {{"KHR_materials_unlit", Json::object()}}},
+                                      {"emissiveFactor", {1, 1, 1}},
+                                      {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}}}});
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  b.json["extensionsRequired"] = {"KHR_materials_unlit"};
+  const Material m = material_of(loaded(b));
+  EXPECT_EQ(m.emission, Vec3f(0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(m.diffuse, Vec3f(0.0f));
+  EXPECT_EQ(m.specular, Vec3f(0.0f));
+}
+
+TEST_F(Gltf, SpecularGlossiness) {
+  Builder b = simple();
+  b.json["materials"] = Json::array({{{"extensions",
+                                       {{"KHR_materials_pbrSpecularGlossiness",
+                                         {{"diffuseFactor", {0.5, 0.25, 1, 1}},
+                                          {"specularFactor", {0.1, 0.2, 0.3}},
+                                          {"glossinessFactor", 0.5}}}}}}});
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Material m = material_of(loaded(b));
+  EXPECT_EQ(m.diffuse, Vec3f(0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(m.specular, Vec3f(0.1f, 0.2f, 0.3f));
+  EXPECT_NEAR(m.shininess, 30.0f, 1e-4f);  // 2 / 0.25^2 - 2
+}
+
 TEST_F(Gltf, CamerasAreChosenByNameOrNumber) {
   Builder b = simple();
   b.json["cameras"] = Json::array(

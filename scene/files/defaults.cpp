@@ -7,6 +7,7 @@
 #include <span>
 
 #include "scene/closed_mesh.h"
+#include "scene/files/interior.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -130,6 +131,26 @@ void add_sun(Scene& scene, bool is_model) {
   scene.notes.push_back("Made an ambient light of 0.15 and a pale blue background for the bare model.");
 }
 
+// From the sun nothing would come in. As bright at the room's walls as the sun is elsewhere.
+void add_lamp(Scene& scene, const Vec3& position, double diagonal) {
+  constexpr double typical = 0.35;  // of the diagonal: how far the walls are
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.type = LightType::point;
+  lamp.position = position;
+  lamp.intensity = Vec3f(static_cast<float>(std::pow(typical * diagonal, 2.0)));
+  scene.lights.push_back(lamp);
+  scene.ambient = Vec3f(0.15f);
+  scene.notes.push_back(
+      fmt::format("Made a point light 'lamp' at [{:.3f}, {:.3f}, {:.3f}] under the ceiling, and an ambient "
+                  "light of 0.15: the room is closed, and the file has no light.",
+                  position.x, position.y, position.z));
+}
+
+bool holds(const Aabb& box, const Vec3& p) {
+  return glm::clamp(p, box.min, box.max) == p;
+}
+
 }  // namespace
 
 Aabb scene_bounds(const Scene& scene) {
@@ -230,16 +251,23 @@ Aabb bounds_to_frame(const Scene& scene) {
 
 Scene add_defaults(LoadedFile loaded) {
   Scene& scene = loaded.scene;
-  const bool needs_ground = loaded.is_model && scene.lights.empty();
-  const Aabb bounds = !loaded.has_camera || needs_ground ? bounds_to_frame(scene) : Aabb{};
+  const bool needs_light = scene.lights.empty();
+  const bool looks_around = !loaded.has_camera || (loaded.is_model && needs_light);
+  const Aabb bounds = looks_around ? bounds_to_frame(scene) : Aabb{};
+  const auto room = looks_around ? find_interior(scene, bounds) : std::nullopt;
   if (!loaded.has_camera) {
-    scene.camera = default_camera(scene, bounds);
+    scene.camera = room ? room->camera : default_camera(scene, bounds);
     scene.notes.push_back(
-        fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] that frames the scene: the file has none.",
-                    scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z));
+        fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] {}: the file has none.", scene.camera.eye.x,
+                    scene.camera.eye.y, scene.camera.eye.z,
+                    room ? "inside the model, which is a closed room" : "that frames the scene"));
   }
-  if (needs_ground) add_ground(scene, bounds);
-  if (scene.lights.empty()) add_sun(scene, loaded.is_model);
+  const bool lamp = needs_light && room && holds(bounds, scene.camera.eye);
+  if (loaded.is_model && needs_light && !lamp) add_ground(scene, bounds);
+  if (lamp)
+    add_lamp(scene, room->lamp, bounds.diagonal());
+  else if (needs_light)
+    add_sun(scene, loaded.is_model);
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);
   note_emission(scene);

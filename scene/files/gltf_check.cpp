@@ -261,6 +261,9 @@ class GltfChecker {
     numbers(node, "emissiveFactor", 3);
     for (const std::string_view key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
       check_texture_info(node, key);
+    const auto extensions = node.child("extensions");
+    const auto gloss = extensions ? extensions->child("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
+    if (gloss) check_texture_info(*gloss, "diffuseTexture");
     const auto pbr = node.child("pbrMetallicRoughness");
     if (!pbr) return;
     if (!pbr->is(JsonValue::Type::object)) return pbr->wrong("wrong type", "an object");

@@ -5,12 +5,22 @@
 namespace gnomon {
 
 const std::vector<std::string_view>& supported_extensions() {
-  static const std::vector<std::string_view> names{
-      "KHR_lights_punctual",  "KHR_materials_transmission",      "KHR_materials_ior",
-      "KHR_materials_volume", "KHR_materials_emissive_strength", "KHR_materials_specular",
-      "KHR_materials_unlit",  "KHR_texture_transform",           "KHR_mesh_quantization",
-      "KHR_texture_basisu",   "KHR_draco_mesh_compression",      "EXT_meshopt_compression",
-      "KHR_node_visibility",  "EXT_mesh_gpu_instancing",         "EXT_texture_webp"};
+  static const std::vector<std::string_view> names{"KHR_lights_punctual",
+                                                   "KHR_materials_transmission",
+                                                   "KHR_materials_ior",
+                                                   "KHR_materials_volume",
+                                                   "KHR_materials_emissive_strength",
+                                                   "KHR_materials_specular",
+                                                   "KHR_materials_unlit",
+                                                   "KHR_texture_transform",
+                                                   "KHR_mesh_quantization",
+                                                   "KHR_texture_basisu",
+                                                   "KHR_draco_mesh_compression",
+                                                   "EXT_meshopt_compression",
+                                                   "KHR_node_visibility",
+                                                   "EXT_mesh_gpu_instancing",
+                                                   "EXT_texture_webp",
+                                                   "KHR_materials_pbrSpecularGlossiness"};
   return names;
 }
 

@@ -92,6 +92,21 @@ Defect material_defect(const Material& m, const std::string& path, std::size_t t
   return std::nullopt;
 }
 
+/// Triangles and vertices of the world, where instances lie one behind the other, have numbers of 32 bits.
+Defect count_defect(const Scene& scene) {
+  std::uint64_t triangles = scene.shapes.size(), vertices = 0;
+  for (const MeshInstance& instance : scene.instances) {
+    triangles += scene.meshes[instance.mesh].triangles.size();
+    vertices += scene.meshes[instance.mesh].positions.size();
+  }
+  constexpr std::uint64_t most = no_id - 1;
+  if (triangles <= most && vertices <= most) return std::nullopt;
+  return defect("instances",
+                fmt::format("are too many in all (got {} primitives with {} vertices, allowed {} "
+                            "of each)",
+                            triangles, vertices, most));
+}
+
 Defect instance_defect(const Scene& scene, const MeshInstance& instance, const std::string& path) {
   if (instance.mesh >= scene.meshes.size()) return defect(path + ".mesh", "there is no such mesh");
   const Mesh& mesh = scene.meshes[instance.mesh];
@@ -226,7 +241,7 @@ std::optional<Error> find_geometry_defect(const Scene& scene) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
     if (auto found = shape_defect(scene.shapes[i], fmt::format("shapes[{}]", i), scene.materials.size()))
       return found;
-  return std::nullopt;
+  return count_defect(scene);
 }
 
 std::optional<Error> find_setting_defect(const Scene& scene) {

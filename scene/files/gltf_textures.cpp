@@ -1,0 +1,141 @@
+#include "scene/files/gltf_textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/files/gltf_value.h"
+#include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
+#include "scene/texture_sample.h"
+
+namespace gnomon {
+namespace {
+
+TextureStatistics statistics_of(const Texture& texture) {
+  TextureStatistics out;
+  Vec3 sum(0.0);
+  const auto& linear = linear_from_srgb8();
+  for (const glm::u8vec4& t : texture.texels) {
+    sum += texture.srgb ? Vec3(linear[t.r], linear[t.g], linear[t.b]) : Vec3(t.r, t.g, t.b) / 255.0;
+    if (t.a < 255) out.has_alpha = true;
+  }
+  if (!texture.texels.empty()) out.mean = Vec3f(sum / static_cast<double>(texture.texels.size()));
+  return out;
+}
+
+GltfTextureUse use_of(int index, int set, const tinygltf::Value* transform) {
+  GltfTextureUse use{index, set, {}};
+  if (transform == nullptr) return use;
+  const auto offset = numbers(transform, "offset", {0.0, 0.0});
+  const auto scale = numbers(transform, "scale", {1.0, 1.0});
+  use.transform = {{offset[0], offset[1]}, {scale[0], scale[1]}, number(transform, "rotation", 0.0)};
+  use.set = static_cast<int>(std::clamp(number(transform, "texCoord", set), -1.0, 16.0));
+  return use;
+}
+
+/// The images of a texture: the plain one first, then what an extension offers.
+std::vector<int> sources(const tinygltf::Texture& texture) {
+  std::vector<int> out;
+  if (texture.source >= 0) out.push_back(texture.source);
+  const tinygltf::Value* webp = extension(texture.extensions, "EXT_texture_webp");
+  if (const double source = number(webp, "source", -1.0); source >= 0.0)
+    out.push_back(static_cast<int>(std::min(source, 2147483647.0)));
+  return out;
+}
+
+}  // namespace
+
+GltfTextureUse texture_use(const tinygltf::TextureInfo& info) {
+  return use_of(info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+}
+
+GltfTextureUse texture_use(const tinygltf::Value* info) {
+  const int index = static_cast<int>(std::clamp(number(info, "index", -1.0), -1.0, 2147483647.0));
+  const int set = static_cast<int>(std::clamp(number(info, "texCoord", 0.0), -1.0, 16.0));
+  const tinygltf::Value* extensions = has(info, "extensions") ? &info->Get("extensions") : nullptr;
+  const bool moved = has(extensions, "KHR_texture_transform");
+  return use_of(index, set, moved ? &extensions->Get("KHR_texture_transform") : nullptr);
+}
+
+bool operator==(const TextureTransform& a, const TextureTransform& b) {
+  return a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
+}
+
+Expected<std::uint32_t> GltfTextures::add(int index, const std::string& material) {
+  const auto image = find_image(index, material);
+  if (!image) return fail(image.error());
+  if (!*image) return no_id;
+  if (const auto known = textures_.find(index); known != textures_.end()) return known->second;
+  auto texture = decode(**image, true);
+  if (!texture) return fail(texture.error());
+  apply_sampler(index, *texture, material);
+  const auto at = static_cast<std::uint32_t>(scene_.textures.size());
+  textures_.emplace(index, at);
+  scene_.textures.push_back(std::move(*texture));
+  return at;
+}
+
+const TextureStatistics& GltfTextures::statistics(std::uint32_t texture) {
+  const auto [at, is_new] = statistics_.try_emplace(texture);
+  if (is_new) at->second = statistics_of(scene_.textures[texture]);
+  return at->second;
+}
+
+Expected<std::optional<Vec3f>> GltfTextures::linear_mean(int index, const std::string& material) {
+  const auto image = find_image(index, material);
+  if (!image) return fail(image.error());
+  if (!*image) return std::nullopt;
+  if (const auto known = linear_means_.find((*image)->index); known != linear_means_.end())
+    return known->second;
+  const auto texture = decode(**image, false);
+  if (!texture) return fail(texture.error());
+  return linear_means_.emplace((*image)->index, statistics_of(*texture).mean).first->second;
+}
+
+void GltfTextures::note_once(std::string note) {
+  if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end())
+    scene_.notes.push_back(std::move(note));
+}
+
+Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std::string& material) {
+  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
+  std::string why = extension(texture.extensions, "KHR_texture_basisu") != nullptr
+                        ? "is in Basis Universal alone, which is not decoded"
+                        : "has no image";
+  for (const int source : sources(texture)) {
+    if (static_cast<std::size_t>(source) >= data_.image_count())
+      return fail(Error{ErrorKind::bad_input,
+                        fmt::format("there is no such image (got {}, allowed 0 to {})", source,
+                                    static_cast<std::int64_t>(data_.image_count()) - 1),
+                        file_, 0, 0, fmt::format("textures[{}].source", index)});
+    auto image = data_.image(static_cast<std::size_t>(source));
+    if (!image) return fail(image.error());
+    if (!image->bytes.empty()) return std::move(*image);
+    why = image->uri.empty() ? "is empty" : fmt::format("{} is not there", printable(image->uri, 80));
+  }
+  note_once(fmt::format("Material '{}': the texture {}; its plain colour is used.", material, why));
+  return std::nullopt;
+}
+
+void GltfTextures::apply_sampler(int texture_index, Texture& texture, const std::string& material) {
+  const int index = model_.textures[static_cast<std::size_t>(texture_index)].sampler;
+  if (index < 0) return;
+  const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(index)];
+  texture.repeat_s = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  texture.repeat_t = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
+      sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT)
+    unused_["Mirrored repeat of textures (they repeat plainly) is"].insert(material);
+}
+
+Expected<Texture> GltfTextures::decode(const GltfImage& image, bool srgb) const {
+  const std::string path = fmt::format("images[{}]", image.index);
+  auto texture = read_texture_bytes(path, image.bytes, srgb);
+  if (!texture) return fail(Error{ErrorKind::bad_input, texture.error().reason, file_, 0, 0, path});
+  texture->name = image.name;
+  return texture;
+}
+
+}  // namespace gnomon

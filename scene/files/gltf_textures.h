@@ -1,0 +1,66 @@
+// Textures of glTF materials: which image is taken, and how it is looked up.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "scene/expected.h"
+#include "scene/files/gltf_data.h"
+#include "scene/scene.h"
+
+namespace gnomon {
+
+/// What a material says of one of its textures; index < 0: it has none.
+struct GltfTextureUse {
+  int index = -1;
+  int set = 0;  ///< of texture coordinates
+  TextureTransform transform{};
+};
+GltfTextureUse texture_use(const tinygltf::TextureInfo& info);
+/// Of an extension's own member, "diffuseTexture"; nullptr and what is no object: none.
+GltfTextureUse texture_use(const tinygltf::Value* info);
+bool operator==(const TextureTransform& a, const TextureTransform& b);
+
+/// What is not used of a file, and by which materials.
+using UnusedParts = std::map<std::string, std::set<std::string>>;
+
+struct TextureStatistics {
+  Vec3f mean{1.0f};  ///< linear when the texture is sRGB
+  bool has_alpha = false;
+};
+
+class GltfTextures {
+ public:
+  GltfTextures(Scene& scene, const tinygltf::Model& model, GltfData& data, UnusedParts& unused,
+               const std::string& file)
+      : scene_(scene), model_(model), data_(data), unused_(unused), file_(file) {}
+
+  /// The scene's index of an sRGB texture, decoded the first time. no_id where no image of it is there, or none
+  /// that can be decoded: said, and the material's plain factors are used.
+  Expected<std::uint32_t> add(int index, const std::string& material);
+  /// Of a texture that add() gave.
+  const TextureStatistics& statistics(std::uint32_t texture);
+  /// The mean of a texture that holds no colours, in [0, 1]; none where it is not there.
+  Expected<std::optional<Vec3f>> linear_mean(int index, const std::string& material);
+
+ private:
+  Expected<std::optional<GltfImage>> find_image(int index, const std::string& material);
+  Expected<Texture> decode(const GltfImage& image, bool srgb) const;
+  void apply_sampler(int index, Texture& texture, const std::string& material);
+  void note_once(std::string note);
+
+  Scene& scene_;
+  const tinygltf::Model& model_;
+  GltfData& data_;
+  UnusedParts& unused_;
+  const std::string& file_;
+  std::map<int, std::uint32_t> textures_;                  // glTF texture to ours
+  std::map<std::uint32_t, TextureStatistics> statistics_;  // of ours
+  std::map<std::size_t, Vec3f> linear_means_;              // of glTF images that are no colours
+};
+
+}  // namespace gnomon
