@@ -11,8 +11,8 @@
 #include "app/effect_options.h"
 #include "app/invocation.h"
 #include "app/machine.h"
-#include "app/options.h"
 #include "app/result_output.h"
+#include "app/run_options.h"
 #include "app/session.h"
 #include "app/setting.h"
 #include "app/swim_note.h"
@@ -24,17 +24,13 @@ namespace gnomon::app {
 
 namespace {
 
-struct CompareCommand {
+struct CompareCommand : RunOptions {
   SceneArgument scene;
   std::string camera;
   ResultOutput output;
   SettingOptions setting;
-  raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;
   std::optional<int> runs;
-  std::optional<std::optional<double>> exposure;
-  std::uint64_t seed = 0;
-  int threads = 0;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   std::string command_line;
   std::vector<std::string> given;  ///< options
@@ -127,17 +123,14 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_camera(app, command.camera);
   add_result_output(app, command.output, "out/NAME of the scene");
   add_setting_options(app, command.setting);
-  add_backend(app, command.backend);
+  add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
-  add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(
       app, command.runs,
       fmt::format("{}, of maps, shading and rays alike, but no further one of a pass once those made took "
                   "{:g} ms together",
                   usual_runs, usual_enough_ms)
           .c_str());
-  add_exposure(app, command.exposure);
-  add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
   app.add_flag("--no-report", command.output.no_report,
                "write no report.html and spend no time on it; all other files as ever [default off]");
   add_result_limits(app, command.output);

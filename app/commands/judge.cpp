@@ -11,8 +11,8 @@
 
 #include "app/judge_options.h"
 #include "app/machine.h"
-#include "app/options.h"
 #include "app/result_output.h"
+#include "app/run_options.h"
 #include "compare/judge/identify.h"
 #include "compare/judge/page.h"
 #include "compare/judge/several.h"
@@ -23,17 +23,13 @@ namespace gnomon::app {
 
 namespace {
 
-struct JudgeCommand {
+struct JudgeCommand : RunOptions {
   std::vector<std::string> captures;
   CaptureOptions parts;
   compare::JudgeOptions options;
   ResultOutput output;
   bool identify = false;
   std::string suite;
-  raster::Backend backend = raster::Backend::automatic;
-  std::optional<std::optional<double>> exposure;
-  std::uint64_t seed = 0;
-  int threads = 0;
   std::string command_line;
 };
 
@@ -221,13 +217,10 @@ void add_options(CLI::App& app, JudgeCommand& command) {
       "--identify", command.identify,
       "of a capture without its map: find the setting of Gnomon's own that comes nearest to the picture, "
       "and label by it [default off]");
-  add_backend(app, command.backend);
+  add_run_options(app, command);
   add_capture_options(app, command.parts);
   add_samples(app, command.options.raytrace.shadow_samples);
   add_tracer_options(app, command.options.accel, command.options.precision);
-  add_threads(app, command.threads, "threads of the ray tracer");
-  add_exposure(app, command.exposure);
-  add_seed(app, command.seed, "of the samples of lights with size; recorded in the result");
   add_result_limits(app, command.output);
 }
 

@@ -251,12 +251,9 @@ void add_options(CLI::App& app, SweepCommand& command) {
                 "is none; flip includes --perceptual",
                 "none");
   add_report_max_mb(app, command.report_max_mb);
-  add_backend(app, command.backend);
+  add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
-  add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(app, command.runs, "1");
-  add_exposure(app, command.exposure);
-  add_seed(app, command.seed, "of the samples of lights with size; recorded in the results");
   add_quiet(app, command.quiet);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/run_options.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/plan.h"
 #include "compare/outputs.h"
@@ -15,17 +15,13 @@
 
 namespace gnomon::app {
 
-struct SweepCommand {
+struct SweepCommand : RunOptions {
   SceneArgument scene;
   std::string camera, folder;
   SweepOptions options;
-  raster::Backend backend = raster::Backend::automatic;
   std::string shader_folder;
   std::vector<raster::ReplacedShader> replaced_shaders;  ///< what differs in it
   std::optional<int> runs;
-  std::optional<std::optional<double>> exposure;
-  std::uint64_t seed = 0;
-  int threads = 0;
   compare::Shard shard;
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;
