@@ -20,11 +20,14 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 
 std::string proof(const BestBias& best) {
   if (best.feasible || best.lit_pixels_above == 0) return {};
-  return fmt::format(
-      "; no constant bias is right everywhere: {} need{} at least {} world units, {} less than {}",
-      counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
-      plain_number(best.needs_more_than), counted(best.shadowed_pixels_below, "shadowed pixel"),
-      plain_number(best.needs_less_than));
+  const std::string shadowed = counted(best.shadowed_pixels_below, "shadowed pixel");
+  return fmt::format("; no constant bias is right everywhere: {} need{} at least {} world units, {}",
+                     counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
+                     plain_number(best.needs_more_than),
+                     best.needs_less_than > 0.0
+                         ? fmt::format("{} less than {}", shadowed, plain_number(best.needs_less_than))
+                         : fmt::format("{} {} lit even without one", shadowed,
+                                       best.shadowed_pixels_below == 1 ? "is" : "are"));
 }
 
 std::string joined(const std::vector<std::string>& names) {
