@@ -3,7 +3,7 @@
 gnomon_test(project_arrows_test SOURCES project_arrows_test.cpp)
 
 add_test(NAME project_format_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_format_test.sh")
-set_tests_properties(project_format_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+set_tests_properties(project_format_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 
 add_test(NAME project_tidy_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_tidy_test.sh" "/scene/[a-z_]+[.]cpp$")
@@ -17,14 +17,14 @@ add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_c
 # The Debian package that cpack makes of this build.
 add_test(NAME project_package_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_package_test.sh" "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/package")
-set_tests_properties(project_package_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+set_tests_properties(project_package_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 
 # The installed libraries, and the example that uses them.
 add_test(NAME project_library_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_library_test.sh"
   "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/library" "${PROJECT_SOURCE_DIR}")
-set_tests_properties(project_library_test PROPERTIES TIMEOUT 300)
+set_tests_properties(project_library_test PROPERTIES TIMEOUT 900)
 
 # docs/notebook.md, block by block, where Python has pandas.
 add_test(NAME docs_notebook_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/docs_notebook_test.py"
   "$<TARGET_FILE:gnomon_program>" "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/notebook")
-set_tests_properties(docs_notebook_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+set_tests_properties(docs_notebook_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
