@@ -76,6 +76,14 @@ Mesh terrain(int cells, double half, double height) {
   return mesh;
 }
 
+Scene over_terrain(std::vector<Mesh> meshes) {
+  Scene scene = test::scene_of(std::move(meshes));
+  scene.lights = {test::point_light({1.5, 3.0, 2.0}), test::sun(glm::normalize(Vec3(-0.5, -1, -0.4)))};
+  scene.camera.eye = {0.5, 1.75, 2.75}, scene.camera.target = {0, 0.5, 0};
+  round_to_float(scene);
+  return scene;
+}
+
 }  // namespace
 
 BenchScene teapot_scene() {
@@ -103,11 +111,11 @@ BenchScene million_scene() {
     }
     meshes.push_back(std::move(copy));
   }
-  Scene scene = test::scene_of(std::move(meshes));
-  scene.lights = {test::point_light({1.5, 3.0, 2.0}), test::sun(glm::normalize(Vec3(-0.5, -1, -0.4)))};
-  scene.camera.eye = {0.5, 1.75, 2.75}, scene.camera.target = {0, 0.5, 0};
-  round_to_float(scene);
-  return {"million", std::move(scene)};
+  return {"million", over_terrain(std::move(meshes))};
+}
+
+BenchScene terrain_scene(const std::string& name, int cells) {
+  return {name, over_terrain({terrain(cells, 2.5, 0.6)})};
 }
 
 }  // namespace gnomon::bench

@@ -1,4 +1,4 @@
-// The three scenes of the speed figures: a teapot, the bunny, and a million triangles, each over a ground.
+// The scenes of the speed figures: a teapot, the bunny, and a million triangles, each over a ground; and terrains.
 // All positions are floats, so that every tracer sees the same geometry.
 #pragma once
 
@@ -19,5 +19,7 @@ BenchScene teapot_scene();
 std::optional<BenchScene> bunny_scene();
 /// A terrain with seven bunnies; teapots where there is no bunny.
 BenchScene million_scene();
+/// Of 2 cells^2 triangles, under the million's lights and camera.
+BenchScene terrain_scene(const std::string& name, int cells);
 
 }  // namespace gnomon::bench

@@ -350,6 +350,9 @@ int run(const Settings& settings) {
       fmt::print("bunny: not here, left out\n");
   }
   if (wanted("million")) bench(million_scene());
+  const auto named = [&](const std::string& name) { return !settings.scenes.empty() && wanted(name); };
+  if (named("terrain-5M")) bench(terrain_scene("terrain-5M", 1582));
+  if (named("terrain-20M")) bench(terrain_scene("terrain-20M", 3163));
   fmt::print("Instruction set in use: {}\n", raytrace::packet_target());
   if (settings.json.empty()) return 0;
   std::ofstream out(settings.json);
@@ -365,8 +368,9 @@ int run(const Settings& settings) {
 int main(int argc, char** argv) {
   gnomon::bench::Settings settings;
   CLI::App app("Gnomon's tracer against Embree 3: equal rays, in turn, in one process");
-  app.add_option("--scene", settings.scenes, "teapot, bunny, million (default: all)")
-      ->check(CLI::IsMember({"teapot", "bunny", "million"}));
+  app.add_option("--scene", settings.scenes,
+                 "teapot, bunny, million (default: these three), terrain-5M, terrain-20M")
+      ->check(CLI::IsMember({"teapot", "bunny", "million", "terrain-5M", "terrain-20M"}));
   app.add_option("--runs", settings.runs, "timed repetitions, the median counts (default 5)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--width", settings.size.width, "pixels (default 1920)")->check(CLI::Range(16, 16384));
