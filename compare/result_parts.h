@@ -28,6 +28,8 @@ inline Json one_time_json(double ms) {
 
 /// One entry of "lights".
 Json light_block(const Comparison& comparison, const LightComparison& light);
+/// The budget of each cascade by itself, finest first; null of other techniques.
+Json by_cascade_json(const Comparison& comparison, const LightComparison& light);
 /// Its "times_ms".
 Json light_times_json(const Comparison& comparison, const LightComparison& light);
 

@@ -39,6 +39,10 @@ pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --
 picture hybrid decisions courtyard --technique hybrid
 pair error-budget raytrace labels courtyard --map-size 512
 
+# A film: an animated PNG.
+"$program" shimmer fence --path walk --frames 16 --fps 10 --map-size 256 --size 320x180 --quiet -o "$work/shimmer"
+cp "$work/shimmer/film-0-drawn.png" "$images/lesson-shimmer.png"
+
 # One map and four cascades of one scene.
 for technique in hard csm; do
   "$program" compare fence --map-size 256 --technique $technique --size 320x180 --runs 1 --quiet -o "$work/map-$technique"

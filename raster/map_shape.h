@@ -26,6 +26,9 @@ Expected<LightView> fit_map(const World& world, const Light& light, const Camera
 /// orthographic map across the light by `shift`, both in world units.
 void move_window(const Vec3& shift, double margin, LightView& view);
 
+/// MapCamera::snap.
+void snap_window(LightView& view);
+
 /// Whether two maps have the same texels at the same places.
 bool same_window(const LightView& a, const LightView& b);
 

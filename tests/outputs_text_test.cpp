@@ -268,7 +268,7 @@ TEST(FileNames, KeepLightsApart) {
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
-  ASSERT_EQ(all_lessons().size(), 11u);
+  ASSERT_EQ(all_lessons().size(), 12u);
   for (const Lesson& one : all_lessons()) {
     EXPECT_FALSE(one.title.empty()) << one.name;
     EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;

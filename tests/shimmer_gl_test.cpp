@@ -68,6 +68,20 @@ TEST(Shimmer, SnappedMapHoldsStill) {
   }
 }
 
+// The same of a map of one window.
+TEST(Shimmer, SnappedSingleMapHoldsStill) {
+  OneWorld one(boxes_under_a_sun());
+  const auto flips = [&](bool snap, CameraPath path) {
+    ShimmerOptions options = film_options({192, 128}, 256, 12);
+    options.snap = snap;
+    options.path.camera = path;
+    options.path.drift_texels = {0.3, 0.17};
+    return film(one, options).lights[0].temporal.total().flips;
+  };
+  EXPECT_EQ(flips(true, CameraPath::drift), 0u);
+  EXPECT_GT(flips(false, CameraPath::drift), 100u);
+}
+
 TEST(Shimmer, BudgetAddsUpAndFlipsHaveLabels) {
   OneWorld one(boxes_under_three_lights());
   one.scene.lights[1].extent = SphereLight{0.2};

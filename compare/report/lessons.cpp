@@ -13,9 +13,9 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr std::array<std::string_view, 11> names{"acne",      "peter-panning", "light-leaks",  "aliasing",
+constexpr std::array<std::string_view, 12> names{"acne",      "peter-panning", "light-leaks",  "aliasing",
                                                  "bias",      "filtering",     "soft-shadows", "cascades",
-                                                 "precision", "hybrid",        "error-budget"};
+                                                 "precision", "hybrid",        "error-budget", "shimmer"};
 
 // What stands between two texts; nothing when they are not there.
 std::string_view between(std::string_view text, std::string_view from, std::string_view to) {
