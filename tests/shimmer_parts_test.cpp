@@ -2,6 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "compare/outputs.h"
 #include "compare/shimmer/outputs.h"
 #include "json_schema_check.h"
 #include "support/one_world.h"
@@ -139,6 +140,37 @@ TEST(ShimmerJson, FitsItsSchema) {
   EXPECT_EQ(flips, json["lights"][0]["flips"]);
   EXPECT_EQ(json["lights"][0]["by_frame"].size(), 3u);
   EXPECT_EQ(json["lights"][1]["flips"], 0);  // a lamp's map stays with the lamp
+}
+
+// The cascades share the compared and the wrong pixels out among themselves, and the budget with them.
+TEST(CascadeBudgets, AddUpToTheLights) {
+  OneWorld one(sunlit_scene({floor_mesh(20, 20), box_mesh({-0.5, 0.0, -0.5}, {0.5, 0.8, 0.5}),
+                             box_mesh({2.0, 0.0, -9.0}, {3.0, 2.0, -8.0})},
+                            {0.7, -1.0, 0.3}));
+  one.scene.camera = {{0.5, 1.5, 5.0}, {0.5, 0.5, 0.0}, {0, 1, 0}, 0.9};
+  compare::CompareOptions options;
+  options.raster.size = options.raytrace.size = {192, 128};
+  options.raster.map.size = 128;
+  options.raster.map.technique = raster::Technique::csm;
+  options.raster.runs = 1;
+  const auto json = nlohmann::json::parse(compare::result_json(one.compare(options)));
+  std::ifstream schema(source_dir() + "/compare/report/result.schema.json");
+  for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
+    ADD_FAILURE() << violation;
+  const auto& light = json["lights"][0];
+  ASSERT_EQ(light["by_cascade"].size(), 4u);
+  std::uint64_t compared = 0, wrong = 0;
+  double bias = 0.0;
+  for (const auto& cascade : light["by_cascade"]) {
+    compared += cascade["compared"].get<std::uint64_t>(), wrong += cascade["wrong"].get<std::uint64_t>();
+    bias += cascade["budget"][4]["signed"].get<double>() * cascade["compared"].get<double>();
+  }
+  EXPECT_EQ(compared, light["pixels"]["compared"]);
+  EXPECT_EQ(wrong, light["error"]["wrong"]);
+  EXPECT_GT(wrong, 0u);
+  EXPECT_GT(light["by_cascade"][0]["compared"], 0);
+  // Sums of whole numbers, as the drawing is hard, rounded when they are divided.
+  EXPECT_NEAR(bias / double(compared), light["budget"][4]["signed"].get<double>(), 1e-12);
 }
 
 }  // namespace
