@@ -211,11 +211,10 @@ void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& lig
   if (drawn.unshadowed_pass.runs.empty()) return;
   const Times lookups = shadow_lookups(drawn);
   const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
-  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {} for the light's "
-                                    "structure, {} for the rays",
+  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
+                                    "for the light",
                                     median_text(drawn.map_pass), hybrid ? "sheets" : "map",
                                     hybrid ? median_text(lookups) + " for the rest" : lookups_text(lookups),
-                                    truth.is_soft() ? "0 ms" : median_text(truth.light_structure),
                                     median_text(standing_rays(truth))));
   page.field("", fmt::format("where light and casters stand still: {} against {}",
                              lookups.median() > 0.0 ? median_text(lookups) : "next to nothing",

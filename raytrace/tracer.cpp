@@ -65,16 +65,26 @@ auto specialise(const Structures& s, const Verb& verb) {
 // hierarchy: counts are to be compared with other structures', and not to depend on the rays that came
 // before.
 
+/// False: there is no wide tree (yet), or it refuses the ray.
+bool closest_in_wide(const Structures& s, const Ray& ray, std::uint32_t skip, std::optional<Hit>& best,
+                     WorkCounts* work) {
+  const WideTree* tree = wide_tree(s);
+  return tree != nullptr && specialise(s, [&]<bool masks, class Arithmetic>() {
+           return closest_wide<masks, Arithmetic>(s, *tree, ray, skip, best, work);
+         });
+}
+bool any_in_wide(const Structures& s, const Ray& ray, bool& found, WorkCounts* work) {
+  const WideTree* tree = wide_tree(s);
+  return tree != nullptr && specialise(s, [&]<bool masks, class Arithmetic>() {
+           return any_wide<masks, Arithmetic>(s, *tree, ray, found, work);
+         });
+}
+
 template <class Stats>
 std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
   if constexpr (std::is_same_v<Stats, NoStats>) {
-    if (const WideTree* tree = wide_tree(s)) {
-      std::optional<Hit> best;
-      if (specialise(s, [&]<bool masks, class Arithmetic>() {
-            return closest_wide<masks, Arithmetic>(s, *tree, ray, skip, best);
-          }))
-        return best;
-    }
+    std::optional<Hit> best;
+    if (closest_in_wide(s, ray, skip, best, nullptr)) return best;
   }
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return std::nullopt;
@@ -85,13 +95,8 @@ std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t
 template <class Stats>
 bool any_of(const Structures& s, const Ray& ray, Stats stats) {
   if constexpr (std::is_same_v<Stats, NoStats>) {
-    if (const WideTree* tree = wide_tree(s)) {
-      bool found = false;
-      if (specialise(s, [&]<bool masks, class Arithmetic>() {
-            return any_wide<masks, Arithmetic>(s, *tree, ray, found);
-          }))
-        return found;
-    }
+    bool found = false;
+    if (any_in_wide(s, ray, found, nullptr)) return found;
   }
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return false;
@@ -153,6 +158,15 @@ void prepare_single_rays(const Tracer& tracer) {
 std::uint64_t single_ray_bytes(const Tracer& tracer) {
   const Structures& s = tracer.structures();
   return s.wide != nullptr ? s.wide->bytes() : 0;
+}
+
+std::optional<Hit> counted_closest_hit(const Tracer& tracer, const Ray& ray, WorkCounts& work) {
+  std::optional<Hit> best;
+  return closest_in_wide(tracer.structures(), ray, no_id, best, &work) ? best : tracer.closest_hit(ray, work);
+}
+bool counted_occluded(const Tracer& tracer, const Ray& ray, WorkCounts& work) {
+  bool found = false;
+  return any_in_wide(tracer.structures(), ray, found, &work) ? found : tracer.occluded(ray, work);
 }
 
 std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {

@@ -77,7 +77,6 @@ void expect_adds_up(const Words& arguments) {
                               "read-back",
                               "build",
                               "primary rays",
-                              "light structure",
                               "shadow rays",
                               "topology",
                               "columns and sheets",

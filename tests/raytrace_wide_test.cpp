@@ -36,11 +36,17 @@ void expect_same(const World& world, const std::vector<Ray>& rays, std::size_t l
       std::count_if(truth.begin(), truth.end(), [](const auto& hit) { return hit.has_value(); });
   EXPECT_GE(static_cast<std::size_t>(hits), least);
   for_each_target([&] {
-    std::atomic<std::size_t> wrong = 0, dark = 0;
+    std::atomic<std::size_t> wrong = 0, dark = 0, uncounted = 0;
     tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
       wrong += same(tracer.closest_hit(rays[i]), truth[i]) ? 0 : 1;
       dark += tracer.occluded(rays[i]) == truth[i].has_value() ? 0 : 1;
+      if (i % 8 != 0) return;
+      WorkCounts closest, any;
+      wrong += same(counted_closest_hit(tracer, rays[i], closest), truth[i]) ? 0 : 1;
+      dark += counted_occluded(tracer, rays[i], any) == truth[i].has_value() ? 0 : 1;
+      uncounted += truth[i] && (closest.primitives == 0 || any.primitives == 0) ? 1 : 0;
     });
+    EXPECT_EQ(uncounted, 0u) << packet_target();
     EXPECT_EQ(wrong, 0u) << "closest hits differ, " << packet_target();
     EXPECT_EQ(dark, 0u) << "occlusion differs, " << packet_target();
   });

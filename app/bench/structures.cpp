@@ -60,8 +60,6 @@ bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
 struct Measured {
   Accel accel;
   double build_ms = 0.0, megabytes = 0.0;
-  /// Of bvh, whose counts are of its nodes of four: their own; the others are then with the nodes of sixteen.
-  double counted_build_ms = 0.0, counted_megabytes = 0.0;
   double primary_mrays = 0.0, shadow_mrays = 0.0;  // per second
   double boxes = 0.0, triangles = 0.0;             // per ray of both kinds
   std::uint64_t wrong = 0;
@@ -79,12 +77,11 @@ Times time_passes(int runs, const Pass& pass) {
   return times;
 }
 
-/// The nodes of sixteen that the timed rays go through: made now, so that their making and their bytes count too.
+/// The nodes of sixteen that the rays go through: made now, so that their making and their bytes count too.
 void add_collapsed_tree(const Tracer& tracer, Measured& m) {
   const Stopwatch watch;
   prepare_single_rays(tracer);
   if (single_ray_bytes(tracer) == 0) return;
-  m.counted_build_ms = m.build_ms, m.counted_megabytes = m.megabytes;
   m.build_ms += watch.elapsed_ms();
   m.megabytes += static_cast<double>(single_ray_bytes(tracer)) / 1048576.0;
 }
@@ -105,12 +102,12 @@ Measured measure(const BenchInput& input, const Rays& rays, Accel accel) {
   };
   for_each_ray(rays.primary.size(), step, [&](std::size_t i) {
     WorkCounts work;
-    const bool right = same(tracer.closest_hit(rays.primary[i], work), rays.hits[i]);
+    const bool right = same(counted_closest_hit(tracer, rays.primary[i], work), rays.hits[i]);
     count(work, right);
   });
   for_each_ray(rays.shadow.size(), step, [&](std::size_t i) {
     WorkCounts work;
-    const bool right = tracer.occluded(rays.shadow[i], work) == (rays.shadowed[i] != 0);
+    const bool right = counted_occluded(tracer, rays.shadow[i], work) == (rays.shadowed[i] != 0);
     count(work, right);
   });
   m.wrong = wrong;
@@ -132,18 +129,9 @@ Measured measure(const BenchInput& input, const Rays& rays, Accel accel) {
   return m;
 }
 
-/// Counts stand in the row of the tree that they are counted in.
-std::string table_rows(const Measured& m) {
-  const std::string boxes = fmt::format("{:.1f}", m.boxes), triangles = fmt::format("{:.1f}", m.triangles);
-  const bool apart = m.counted_megabytes > 0.0;
-  std::string text =
-      fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11}{:>15}{:>18.3f}{:>17.3f}\n", accel_name(m.accel), m.build_ms,
-                  m.megabytes, apart ? "-" : boxes, apart ? "-" : triangles, m.primary_mrays, m.shadow_mrays);
-  if (apart)
-    text +=
-        fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11}{:>15}{:>18}{:>17}   (folded into the row above)\n",
-                    "  nodes of four", m.counted_build_ms, m.counted_megabytes, boxes, triangles, "-", "-");
-  return text;
+std::string table_row(const Measured& m) {
+  return fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11.1f}{:>15.1f}{:>18.3f}{:>17.3f}\n", accel_name(m.accel),
+                     m.build_ms, m.megabytes, m.boxes, m.triangles, m.primary_mrays, m.shadow_mrays);
 }
 
 std::string table(const BenchInput& input, const Rays& rays, std::span<const Measured> all) {
@@ -154,16 +142,14 @@ std::string table(const BenchInput& input, const Rays& rays, std::span<const Mea
       std::count_if(rays.hits.begin(), rays.hits.end(), [](const auto& h) { return h.has_value(); }),
       rays.shadow.size(), "structure", "build ms", "MiB", "boxes/ray", "triangles/ray", "primary Mrays/s",
       "shadow Mrays/s");
-  for (const Measured& m : all) text += table_rows(m);
+  for (const Measured& m : all) text += table_row(m);
   return text;
 }
 
 /// The peer of every structure is the default one.
 void add_rows(const BenchInput& input, const Measured& m, const Measured* base, std::vector<BenchRow>& rows) {
   const auto add = [&](const char* what, double Measured::*field, const char* unit, bool more_is_better) {
-    const bool counted = field == &Measured::boxes || field == &Measured::triangles;
-    const char* tree = counted && m.counted_megabytes > 0.0 ? ", nodes of four," : "";
-    BenchRow row{fmt::format("{}{} {}", accel_name(m.accel), tree, what),
+    BenchRow row{fmt::format("{} {}", accel_name(m.accel), what),
                  input.scene,
                  input.threads,
                  m.*field,

@@ -41,8 +41,8 @@ std::string rows_of(const Comparison& c, std::size_t i) {
   const Side rays{key("exact_shadows_standing"), standing_rays(truth).median()};
   const std::string name = c.lights.size() > 1 ? escaped(shown_light_name(c, i)) + ": " : std::string();
   const std::string_view map_name = drawn.external ? "the sheets" : "the map";
-  return row(name + "what is made for the light", fmt::format("{}, or the rays' own structure", map_name),
-             map, structure) +
+  return row(name + "what is made for the light",
+             fmt::format("{}; rays ask the scene's own hierarchy", map_name), map, structure) +
          row(name + "asking it", "every frame, even where light and casters stand still", looked_up, rays) +
          row(name + "both", "a frame in which something has moved", {{}, map.ms + std::max(0.0, lookups)},
              {key("exact_shadows"), truth.exact_times().median()}) +

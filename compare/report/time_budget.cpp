@@ -15,7 +15,7 @@ namespace {
 
 /// What goes on in a stage, where its name alone does not say it.
 std::string_view stage_words(std::string_view stage) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> words{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 19> words{{
       {"start", "until the command begins"},
       {"rest", "what belongs to no other stage"},
       {"load", "reading and preparing the scene"},
@@ -27,7 +27,6 @@ std::string_view stage_words(std::string_view stage) {
       {"shading with records", "the picture once more, with what each pixel looked up"},
       {"read-back", "fetching pictures and maps from OpenGL"},
       {"build", "the ray tracer's hierarchy"},
-      {"light structure", "what answers shadow rays to this light"},
       {"soft shadow rays", "shadow rays to points all over the light"},
       {"ray-traced picture", "shading, reflection and refraction"},
       {"topology", "which triangles hang together"},

@@ -12,14 +12,15 @@ inline const WideTree* wide_tree(const Structures& s) {
   return s.wide != nullptr ? s.wide->for_ray(s.bvh, *s.world) : nullptr;
 }
 
-/// False: refused, the ray has to go another way.
+/// False: refused, the ray has to go another way. `work`: adds what the tree's floats and the planes' tests are.
 template <bool masks, class Arithmetic>
 bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std::uint32_t skip,
-                  std::optional<Hit>& best) {
+                  std::optional<Hit>& best, WorkCounts* work = nullptr) {
+  if (work != nullptr) work->primitives += s.planes.size();
   RayFrame frame;
   if (!masks && skip == no_id) {
     LeafCandidates found;
-    if (closest_candidates(tree, ray, found) != WideTraversal::refused) {
+    if (closest_candidates(tree, ray, found, work) != WideTraversal::refused) {
       std::size_t left = 0;
       for (std::size_t i = 0; i < found.count; ++i)
         if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
@@ -47,13 +48,16 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
       if (visit(leaf)) limited.limit(float_above(left.t.max));
       return false;
     };
-    traversed = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visitor_of(visit_leaf));
+    traversed =
+        visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visitor_of(visit_leaf), work);
   });
   return traversed != WideTraversal::refused;
 }
 
 template <bool masks, class Arithmetic>
-bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& found) {
+bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& found,
+              WorkCounts* work = nullptr) {
+  if (work != nullptr) work->primitives += s.planes.size();
   RayFrame frame;
   if (!scale_ray(ray, frame)) return true;
   shear_ray(frame);
@@ -68,8 +72,8 @@ bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& f
   const auto visit = [&](std::uint32_t leaf, WideRay&) {
     return arithmetic.leaf(s, frame, leaf, hit) && blocks();
   };
-  const WideTraversal traversed = masks ? visit_candidates(tree, ray, {}, visitor_of(visit))
-                                        : visit_ambiguous(tree, ray, visitor_of(visit));
+  const WideTraversal traversed = masks ? visit_candidates(tree, ray, {}, visitor_of(visit), work)
+                                        : visit_ambiguous(tree, ray, visitor_of(visit), work);
   found = traversed == WideTraversal::ended;
   return traversed != WideTraversal::refused;
 }

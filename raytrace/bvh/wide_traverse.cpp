@@ -5,6 +5,7 @@
 
 #include "raytrace/bvh/wide_node-inl.h"
 #include "raytrace/bvh/wide_traverse.h"
+#include "raytrace/tracer.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -102,9 +103,23 @@ HWY_INLINE void prefetch(const WideNode* nodes, const Leaf* leaves, WideChild ch
     lines(nodes + child.index(), sizeof(WideNode));
 }
 
+/// What a traversal tests: nothing is counted, or the boxes of a node's children and the triangles of a leaf.
+struct NoCounts {
+  void node(const WideNode&) const {}
+  void leaf(const LeafTriangles&) const {}
+};
+struct CountTests {
+  WorkCounts& work;
+  void node(const WideNode& node) const {
+    for (std::size_t i = 0; i < node_lanes; ++i) work.boxes += node.bounds[0][i] <= node.bounds[3][i] ? 1 : 0;
+  }
+  void leaf(const LeafTriangles& triangles) const { work.primitives += triangles.last() + 1; }
+};
+
 /// intersect(leaf) returns true to end the traversal.
-template <class Leaf, class Intersect>
-HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Intersect& intersect) {
+template <class Leaf, class Intersect, class Counts>
+HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Counts& counts,
+                                  const Intersect& intersect) {
   const SpreadRay spread(ray);
   const WideNode* nodes = tree.nodes.data();
   const Leaf* leaves = leaves_of<Leaf>(tree);
@@ -119,17 +134,20 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Inte
   WideChild child{0};
   for (;;) {
     if (child.is_leaf()) {
+      counts.leaf(leaves[child.index()].triangles);
       if (intersect(leaves[child.index()])) return WideTraversal::ended;
       t_max = ray.t_max;
     } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
       known = 0;
       const WideNode& after = nodes[stack.child[--size]];
+      counts.node(nodes[child.index()]), counts.node(after);
       if (take_children_of_two(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
         ask_ahead();
         continue;
       }
     } else {
       const WideNode& node = nodes[child.index()];
+      counts.node(node);
       if (IntersectedChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
         ask_ahead();
         continue;
@@ -174,34 +192,37 @@ bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
   return test.is_sure(i) && test.t_below(i) > ray.surely_after && test.t_above(i) < ray.surely_before;
 }
 
-template <class Test>
-HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandidates& found) {
-  const auto traversed = traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
-    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
-      const float t = test.t_below(i);
-      if (t > ray.t_max) return false;
-      if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
-      tree.origin->prefetch(leaf.triangles.first() + i);
-      return !keep(found, leaf.triangles.first() + i, t, ray);
-    });
-  });
+template <class Test, class Counts>
+HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandidates& found,
+                                 const Counts& counts) {
+  const auto traversed =
+      traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
+        return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+          const float t = test.t_below(i);
+          if (t > ray.t_max) return false;
+          if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
+          tree.origin->prefetch(leaf.triangles.first() + i);
+          return !keep(found, leaf.triangles.first() + i, t, ray);
+        });
+      });
   found.t_max = ray.t_max;
   return traversed == WideTraversal::ended ? WideTraversal::refused : traversed;
 }
 
-template <class Test>
-HWY_INLINE WideTraversal visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor) {
-  return traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+template <class Test, class Counts>
+HWY_INLINE WideTraversal visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor,
+                                   const Counts& counts) {
+  return traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) {
       return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
     });
   });
 }
 
-template <class Test>
+template <class Test, class Counts>
 HWY_INLINE WideTraversal visit_ambiguous_hits(const WideTree& tree, WideRay& ray,
-                                              const CandidateVisitor& visitor) {
-  return traverse<typename Test::Leaf>(tree, ray, [&](const typename Test::Leaf& leaf) {
+                                              const CandidateVisitor& visitor, const Counts& counts) {
+  return traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       if (is_surely_hit(i, test, ray)) return true;
       return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
@@ -209,17 +230,47 @@ HWY_INLINE WideTraversal visit_ambiguous_hits(const WideTree& tree, WideRay& ray
   });
 }
 
-WideTraversal closest_kernel(const WideTree& tree, const Ray& given, LeafCandidates& found) {
+template <class Counts>
+HWY_INLINE WideTraversal closest_of(const WideTree& tree, const Ray& given, LeafCandidates& found,
+                                    const Counts& counts) {
   WideRay ray;
   if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
-  return tree.plain ? closest<PlainTest>(tree, ray, found) : closest<LeafTest>(tree, ray, found);
+  return tree.plain ? closest<PlainTest>(tree, ray, found, counts)
+                    : closest<LeafTest>(tree, ray, found, counts);
 }
 
-WideTraversal visit_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
-                           CandidateVisitor visitor) {
+template <class Counts>
+HWY_INLINE WideTraversal visit_of(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                                  const CandidateVisitor& visitor, const Counts& counts) {
   WideRay ray;
   if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
-  return tree.plain ? visit_all<PlainTest>(tree, ray, visitor) : visit_all<LeafTest>(tree, ray, visitor);
+  return tree.plain ? visit_all<PlainTest>(tree, ray, visitor, counts)
+                    : visit_all<LeafTest>(tree, ray, visitor, counts);
+}
+
+template <class Counts>
+HWY_INLINE WideTraversal ambiguous_of(const WideTree& tree, const Ray& given, const CandidateVisitor& visitor,
+                                      const Counts& counts) {
+  WideRay ray;
+  if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
+  return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visitor, counts)
+                    : visit_ambiguous_hits<LeafTest>(tree, ray, visitor, counts);
+}
+
+WideTraversal closest_kernel(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
+  return closest_of(tree, ray, found, NoCounts{});
+}
+WideTraversal closest_counted(const WideTree& tree, const Ray& ray, LeafCandidates& found, WorkCounts& work) {
+  return closest_of(tree, ray, found, CountTests{work});
+}
+
+WideTraversal visit_kernel(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                           CandidateVisitor visitor) {
+  return visit_of(tree, ray, limits, visitor, NoCounts{});
+}
+WideTraversal visit_counted(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                            CandidateVisitor visitor, WorkCounts& work) {
+  return visit_of(tree, ray, limits, visitor, CountTests{work});
 }
 
 WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
@@ -227,7 +278,7 @@ WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const Trave
   WideRay ray;
   if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
   bool full = false;
-  const auto traversed = traverse<WideLeaf>(tree, ray, [&](const WideLeaf& leaf) {
+  const auto traversed = traverse<WideLeaf>(tree, ray, NoCounts{}, [&](const WideLeaf& leaf) {
     const auto others = [&](unsigned candidates) {
       for (unsigned left = candidates; left != 0; left &= left - 1)
         if (tree.origin->ids[leaf.triangles.first() + static_cast<unsigned>(std::countr_zero(left))] == skip)
@@ -244,11 +295,12 @@ WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const Trave
   return full ? WideTraversal::refused : traversed;
 }
 
-WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& given, CandidateVisitor visitor) {
-  WideRay ray;
-  if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
-  return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visitor)
-                    : visit_ambiguous_hits<LeafTest>(tree, ray, visitor);
+WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
+  return ambiguous_of(tree, ray, visitor, NoCounts{});
+}
+WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+                                WorkCounts& work) {
+  return ambiguous_of(tree, ray, visitor, CountTests{work});
 }
 
 }  // namespace
@@ -258,19 +310,27 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gnomon::raytrace {
 HWY_EXPORT(closest_kernel);
+HWY_EXPORT(closest_counted);
 HWY_EXPORT(visit_kernel);
+HWY_EXPORT(visit_counted);
 HWY_EXPORT(ambiguous_kernel);
+HWY_EXPORT(ambiguous_counted);
 HWY_EXPORT(collect_kernel);
 
-WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
-  return HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
+WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
+                                 WorkCounts* work) {
+  return work != nullptr ? HWY_DYNAMIC_DISPATCH(closest_counted)(tree, ray, found, *work)
+                         : HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
 }
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                               CandidateVisitor visitor) {
-  return HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visitor);
+                               CandidateVisitor visitor, WorkCounts* work) {
+  return work != nullptr ? HWY_DYNAMIC_DISPATCH(visit_counted)(tree, ray, limits, visitor, *work)
+                         : HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visitor);
 }
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
-  return HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visitor);
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+                              WorkCounts* work) {
+  return work != nullptr ? HWY_DYNAMIC_DISPATCH(ambiguous_counted)(tree, ray, visitor, *work)
+                         : HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visitor);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found) {

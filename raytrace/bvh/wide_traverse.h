@@ -11,6 +11,8 @@
 
 namespace gnomon::raytrace {
 
+struct WorkCounts;  // raytrace/tracer.h: given one, a traversal adds what it tests in floats
+
 /// Positions in leaf order, each with a lower bound of its t (-infinity: none is known).
 struct LeafCandidates {
   static constexpr std::size_t most = 32;
@@ -25,7 +27,8 @@ enum class WideTraversal : std::uint8_t { refused, done, ended };
 
 /// All that may be the closest hit: those before the least t where there surely is one. Every primitive must
 /// count (no masks). `refused` also where there would be too many.
-WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found);
+WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
+                                 WorkCounts* work = nullptr);
 
 /// Near ones first, roughly. The visitor may limit the ray, and returns true to end the traversal.
 struct CandidateVisitor {
@@ -38,9 +41,10 @@ struct TraversalLimits {
   double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                               CandidateVisitor visitor);
+                               CandidateVisitor visitor, WorkCounts* work = nullptr);
 /// The same, but a triangle that is surely hit in range ends it, too, and is not reported.
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor);
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+                              WorkCounts* work = nullptr);
 
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
 /// `refused` also where there would be too many.
