@@ -1,6 +1,7 @@
 // gnomon judge on every kind of map, camera depth and pair of pictures that a capture may have. Each is judged twice: as
 // Gnomon's own drawing, and as that of a shadow test written here with nothing but the capture's matrix and texels.
 #include "scene/files/image_io.h"
+#include "scene/light.h"
 #include "support/capture_support.h"
 
 namespace gnomon::test {
@@ -253,6 +254,33 @@ TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
     EXPECT_NEAR(double(its.error.wrong), double(own.error.wrong), allowed);
     EXPECT_NEAR(double(its.pixels.facing_away), double(own.pixels.facing_away), allowed);
   }
+}
+
+// Eight bits show nothing of a spot's rim, which fades out, and of surfaces that the light grazes.
+TEST(JudgeRatios, OfEightBitsAreNotSuspectedWhereLittleLightArrives) {
+  const Compared drawn = draw_scene(scene_under("lamp"), picture, hard_map(256));
+  const Capture capture =
+      self_capture(drawn, folder_for("ratio-coarse"), {.positions = false, .ratio = true});
+  const raytrace::RayTracedFrame& frame = drawn.result.raytraced;
+  const Light& light = drawn.scene->lights[0];
+  const auto falloff = [&](std::size_t i) {
+    const raytrace::SurfacePoint& point = frame.receiver.data[i];
+    if (point.primitive == no_id) return 0.0F;
+    const LightAtPoint at = light_at(light, point.position);
+    return static_cast<float>(std::max(0.0, glm::dot(point.normal, at.to_light))) * at.irradiance.x;
+  };
+  float brightest = 0.0F;
+  for (std::size_t i = 0; i < frame.receiver.data.size(); ++i) brightest = std::max(brightest, falloff(i));
+  for (const std::string& file : {capture.shadowed, capture.unshadowed})
+    spoil(file, [&](ChannelImage& image) {
+      for (Channel& channel : image.channels)
+        for (std::size_t i = 0; i < channel.values.size(); ++i) {
+          const float before = channel.values[i];
+          channel.values[i] = before > 0.0F ? std::round(255.0F * falloff(i) / brightest) / 255.0F : 0.0F;
+        }
+    });
+  const Verdict judged = judge(capture, *drawn.scene);
+  EXPECT_TRUE(judged.result) << reason(judged);
 }
 
 TEST(JudgeRatios, UpsideDownAreNamedByWhatTheLightReaches) {

@@ -16,13 +16,20 @@ constexpr double place_slack = 0.25;  // pixels
 /// Depth may differ by what a quarter of a pixel's step to its neighbours changes, and by a float's rounding.
 constexpr double depth_slack = 1e-4;
 
-/// A light in a surface's own plane: the sign of n.l is rounding there, and the light that arrives less than
-/// one step of a picture of eight bits. Cosine.
-constexpr double grazing = 1.0 / 256.0;
+/// Less light than one step of a picture of eight bits, beside the brightest: a spot's rim, or a light in the
+/// surface's own plane, where the sign of n.l is rounding. A share, and a cosine.
+constexpr double faint = 1.0 / 256.0;
 
 /// Whether the picture says that something (with `ratio`: something that the light reaches) was drawn.
 bool tells_drawn(const CapturedPictures& pictures) {
   return !pictures.drawn.data.empty() || pictures.ratio;
+}
+
+/// Irradiance of what faces the light; 0 else.
+double light_on(const Light& light, const raytrace::SurfacePoint& point) {
+  const LightAtPoint at = light_at(light, point.position);
+  const double most = std::max({at.irradiance.x, at.irradiance.y, at.irradiance.z});
+  return most * std::max(0.0, glm::dot(point.normal, at.to_light));
 }
 
 struct Tally {
@@ -43,7 +50,8 @@ struct Tallies {
 
 class Gatherer {
  public:
-  Gatherer(const EvidenceInput& in, const Suspect& suspect) : in_(in), suspect_(suspect), sight_(in.sight) {
+  Gatherer(const EvidenceInput& in, const Suspect& suspect, double brightest)
+      : in_(in), suspect_(suspect), sight_(in.sight), brightest_(brightest) {
     sight_.shift += suspect.shift;
     if (suspect.view) sight_.view = *suspect.view;
     light_ = in.tracer.world().scene->lights[in.light];
@@ -64,8 +72,10 @@ class Gatherer {
   void place(std::uint32_t pixel, const Shown& shown, Tally& out) const;
   void depth(std::uint32_t pixel, const Shown& shown, Tally& out) const;
   void visibility(const Shown& shown, Tallies& out) const;
-  bool grazes(const raytrace::SurfacePoint& point) const {
-    return std::abs(glm::dot(point.normal, light_at(light_, point.position).to_light)) < grazing;
+  /// Whether light arrives cannot be told from a picture.
+  bool is_faint(const raytrace::SurfacePoint& point, bool reached) const {
+    const double cosine = std::abs(glm::dot(point.normal, light_at(light_, point.position).to_light));
+    return cosine < faint || (reached && light_on(light_, point) < faint * brightest_);
   }
   bool drawn(std::size_t pixel) const {
     return in_.pictures.drawn.data.empty() || in_.pictures.drawn.data[pixel] != 0;
@@ -75,6 +85,7 @@ class Gatherer {
   const Suspect& suspect_;
   Sight sight_;
   Light light_;
+  double brightest_;
 };
 
 Gatherer::Shown Gatherer::look(std::uint32_t pixel) const {
@@ -142,7 +153,7 @@ void Gatherer::border(std::uint32_t pixel, Tallies& out) const {
   const bool hit = shown.point.primitive != no_id;
   const bool reached = hit && !light_cannot_reach(light_, shown.point.position, shown.point.normal);
   const bool masked = !in_.pictures.drawn.data.empty();
-  if (!masked && hit && grazes(shown.point)) return;
+  if (!masked && hit && is_faint(shown.point, reached)) return;
   const bool captured = masked ? drawn(pixel) : in_.pictures.reached.data[pixel] != 0;
   ++out.border.count;
   out.border.agree += captured == (masked ? hit : reached) ? 1 : 0;
@@ -184,6 +195,9 @@ Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& 
   if (!tells_drawn(in.pictures)) return out;
   const bool masked = !in.pictures.drawn.data.empty();
   const Light& light = in.tracer.world().scene->lights[in.light];
+  for (const std::uint32_t i : out.grid)
+    if (frame.receiver.data[i].primitive != no_id)
+      out.brightest = std::max(out.brightest, light_on(light, frame.receiver.data[i]));
   const Image<std::uint8_t>& captured = masked ? in.pictures.drawn : in.pictures.reached;
   add_border(
       captured.size, [&](std::size_t i) { return captured.data[i] != 0; }, out.border);
@@ -199,7 +213,7 @@ Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& 
 }
 
 Evidence gather(const EvidenceInput& in, const Samples& samples, const Suspect& suspect) {
-  const Gatherer gatherer(in, suspect);
+  const Gatherer gatherer(in, suspect, samples.brightest);
   constexpr std::size_t block = 512;
   const std::size_t count = samples.grid.size() + samples.border.size();
   std::vector<Tallies> parts((count + block - 1) / block);

@@ -17,6 +17,7 @@ struct EvidenceInput {
 /// Gnomon, as it is).
 struct Samples {
   std::vector<std::uint32_t> grid, border;
+  double brightest = 0.0;  ///< irradiance on the grid's surfaces
 };
 Samples choose_samples(const EvidenceInput& input, const raytrace::RayTracedFrame& frame);
 
