@@ -10,10 +10,10 @@ import sys
 PROGRAM = sys.argv[1] if len(sys.argv) > 1 else "build/release/app/gnomon"
 SIZE = ["--size", "640x360", "--map-size", "1024"]
 FILM = ["--frames", "30", "--path", "orbit"]
-ROWS = [(name, [name], []) for name in ("hard", "pcf", "pcss", "vsm", "esm", "evsm", "msm", "second-depth", "midpoint")]
-ROWS += [("hard, snapped", ["hard"], ["--snap"]), ("pcf, snapped", ["pcf"], ["--snap"])]
-ROWS += [("csm", ["csm"], []), ("csm, not snapped", ["csm", "--no-snap"], [])]
-ROWS += [("lispsm", ["lispsm"], []), ("izb", ["izb"], []), ("hybrid", ["hybrid"], [])]
+ROWS = [(f"`{name}`", [name], []) for name in ("hard", "pcf", "pcss", "vsm", "esm", "evsm", "msm", "second-depth", "midpoint")]
+ROWS += [("`hard`, snapped", ["hard"], ["--snap"]), ("`pcf`, snapped", ["pcf"], ["--snap"])]
+ROWS += [("`csm`", ["csm"], []), ("`csm`, not snapped", ["csm", "--no-snap"], [])]
+ROWS += [("`lispsm`", ["lispsm"], []), ("`izb`", ["izb"], []), ("`hybrid`", ["hybrid"], [])]
 
 
 def asked(*words):
@@ -21,14 +21,19 @@ def asked(*words):
     return json.loads(done.stdout)["lights"][0]
 
 
+def still_error(scene, technique):
+    error = asked("compare", scene, *SIZE, "--runs", "1", "--technique", *technique)["error"]
+    return f"{100 * error['wrong_fraction']:.3f} | {error['mean_absolute']:.5f}"
+
+
 def row(scene, name, technique, more):
-    still = asked("compare", scene, *SIZE, "--runs", "1", "--technique", *technique)["error"]
+    still = "– | –" if more else still_error(scene, technique)  # compare does not snap a map of one window
     film = asked("shimmer", scene, *SIZE, *FILM, "--technique", *technique, *more)
     steps = {step["cause"]: step["absolute"] for step in film["budget"]}
     mostly = max(film["by_label"], key=film["by_label"].get).replace("_", " ") if film["flips"] else ""
-    return (f"| {name} | {100 * still['wrong_fraction']:.3f} | {still['mean_absolute']:.5f} | {film['flips']} | "
-            f"{film['flips_per_receiver_second']:.4f} | {film['error']['absolute']:.5f} | "
-            f"{film['edges']['drawn_texels_per_frame']:.3f} | {mostly} | {steps['filter']:.5f} |")
+    return (f"| {name} | {still} | {film['flips']} | {film['flips_per_receiver_second']:.4f} | "
+            f"{film['error']['absolute']:.5f} | {film['edges']['drawn_texels_per_frame']:.3f} | {mostly} | "
+            f"{steps['filter']:.5f} |")
 
 
 def main():

@@ -49,7 +49,7 @@ def camera(frame):
     """Eye, right, up, forward and the tangent of half the height's angle, as on the path `orbit`; and its azimuth and
     elevation in degrees."""
     with open(os.path.join(ROOT, "scene", "builtin", SCENE + ".json"), encoding="utf-8") as file:
-        given = json.load(file)["camera"]
+        given = json.loads(re.search(r'"camera":\s*(\{[^}]*\})', file.read()).group(1))  # scene files hold comments
     eye, target, angle = given["eye"], given["target"], math.radians(10.0 * frame / FPS)
     back = [a - b for a, b in zip(eye, target)]
     turned = (math.cos(angle) * back[0] + math.sin(angle) * back[2], back[1],
