@@ -67,11 +67,20 @@ std::string rest_text(double fraction, const LightComparison& light) {
   return fmt::format("{:.0f} of them", fraction * static_cast<double>(light.pixels.compared));
 }
 
+// A constant that the kind takes beside it, where that moves shadows by what can be seen.
+std::string beside_text(const BiasKind& kind, const LightComparison& light) {
+  const double texels = kind.bias.unit == raster::BiasUnit::texel
+                            ? kind.bias.constant
+                            : kind.bias.constant / light.bias_texel_world;
+  const bool seen = kind.bias.unit != raster::BiasUnit::automatic && std::isfinite(texels) && texels >= 1.0;
+  return seen ? " with a constant of " + texels_text(texels) : std::string();
+}
+
 std::string subject(const BiasKind& kind, const LightComparison& light) {
   if (kind.of_slope) return fmt::format("A slope bias of {}", plain_number(kind.bias.slope));
-  if (kind.bias.receiver_plane) return "The receiver's plane";
-  if (kind.bias.adaptive) return "The adaptive bias";
-  if (kind.bias.normal_offset_texels != 0.0) return "A normal offset of one texel";
+  if (kind.bias.receiver_plane) return "The receiver's plane" + beside_text(kind, light);
+  if (kind.bias.adaptive) return "The adaptive bias" + beside_text(kind, light);
+  if (kind.bias.normal_offset_texels != 0.0) return "A normal offset of one texel" + beside_text(kind, light);
   switch (kind.bias.unit) {
     case raster::BiasUnit::automatic:
       return "A constant bias of no more than rounding needs";

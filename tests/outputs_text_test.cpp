@@ -122,6 +122,24 @@ TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
 }
 
+TEST(Verdict, NamesAConstantBesideAKindOfBias) {
+  Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias.feasible = true;
+  BiasKind offset;
+  offset.name = "normal offset";
+  offset.bias.normal_offset_texels = 1.0;
+  offset.bias.constant = 0.4;  // 32 texels
+  offset.bias.unit = raster::BiasUnit::world;
+  offset.wrong_fraction = 0.01;
+  c.light.bias_kinds = {offset};
+  EXPECT_NE(c.verdict().find("A normal offset of one texel with a constant of 32 texels (--normal-offset 1 "),
+            std::string::npos)
+      << c.verdict();
+  c.light.bias_kinds[0].bias.constant = 0.001;
+  EXPECT_NE(c.verdict().find("A normal offset of one texel (--normal-offset 1 "), std::string::npos)
+      << c.verdict();
+}
+
 TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
