@@ -40,13 +40,11 @@ class Side {
  public:
   Side(const Aabb& box, int axis, bool high) : box_(box), axis_(axis), high_(high) {}
 
-  /// Counts the triangle if it lies in the side.
+  /// Counts the triangle, which lies flat across the axis, if it lies in the side.
   void add(const Corners& t) {
-    const double size = glm::length(t.normal), along = t.normal[axis_];
-    if (!(std::abs(along) >= flat * size) || !(size > 0.0)) return;
     for (const Vec3& p : {t.a, t.b, t.c})
       if (depth(p) > near_share) return;
-    draw(t, (along > 0.0) != high_);
+    draw(t, (t.normal[axis_] > 0.0) != high_);
   }
   double covered() const { return share(1); }
   double covered_inwards() const { return share(2); }
@@ -76,7 +74,7 @@ class Side {
         bool inside = true;
         for (std::size_t i = 0; i < 3; ++i)
           inside = inside && turn * cross(p[(i + 1) % 3] - p[i], middle - p[i]) >= 0.0;
-        char& cell = cell_[static_cast<std::size_t>(y * cells + x)];
+        char& cell = cell_[static_cast<std::size_t>(y) * cells + static_cast<std::size_t>(x)];
         if (inside) cell = static_cast<char>(cell | (inwards ? 3 : 1));
       }
   }
@@ -108,7 +106,10 @@ bool is_room(const Scene& scene, const Aabb& box) {
     for (const bool high : {false, true}) sides.emplace_back(box, axis, high);
   bool glows = false;
   for_each_triangle(scene, [&](const Corners& t) {
-    for (Side& side : sides) side.add(t);
+    const double least = flat * glm::length(t.normal);
+    for (int axis = 0; axis < 3 && least > 0.0; ++axis)
+      if (std::abs(t.normal[axis]) >= least)
+        for (const int side : {2 * axis, 2 * axis + 1}) sides[static_cast<std::size_t>(side)].add(t);
     const Material& material = scene.materials[t.material];
     glows = glows || material.emission != Vec3f(0.0f);
   });
