@@ -116,7 +116,7 @@ TEST_F(Gltf, MeshoptIsUnpacked) {
   ASSERT_TRUE(scene) << scene.error().message();
   EXPECT_EQ(scene->meshes[0].positions, plain.meshes[0].positions);
   EXPECT_EQ(corner_list(scene->meshes[0]), corner_list(plain.meshes[0]));
-  EXPECT_EQ(scene->meshes[0].triangles.size(), std::size_t{2 * side * side});
+  EXPECT_EQ(scene->meshes[0].triangles.size(), std::size_t{2} * side * side);
 }
 
 TEST_F(Gltf, MeshoptFiltersAreUndone) {

@@ -76,9 +76,9 @@ std::string draco_mesh(int speed) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(2);
   const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-  for (std::uint32_t f = 0; f < 2; ++f)
-    builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), corners + 3 * indices[3 * f],
-                                      corners + 3 * indices[3 * f + 1], corners + 3 * indices[3 * f + 2]);
+  const auto corner = [](std::size_t i) { return corners + std::size_t{3} * indices[i]; };
+  builder.SetAttributeValuesForFace(position, draco::FaceIndex(0), corner(0), corner(1), corner(2));
+  builder.SetAttributeValuesForFace(position, draco::FaceIndex(1), corner(3), corner(4), corner(5));
   draco::Encoder encoder;
   encoder.SetSpeedOptions(speed, speed);
   draco::EncoderBuffer out;
