@@ -11,7 +11,6 @@ namespace {
 
 using compare::CameraPath;
 using compare::LightPath;
-using compare::RungFrame;
 using compare::Shimmer;
 using compare::ShimmerOptions;
 using compare::TemporalSums;
