@@ -40,13 +40,27 @@ std::string sections(const PageInput& in) {
   return text + cost_section(in) + effects_section(in) + provenance_section(in);
 }
 
+/// The scripts read it, nobody else: a third of it was indentation.
+std::string without_line_breaks(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (json[i] != '\n') {
+      text += json[i];
+      continue;
+    }
+    while (i + 1 < json.size() && json[i + 1] == ' ') ++i;  // in strings line breaks are written \n
+  }
+  return text;
+}
+
 }  // namespace
 
 BuiltPage report_page(PageInput in, PageData& data, double max_mb) {
   PageShell shell;
   shell.title = title(in);
   shell.links = links(in);
-  shell.result = in.json;
+  shell.result = without_line_breaks(in.json);
   shell.data = std::move(data.head);
   shell.parts = std::move(data.parts);
   shell.main = sections(in);
