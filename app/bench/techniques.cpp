@@ -60,11 +60,9 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
 }
 
 void add_rays(const compare::Comparison& comparison, TechniqueTable& table) {
-  table.structure_ms = table.rays_ms = 0.0;
-  for (const raytrace::LightTruth& light : comparison.raytraced.lights) {
-    if (!light.is_soft()) table.structure_ms += light.light_structure.median();
-    table.rays_ms += compare::standing_rays(light).median();
-  }
+  table.rays_ms = 0.0;
+  for (const raytrace::LightTruth& light : comparison.raytraced.lights)
+    table.rays_ms += light.exact_times().median();
 }
 
 double shadows_ms(const TechniqueRow& row) {
@@ -132,18 +130,17 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
       "that difference. Every technique has its default parameters.\n\nShadow cost stands against shadow "
       "cost: "
       "the map, and what looking it up adds to the same shading without shadows (last of the times, the "
-      "picture's own), against the rays' structure for the light and the rays. Under a light that stands "
-      "still the lookups and the rays alone remain. Both sides are timed warm, as often as each other. A "
+      "picture's own), against the rays. Under a light that stands still the lookups alone remain on the "
+      "map's side. Both sides are timed warm, as often as each other. A "
       "software rasterizer's times are not a GPU's; texels, lookups and bytes hold everywhere.\n",
       command);
   for (const TechniqueTable& table : tables) {
     text += fmt::format(
         "\n## {}\n\n{} x {} pixels, maps of {}² texels. The exact shadows of the same pixels take {:.1f} "
-        "ms: {:.1f} ms for the light's structure and {:.1f} ms for the rays.\n\n| technique | wrong | % | "
+        "ms.\n\n| technique | wrong | % | "
         "mostly | mean error | map ms | lookups ms | shadows ms | picture ms | Mtexels | lookups a pixel | "
         "MiB |\n|---|---:|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        table.scene, table.size.width, table.size.height, table.map_size, table.structure_ms + table.rays_ms,
-        table.structure_ms, table.rays_ms);
+        table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms);
     for (const TechniqueRow& row : table.rows) text += markdown_row(row);
   }
   return text;
@@ -151,10 +148,10 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
 
 std::string text_table(const TechniqueTable& table) {
   std::string text = fmt::format(
-      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} + {:.1f} ms\n"
+      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms\n"
       "{:<13}{:>9}{:>8} {:<14}{:>9}{:>8}{:>9}{:>8}{:>8}\n",
-      table.scene, table.size.width, table.size.height, table.map_size, table.structure_ms, table.rays_ms,
-      "technique", "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
+      table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms, "technique", "wrong",
+      "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
   for (const TechniqueRow& row : table.rows) {
     text += row.refused.empty()
                 ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9.1f}{:>8}{:>8}\n", row.technique,
@@ -169,7 +166,7 @@ std::vector<BenchRow> bench_rows(const TechniqueTable& table) {
   std::vector<BenchRow> rows;
   for (const TechniqueRow& row : table.rows) {
     if (!row.refused.empty()) continue;
-    const BenchPeer rays{"exact shadows", table.structure_ms + table.rays_ms};
+    const BenchPeer rays{"exact shadows", table.rays_ms};
     rows.push_back({row.technique + " map and lookups", table.scene, 0, shadows_ms(row), "ms", false, rays});
     rows.push_back(
         {row.technique + " wrong pixels", table.scene, 0, static_cast<double>(row.wrong), "pixels", false});

@@ -29,7 +29,7 @@ struct TechniqueTable {
   int map_size = 0;
   std::vector<TechniqueRow> rows;
   /// Exact shadows of the same pixels: the lights' structures and the rays, which are what the truth costs.
-  double structure_ms = 0.0, rays_ms = 0.0;
+  double rays_ms = 0.0;
 };
 
 /// Every technique of technique_names() with the options of `base`.
