@@ -280,6 +280,27 @@ TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
     EXPECT_EQ(sweep.count(timed), 1u) << timed;
 }
 
+// What shadows cost is told apart from what the picture costs, on both sides.
+TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
+  ASSERT_EQ(run(words("whole", {"--runs", "3", "--ray-tracer"})), 0) << said();
+  const std::string page = bytes(root / "whole/report.html");
+  EXPECT_NE(page.find("shadows alone</th>"), std::string::npos);
+  std::istringstream stream(bytes(root / "whole/sweep_times.jsonl"));
+  for (std::string line; std::getline(stream, line);) {
+    const nlohmann::json light = nlohmann::json::parse(line)["lights"][0];
+    EXPECT_EQ(light["shadow_lookups"]["runs"].size(), light["shade_pass"]["runs"].size());
+    const double map = light["map_pass"]["median"], lookups = light["shadow_lookups"]["median"];
+    const std::string shadows = nlohmann::json(map + std::max(0.0, lookups)).dump();
+    EXPECT_NE(page.find("data-sort=\"" + shadows + "\""), std::string::npos) << shadows;
+  }
+  const nlohmann::json points = nlohmann::json::parse(bytes(root / "whole/ray_tracer.json"))["points"];
+  EXPECT_FALSE(points.empty());
+  for (const nlohmann::json& point : points) {
+    EXPECT_GT(point["shadow_times_ms"]["median"], 0.0);
+    EXPECT_LT(point["shadow_times_ms"]["median"], point["times_ms"]["median"]);
+  }
+}
+
 TEST_F(SweepProgram, UsageErrors) {
   EXPECT_EQ(run({"sweep", "floating-box", "--bias", "0:1"}), 2);
   EXPECT_NE(said().find("--bias: not a range (got 0:1, allowed START:END:COUNT"), std::string::npos)

@@ -36,6 +36,7 @@ Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   if (!options) return fail(options.error());
   options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
   options->options.raytrace.seed = shop.command.seed;
+  options->options.raster.shadow_cost = true;
   auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
   if (!setting) return fail(setting.error());
   const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);

@@ -17,6 +17,7 @@ HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measu
   pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
   std::string figures = figure_words(pooled, measure);
   if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
+  if (cell.shadow_ms > 0.0) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadow_ms));
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 

@@ -60,16 +60,19 @@ std::string ray_table(const std::vector<RayPoint>& rays) {
   for (const RayPoint& p : rays)
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
+        "class=\"n\">{}</td><td "
         "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td "
         "class=\"n\">{:.1f}</td><td class=\"n\">{}</td></tr>\n",
-        escaped(p.name), milliseconds(p.times.median()), grouped(p.wrong), grouped(p.uncertain),
-        plain_number(p.mean_absolute), grouped(p.rays), p.boxes_per_ray, p.primitives_per_ray,
-        byte_count(p.bytes));
+        escaped(p.name), milliseconds(p.times.median()),
+        p.shadow_times.runs.empty() ? "\u2013" : milliseconds(p.shadow_times.median()), grouped(p.wrong),
+        grouped(p.uncertain), plain_number(p.mean_absolute), grouped(p.rays), p.boxes_per_ray,
+        p.primitives_per_ray, byte_count(p.bytes));
   return "<h3>The ray tracer itself</h3>\n" +
          scroll_region(
              "The ray tracer itself",
              "<table class=\"families\"><thead><tr><th scope=\"col\">precision, samples of lights with "
-             "size</th><th scope=\"col\" class=\"n\">time</th><th scope=\"col\" "
+             "size</th><th scope=\"col\" class=\"n\">time</th><th scope=\"col\" class=\"n\">shadows "
+             "alone</th><th scope=\"col\" "
              "class=\"n\">wrong</th><th scope=\"col\" class=\"n\">in doubt</th><th scope=\"col\" "
              "class=\"n\">mean error</th><th scope=\"col\" class=\"n\">rays</th><th scope=\"col\" "
              "class=\"n\">boxes per ray</th><th scope=\"col\" class=\"n\">primitives per "
@@ -90,8 +93,12 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
            "<figcaption>Each cell is a point and opens its pictures; the error is the share of wrong pixels "
            "or the mean error, whichever is more. The line joins those that are faster than every cell with "
            "a smaller error, by more than the times' spread. ";
-    out += rays.empty() ? "The diamond is the ray tracer, whose verdicts are the truth here."
-                        : "The diamonds are the ray tracer itself.";
+    if (rays.empty())
+      out += fmt::format(
+          "The diamond is the ray tracer, whose verdicts are the truth here; {} of its time are its shadows.",
+          milliseconds(cells.front().exact_shadow_ms));
+    else
+      out += "The diamonds are the ray tracer itself.";
     if (std::any_of(cells.begin(), cells.end(), [](const CellSummary& c) { return c.derived; }))
       out += " Cells that differ in the constant bias alone come from one drawing and share its time.";
     out += "</figcaption></figure>\n";

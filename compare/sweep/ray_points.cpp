@@ -59,11 +59,13 @@ class Measurer {
     RayPoint out;
     out.name = std::move(name);
     out.times = frame.primary_rays;
+    out.shadow_times.runs.assign(out.times.runs.size(), 0.0);
     out.rays = frame.rays.primary;
     out.bytes = tracer.stats().bytes;
     double absolute = 0.0;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
       add_times(frame.lights[i].exact_times(), out.times);
+      add_times(frame.lights[i].exact_times(), out.shadow_times);
       out.rays += frame.lights[i].exact_rays();
       absolute += compare_light(frame, i, out);
     }
@@ -155,6 +157,7 @@ std::string ray_points_json(const std::vector<RayPoint>& points) {
                     {"uncertain", p.uncertain},
                     {"mean_absolute", p.mean_absolute},
                     {"times_ms", {{"median", p.times.median()}, {"runs", p.times.runs}}},
+                    {"shadow_times_ms", {{"median", p.shadow_times.median()}, {"runs", p.shadow_times.runs}}},
                     {"rays", p.rays},
                     {"boxes_per_ray", p.boxes_per_ray},
                     {"primitives_per_ray", p.primitives_per_ray},
@@ -176,6 +179,8 @@ Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder) {
       p.uncertain = json.at("uncertain").get<std::uint64_t>();
       p.mean_absolute = json.at("mean_absolute").get<double>();
       p.times.runs = json.at("times_ms").at("runs").get<std::vector<double>>();
+      if (json.contains("shadow_times_ms"))  // sweeps made before have none
+        p.shadow_times.runs = json.at("shadow_times_ms").at("runs").get<std::vector<double>>();
       p.rays = json.at("rays").get<std::uint64_t>();
       p.boxes_per_ray = json.at("boxes_per_ray").get<double>();
       p.primitives_per_ray = json.at("primitives_per_ray").get<double>();

@@ -16,9 +16,10 @@ struct RayPoint {
   std::uint64_t compared = 0;  ///< pixels that show a surface which a light can reach, all lights
   /// Of another verdict, receiver, or (lights with size) visibility by more than one half; and in open doubt.
   std::uint64_t wrong = 0, uncertain = 0;
-  double mean_absolute = 0.0;                            ///< of the visibilities' differences
-  Times times;                                           ///< camera and shadow rays, ms
-  std::uint64_t rays = 0;                                ///< of both kinds
+  double mean_absolute = 0.0;  ///< of the visibilities' differences
+  Times times;                 ///< camera and shadow rays, ms
+  Times shadow_times;          ///< the shadow rays' part of it; sweeps made before have none
+  std::uint64_t rays = 0;      ///< of both kinds
   double boxes_per_ray = 0.0, primitives_per_ray = 0.0;  ///< tested, over a sample of both kinds
   std::uint64_t bytes = 0;                               ///< of the acceleration structure
 };

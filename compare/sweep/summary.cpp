@@ -67,6 +67,9 @@ void add_times(const Json& times, CellSummary& sum) {
   double fastest = 0.0, slowest = 0.0;
   for (const Json& light : times.at("lights")) {
     sum.rays_ms += number(light.at("exact_shadows").at("median"));
+    sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
+    const double lookups = number(light.at("shadow_lookups").at("median"));
+    sum.shadow_ms += number(light.at("map_pass").at("median")) + (lookups < 0.0 ? 0.0 : lookups);
     for (const char* pass : {"map_pass", "shade_pass"}) {
       sum.raster_ms += number(light.at(pass).at("median"));
       const auto runs = light.at(pass).at("runs").get<std::vector<double>>();

@@ -29,6 +29,9 @@ struct CellSummary {
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
+  /// What shadows add to the picture, all lights: the map and its lookups (from 0 up), and the exact shadows' rays. NaN
+  /// where sweep_times.jsonl does not have it.
+  double shadow_ms = 0.0, exact_shadow_ms = 0.0;
   double spread_ms = 0.0;  ///< largest less smallest sum of runs
   int runs = 0;            ///< of each pass
   bool derived = false;    ///< the times are those of the drawing that it was made from
