@@ -22,6 +22,13 @@ add_library(libdeflate INTERFACE)
 target_link_libraries(libdeflate INTERFACE ${LIBDEFLATE_LIBRARY})
 target_include_directories(libdeflate SYSTEM INTERFACE ${LIBDEFLATE_HEADERS})
 
+# Debian's package of md4c's HTML writer has no CMake file.
+find_library(MD4C_HTML_LIBRARY md4c-html REQUIRED)
+find_path(MD4C_HTML_HEADERS md4c-html.h REQUIRED)
+add_library(md4c_html INTERFACE)
+target_link_libraries(md4c_html INTERFACE ${MD4C_HTML_LIBRARY})
+target_include_directories(md4c_html SYSTEM INTERFACE ${MD4C_HTML_HEADERS})
+
 # Debian's OpenImageIO exports OpenCV's header folder, which its headers that we use do not need; CMake refuses to
 # generate when an exported folder does not exist.
 foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)

@@ -12,7 +12,7 @@ set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/option_names.cpp"
 
 function(gnomon_compare_outputs target)
   set(report "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/report")
-  gnomon_embed(${target} report "${report}/page/dist/page.html")  # built by npm run build in report/page, and checked in
+  gnomon_embed(${target} report "${report}/page/dist/page.html" "${report}/page/dist/lesson.html")  # built by npm run build in report/page, and checked in
   file(GLOB lessons CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lessons/*.md")
   gnomon_embed(${target} lessons ${lessons})
   target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json TBB::tbb)

@@ -23,6 +23,7 @@ gnomon_node_test(report_probe_browser_test $<TARGET_FILE:gnomon_program> "${CMAK
 gnomon_node_test(report_section_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_section")
 gnomon_node_test(report_hybrid_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_hybrid")
 gnomon_node_test(shimmer_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/shimmer_browser")
+gnomon_node_test(lessons_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/lessons_browser")
 gnomon_node_test(sweep_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/sweep_browser")
 gnomon_node_test(report_built_page_test "${CMAKE_CURRENT_BINARY_DIR}/report_built_page")
 gnomon_node_test(gltf_validator_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/gltf_validator")

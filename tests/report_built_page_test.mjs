@@ -1,5 +1,5 @@
-// The built page that is checked in (compare/report/page/dist/page.html) is what its sources build, byte for byte, and
-// weighs under 400 kB. Needs node and compare/report/page (npm install); skipped (exit 77) without. Usage: node
+// The built pages that are checked in (compare/report/page/dist) are what their sources build, byte for byte, and weigh
+// under 400 kB each. Needs node and compare/report/page (npm install); skipped (exit 77) without. Usage: node
 // report_built_page_test.mjs WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -15,8 +15,10 @@ if (!existsSync(vite)) {
 }
 rmSync(folder, { recursive: true, force: true });
 execFileSync(process.execPath, [join(sources, "node_modules/typescript/bin/tsc"), "--noEmit", "-p", sources], { stdio: "inherit" });
-execFileSync(process.execPath, [vite, "build", sources, "--outDir", folder], { stdio: "inherit" });
-const built = readFileSync(join(folder, "page.html")), kept = readFileSync(join(sources, "dist/page.html"));
-assert.ok(built.equals(kept), "dist/page.html is not what the sources build: npm run build in compare/report/page");
-assert.ok(kept.length < 400_000, `the page weighs ${kept.length} bytes`);
-console.log(`the built page is as its sources: ${kept.length} bytes`);
+for (const [name, ...mode] of [["page.html"], ["lesson.html", "--mode", "lesson"]]) {
+  execFileSync(process.execPath, [vite, "build", sources, "--outDir", folder, ...mode], { stdio: "inherit" });
+  const built = readFileSync(join(folder, name)), kept = readFileSync(join(sources, "dist", name));
+  assert.ok(built.equals(kept), `dist/${name} is not what the sources build: npm run build in compare/report/page`);
+  assert.ok(kept.length < 400_000, `${name} weighs ${kept.length} bytes`);
+  console.log(`${name} is as its sources: ${kept.length} bytes`);
+}

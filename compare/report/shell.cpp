@@ -22,9 +22,9 @@ std::string_view inline_block(std::string_view html, std::string_view opening, s
   return html.substr(start, html.find(closing, start) - start);
 }
 
-Template page_template() {
+Template page_template(std::string_view name) {
   constexpr std::string_view head_mark = "<!--gnomon:head-->", body_mark = "<!--gnomon:body-->";
-  const std::string_view html = embedded::report("page.html");
+  const std::string_view html = embedded::report(name);
   const std::size_t head = html.find(head_mark), body = html.find(body_mark);
   const std::size_t after_head = head + head_mark.size();
   return {html.substr(0, head), html.substr(after_head, body - after_head),
@@ -103,12 +103,13 @@ std::string_view data_in_file(std::string_view file) {
 }
 
 BuiltPage build_page(const PageShell& shell) {
-  const Template built = page_template();
+  const Template built = page_template(shell.built);
   BuiltPage out;
-  out.html.reserve(bytes_of(shell) + embedded::report("page.html").size() + (std::size_t{1} << 16));
+  out.html.reserve(bytes_of(shell) + embedded::report(shell.built).size() + (std::size_t{1} << 16));
   out.html = built.before_head;
   out.html.append(head(shell, built)).append(built.after_head);
-  out.html += R"(<a class="skip" href="#main">Skip to the report</a>
+  out.html += fmt::format(R"(<a class="skip" href="#main">{}</a>)", shell.skip);
+  out.html += R"(
 <header class="bar-top"><span class="brand">Gnomon</span>
 <nav aria-label="Sections"><ul>)" +
               shell.links + "</ul></nav></header>\n<main id=\"main\">\n" + shell.main + "</main>\n";

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::compare {
@@ -33,7 +34,9 @@ struct PageShell {
   std::string data;             ///< JSON object that the script reads
   std::vector<DataPart> parts;  ///< added to it
   bool beside = false;          ///< the parts go into files
-  std::string folder = "report-data";  ///< of these files
+  std::string folder = "report-data";    ///< of these files
+  std::string_view built = "page.html";  ///< which of the built pages
+  std::string_view skip = "Skip to the report";
 };
 
 BuiltPage build_page(const PageShell& shell);

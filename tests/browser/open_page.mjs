@@ -21,13 +21,13 @@ const { chromium } = load("playwright-core");
 export const axeSource = load("axe-core").source;
 export const browser = await chromium.launch({ executablePath: browserPath });
 
-/** Opens FOLDER/report.html and collects everything that it must not do. `hash` begins with #. */
+/** Opens FOLDER/report.html, or another file of it, and collects everything that it must not do. `hash` begins with #. */
 export async function open(folder, options = {}, hash = "") {
-  const { beside, ...contextOptions } = options;
+  const { beside, file = "report.html", ...contextOptions } = options;
   // Without motion: a page that still scrolls when a button goes up again makes no click of it.
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...contextOptions });
   const page = await context.newPage();
-  const url = pathToFileURL(resolve(folder, "report.html")).href;
+  const url = pathToFileURL(resolve(folder, file)).href;
   page.offences = [];
   page.requests = [];
   page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
@@ -54,7 +54,7 @@ export async function checkAccessibility(folder, options = {}, hash = "") {
     const page = await open(folder, { colorScheme, ...options }, hash);
     await page.evaluate(axeSource);
     const { violations } = await page.evaluate(() => window.axe.run());
-    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${folder}, ${colorScheme}`);
+    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${page.url()}, ${colorScheme}`);
     await close(page);
   }
 }
@@ -63,6 +63,6 @@ export async function checkAccessibility(folder, options = {}, hash = "") {
 export async function checkPhone(folder, options = {}, hash = "") {
   const page = await open(folder, { viewport: { width: 390, height: 844 }, ...options }, hash);
   const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
-  assert.ok(width <= 390, `${folder} is ${width} pixels wide on a phone`);
+  assert.ok(width <= 390, `${page.url()} is ${width} pixels wide on a phone`);
   await close(page);
 }

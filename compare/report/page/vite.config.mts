@@ -1,13 +1,15 @@
-// Builds page.html with its style and script inline: the one file that the C++ writer fills in (../page.cpp).
+// Builds page.html, or with --mode lesson lesson.html, with its style and script inline: the files that the C++ writer fills
+// in (../shell.cpp).
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { viteSingleFile } from "vite-plugin-singlefile";
 
 const folder = fileURLToPath(new URL(".", import.meta.url));
 
-export default defineConfig({
+export default defineConfig(({ mode }) => ({
   root: folder,
   logLevel: "warn",
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
-  build: { target: "es2022", emptyOutDir: true, rollupOptions: { input: `${folder}page.html` }, modulePreload: false },
-});
+  build: { target: "es2022", emptyOutDir: mode !== "lesson", modulePreload: false,
+    rollupOptions: { input: `${folder}${mode === "lesson" ? "lesson" : "page"}.html` } },
+}));

@@ -60,7 +60,11 @@ export class BiasPanel {
 
   static make(light: Light, index: number, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
     const chart = document.getElementById(`bias-${index}-title`)?.closest("svg");
-    if (!chart) return null;
+    return chart ? BiasPanel.of(light, chart, best, chosen, pin) : null;
+  }
+
+  /** With the chart that the writer drew. */
+  static of(light: Light, chart: SVGSVGElement, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
     if (!light.json.gaps_decide) {
       if (light.json.compares_depths)
         hostAfter(chart).append(html("p", { class: "hint" }, `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +

@@ -14,7 +14,7 @@ async function copy(text: string): Promise<void> {
 }
 
 /** A button that copies a command and says so. */
-function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
+export function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
   const button = html("button", { type: "button", class: "copy" }, name);
   button.addEventListener("click", async () => {
     await copy(code.textContent!);

@@ -44,7 +44,14 @@ export interface ShownMaterial {
   transmission: number;
 }
 
-interface PageJson {
+/** Of one comparison: what its lights share. */
+interface ComparisonJson {
+  exposure: number;  // linear factor of both pictures
+  rays: PixelRays;
+  materials: ShownMaterial[];  // those that mirror or transmit
+}
+
+interface PageJson extends ComparisonJson {
   labels: LabelWords[];
   rungs: RungWords[];
   width: number;
@@ -53,10 +60,8 @@ interface PageJson {
   visibility_steps: number;
   colour_steps: number;    // of an octave of linear light
   darkest_octave: number;  // 1: 2 to this power; 0: black
-  exposure: number;  // linear factor of both pictures
   lights: number;
-  rays: PixelRays;
-  materials: ShownMaterial[];  // those that mirror or transmit
+  comparisons?: Record<string, ComparisonJson>;  // where a page has several, by what stands before the names of their parts
 }
 
 interface GeometryJson {
@@ -70,19 +75,30 @@ export const page = pageData<PageJson>();
 const labelWords = new Map(page.labels.map((label) => [label.value, label]));
 export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
 
+/** Of each comparison of the page at most one. */
+class Once<T> {
+  private readonly made = new Map<string, Promise<T>>();
+  constructor(private readonly make: (comparison: string) => Promise<T>) {}
+  of(comparison: string): Promise<T> {
+    if (!this.made.has(comparison)) this.made.set(comparison, this.make(comparison));
+    return this.made.get(comparison)!;
+  }
+}
+
 /** What both renderers see, and their linear pictures. */
 export class Pixels {
-  private static loading: Promise<Pixels> | null = null;
-  private constructor(readonly channels: Record<string, Numbers>, readonly sources: Int32Array) {}
-  static load(): Promise<Pixels> { return Pixels.loading ??= Pixels.unpacked(); }
-  private static async unpacked(): Promise<Pixels> {
+  private static readonly loaded = new Once((comparison) => Pixels.unpacked(comparison));
+  private constructor(readonly comparison: ComparisonJson, readonly channels: Record<string, Numbers>, readonly sources: Int32Array) {}
+  static load(comparison: string): Promise<Pixels> { return Pixels.loaded.of(comparison); }
+  private static async unpacked(comparison: string): Promise<Pixels> {
     let sources: Int32Array | undefined;
     const sourcesOf = (done: Record<string, Numbers>) => sources ??= surfaceSources(done.primitive!);
-    return new Pixels(await unpackAll(await part<Record<string, Channel>>("pixels"), sourcesOf), sources!);
+    const channels = await unpackAll(await part<Record<string, Channel>>(`${comparison}pixels`), sourcesOf);
+    return new Pixels(page.comparisons?.[comparison] ?? page, channels, sources!);
   }
   surfaces(): PixelSurfaces {
     const { primitive, nx, ny, nz } = this.channels;
-    return { width: page.width, rays: page.rays, primitives: primitive!, normals: [nx!, ny!, nz!], sources: this.sources };
+    return { width: page.width, rays: this.comparison.rays, primitives: primitive!, normals: [nx!, ny!, nz!], sources: this.sources };
   }
   /** Red, green and blue of a picture, as logarithms (linear.ts). */
   picture(name: PictureName): Int16Array[] {
@@ -99,8 +115,8 @@ export interface Geometry {
   complete: boolean;        // false: the scene has more triangles or solids than the page carries
 }
 
-async function loadGeometry(): Promise<Geometry> {
-  const { shapes, triangles, solid_sectors: solidSectors, complete } = await part<GeometryJson>("geometry");
+async function loadGeometry(comparison: string): Promise<Geometry> {
+  const { shapes, triangles, solid_sectors: solidSectors, complete } = await part<GeometryJson>(`${comparison}geometry`);
   if (!triangles) return { shapes, positions: new Float64Array(), corners: new Int32Array(), solidSectors, complete };
   const { x, y, z, corner } = await unpackAll(triangles.channels);
   const positions = new Float64Array(3 * x!.length);
@@ -108,8 +124,8 @@ async function loadGeometry(): Promise<Geometry> {
     axis.forEach((value, i) => { positions[3 * i + k] = triangles.low[k]! + value * triangles.step; }));
   return { shapes, positions, corners: corner as Int32Array, solidSectors, complete };
 }
-let loading: Promise<Geometry> | null = null;
-export const geometry = (): Promise<Geometry> => loading ??= loadGeometry();
+const geometries = new Once(loadGeometry);
+export const geometry = (comparison = ""): Promise<Geometry> => geometries.of(comparison);
 
 /** One pixel as one light sees it. */
 export interface Pixel {
@@ -130,8 +146,8 @@ export interface Pixel {
   storedGlass: ShownMaterial | null;  // what its texel holds, where that is other glass
 }
 
-const shownMaterial = (places: Numbers | undefined, index: number): ShownMaterial | null =>
-  page.materials[(places?.[index] ?? 0) - 1] ?? null;
+const shownMaterial = (materials: ShownMaterial[], places: Numbers | undefined, index: number): ShownMaterial | null =>
+  materials[(places?.[index] ?? 0) - 1] ?? null;
 
 /** The stored map; depths in world units, infinity where nothing is stored. */
 export class DepthMap {
@@ -171,9 +187,10 @@ export class Light {
     this.vs = channels.v!;
     this.faces = channels.face!;
   }
-  static async load(index: number): Promise<Light> {
-    const json = await part<LightJson>(`light-${index}`);
-    const [pixels, map] = await Promise.all([Pixels.load(), unpack(json.map)]);
+  /** A light of the page's comparison, or of one of several. */
+  static async load(index: number, comparison = ""): Promise<Light> {
+    const json = await part<LightJson>(`${comparison}light-${index}`);
+    const [pixels, map] = await Promise.all([Pixels.load(comparison), unpack(json.map)]);
     const channels = await unpackAll(json.channels, () => pixels.sources, (_, done) => {
       addPredicted(pixels.surfaces(), json.view, page.position_steps, json.depth_step, done.u!, done.v!, done.distance!, done.face!);
       return expectedGaps(json, pixels.surfaces(), done, map);
@@ -221,8 +238,8 @@ export class Light {
       position: add(ray.origin, ray.direction, distance),
       normal: ["nx", "ny", "nz"].map((n) => this.pixels.channels[n]![index]! / 32767) as unknown as Vec3,
       primitive: this.primitive(index),
-      material: shownMaterial(this.pixels.channels.material, index),
-      storedGlass: shownMaterial(this.channels.stored_glass, index),
+      material: shownMaterial(this.pixels.comparison.materials, this.pixels.channels.material, index),
+      storedGlass: shownMaterial(this.pixels.comparison.materials, this.channels.stored_glass, index),
     };
   }
 }

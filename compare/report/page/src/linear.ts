@@ -10,15 +10,15 @@ export const srgbFromLinear = (v: number): number => (v <= 0.0031308 ? 12.92 * v
 
 const shown = new Uint8Array(table.length);
 let shownAt = NaN;
-/** The 8-bit sRGB value of each step at an exposure in stops over the page's own. */
-function encoded(stops: number): Uint8Array {
-  if (stops === shownAt) return shown;
-  const factor = page.exposure * 2 ** stops;
+/** The 8-bit sRGB value of each step at an exposure in stops over the comparison's own. */
+function encoded(pixels: Pixels, stops: number): Uint8Array {
+  const factor = pixels.comparison.exposure * 2 ** stops;
+  if (factor === shownAt) return shown;
   for (let h = 0; h < shown.length; ++h) {
     const v = table[h]! * factor;
     shown[h] = Math.floor(255 * srgbFromLinear(Math.min(Math.max(v, 0) || 0, 1)) + 0.5);
   }
-  shownAt = stops;
+  shownAt = factor;
   return shown;
 }
 
@@ -27,12 +27,12 @@ export const linearAt = (pixels: Pixels, name: PictureName, index: number): numb
   pixels.picture(name).map((channel) => table[channel[index]!]!);
 
 export function colourAt(pixels: Pixels, name: PictureName, index: number): number[] {
-  const bytes = encoded(0);
+  const bytes = encoded(pixels, 0);
   return pixels.picture(name).map((channel) => bytes[channel[index]!]!);
 }
 
 export function exposed(pixels: Pixels, name: PictureName, stops: number): ImageData {
-  const bytes = encoded(stops), image = new ImageData(page.width, page.height), { data } = image;
+  const bytes = encoded(pixels, stops), image = new ImageData(page.width, page.height), { data } = image;
   const [red, green, blue] = pixels.picture(name) as [Int16Array, Int16Array, Int16Array];
   for (let i = 0, o = 0; i < red.length; ++i, o += 4) {
     data[o] = bytes[red[i]!]!;

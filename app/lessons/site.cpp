@@ -1,0 +1,152 @@
+#include "app/lessons/site.h"
+
+#include <embedded/lessons.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "app/lessons/lesson_text.h"
+#include "app/lessons/markdown.h"
+#include "app/suggest.h"
+#include "compare/report/html.h"
+#include "compare/report/lessons.h"
+#include "compare/report/shell.h"
+
+namespace gnomon::app::lessons {
+
+namespace {
+
+using compare::escaped;
+using compare::Lesson;
+
+using Lessons = std::vector<const Lesson*>;
+
+std::string page_name(const Lesson& lesson) {
+  return fmt::format("{}.html", lesson.name);
+}
+
+/// The page of a link's target, of those that are written.
+std::string page_of(std::string_view target, const Lessons& written) {
+  if (target == "README.md") return "index.html";
+  const auto found = std::find_if(written.begin(), written.end(), [&](const Lesson* one) {
+    return fmt::format("{}.md", one->name) == target;
+  });
+  return found == written.end() ? std::string() : page_name(**found);
+}
+
+Expected<std::string> body_html(std::string_view markdown, const Lessons& written) {
+  const auto html = html_of(markdown);
+  if (!html) return html;
+  return with_pictures(with_links(*html, [&](std::string_view target) { return page_of(target, written); }));
+}
+
+std::string page_html(const std::string& title, const std::string& links, const std::string& main,
+                      const std::string& data) {
+  compare::PageShell shell;
+  shell.title = title;
+  shell.links = links;
+  shell.main = main;
+  shell.data = data;
+  shell.built = "lesson.html";
+  shell.skip = "Skip to the lesson";
+  return compare::build_page(shell).html;
+}
+
+std::string link(const std::string& page, std::string_view words, std::string_view kind) {
+  return fmt::format("<li><a href=\"{}\" rel=\"{}\">{}</a></li>", page, kind, words);
+}
+
+/// To the neighbours in the order of reading.
+std::string links_of(const Lessons& written, std::size_t at) {
+  std::string links = "<li><a href=\"index.html\">All lessons</a></li>";
+  if (at > 0) links += link(page_name(*written[at - 1]), "Previous", "prev");
+  if (at + 1 < written.size()) links += link(page_name(*written[at + 1]), "Next", "next");
+  return links;
+}
+
+constexpr std::string_view no_figures = R"({"kind":"lesson","labels":[],"figures":[]})";
+
+Expected<SitePage> lesson_page(const Lessons& written, std::size_t at) {
+  const Lesson& lesson = *written[at];
+  const LessonText text = read_lesson(lesson.text);
+  std::string main = "<article class=\"lesson-text\">\n";
+  for (const std::string& part : text.parts) {
+    const auto html = body_html(part, written);
+    if (!html) return fail(html.error());
+    main += "<section class=\"part\">\n" + *html + "</section>\n";
+  }
+  return SitePage{page_name(lesson),
+                  page_html(fmt::format("{} \u2013 Gnomon", lesson.title), links_of(written, at),
+                            main + "</article>\n", std::string(no_figures))};
+}
+
+/// A card with the lesson's picture: "Acne", "the surface shadows itself".
+Expected<std::string> card(const Lesson& lesson, std::size_t number) {
+  const std::size_t colon = lesson.title.find(": ");
+  const std::string_view name = lesson.title.substr(0, colon);
+  const std::string_view more = colon == std::string_view::npos ? "" : lesson.title.substr(colon + 2);
+  std::string picture = first_picture(lesson.text);
+  if (!picture.empty()) {
+    const auto html = picture_html(picture, "");
+    if (!html) return html;
+    picture = *html;
+  }
+  return fmt::format(
+      "<li><a href=\"{}\"><span class=\"card-picture\">{}</span><b>{}. {}</b> <span>{}</span></a></li>\n",
+      page_name(lesson), picture, number, escaped(name), escaped(more));
+}
+
+/// What stands in docs/lessons/README.md before its list, and a card for each lesson.
+Expected<SitePage> index_page(const Lessons& written) {
+  const std::string_view readme = embedded::lessons("README.md");
+  const auto before = body_html(readme.substr(0, readme.find("\n1. ")), written);
+  if (!before) return fail(before.error());
+  std::string main = "<article class=\"lesson-text\">\n" + *before + "</article>\n<ol class=\"cards\">\n";
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const auto html = card(*written[i], i + 1);
+    if (!html) return fail(html.error());
+    main += *html;
+  }
+  return SitePage{"index.html",
+                  page_html("Lessons \u2013 Gnomon", "<li><a href=\"index.html\">All lessons</a></li>",
+                            main + "</ol>\n", std::string(no_figures))};
+}
+
+Expected<Lessons> chosen(const std::vector<std::string>& only) {
+  Lessons all, some;
+  std::vector<std::string_view> names;
+  for (const Lesson& lesson : compare::all_lessons()) {
+    all.push_back(&lesson);
+    names.push_back(lesson.name);
+  }
+  for (const std::string& name : only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      return fail(ErrorKind::usage, fmt::format("--only: no such lesson (got {}, allowed {}){}", name,
+                                                fmt::join(names, ", "), did_you_mean(name, names)));
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Lesson* lesson) {
+    return only.empty() || std::find(only.begin(), only.end(), lesson->name) != only.end();
+  });
+  return some;
+}
+
+}  // namespace
+
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only,
+                                          const std::function<void(double)>& done) {
+  const auto written = chosen(only);
+  if (!written) return fail(written.error());
+  std::vector<SitePage> pages;
+  for (std::size_t i = 0; i < written->size(); ++i) {
+    auto page = lesson_page(*written, i);
+    if (!page) return fail(page.error());
+    pages.push_back(std::move(*page));
+    done(static_cast<double>(i + 1) / static_cast<double>(written->size()));
+  }
+  auto index = index_page(*written);
+  if (!index) return fail(index.error());
+  pages.push_back(std::move(*index));
+  return pages;
+}
+
+}  // namespace gnomon::app::lessons

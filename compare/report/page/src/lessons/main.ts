@@ -1,0 +1,14 @@
+// What a lesson's page gains when scripts may run: live figures in the place of pictures, commands to copy, and a slide view
+// for a projector. Without it the page is text and pictures.
+import "../report.css";
+import "./lessons.css";
+import { copyButton } from "../clipboard";
+import { SlideView } from "./slides";
+
+async function start(): Promise<void> {
+  for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, "Copy"));
+  const lesson = document.querySelector<HTMLElement>(".lesson-text");
+  if (lesson?.querySelector("h2")) new SlideView(lesson);
+  document.documentElement.dataset.ready = "true";
+}
+void start();
