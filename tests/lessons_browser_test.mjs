@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readdirSync, rmSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
+import { axeSource, browser, close, open } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2), site = join(folder, "site");
 rmSync(folder, { recursive: true, force: true });
@@ -18,22 +18,32 @@ assert.ok(bytes < 30e6, `the site weighs ${bytes} bytes`);
 
 const at = (page, options = {}, hash = "") => open(site, { file: page, ...options }, hash);
 
-/** Every link within the site leads to one of its pages; every picture is there. */
-async function checkContent(name) {
-  const page = await at(name);
+/** Every link within the site leads to one of its pages; every picture is there; nothing is wider than a phone. */
+async function checkContent(page, name) {
   const links = await page.locator("a[href]").evaluateAll((all) => all.map((a) => a.getAttribute("href")));
   for (const link of links.filter((l) => !l.startsWith("#") && !l.includes("://"))) assert.ok(pages.includes(link), `${name} links to ${link}`);
   const broken = await page.locator("img").evaluateAll((all) => all.filter((i) => i.complete && i.naturalWidth === 0).map((i) => i.alt));
   assert.deepEqual(broken, [], name);
   assert.equal(await page.locator("h1").count(), 1, name);
-  const text = await page.locator("main").textContent();
+  const text = await page.locator("main").innerText();
   assert.ok(!/```|\]\(|<!--/.test(text), `${name} shows Markdown`);
-  await close(page);
+  await page.setViewportSize({ width: 390, height: 844 });
+  const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
+  assert.ok(width <= 390, `${name} is ${width} pixels wide on a phone`);
+  await page.setViewportSize({ width: 1440, height: 900 });
+}
+
+async function checkAxe(page, name) {
+  await page.evaluate(axeSource);
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    const { violations } = await page.evaluate(() => window.axe.run());
+    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${name}, ${colorScheme}`);
+  }
 }
 
 /** From the first slide to the last by keys; each shows something and fits the screen. */
-async function checkSlides(name) {
-  const page = await at(name);
+async function checkSlides(page, name) {
   await page.click(".open-slides");
   await page.waitForFunction(() => location.hash === "#slide-1");
   const count = Number((await page.locator(".slide-bar output").textContent()).replace(/^1 of /, ""));
@@ -53,23 +63,79 @@ async function checkSlides(name) {
   await page.waitForFunction(() => location.hash === "#slide-1");
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => document.documentElement.dataset.view === "page");
-  await close(page);
+}
+
+const result = (figure, extra = []) => {
+  const { scene, sizes, ...options } = figure.settings;
+  const words = Object.entries(options).flatMap(([key, value]) => [`--${key}`, value]);
+  return JSON.parse(execFileSync(program, ["compare", scene, ...words, ...extra, "--size", "480x270", "--runs", "1", "--quiet", "--no-report", "--json", "-"])).lights[0];
+};
+const counts = (said) => said.evaluate(({ dataset }) => ({ false_shadow: Number(dataset.falseShadow), missed_shadow: Number(dataset.missedShadow) }));
+const until = (page, id, key, value) => page.waitForFunction(([i, k, v]) => document.querySelector(`${i} [role=status]`).dataset[k] === v, [id, key, value]);
+
+/** Each live figure is operated, and says what the program says. */
+const operate = {
+  async bias(page, figure, id) {
+    const light = result(figure), said = page.locator(`${id} .bias-counts`);
+    for (const { bias, bias_texels: _, ...wanted } of [3, 17, 60].map((i) => light.bias_curve[i])) {
+      await page.locator(`${id} input[type=number]`).fill(String(bias));
+      await page.keyboard.press("Enter");
+      await page.waitForFunction(([i, b]) => document.querySelector(`${i} .bias-counts`).dataset.bias === b, [id, String(bias)]);
+      assert.deepEqual(await counts(said), wanted, `bias ${bias}`);
+    }
+    const drawing = page.locator(`${id} .light-space`), before = await drawing.textContent();
+    await page.locator(`${id} .bias-picture canvas`).click({ position: { x: 20, y: 60 } });
+    await page.waitForFunction(([i, text]) => document.querySelector(`${i} .light-space`)?.textContent !== text, [id, before]);
+  },
+  async "map-size"(page, figure, id) {
+    for (const [at, size] of figure.settings.sizes.split(",").entries()) {
+      await page.locator(`${id} input[type=range]`).fill(String(at));
+      await until(page, id, "size", size);
+      const { false_shadow, missed_shadow } = result(figure, ["--map-size", size]).error;
+      assert.deepEqual(await counts(page.locator(`${id} [role=status]`)), { false_shadow, missed_shadow }, `size ${size}`);
+    }
+  },
+  async "two-passes"(page, figure, id) {
+    const range = page.locator(`${id} input[type=range]`);
+    await range.fill("50");
+    await until(page, id, "rows", String((figure.settings["map-size"] ?? 64) / 2));
+    await range.fill("150");
+    await until(page, id, "pixels", String((480 * 270) / 2));
+    assert.equal(await page.locator(`${id} .light-space`).count(), 0);
+    await range.fill("200");
+    await page.locator(`${id} .light-space`).waitFor();
+    const before = await page.locator(`${id} .story`).textContent();
+    await page.locator(`${id} [role=application]`).click({ position: { x: 150, y: 120 } });
+    await page.waitForFunction(([i, text]) => document.querySelector(`${i} .story`).textContent !== text, [id, before]);
+  },
+};
+const operated = new Set();
+async function checkFigures(page) {
+  const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
+  for (const [i, figure] of figures.entries()) {
+    if (!figure) continue;
+    await operate[figure.name](page, figure, `[data-figure="${i}"]`);
+    operated.add(figure.name);
+  }
 }
 
 try {
-  for (const page of pages) {
-    await checkContent(page);
-    await checkAccessibility(site, { file: page });
-    await checkPhone(site, { file: page });
+  for (const name of pages) {
+    const page = await at(name);
+    await checkContent(page, name);
+    await checkAxe(page, name);
+    await checkFigures(page);
+    if (name !== "index.html") await checkSlides(page, name);
+    await close(page);
   }
-  for (const lesson of lessons) await checkSlides(`${lesson}.html`);
   const linked = await at("acne.html", {}, "#slide-2");
   assert.equal(await linked.locator(".slide-bar output").textContent().then((text) => text.slice(0, 5)), "2 of ");
-  await checkAccessibility(site, { file: "acne.html" }, "#slide-2");
+  await checkAxe(linked, "a slide");
   await close(linked);
   const plain = await at("acne.html", { javaScriptEnabled: false });
   assert.ok(await plain.locator(".lesson-text img").first().isVisible());
   await close(plain);
+  console.log(`live figures: ${[...operated].join(", ") || "none"}`);
   console.log(`${pages.length} pages, ${(bytes / 1e6).toFixed(1)} MB`);
 } finally {
   await browser.close();

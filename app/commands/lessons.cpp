@@ -43,8 +43,7 @@ Expected<ExitCode> run_lessons(const LessonsCommand& command) {
   constexpr std::array<std::string_view, 1> names{"index.html"};
   files.writes_folder("-o", command.folder, names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
-  const auto pages =
-      lessons::make_site(command.only, [&](double done) { console.progress("lessons", done); });
+  const auto pages = lessons::make_site(command.only, console);
   if (!pages) return fail(pages.error());
   if (const auto written = write_pages(*pages, command.folder); !written) return fail(written.error());
   console.clear_progress();

@@ -82,7 +82,8 @@ Expected<std::string> picture_html(std::string_view path, std::string_view alt) 
   const std::string_view bytes = embedded::lesson_images(file_name(path));
   if (bytes.empty())
     return fail(ErrorKind::internal, fmt::format("a lesson's picture is missing (got {})", path));
-  return fmt::format("<img src=\"{}\" alt=\"{}\">", compare::data_uri("image/png", bytes), alt);
+  return fmt::format("<img src=\"{}\" alt=\"{}\">",
+                     compare::data_uri(path.ends_with(".svg") ? "image/svg+xml" : "image/png", bytes), alt);
 }
 
 Expected<std::string> with_pictures(const std::string& html) {

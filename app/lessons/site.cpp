@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "app/console.h"
+#include "app/lessons/figures.h"
 #include "app/lessons/lesson_text.h"
 #include "app/lessons/markdown.h"
 #include "app/suggest.h"
@@ -42,12 +44,13 @@ Expected<std::string> body_html(std::string_view markdown, const Lessons& writte
 }
 
 std::string page_html(const std::string& title, const std::string& links, const std::string& main,
-                      const std::string& data) {
+                      const PageFigures& figures) {
   compare::PageShell shell;
   shell.title = title;
   shell.links = links;
   shell.main = main;
-  shell.data = data;
+  shell.data = figures.data();
+  shell.parts = figures.parts();
   shell.built = "lesson.html";
   shell.skip = "Skip to the lesson";
   return compare::build_page(shell).html;
@@ -65,9 +68,7 @@ std::string links_of(const Lessons& written, std::size_t at) {
   return links;
 }
 
-constexpr std::string_view no_figures = R"({"kind":"lesson","labels":[],"figures":[]})";
-
-Expected<SitePage> lesson_page(const Lessons& written, std::size_t at) {
+Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console) {
   const Lesson& lesson = *written[at];
   const LessonText text = read_lesson(lesson.text);
   std::string main = "<article class=\"lesson-text\">\n";
@@ -76,9 +77,11 @@ Expected<SitePage> lesson_page(const Lessons& written, std::size_t at) {
     if (!html) return fail(html.error());
     main += "<section class=\"part\">\n" + *html + "</section>\n";
   }
-  return SitePage{page_name(lesson),
-                  page_html(fmt::format("{} \u2013 Gnomon", lesson.title), links_of(written, at),
-                            main + "</article>\n", std::string(no_figures))};
+  PageFigures figures(console);
+  for (const LiveMark& mark : text.marks)
+    if (const auto added = figures.add(mark); !added) return fail(added.error());
+  return SitePage{page_name(lesson), page_html(fmt::format("{} \u2013 Gnomon", lesson.title),
+                                               links_of(written, at), main + "</article>\n", figures)};
 }
 
 /// A card with the lesson's picture: "Acne", "the surface shadows itself".
@@ -98,7 +101,7 @@ Expected<std::string> card(const Lesson& lesson, std::size_t number) {
 }
 
 /// What stands in docs/lessons/README.md before its list, and a card for each lesson.
-Expected<SitePage> index_page(const Lessons& written) {
+Expected<SitePage> index_page(const Lessons& written, Console& console) {
   const std::string_view readme = embedded::lessons("README.md");
   const auto before = body_html(readme.substr(0, readme.find("\n1. ")), written);
   if (!before) return fail(before.error());
@@ -108,9 +111,10 @@ Expected<SitePage> index_page(const Lessons& written) {
     if (!html) return fail(html.error());
     main += *html;
   }
+  const PageFigures none(console);
   return SitePage{"index.html",
                   page_html("Lessons \u2013 Gnomon", "<li><a href=\"index.html\">All lessons</a></li>",
-                            main + "</ol>\n", std::string(no_figures))};
+                            main + "</ol>\n", none)};
 }
 
 Expected<Lessons> chosen(const std::vector<std::string>& only) {
@@ -132,18 +136,17 @@ Expected<Lessons> chosen(const std::vector<std::string>& only) {
 
 }  // namespace
 
-Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only,
-                                          const std::function<void(double)>& done) {
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console) {
   const auto written = chosen(only);
   if (!written) return fail(written.error());
   std::vector<SitePage> pages;
   for (std::size_t i = 0; i < written->size(); ++i) {
-    auto page = lesson_page(*written, i);
+    auto page = lesson_page(*written, i, console);
     if (!page) return fail(page.error());
     pages.push_back(std::move(*page));
-    done(static_cast<double>(i + 1) / static_cast<double>(written->size()));
+    console.progress("lessons", static_cast<double>(i + 1) / static_cast<double>(written->size()));
   }
-  auto index = index_page(*written);
+  auto index = index_page(*written, console);
   if (!index) return fail(index.error());
   pages.push_back(std::move(*index));
   return pages;

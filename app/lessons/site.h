@@ -3,11 +3,14 @@
 // site works from disk, and a single lesson can be handed on.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "scene/expected.h"
+
+namespace gnomon::app {
+class Console;
+}
 
 namespace gnomon::app::lessons {
 
@@ -17,8 +20,7 @@ struct SitePage {
 };
 
 /// The pages of the lessons of those names, all of them where there are none, and the index of these.
-/// `done` is told the share. Error (usage): a name that no lesson has.
-Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only,
-                                          const std::function<void(double)>& done);
+/// Errors: (usage) a name that no lesson has; those of a live figure's scene, of its settings, of the graphics.
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console);
 
 }  // namespace gnomon::app::lessons

@@ -86,6 +86,7 @@ export class BiasPanel {
     const counts = recolour(this.light, bias, this.backdrop, new Uint32Array(this.image.data.buffer));
     this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
+    this.said.dataset.bias = String(bias);
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
     this.said.textContent = `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +

@@ -1,6 +1,7 @@
 // One light's section brought to life: viewer, probe, label table and bias act on one state, which the URL keeps.
 import { BiasPanel } from "./bias";
 import { page, wordsOf, type Light, type PictureName, type Pixel } from "./data";
+import { examplePixel } from "./example_pixel";
 import { LabelTable } from "./labels";
 import { MapMarker } from "./map_marker";
 import { colourAt, exposed, linearAt } from "./linear";
@@ -37,7 +38,7 @@ export class LightPanel {
     this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
     const depths = section.querySelector<HTMLImageElement>(".depth img");
     this.map = depths && new MapMarker(light, depths);
-    this.shown = this.example();
+    this.shown = examplePixel(light);
     this.viewer = new Viewer(root, this.state, page, {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveLight(this.index, this.state),
@@ -67,27 +68,13 @@ export class LightPanel {
     this.update();
   }
 
-  // The commonest label's pixel nearest to the picture's middle, to begin with something to see.
-  private example(label?: number): Pixel {
-    const counts = new Map<number, number>();
-    if (label === undefined) for (const l of this.light.label) counts.set(l, (counts.get(l) ?? 0) + 1);
-    const rank = (l: number) => (l > 0 ? 2e9 : l === 0 ? 1e9 : 0) + counts.get(l)!;
-    const wanted = label ?? [...counts.keys()].sort((a, b) => rank(b) - rank(a))[0]!;
-    let best = 0, least = Infinity;
-    this.light.label.forEach((l, i) => {
-      const away = Math.hypot((i % page.width) - page.width / 2, Math.floor(i / page.width) - page.height / 2);
-      if (l === wanted && away < least) [best, least] = [i, away];
-    });
-    return this.light.pixel(best % page.width, Math.floor(best / page.width));
-  }
-
   private choose(label: string | null): void {
     this.state.label = label;
     if (label !== null) this.state.right = "labels";
     this.labels.show(label);
     const value = page.labels.find((words) => words.name === label)?.value;
     if (value !== undefined) {
-      const pixel = this.example(value);
+      const pixel = examplePixel(this.light, value);
       this.state.pixel = [pixel.x, pixel.y];
       this.read(pixel.x, pixel.y);
     }

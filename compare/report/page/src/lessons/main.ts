@@ -3,10 +3,12 @@
 import "../report.css";
 import "./lessons.css";
 import { copyButton } from "../clipboard";
+import { startFigures } from "./figures";
 import { SlideView } from "./slides";
 
 async function start(): Promise<void> {
   for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, "Copy"));
+  await startFigures();
   const lesson = document.querySelector<HTMLElement>(".lesson-text");
   if (lesson?.querySelector("h2")) new SlideView(lesson);
   document.documentElement.dataset.ready = "true";

@@ -36,6 +36,15 @@ function slidesOf(part: HTMLElement): Slide[] {
   return slides.length > 0 ? slides : [{ part, elements: [] }];
 }
 
+/** A slide's heading is the first of what is there. */
+function headLevel(part: HTMLElement, level: string | null): void {
+  const heading = part.querySelector("h1, h2");
+  if (level) heading?.setAttribute("aria-level", level);
+  else heading?.removeAttribute("aria-level");
+  if (level) heading?.setAttribute("role", "heading");
+  else heading?.removeAttribute("role");
+}
+
 export class SlideView {
   private readonly slides: Slide[];
   private readonly count = html("output", {});
@@ -80,11 +89,13 @@ export class SlideView {
   private show(at: number): void {
     const was = this.slides[this.at];
     this.at = at;
+    if (was) headLevel(was.part, null);
     document.documentElement.dataset.view = at < 0 ? "page" : "slides";
     for (const element of document.querySelectorAll(".on-slide")) element.classList.remove("on-slide");
     const slide = this.slides[at];
     if (slide) {
       for (const element of [slide.part, ...slide.elements]) element.classList.add("on-slide");
+      headLevel(slide.part, "1");
       this.count.textContent = `${at + 1} of ${this.slides.length}`;
       window.scrollTo(0, 0);
     }

@@ -1,0 +1,96 @@
+#include "app/lessons/comparison.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/lesson_scene.h"
+#include "app/options.h"
+#include "app/session.h"
+#include "app/setting.h"
+#include "app/technique_options.h"
+#include "compare/report/charts.h"
+#include "compare/report/page_data.h"
+
+namespace gnomon::app::lessons {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr ImageSize picture_size{480, 270};  // pixels: one for all, as the page's script has one
+
+struct Words {
+  SceneArgument scene;
+  SettingOptions setting;
+};
+
+/// Reads the settings as the command line of `gnomon compare` does, a lesson's and a scene's own among them.
+Expected<void> read_settings(const std::string& scene, const Settings& settings, Words& words) {
+  CLI::App app("", "compare");
+  add_scene(app, words.scene);
+  add_setting_options(app, words.setting);
+  std::vector<std::string> line{scene};
+  for (const auto& [key, value] : settings) line.insert(line.end(), {"--" + key, value});
+  std::reverse(line.begin(), line.end());  // CLI11 takes the last one first
+  try {
+    app.parse(std::move(line));
+    add_lesson_settings(app);
+    if (const auto added = add_scene_settings(app); !added) return added;
+    finish_map_options(app, words.setting.options.raster.map);
+  } catch (const CLI::ParseError& error) {
+    return fail(ErrorKind::internal, fmt::format("a live figure of {}: {}", scene, error.what()));
+  }
+  raster::RasterOptions& raster = words.setting.options.raster;
+  raster.size = words.setting.options.raytrace.size = picture_size;
+  raster.runs = words.setting.options.raytrace.runs = 1;
+  words.setting.options.perceptual = false;
+  return {};
+}
+
+Expected<compare::Comparison> compared(const Words& words, const LoadedScene& loaded) {
+  const auto lights = choose_lights(*loaded.scene, words.setting.light);
+  if (!lights) return fail(lights.error());
+  auto renderer = make_renderer(raster::Backend::automatic, loaded);
+  if (!renderer) return fail(renderer.error());
+  const std::vector<std::uint32_t> first{lights->front()};
+  return compare::compare_world(*loaded.world, **renderer, first, words.setting.options);
+}
+
+Json part_of(const Json& head, std::initializer_list<const char*> keys) {
+  Json part = Json::object();
+  for (const char* key : keys) part[key] = head.at(key);
+  return part;
+}
+
+}  // namespace
+
+Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings,
+                                        const std::string& id, Console& console) {
+  Words words;
+  if (const auto read = read_settings(scene, settings, words); !read) return fail(read.error());
+  RunFiles files;
+  auto loaded = load(words.scene, files, console);
+  if (!loaded) return fail(loaded.error());
+  const auto posed = apply_poses(words.setting.poses, words.setting.light, *loaded->scene, *loaded->world);
+  if (!posed) return fail(posed.error());
+  const auto comparison = compared(words, *loaded);
+  if (!comparison) return fail(comparison.error());
+  const compare::LightComparison& light = comparison->lights.front();
+  const compare::PictureSet none;
+  compare::PageData data = compare::page_data({*comparison, none, {}, {}});
+  const Json head = Json::parse(data.head);
+  SmallComparison out;
+  out.words = part_of(head, {"labels", "rungs", "width", "height", "position_steps", "visibility_steps",
+                             "colour_steps", "darkest_octave"});
+  out.shared = part_of(head, {"exposure", "rays", "materials"});
+  out.parts = std::move(data.parts);
+  out.chart = compare::bias_chart(light, comparison->raster.lights.front().bias_constant_world, id);
+  out.best_bias = light.best_bias.constant_world;
+  out.wrong_fraction = light.error.wrong_fraction;
+  out.texel_world = light.texel_world[1];
+  return out;
+}
+
+}  // namespace gnomon::app::lessons

@@ -1,0 +1,36 @@
+// A comparison as a live figure shows it: what `gnomon compare` would do with the same words, in a picture small enough
+// for a phone, as the parts of a page's data (compare/report/page_data.h).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/report/shell.h"
+#include "scene/expected.h"
+
+namespace gnomon::app {
+class Console;
+}
+
+namespace gnomon::app::lessons {
+
+/// Options of `gnomon compare` without their dashes: {"map-size", "64"}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+struct SmallComparison {
+  nlohmann::ordered_json words;          ///< what all comparisons of a page share: labels, sizes, steps
+  nlohmann::ordered_json shared;         ///< exposure, rays, materials
+  std::vector<compare::DataPart> parts;  ///< "pixels", "geometry", "light-0"
+  std::string chart;                     ///< wrong pixels at every bias, SVG; empty where there is none
+  double best_bias = 0.0;                ///< world units
+  double wrong_fraction = 0.0;           ///< as drawn
+  double texel_world = 0.0;              ///< width of a texel, world units: the median
+};
+
+/// `id`: of the chart's title. Errors: of the scene, of its settings, of the graphics.
+Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings,
+                                        const std::string& id, Console& console);
+
+}  // namespace gnomon::app::lessons

@@ -1,0 +1,28 @@
+// The live figures of a lesson, each in the place of its picture; the picture stays where its figure cannot be made. What the
+// program says of them (app/lessons/figures.h) is in the page's data.
+import { pageData } from "../parts";
+import { biasFigure } from "./bias_figure";
+import { mapSizeFigure } from "./map_size_figure";
+import { twoPassesFigure } from "./two_passes_figure";
+
+export interface FigureJson<Data = never> {
+  name: string;
+  settings: Record<string, string>;  // of the mark in the lesson's text
+  data: Data;
+}
+
+type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
+const makers: Record<string, Maker> = { bias: biasFigure, "map-size": mapSizeFigure, "two-passes": twoPassesFigure };
+
+export async function startFigures(): Promise<void> {
+  const { figures } = pageData<{ figures: (FigureJson | null)[] }>();
+  for (const host of document.querySelectorAll<HTMLElement>(".live")) {
+    const at = Number(host.dataset.figure), figure = figures[at];
+    if (!figure) continue;
+    const made = await makers[figure.name]!(figure, `figure-${at}`);
+    made.classList.add("live-figure");
+    made.dataset.name = figure.name;
+    host.prepend(made);
+    host.classList.add("is-live");
+  }
+}
