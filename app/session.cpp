@@ -63,8 +63,13 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
     if (name.empty() || scene.lights[i].name == name) lights.push_back(i);
   }
   if (!lights.empty()) return lights;
-  return fail(ErrorKind::usage, fmt::format("--light: the scene has no such light (got {}, allowed {}){}",
-                                            name, fmt::join(names, ", "), did_you_mean(name, names)));
+  constexpr std::size_t shown = 16;
+  const std::string more =
+      names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : std::string();
+  const std::string suggestion = did_you_mean(name, names);
+  names.resize(std::min(names.size(), shown));
+  return fail(ErrorKind::usage, fmt::format("--light: the scene has no such light (got {}, allowed {}{}){}",
+                                            name, fmt::join(names, ", "), more, suggestion));
 }
 
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,

@@ -15,6 +15,7 @@
 #include "app/run_options.h"
 #include "app/session.h"
 #include "app/setting.h"
+#include "app/strongest_lights.h"
 #include "app/swim_note.h"
 #include "app/technique_options.h"
 #include "scene/stages.h"
@@ -31,6 +32,7 @@ struct CompareCommand : RunOptions {
   SettingOptions setting;
   std::string shader_folder;
   std::optional<int> runs;
+  int max_lights = usual_max_lights;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   std::string command_line;
   std::vector<std::string> given;  ///< options
@@ -105,6 +107,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
   const auto posed =
       apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
@@ -123,6 +126,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_camera(app, command.camera);
   add_result_output(app, command.output, "out/NAME of the scene");
   add_setting_options(app, command.setting);
+  add_max_lights(app, command.max_lights);
   add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
   add_runs(

@@ -14,6 +14,7 @@
 #include "app/session.h"
 #include "app/setting.h"
 #include "app/shimmer_options.h"
+#include "app/strongest_lights.h"
 #include "app/technique_options.h"
 #include "compare/shimmer/write.h"
 #include "scene/files/write_file.h"
@@ -129,6 +130,7 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
+  keep_strongest_lights(*loaded, usual_max_lights, named_lights(command.setting.light), console);
   const auto posed =
       apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());

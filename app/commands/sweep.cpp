@@ -14,6 +14,7 @@
 #include "app/machine.h"
 #include "app/output_path.h"
 #include "app/session.h"
+#include "app/strongest_lights.h"
 #include "app/sweep/command.h"
 #include "app/sweep/make_cells.h"
 #include "app/sweep/slurm.h"
@@ -164,6 +165,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
+  keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
     if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());

@@ -13,6 +13,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
+#include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "app/tune_answer.h"
 #include "app/values.h"
@@ -218,6 +219,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
+  keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
   auto bench = make_bench(command, *loaded, *families);
   if (!bench) return fail(bench.error());
   return tune_and_answer(command, *bench, *files, total, console);

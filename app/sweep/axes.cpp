@@ -143,6 +143,11 @@ void SweepOptions::add_to(CLI::App& command) {
   });
 }
 
+std::vector<std::string> SweepOptions::values_given(std::string_view name) const {
+  const std::vector<std::string>* values = values_of(name);
+  return values == nullptr ? std::vector<std::string>{} : *values;
+}
+
 const std::vector<std::string>* SweepOptions::values_of(std::string_view name) const {
   const auto found =
       std::find_if(given_.begin(), given_.end(), [&](const auto& given) { return given->name == name; });

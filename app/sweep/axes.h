@@ -33,6 +33,9 @@ class SweepOptions {
   /// The options that were given one value: name and value.
   std::vector<std::pair<std::string, std::string>> fixed() const;
 
+  /// All values that were given for one option; none where it was not given.
+  std::vector<std::string> values_given(std::string_view name) const;
+
   /// What was given, as it was given: " --bias 0:0.1:64", quoted for a shell.
   std::string arguments() const;
 
