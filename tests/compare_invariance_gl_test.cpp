@@ -1,6 +1,7 @@
 // The same scene in other numbers: lengths times a power of two, triangles in another order and cut into four, and
 // everything far from the origin. What is compared, wrong and labelled is then counted alike, whatever the technique.
-// What does not hold: other axes (maps and cube faces are aligned to the world's, so that their texels lie elsewhere).
+// Cut triangles hold so for the rays; what is drawn may move by the rounding of their corners. What does not hold at
+// all: other axes (maps and cube faces are aligned to the world's, so that their texels lie elsewhere).
 //
 // In ctest each technique is tried under one kind of light; GNOMON_INVARIANCE=N in the environment: all of them under
 // every kind that they draw, on N random scenes.
@@ -12,13 +13,15 @@
 #include <functional>
 #include <numeric>
 #include <random>
-#include <tuple>
+#include <span>
+#include <string>
 
 #include "app/verify/random.h"
 #include "app/verify/small_world.h"
 #include "compare/compare.h"
 #include "hybrid/visibility.h"
 #include "raster/technique_traits.h"
+#include "scene/light.h"
 
 namespace gnomon::test {
 namespace {
@@ -79,13 +82,19 @@ void split_triangles(Scene& scene) {
 struct Change {
   const char* name;
   std::function<void(Scene&)> apply;
+  std::uint64_t may_differ = 0;  ///< sum over what was counted
 };
+
+/// OpenGL rounds corners to 1/256 of a pixel or texel, new ones too, so that an edge moves by up to as much. Of the
+/// pictures' 14,400 pixels and the maps' 16,384 texels fewer than 4,000 lie on edges: some 16 of each change, and one
+/// changes two or three counts of each pixel that it stands for.
+constexpr std::uint64_t of_new_corners = 100;
 
 std::vector<Change> changes() {
   return {{"lengths times 2^20", [](Scene& s) { move_all(s, [](const Vec3& p) { return 0x1p20 * p; }); }},
           {"lengths times 2^-20", [](Scene& s) { move_all(s, [](const Vec3& p) { return 0x1p-20 * p; }); }},
           {"triangles in another order", shuffle_triangles},
-          {"triangles cut into four", split_triangles},
+          {"triangles cut into four", split_triangles, of_new_corners},
           {"moved to 1e7",
            [](Scene& s) { move_all(s, [](const Vec3& p) { return p + Vec3(1e7, -1e7, 1e7); }); }}};
 }
@@ -120,20 +129,51 @@ class Bench {
   std::unique_ptr<raster::Renderer> renderer_;
 };
 
-auto counts(const compare::LightComparison& c) {
-  return std::tuple(c.pixels.background, c.pixels.facing_away, c.pixels.silhouette, c.pixels.uncertain,
-                    c.pixels.compared, c.error.false_shadow, c.error.missed_shadow, c.classes);
+constexpr std::size_t kinds_of_truth = 5;  ///< background, facing away, shadowed, lit, uncertain
+
+/// What rays say, and what was drawn and compared.
+struct Counts {
+  std::array<std::uint64_t, kinds_of_truth> truth{};
+  std::vector<std::uint64_t> drawn;
+  bool operator==(const Counts&) const = default;
+};
+
+Counts counts(const compare::Comparison& c) {
+  Counts out;
+  const Light& light = c.world->scene->lights.front();
+  for (std::size_t i = 0; i < c.raytraced.receiver.data.size(); ++i) {
+    const raytrace::SurfacePoint& p = c.raytraced.receiver.data[i];
+    const raytrace::Verdict verdict = c.raytraced.lights[0].verdict.data[i];
+    std::size_t kind = verdict == raytrace::Verdict::shadowed ? 2 : verdict == raytrace::Verdict::lit ? 3 : 4;
+    if (p.primitive == no_id)
+      kind = 0;
+    else if (light_cannot_reach(light, p.position, p.normal))
+      kind = 1;
+    ++out.truth[kind];
+  }
+  const compare::LightComparison& l = c.lights.front();
+  out.drawn = {l.pixels.background, l.pixels.facing_away, l.pixels.silhouette,  l.pixels.uncertain,
+               l.pixels.compared,   l.error.false_shadow, l.error.missed_shadow};
+  out.drawn.insert(out.drawn.end(), l.classes.begin(), l.classes.end());
+  return out;
+}
+
+std::uint64_t distance(const Counts& a, const Counts& b) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < a.drawn.size(); ++i)
+    sum += a.drawn[i] > b.drawn[i] ? a.drawn[i] - b.drawn[i] : b.drawn[i] - a.drawn[i];
+  return sum;
 }
 
 void expect_alike(LightType type, std::span<const raster::Technique> techniques, std::uint64_t seed) {
   Bench given(given_scene(type, seed));
   if (!given.ready()) GTEST_SKIP() << "no OpenGL here";
-  std::vector<compare::LightComparison> expected;
+  std::vector<Counts> expected;
   for (const raster::Technique technique : techniques) {
     auto compared = given.compare(technique);
     ASSERT_TRUE(compared.has_value()) << compared.error().message();
-    expected.push_back(compared->lights.front());
-    EXPECT_GT(expected.back().pixels.compared, 2000u);
+    expected.push_back(counts(*compared));
+    EXPECT_GT(compared->lights.front().pixels.compared, 2000u);
   }
   for (const Change& change : changes()) {
     Scene scene = given_scene(type, seed);
@@ -142,8 +182,12 @@ void expect_alike(LightType type, std::span<const raster::Technique> techniques,
     for (std::size_t i = 0; i < techniques.size(); ++i) {
       const auto compared = changed.compare(techniques[i]);
       ASSERT_TRUE(compared.has_value()) << compared.error().message();
-      EXPECT_EQ(counts(compared->lights.front()), counts(expected[i]))
-          << change.name << ", " << raster::technique_name(techniques[i]) << ", seed " << seed;
+      const Counts found = counts(*compared);
+      const std::string what = std::string(change.name) + ", " +
+                               std::string(raster::technique_name(techniques[i])) + ", seed " +
+                               std::to_string(seed);
+      EXPECT_EQ(found.truth, expected[i].truth) << what;
+      EXPECT_LE(distance(found, expected[i]), change.may_differ) << what;
     }
   }
 }
@@ -155,8 +199,10 @@ std::vector<raster::Technique> techniques_for(LightType type, bool all) {
   std::vector<raster::Technique> out;
   std::size_t turn = 0;
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
-    if (all ? traits.lights.has(type) : false) out.push_back(traits.technique);
-    if (all) continue;
+    if (all) {
+      if (traits.lights.has(type)) out.push_back(traits.technique);
+      continue;
+    }
     while (!traits.lights.has(kinds[turn % kinds.size()])) ++turn;
     if (kinds[turn++ % kinds.size()] == type) out.push_back(traits.technique);
   }

@@ -1,0 +1,69 @@
+// A scene of very many lights: the strongest few are compared, a note says so, and what --light names is among them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// `count` lamps over a floor, named l0, l1, ...; every 50th is a hundred times as bright as the others.
+std::string lamps(int count) {
+  Json lights = Json::array();
+  for (int i = 0; i < count; ++i) {
+    const double strength = i % 50 == 0 ? 10.0 : 0.1;
+    lights.push_back({{"name", fmt::format("l{}", i)},
+                      {"type", "point"},
+                      {"position", {0.01 * i - 2.0, 2.0, 0.5}},
+                      {"intensity", {strength, strength, strength}}});
+  }
+  return Json{{"schema", "gnomon/scene/1"},
+              {"camera", {{"eye", {0, 3, 6}}, {"target", {0, 0, 0}}}},
+              {"lights", lights},
+              {"materials", {{{"name", "grey"}}}},
+              {"shapes",
+               {{{"plane", {{"point", {0, 0, 0}}, {"normal", {0, 1, 0}}}}, {"material", "grey"}},
+                {{"sphere", {{"center", {0, 1, 0}}, {"radius", 0.5}}}, {"material", "grey"}}}}}
+      .dump();
+}
+
+std::vector<std::string> compared(const TemporaryFolder& folder, const Words& more, const std::string& note) {
+  const ProcessResult result =
+      run_gnomon(Words{"compare", "lamps.json", "--json", "-"} + more + small, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.find("note: ") != std::string::npos, !note.empty()) << result.err;
+  EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
+  const Json json = Json::parse(result.out, nullptr, false);
+  if (!json.is_object()) return {};
+  EXPECT_EQ(json["scene"]["notes"].dump().find(note) != std::string::npos, true) << "on the page, too";
+  std::vector<std::string> names;
+  for (const Json& light : json["lights"]) names.push_back(light["light"]["name"]);
+  return names;
+}
+
+TEST(ManyLights, TheStrongestAreCompared) {
+  const TemporaryFolder folder;
+  write_text(folder / "lamps.json", lamps(400));
+  const Words bright{"l0", "l50", "l100", "l150", "l200", "l250", "l300", "l350"};
+  EXPECT_EQ(compared(folder, {}, "400 lights: the 8 that would light most"), bright);
+  const Words two = compared(folder, {"--max-lights", "2"}, "400 lights: the 2 that");
+  ASSERT_EQ(two.size(), 2u);
+  for (const std::string& name : two) EXPECT_TRUE(std::count(bright.begin(), bright.end(), name)) << name;
+  EXPECT_EQ(compared(folder, {"--light", "l77"}, "and those named"), Words{"l77"});
+  expect_one_line(run_gnomon({"compare", "lamps.json", "--light", "lamp"}, {.folder = folder.path()}), 2,
+                  "and 384 more");
+}
+
+TEST(ManyLights, OfFewNoneIsLeftOut) {
+  const TemporaryFolder folder;
+  write_text(folder / "lamps.json", lamps(8));
+  EXPECT_EQ(compared(folder, {}, "").size(), 8u);
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
