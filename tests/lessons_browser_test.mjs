@@ -109,6 +109,70 @@ const operate = {
     await page.waitForFunction(([i, text]) => document.querySelector(`${i} .story`).textContent !== text, [id, before]);
   },
 };
+const slide = async (page, id, values) => {
+  for (const [slider, value] of Object.entries(values)) await page.locator(`${id} [data-slider=${slider}]`).fill(String(value));
+  // A drawing later: the figure has taken all of them.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+};
+const said = (page, id) => page.locator(`${id} [role=status]`).evaluate(({ dataset }) => Object.fromEntries(Object.entries(dataset).map(([key, value]) => [key, Number(value)])));
+const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
+const radians = (degrees) => (degrees * Math.PI) / 180;
+
+/** The flatlands against closed forms worked out here, from the scenes' own numbers. */
+const flatlands = {
+  // The floor is measured in 640 pieces; each edge of a texel's dark half falls into one of them.
+  async acne(page, id) {
+    near((await said(page, id)).angle, 90 - 42, 0.5, "the sun of acne-floor");
+    for (const [angle, texels, bias] of [[48, 14, 0], [48, 20, 0.06], [-30, 10, 0.03], [60, 30, 0.3]]) {
+      await slide(page, id, { angle, texels, bias });
+      const { texel, falseShare, missedShare, bias: used } = await said(page, id);
+      const a = 0.5 * texel * Math.tan(radians(Math.abs(angle)));
+      near(falseShare, a > used ? 0.5 * (1 - used / a) : 0, texels / 640, `acne at ${angle} degrees, ${texels} texels, bias ${bias}`);
+      near(texel, (6 * Math.cos(radians(angle))) / texels, 1e-9, "width of a texel");
+      assert.equal(missedShare, 0);
+    }
+  },
+  // A texel's width on the floor, and a piece's.
+  async wall(page, id) {
+    near((await said(page, id)).angle, 60, 0.5, "the sun of thin-wall");
+    for (const [angle, texels, bias] of [[60, 128, 0.2], [-45, 128, 0.3], [60, 100, 0.03]]) {
+      await slide(page, id, { angle, texels, bias });
+      const { texel, measured, bias: used } = await said(page, id);
+      near(measured, Math.max(0, used * Math.sin(radians(Math.abs(angle))) - 0.05), texel / Math.cos(radians(angle)) + 0.006, `wall at ${angle} degrees, bias ${bias}`);
+    }
+  },
+  async penumbra(page, id) {
+    for (const [radius, height] of [[0.4, 4], [0.2, 3], [0, 4], [0.9, 4]]) {
+      await slide(page, id, { radius, height, x: 0 });
+      const { umbra, penumbra } = await said(page, id), h = 1.6, a = 0.6;
+      near(umbra, Math.max(0, (a * height - radius * h) / (height - h)), 1e-6, "umbra");
+      near(penumbra, (a * height + radius * h) / (height - h), 1e-6, "penumbra");
+    }
+  },
+  async terminator(page, id) {
+    for (const [angle, sides] of [[35, 14], [-100, 9], [0, 60]]) {
+      await slide(page, id, { angle, sides });
+      const { lostLeft, lostRight, formulaLeft, formulaRight } = await said(page, id), piece = 360 / sides / 60;
+      near(lostLeft, formulaLeft, piece, "left");
+      near(lostRight, formulaRight, piece, "right");
+      assert.ok(Math.max(lostLeft, lostRight) <= 180 / sides + 1e-9);
+    }
+  },
+  // Bias cures false shadow, and takes true shadow with it.
+  async shadow(page, id) {
+    await slide(page, id, (await page.locator(`${id} [data-slider=offset]`).count()) > 0 ? { bias: 0, offset: 0 } : { bias: 0 });
+    const without = await said(page, id);
+    assert.ok(without.falseShare > 0.1, `false shadow ${without.falseShare}`);
+    await slide(page, id, { bias: 9 });
+    const most = await said(page, id);
+    assert.ok(most.falseShare < 0.02 && most.missedShare > without.missedShare, `${most.falseShare} false, ${most.missedShare} missed`);
+  },
+};
+operate.flatland = async (page, { settings: { show, scene } }, id) => {
+  if (show !== "shadow") return flatlands[show](page, id);
+  if (scene === "wall") await flatlands.wall(page, id);
+  await flatlands.shadow(page, id);
+};
 const operated = new Set();
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);

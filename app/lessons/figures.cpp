@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/console.h"
+#include "app/lessons/flatland.h"
 
 namespace gnomon::app::lessons {
 
@@ -86,6 +87,8 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   Expected<Json> made = Json(nullptr);
   if (mark.name == "bias") made = bias(mark);
   if (mark.name == "map-size") made = map_size(mark);
+  if (mark.name == "flatland")
+    made = flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
   if (mark.name == "two-passes") made = two_passes(mark);
   if (!made) return fail(made.error());
   if (made->is_null())

@@ -2,6 +2,7 @@
 // program says of them (app/lessons/figures.h) is in the page's data.
 import { pageData } from "../parts";
 import { biasFigure } from "./bias_figure";
+import { flatlandFigure } from "./flatland_figure";
 import { mapSizeFigure } from "./map_size_figure";
 import { twoPassesFigure } from "./two_passes_figure";
 
@@ -12,7 +13,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, "map-size": mapSizeFigure, "two-passes": twoPassesFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, flatland: flatlandFigure, "map-size": mapSizeFigure, "two-passes": twoPassesFigure };
 
 export async function startFigures(): Promise<void> {
   const { figures } = pageData<{ figures: (FigureJson | null)[] }>();

@@ -1,0 +1,32 @@
+// A built-in scene cut by an upright plane, for the live figures in which light is dragged: what is left of the scene is a
+// flatland of line segments and circles, in which shadows are computed in the page.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/expected.h"
+#include "scene/world.h"
+
+namespace gnomon::app::lessons {
+
+/// An upright plane through `origin`; across it x counts along `right` (unit, horizontal), y upwards.
+struct CutPlane {
+  Vec3 origin{0.0}, right{1.0, 0.0, 0.0};
+};
+
+/// The part of the plane that a drawing shows.
+struct CutWindow {
+  double left = -1.0, right = 1.0, bottom = 0.0, top = 1.0;
+};
+
+/// {"segments": [[x0, y0, x1, y1, nx, ny], …], "circles": [[x, y, radius], …]} in world units. A segment's ends lie
+/// within the window's width; (nx, ny) is what the plane sees of the surface's outward normal. Triangles give
+/// segments, planes one each, spheres circles, other solids segments of their meshes.
+nlohmann::ordered_json cut_world(const World& world, const CutPlane& plane, const CutWindow& window);
+
+/// The flatland of that name (boxes, wall, floor, leak, ball, disc): its cut, the window, the scene's name, and the first light as the
+/// plane sees it: {"direction": [x, y]} or {"position": [x, y]}, "radius" of its size. Error (internal): no such name.
+Expected<nlohmann::ordered_json> flatland(const std::string& name);
+
+}  // namespace gnomon::app::lessons

@@ -1,0 +1,91 @@
+// The drawing of a flatland: world units to those of an SVG, strokes, and a handle that can be dragged. Whoever has no pointer has the
+// sliders below, one for each thing that is dragged.
+import { html, svg } from "../svg";
+import type { Vec2 } from "./flatland";
+
+const width = 960;  // of the drawing, in its own units
+
+export class Stage {
+  readonly drawing: SVGSVGElement;
+  private readonly scale: number;
+  private readonly height: number;
+
+  /** `window`: left, right, bottom, top. */
+  constructor(private readonly window: readonly [number, number, number, number], name: string, dragged?: (at: Vec2) => void) {
+    const [left, right, bottom, top] = window;
+    this.scale = width / (right - left);
+    this.height = (top - bottom) * this.scale;
+    this.drawing = svg("svg", { class: "flatland", viewBox: `0 0 ${width} ${Math.round(this.height)}`, role: "img", "aria-label": name }) as SVGSVGElement;
+    if (dragged) this.listen(dragged);
+  }
+
+  private listen(dragged: (at: Vec2) => void): void {
+    const drag = (event: PointerEvent) => {
+      const box = this.drawing.getBoundingClientRect(), [left, right, bottom, top] = this.window;
+      dragged([left + ((event.clientX - box.left) / box.width) * (right - left), top - ((event.clientY - box.top) / box.height) * (top - bottom)]);
+    };
+    this.drawing.classList.add("dragged");
+    this.drawing.addEventListener("pointerdown", (event) => { this.drawing.setPointerCapture(event.pointerId); drag(event); });
+    this.drawing.addEventListener("pointermove", (event) => { if (this.drawing.hasPointerCapture(event.pointerId)) drag(event); });
+  }
+
+  x(at: Vec2): number { return (at[0] - this.window[0]) * this.scale; }
+  y(at: Vec2): number { return (this.window[3] - at[1]) * this.scale; }
+  units(world: number): number { return world * this.scale; }
+  private text(at: Vec2): string { return `${this.x(at).toFixed(1)},${this.y(at).toFixed(1)}`; }
+
+  path(kind: string, lines: Iterable<readonly Vec2[]>): SVGElement {
+    let d = "";
+    for (const points of lines) d += points.map((p, i) => `${i === 0 ? "M" : "L"}${this.text(p)}`).join("");
+    return svg("path", { class: kind, d });
+  }
+  circle(kind: string, at: Vec2, radius: number): SVGElement {
+    return svg("circle", { class: kind, cx: this.x(at), cy: this.y(at), r: radius });
+  }
+  label(kind: string, at: Vec2, words: string, dy = 0): SVGElement {
+    return svg("text", { class: kind, x: this.x(at), y: this.y(at) + dy }, words);
+  }
+  put(...elements: SVGElement[]): void {
+    this.drawing.replaceChildren(...elements);
+  }
+}
+
+export interface Slider {
+  name: string;
+  from: number;
+  to: number;
+  step: number;
+  value: number;
+  text: (value: number) => string;  // beside it, and to be heard
+}
+
+/** Sliders by their keys, which show their values; `changed` is told once a frame. */
+export class Sliders<Key extends string> {
+  readonly bar = html("div", { class: "slider-bar" });
+  private readonly ranges = {} as Record<Key, HTMLInputElement>;
+  private readonly texts: (() => void)[] = [];
+  private frame = 0;
+
+  constructor(sliders: Record<Key, Slider>, private readonly changed: () => void) {
+    for (const [key, { name, from, to, step, value, text }] of Object.entries<Slider>(sliders)) {
+      const range = html("input", { type: "range", min: String(from), max: String(to), step: String(step), value: String(value), "data-slider": key });
+      const shown = html("output", {});
+      this.ranges[key as Key] = range;
+      this.texts.push(() => { shown.textContent = text(Number(range.value)); range.setAttribute("aria-valuetext", shown.textContent); });
+      range.addEventListener("input", () => this.later());
+      this.bar.append(html("label", {}, html("span", {}, name), range, shown));
+    }
+    this.write();
+  }
+  value(key: Key): number { return Number(this.ranges[key].value); }
+  set(key: Key, value: number): void {
+    this.ranges[key].value = String(value);
+    this.later();
+  }
+  private write(): void {
+    for (const text of this.texts) text();
+  }
+  private later(): void {
+    this.frame ||= requestAnimationFrame(() => { this.frame = 0; this.write(); this.changed(); });
+  }
+}
