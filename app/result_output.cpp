@@ -15,7 +15,6 @@
 #include "compare/output_parts.h"
 #include "compare/report/page.h"
 #include "compare/time_budget.h"
-#include "raytrace/kept_arrays.h"
 #include "scene/files/write_file.h"
 #include "scene/freed_memory.h"
 #include "scene/stages.h"
@@ -107,7 +106,6 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
   const TimedStage stage("exit");
   comparison = {};
   loaded = {};
-  raytrace::return_kept_arrays();
   return_freed_memory();
 }
 

@@ -1,6 +1,5 @@
-// Arrays that start without values, in large pages where the system has them: what a pass fills anew for
-// every light would otherwise spend its time in page faults, and what is read here and there in missing page
-// tables.
+// Arrays that start without values, in large pages where the system has them: what is read here and there would
+// otherwise spend its time in missing page tables.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +10,9 @@
 
 namespace gnomon::raytrace {
 
-/// Memory for `bytes`, aligned to cache lines, in large pages when there are many. What has been given back
-/// is used again first, up to most_kept_bytes in all: its pages need not be cleared anew.
+/// Memory for `bytes`, aligned to cache lines, in large pages when there are many.
 void* allocate_huge(std::size_t bytes);
 void free_huge(void* data);
-inline constexpr std::size_t most_kept_bytes = std::size_t{384} << 20;
 
 template <class T>
 class HugeArray {

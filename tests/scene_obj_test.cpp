@@ -36,9 +36,9 @@ TEST(Obj, NumbersKeepTheirDigits) {
   const TemporaryFolder folder;
   const auto scene = load_text(folder, "v 148376.000000125 .5 -1.25e-3\nv +1 0 0\nv 0 1. 0\nf 1 2 3\n");
   ASSERT_TRUE(scene) << scene.error().message();
-  EXPECT_NEAR(scene->meshes[0].positions[0].x, 148376.000000125, 1e-9);
-  EXPECT_NEAR(scene->meshes[0].positions[0].y, 0.5, 1e-15);
-  EXPECT_NEAR(scene->meshes[0].positions[0].z, -1.25e-3, 1e-15);
+  EXPECT_EQ(scene->meshes[0].positions[0].x, 148376.000000125);
+  EXPECT_EQ(scene->meshes[0].positions[0].y, 0.5);
+  EXPECT_EQ(scene->meshes[0].positions[0].z, -1.25e-3);
 }
 
 TEST(Obj, ContinuedLinesAndComments) {

@@ -1,5 +1,5 @@
-// OBJ and MTL: checked by obj_check, parsed by tinyobjloader, cut into triangles by polygon.h and
-// brought into the scene model here. One mesh and one instance per object or group; v of texture coordinates
+// OBJ: read by obj_text, its materials by tinyobjloader, cut into triangles by polygon.h and brought into the scene model
+// here. One mesh and one instance per object or group; v of texture coordinates
 // is turned over.
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -11,8 +11,8 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/mtl_options.h"
-#include "scene/files/obj_check.h"
 #include "scene/files/obj_materials.h"
+#include "scene/files/obj_text.h"
 #include "scene/files/polygon.h"
 #include "scene/files/read_file.h"
 
@@ -25,29 +25,20 @@ Error obj_error(const std::string& file, std::string reason) {
   return error;
 }
 
-// The first non-empty line of a library's message, without its end.
-std::string first_line(const std::string& message) {
-  std::istringstream lines(message);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) return line;
-  return "unknown reason";
-}
-
 // Reads material libraries beside the OBJ file. A missing one is a note.
-class LibraryReader : public tinyobj::MaterialReader {
+class LibraryReader {
  public:
   LibraryReader(const std::string& folder, const LoadOptions& options) : folder_(folder), options_(options) {}
+  std::vector<tinyobj::material_t> materials;
   std::vector<std::string> notes;
-  std::set<std::string> without_diffuse;
-  std::optional<Error> error;
+  std::set<std::string> without_diffuse, warnings;
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* names, std::string* warnings, std::string* errors) override {
+  Expected<bool> read(const std::string& name) {
     const auto path = resolve_path(folder_, name, options_);
     if (!path) {
-      error = path.error();
-      error->field = "mtllib";
-      return false;
+      Error error = path.error();
+      error.field = "mtllib";
+      return fail(std::move(error));
     }
     const auto text = read_file(*path);
     if (!text) {
@@ -58,8 +49,17 @@ class LibraryReader : public tinyobj::MaterialReader {
     }
     note_missing_diffuse(*text);
     std::istringstream stream(plain_mtl(*text, notes));
-    tinyobj::LoadMtl(names, materials, &stream, warnings, errors);
+    std::string said, errors;
+    tinyobj::LoadMtl(&numbers_, &materials, &stream, &said, &errors);
+    std::istringstream lines(said);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.empty()) warnings.insert(line);
     return true;
+  }
+
+  int find(const std::string& name) const {
+    const auto found = numbers_.find(name);
+    return found == numbers_.end() ? -1 : found->second;
   }
 
  private:
@@ -78,6 +78,7 @@ class LibraryReader : public tinyobj::MaterialReader {
 
   const std::string& folder_;
   const LoadOptions& options_;
+  std::map<std::string, int> numbers_;  ///< of materials, by name
 };
 
 struct CornerHash {
@@ -93,32 +94,26 @@ struct CornerHash {
 // use.
 class MeshGatherer {
  public:
-  explicit MeshGatherer(const tinyobj::attrib_t& attributes) : from_(attributes) {}
+  explicit MeshGatherer(const ObjText& text) : from_(text) {}
 
-  Mesh gather(const tinyobj::shape_t& shape, std::uint32_t default_material) {
-    const auto& m = shape.mesh;
+  Mesh gather(const ObjShape& shape, std::uint32_t default_material) {
+    const auto faces = std::span(from_.faces).subspan(shape.first_face, shape.faces);
+    const std::size_t corners = faces.back().first + faces.back().corners - faces.front().first;
     mesh_.name = shape.name;
-    const std::size_t corners_in_all = m.indices.size();
-    known_.reserve(std::min(corners_in_all, from_.vertices.size() / 3));
-    mesh_.triangles.reserve(corners_in_all / 3), mesh_.triangle_materials.reserve(corners_in_all / 3);
-    std::size_t corner = 0;
-    for (std::size_t face = 0; face < m.num_face_vertices.size(); ++face) {
-      const std::size_t corners = m.num_face_vertices[face];
-      const int material = m.material_ids[face];
-      if (corners >= 3)
-        add_face(std::span(m.indices).subspan(corner, corners),
-                 material < 0 ? default_material : static_cast<std::uint32_t>(material));
-      corner += corners;
-    }
+    known_.reserve(std::min(corners, from_.positions.size()));
+    mesh_.triangles.reserve(corners / 3), mesh_.triangle_materials.reserve(corners / 3);
+    for (const ObjFace& face : faces)
+      add_face(std::span(from_.corners).subspan(face.first, face.corners),
+               face.material < 0 ? default_material : static_cast<std::uint32_t>(face.material));
     if (!has_uvs_) mesh_.uvs.clear();
     if (!has_normals_) mesh_.normals.clear();
     return std::move(mesh_);
   }
 
  private:
-  void add_face(std::span<const tinyobj::index_t> corners, std::uint32_t material) {
+  void add_face(std::span<const ObjCorner> corners, std::uint32_t material) {
     vertices_.clear();
-    for (const tinyobj::index_t& corner : corners) vertices_.push_back(vertex(corner));
+    for (const ObjCorner& corner : corners) vertices_.push_back(vertex(corner));
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       mesh_.triangles.push_back({vertices_[a], vertices_[b], vertices_[c]});
       mesh_.triangle_materials.push_back(material);
@@ -129,46 +124,35 @@ class MeshGatherer {
     for (const auto& t : triangulate_polygon(positions)) add(t[0], t[1], t[2]);
   }
 
-  std::uint32_t vertex(const tinyobj::index_t& index) {
-    const auto [found, is_new] =
-        known_.try_emplace({index.vertex_index, index.texcoord_index, index.normal_index},
-                           static_cast<std::uint32_t>(mesh_.positions.size()));
+  std::uint32_t vertex(const ObjCorner& corner) {
+    const auto [found, is_new] = known_.try_emplace({corner.position, corner.texcoord, corner.normal},
+                                                    static_cast<std::uint32_t>(mesh_.positions.size()));
     if (!is_new) return found->second;
-    const auto* p = &from_.vertices[3 * static_cast<std::size_t>(index.vertex_index)];
-    mesh_.positions.emplace_back(p[0], p[1], p[2]);
-    Vec3f normal(0.0f);
-    if (index.normal_index >= 0) {
-      const auto* n = &from_.normals[3 * static_cast<std::size_t>(index.normal_index)];
-      normal = Vec3f(Vec3(n[0], n[1], n[2]));
-      has_normals_ = true;
-    }
-    Vec2f uv(0.0f);
-    if (index.texcoord_index >= 0) {
-      const auto* t = &from_.texcoords[2 * static_cast<std::size_t>(index.texcoord_index)];
-      uv = Vec2f(Vec2(t[0], 1.0 - t[1]));
-      has_uvs_ = true;
-    }
-    mesh_.normals.push_back(normal);
-    mesh_.uvs.push_back(uv);
+    const auto at = [](const auto& all, int index) { return all[static_cast<std::size_t>(index)]; };
+    mesh_.positions.push_back(at(from_.positions, corner.position));
+    mesh_.normals.push_back(corner.normal < 0 ? Vec3f(0.0f) : at(from_.normals, corner.normal));
+    const auto uv = corner.texcoord < 0 ? glm::dvec2(0.0, 1.0) : at(from_.texcoords, corner.texcoord);
+    mesh_.uvs.emplace_back(uv.x, 1.0 - uv.y);
+    has_normals_ |= corner.normal >= 0, has_uvs_ |= corner.texcoord >= 0;
     return found->second;
   }
 
-  const tinyobj::attrib_t& from_;
+  const ObjText& from_;
   Mesh mesh_;
   std::unordered_map<std::array<int, 3>, std::uint32_t, CornerHash> known_;
   std::vector<std::uint32_t> vertices_;  // of the face at hand
   bool has_uvs_ = false, has_normals_ = false;
 };
 
-void note_skipped(Scene& scene, const ObjSurvey& survey) {
-  if (survey.small_faces > 0)
+void note_skipped(Scene& scene, const ObjText& text) {
+  if (text.small_faces > 0)
     scene.notes.push_back(
         fmt::format("{} face(s) with fewer than three corners were skipped (the first in line {}).",
-                    survey.small_faces, survey.first_small_face_line));
-  if (survey.points + survey.lines > 0)
+                    text.small_faces, text.first_small_face_line));
+  if (text.points + text.lines > 0)
     scene.notes.push_back(fmt::format("{} point(s) and {} line(s) were skipped: only triangles are drawn.",
-                                      survey.points, survey.lines));
-  if (survey.has_vertex_colors) scene.notes.push_back("Vertex colours are not used.");
+                                      text.points, text.lines));
+  if (text.has_vertex_colors) scene.notes.push_back("Vertex colours are not used.");
 }
 
 // Undefined materials and the like.
@@ -187,50 +171,27 @@ std::string object_name(const std::string& name, const std::string& file, std::s
   return index == 0 ? stem : fmt::format("{}-{}", stem, index + 1);
 }
 
-struct ParsedObj {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-  std::set<std::string> warnings;  ///< the library's own, once each
-};
-
-Expected<ParsedObj> parse(const std::string& text, const std::string& file, LibraryReader& libraries) {
-  ParsedObj parsed;
-  std::string warnings, errors;
-  std::istringstream stream(text);
-  const bool done = tinyobj::LoadObj(&parsed.attributes, &parsed.shapes, &parsed.materials, &warnings,
-                                     &errors, &stream, &libraries,
-                                     /*triangulate=*/false, /*default_vcols_fallback=*/false);
-  if (libraries.error) {
-    libraries.error->file = file;
-    return fail(*libraries.error);
-  }
-  if (!done) return fail(obj_error(file, first_line(errors)));
-  std::istringstream lines(warnings);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) parsed.warnings.insert(line);
-  return parsed;
-}
-
 }  // namespace
 
 Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, const std::string& folder,
                               const LoadOptions& options) {
-  std::string text(bytes);
-  blank_continuations_and_comments(text);
-  const auto survey = check_obj(text, file);
-  if (!survey) return fail(survey.error());
   LibraryReader libraries(folder, options);
-  const auto parsed = parse(text, file, libraries);
-  if (!parsed) return fail(parsed.error());
-
+  const auto parsed = parse_obj(bytes, file,
+                                {[&](const std::string& name) { return libraries.read(name); },
+                                 [&](const std::string& name) { return libraries.find(name); }});
+  if (!parsed) {
+    Error error = parsed.error();
+    error.file = file;
+    return fail(std::move(error));
+  }
   LoadedFile loaded;
   loaded.is_model = true;
   Scene& scene = loaded.scene;
   scene.notes = libraries.notes;
-  note_warnings(scene, parsed->warnings);
+  libraries.warnings.insert(parsed->warnings.begin(), parsed->warnings.end());
+  note_warnings(scene, libraries.warnings);
   if (const auto added =
-          add_obj_materials(scene, parsed->materials, libraries.without_diffuse, folder, options);
+          add_obj_materials(scene, libraries.materials, libraries.without_diffuse, folder, options);
       !added) {
     Error error = added.error();
     if (error.file.empty()) error.file = file;
@@ -239,8 +200,8 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
   const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
   scene.materials.push_back(model_material("default"));
   std::size_t triangles = 0;
-  for (const tinyobj::shape_t& shape : parsed->shapes) {
-    Mesh mesh = MeshGatherer(parsed->attributes).gather(shape, default_material);
+  for (const ObjShape& shape : parsed->shapes) {
+    Mesh mesh = MeshGatherer(*parsed).gather(shape, default_material);
     if (mesh.triangles.empty()) continue;
     triangles += mesh.triangles.size();
     const auto index = static_cast<std::uint32_t>(scene.meshes.size());
@@ -248,7 +209,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
     scene.instances.push_back({mesh.name, index, Mat4(1.0), default_material});
     scene.meshes.push_back(std::move(mesh));
   }
-  note_skipped(scene, *survey);
+  note_skipped(scene, *parsed);
   if (triangles == 0) return fail(obj_error(file, "the file has no triangles"));
   return loaded;
 }

@@ -1,0 +1,63 @@
+// The text of an OBJ file, read strictly: every number and index is checked where it stands, so that a mistake has a
+// line and a column. Material libraries are the caller's.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/math.h"
+
+namespace gnomon {
+
+/// Indices into ObjText, from 0; -1: the corner has none.
+struct ObjCorner {
+  int position = -1, texcoord = -1, normal = -1;
+};
+
+struct ObjFace {
+  std::size_t first = 0;    ///< its first corner, of ObjText::corners
+  std::size_t corners = 0;  ///< 3 to max_polygon_corners
+  int material = -1;        ///< as MaterialLibraries::find says; -1: none
+};
+
+/// What follows one `o` or `g`, with at least one face.
+struct ObjShape {
+  std::string name;
+  std::size_t first_face = 0, faces = 0;
+};
+
+struct ObjText {
+  std::vector<Vec3> positions;
+  std::vector<glm::dvec2> texcoords;
+  std::vector<Vec3f> normals;
+  std::vector<ObjCorner> corners;
+  std::vector<ObjFace> faces;
+  std::vector<ObjShape> shapes;
+  std::set<std::string> warnings;  ///< once each
+  // What is skipped
+  std::size_t small_faces = 0;  ///< faces with fewer than three corners
+  int first_small_face_line = 0;
+  std::size_t points = 0, lines = 0;
+  bool has_vertex_colors = false;
+};
+
+struct MaterialLibraries {
+  /// Reads a library. False: it cannot be used. Errors end the reading of the text.
+  std::function<Expected<bool>(const std::string& name)> read;
+  /// The number of a material that was read; -1: there is none of that name.
+  std::function<int(const std::string& name)> find;
+};
+
+/// To triangulate a polygon takes time with the square of its corners.
+inline constexpr std::size_t max_polygon_corners = 255;
+
+/// Errors: a byte of 0, a coordinate that is not a finite number, an index that is 0 or out of range, a face
+/// of too many corners, and those of the libraries.
+Expected<ObjText> parse_obj(std::string_view bytes, const std::string& file,
+                            const MaterialLibraries& libraries);
+
+}  // namespace gnomon
