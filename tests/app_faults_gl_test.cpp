@@ -1,6 +1,6 @@
 // Faults of the surroundings, provoked: whatever happens, outputs are whole or not there, and one line says why.
 // Others are provoked where their subject is tested: /dev/full and file-size limits in scene_write_file_test.cpp,
-// killed and torn sweeps in sweep_program_gl_test.cpp, too few threads and too little memory in
+// killed and torn sweeps in sweep_program_gl_test.cpp, too few threads and too little memory besides in
 // app_few_resources_gl_test.cpp, a broken installation in app_cli_gl_test.cpp.
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <thread>
 
 #include "tests/app_process.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app_test {
 namespace {
@@ -136,6 +138,41 @@ TEST(Faults, NeitherOsmesaNorEgl) {
   expect_one_line(result, 5, "osmesa: ");
   EXPECT_NE(result.err.find("egl"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+// In each case the other threads stop, and one line says what was thrown. Which allocation a number means hangs on
+// which thread comes first, and so does whether there are so many; the last number is beyond all.
+TEST(Faults, AnErrorInOneThreadOfMany) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer has its own operator new";
+#endif
+  int ended = 0;
+  for (const int allocation : {1, 2, 5, 13, 34, 89, 1 << 30}) {
+    const TemporaryFolder folder;
+    const ProcessResult result =
+        run_gnomon({"raytrace", "fence", "--size", "64x36", "-o", "a.png", "-q"},
+                   {.folder = folder.path(),
+                    .environment = {"LD_PRELOAD=" + test::fault_in_worker(),
+                                    "GNOMON_TEST_FAULT_AT=" + std::to_string(allocation)}});
+    if (result.exit_code == 0) {
+      EXPECT_EQ(folder.entries(), Words{"a.png"});
+      continue;
+    }
+    ++ended;
+    expect_one_line(result, 6, "internal error: injected");
+    EXPECT_TRUE(folder.entries().empty());
+  }
+  EXPECT_TRUE(ended > 0 || std::thread::hardware_concurrency() == 1);
+}
+
+// Not less than was asked for, and not a crash of the driver's either.
+TEST(Faults, TheLargestMapUnderALimitOfMemory) {
+  const TemporaryFolder folder;
+  expect_one_line(
+      run_gnomon({"compare", "acne-floor", "-o", "out", "-q", "--size", "64x36", "--map-size", "16384"},
+                 {.folder = folder.path(), .address_limit = 3000L << 20}),
+      5, "not enough memory under the limit of this process");
+  EXPECT_TRUE(folder.entries().empty());
 }
 
 // Whenever it comes, no half folder is seen, and the next run takes what was left out of the way.

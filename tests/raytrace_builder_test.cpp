@@ -1,12 +1,14 @@
 // The hierarchy's builder: every primitive is in one leaf and within all boxes above it, the tree does not
 // depend on the number of threads, and rays see what they see without a tree.
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cstring>
 #include <limits>
 
 #include "raytrace/bvh/bvh.h"
+#include "raytrace/bvh/wide_tree.h"
 #include "raytrace_support.h"
 
 namespace gnomon {
@@ -216,6 +218,28 @@ TEST(Builder, BrokenTrianglesAreDropped) {
   const TestWorld w(test::scene_of({mesh}));
   EXPECT_EQ(raytrace::build_bvh(w.world()).dropped, broken);
   expect_built_well(test::scene_of({std::move(mesh)}), 0, 1.0);
+}
+
+// An error in another thread skips the loops of this one: what they did not make is not gone on with.
+TEST(Builder, LeavesWorkThatWasGivenUp) {
+  const TestWorld w(test::scene_of({test::triangle_soup(60000, 1.0, 0.05, 32)}));
+  const Bvh whole = raytrace::build_bvh(w.world());
+  for (const bool wide : {false, true}) {
+    bool went_on = false;
+    tbb::task_group_context work;
+    tbb::parallel_for(
+        0, 1,
+        [&](int) {
+          work.cancel_group_execution();
+          if (wide)
+            raytrace::collapse_bvh(whole, w.world(), false);
+          else
+            raytrace::build_bvh(w.world());
+          went_on = true;
+        },
+        work);
+    EXPECT_FALSE(went_on) << (wide ? "wide tree" : "hierarchy");
+  }
 }
 
 TEST(Builder, ShapesAmongTriangles) {

@@ -9,6 +9,7 @@
 
 #include "raytrace/bvh/clusters.h"
 #include "raytrace/bvh/treelet.h"
+#include "raytrace/given_up.h"
 #include "scene/solid.h"
 
 namespace gnomon::raytrace {
@@ -165,6 +166,7 @@ class Top {
             for (std::size_t i = r.begin(); i != r.end(); ++i) put_child(i);
           },
           tbb::simple_partitioner());
+    leave_if_given_up();
     return BvhChild::node(index);
   }
 

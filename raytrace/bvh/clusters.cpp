@@ -1,4 +1,5 @@
 #include "raytrace/bvh/clusters.h"
+#include "raytrace/given_up.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -92,6 +93,7 @@ class Sorter {
           for (std::size_t i = r.begin(); i != r.end(); ++i) work(i);
         },
         tbb::simple_partitioner());
+    leave_if_given_up();
   }
   std::size_t begin_of(std::size_t share) const { return in_.size() * share / shares_.size(); }
 
@@ -139,6 +141,7 @@ class Sorter {
         out.boxes[i].box = box;
       }
     });
+    leave_if_given_up();
   }
 
   std::span<const In> in_;

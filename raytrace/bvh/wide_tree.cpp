@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "raytrace/bvh/wide_pack.h"
+#include "raytrace/given_up.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -153,6 +154,7 @@ class Collapse {
       tbb::parallel_for(std::size_t{0}, count, make);
     else
       for (std::size_t k = 0; k < count; ++k) make(k);
+    leave_if_given_up();
     return joined(parts, (1u << count) - 1);
   }
 
@@ -245,6 +247,7 @@ class Collapse {
       tbb::parallel_for(std::size_t{0}, pieces.count, put_child);
     else
       for (std::size_t i = 0; i < pieces.count; ++i) put_child(i);
+    leave_if_given_up();
   }
 
   /// Nearest first by the boxes' middles along the octant's diagonal; the opposite octant's is the reverse.

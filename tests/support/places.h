@@ -13,5 +13,7 @@ std::string shared_data();
 /// The built program, and the module with which it reads images.
 std::string program();
 std::string image_module();
+/// The library that throws in one of the program's threads (tests/support/fault_in_worker.cpp).
+std::string fault_in_worker();
 
 }  // namespace gnomon::test
