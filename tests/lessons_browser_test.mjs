@@ -173,6 +173,24 @@ operate.flatland = async (page, { settings: { show, scene } }, id) => {
   if (scene === "wall") await flatlands.wall(page, id);
   await flatlands.shadow(page, id);
 };
+// The page's walks count what the program counted for the same rays: cells or nodes, and primitives; and hit where it hit.
+operate.structure = async (page, figure, id) => {
+  const at = Number(/\d+/.exec(id)[0]), walks = await page.evaluate((i) => globalThis.gnomonWalks(i).map(({ wanted, walk: { boxes, primitives, t } }) => ({ wanted, boxes, primitives, t: isFinite(t) ? t : null })), at);
+  assert.ok(walks.length >= 8 && walks.some(({ t }) => t !== null));
+  for (const { wanted, boxes, primitives, t } of walks) {
+    assert.deepEqual({ boxes, primitives }, { boxes: wanted.boxes, primitives: wanted.primitives }, JSON.stringify([figure.settings, wanted]));
+    // Both meet the same segment in doubles; in the page its ends were cut out of a triangle first.
+    if (wanted.t === null) assert.equal(t, null);
+    else near(t, wanted.t, 1e-6 * wanted.t, "hit");
+  }
+  await slide(page, id, { step: 1 });
+  const whole = await said(page, id);
+  await slide(page, id, { step: 0 });
+  const none = await said(page, id);
+  assert.ok(none.cells === 0 && none.primitives === 0 && whole.cells >= 1 && whole.boxes > 1, JSON.stringify([none, whole]));
+  await slide(page, id, { step: 1, toY: 0.02, zoom: 2 });
+  assert.notDeepEqual(await said(page, id), whole);
+};
 const operated = new Set();
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);

@@ -6,6 +6,7 @@
 
 #include "app/console.h"
 #include "app/lessons/flatland.h"
+#include "app/lessons/structure.h"
 
 namespace gnomon::app::lessons {
 
@@ -89,6 +90,7 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   if (mark.name == "map-size") made = map_size(mark);
   if (mark.name == "flatland")
     made = flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
+  if (mark.name == "structure") made = structure_cut(mark.setting("kind"), mark.setting("scene"));
   if (mark.name == "two-passes") made = two_passes(mark);
   if (!made) return fail(made.error());
   if (made->is_null())

@@ -4,6 +4,7 @@ import { pageData } from "../parts";
 import { biasFigure } from "./bias_figure";
 import { flatlandFigure } from "./flatland_figure";
 import { mapSizeFigure } from "./map_size_figure";
+import { structureFigure } from "./structure_figure";
 import { twoPassesFigure } from "./two_passes_figure";
 
 export interface FigureJson<Data = never> {
@@ -13,7 +14,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, flatland: flatlandFigure, "map-size": mapSizeFigure, "two-passes": twoPassesFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, flatland: flatlandFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure };
 
 export async function startFigures(): Promise<void> {
   const { figures } = pageData<{ figures: (FigureJson | null)[] }>();

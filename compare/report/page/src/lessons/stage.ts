@@ -7,16 +7,20 @@ const width = 960;  // of the drawing, in its own units
 
 export class Stage {
   readonly drawing: SVGSVGElement;
-  private readonly scale: number;
-  private readonly height: number;
+  private scale = 1;
 
   /** `window`: left, right, bottom, top. */
-  constructor(private readonly window: readonly [number, number, number, number], name: string, dragged?: (at: Vec2) => void) {
-    const [left, right, bottom, top] = window;
+  constructor(private window: readonly [number, number, number, number], name: string, dragged: (at: Vec2) => void) {
+    this.drawing = svg("svg", { class: "flatland", role: "img", "aria-label": name }) as SVGSVGElement;
+    this.look(window);
+    this.listen(dragged);
+  }
+
+  /** At another part of the plane from now on. */
+  look(window: readonly [number, number, number, number]): void {
+    const [left, right, bottom, top] = this.window = window;
     this.scale = width / (right - left);
-    this.height = (top - bottom) * this.scale;
-    this.drawing = svg("svg", { class: "flatland", viewBox: `0 0 ${width} ${Math.round(this.height)}`, role: "img", "aria-label": name }) as SVGSVGElement;
-    if (dragged) this.listen(dragged);
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${Math.round((top - bottom) * this.scale)}`);
   }
 
   private listen(dragged: (at: Vec2) => void): void {
