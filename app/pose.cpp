@@ -67,7 +67,8 @@ CameraPose camera_pose(const Camera& camera) {
 Camera posed_camera(const Camera& given, const CameraPose& pose) {
   Camera camera = given;
   const LocalFrame local = local_frame(frame_about(given.up), pose.azimuth_degrees, pose.elevation_degrees);
-  camera.eye = given.target + pose.distance * local.outwards;
+  camera.target = pose.target.value_or(given.target);
+  camera.eye = camera.target + pose.distance * local.outwards;
   return camera;
 }
 
@@ -91,7 +92,7 @@ Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose)
   }
   const LightPose before = light_pose(given, centre);
   const LocalFrame from = local_frame(frame, before.azimuth_degrees, before.elevation_degrees);
-  light.position = centre + glm::length(given.position - centre) * to.outwards;
+  light.position = centre + pose.distance.value_or(glm::length(given.position - centre)) * to.outwards;
   const auto turned = [&](const Vec3& v) {
     return glm::dot(v, from.outwards) * to.outwards + glm::dot(v, from.east) * to.east +
            glm::dot(v, from.north) * to.north;

@@ -4,6 +4,8 @@
 // the way to it was.
 #pragma once
 
+#include <optional>
+
 #include "scene/world.h"
 
 namespace gnomon::app {
@@ -11,12 +13,14 @@ namespace gnomon::app {
 /// The eye as seen from the camera's target; distance in world units.
 struct CameraPose {
   double azimuth_degrees = 0.0, elevation_degrees = 0.0, distance = 1.0;
+  std::optional<Vec3> target{};  ///< none: the camera's own
   bool operator==(const CameraPose&) const = default;
 };
 
 /// Where the light comes from: a sun's place in the sky, a lamp's as seen from the centre of the scene.
 struct LightPose {
   double azimuth_degrees = 0.0, elevation_degrees = 0.0;
+  std::optional<double> distance{};  ///< of a lamp from the centre, world units; none: its own
   bool operator==(const LightPose&) const = default;
 };
 
@@ -25,14 +29,14 @@ inline constexpr double max_camera_elevation_degrees = 89.0;
 inline constexpr double max_light_elevation_degrees = 90.0;
 
 CameraPose camera_pose(const Camera& camera);
-/// `given` with its eye moved; its target, up vector and angle stay.
+/// `given` with its eye and, where the pose has one, its target moved; its up vector and angle stay.
 Camera posed_camera(const Camera& given, const CameraPose& pose);
 
 /// What lamps turn about: the middle of all that is finite.
 Vec3 scene_centre(const World& world);
 
 LightPose light_pose(const Light& light, const Vec3& centre);
-/// `given` turned about `centre` at its distance; a spot keeps its aim relative to the line to the centre.
+/// `given` turned about `centre` at its own distance or the pose's; a spot keeps its aim relative to the line to the centre.
 Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose);
 
 /// The same angle in (-180, 180].

@@ -16,6 +16,7 @@ constexpr NumberRange azimuth_range{-360.0, 360.0};
 constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
 constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
 constexpr NumberRange distance_range{0.0, 1e12, true};
+constexpr NumberRange coordinate_range{-1e12, 1e12};
 
 Expected<Vec2> parse_orbit(const std::string& text) {
   const std::size_t comma = text.find(',');
@@ -26,6 +27,21 @@ Expected<Vec2> parse_orbit(const std::string& text) {
   const Expected<double> elevation = parse_number(text.substr(comma + 1), camera_elevation_range);
   if (!elevation) return fail(elevation.error());
   return Vec2{*azimuth, *elevation};
+}
+
+Expected<Vec3> parse_target(const std::string& text) {
+  Vec3 target{0.0};
+  std::size_t start = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = i < 2 ? text.find(',', start) : text.size();
+    if (comma == std::string::npos)
+      return fail(ErrorKind::usage, fmt::format("not of the form X,Y,Z (got {})", text));
+    const Expected<double> value = parse_number(text.substr(start, comma - start), coordinate_range);
+    if (!value) return fail(value.error());
+    target[i] = *value;
+    start = comma + 1;
+  }
+  return target;
 }
 
 template <class Value, class Parse>
@@ -52,9 +68,10 @@ void add_number(CLI::App& command, const std::string& name, const char* type, st
 /// The light that is to be turned.
 Expected<std::uint32_t> chosen_light(const std::string& name, const Scene& scene) {
   if (name.empty() && scene.lights.size() > 1) {
-    return fail(ErrorKind::usage, fmt::format("--light-azimuth, --light-elevation: the scene has {} lights; "
-                                              "--light NAME says which one to turn",
-                                              scene.lights.size()));
+    return fail(ErrorKind::usage,
+                fmt::format("--light-azimuth, --light-elevation, --light-distance: the scene has {} lights; "
+                            "--light NAME says which one to turn",
+                            scene.lights.size()));
   }
   const auto lights = choose_lights(scene, name);
   if (!lights) return fail(lights.error());
@@ -73,6 +90,10 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
       parse_orbit);
   add_number(command, "--camera-distance", "D", poses.camera_distance, distance_range,
              "distance of the eye from the camera's target", "world units");
+  add_value(
+      command, "--camera-target", "X,Y,Z", poses.camera_target,
+      fmt::format("what the camera looks at and turns about [world units, {}", range_text(coordinate_range)),
+      parse_target);
   add_number(
       command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
       "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",
@@ -81,25 +102,33 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
       command, "--light-elevation", "DEG", poses.light_elevation, light_elevation_range,
       "how high the light stands above the horizon; a lamp's angles are those seen from the scene's centre",
       "degrees");
+  add_number(command, "--light-distance", "D", poses.light_distance, distance_range,
+             "distance of a lamp from the scene's centre; a sun has none", "world units");
 }
 
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light,
                                       const World& world) {
   const Scene& scene = *world.scene;
   ResolvedPoses resolved;
-  if (poses.camera_orbit || poses.camera_distance) {
+  if (poses.camera_orbit || poses.camera_distance || poses.camera_target) {
     CameraPose pose = camera_pose(scene.camera);
     if (poses.camera_orbit)
       pose.azimuth_degrees = poses.camera_orbit->x, pose.elevation_degrees = poses.camera_orbit->y;
     pose.distance = poses.camera_distance.value_or(pose.distance);
+    pose.target = poses.camera_target;
     resolved.camera = pose;
   }
-  if (!poses.light_azimuth && !poses.light_elevation) return resolved;
+  if (!poses.light_azimuth && !poses.light_elevation && !poses.light_distance) return resolved;
   const Expected<std::uint32_t> chosen = chosen_light(light, scene);
   if (!chosen) return fail(chosen.error());
   LightPose pose = light_pose(scene.lights[*chosen], scene_centre(world));
   pose.azimuth_degrees = poses.light_azimuth.value_or(pose.azimuth_degrees);
   pose.elevation_degrees = poses.light_elevation.value_or(pose.elevation_degrees);
+  if (poses.light_distance && scene.lights[*chosen].type == LightType::directional)
+    return fail(ErrorKind::usage,
+                fmt::format("--light-distance: {} is a directional light, which has no place",
+                            scene.lights[*chosen].name));
+  pose.distance = poses.light_distance;
   resolved.light_pose = pose;
   resolved.light = *chosen;
   return resolved;

@@ -1,5 +1,5 @@
-// --camera-orbit, --camera-distance, --light-azimuth, --light-elevation: another camera and another light
-// than the scene's own, for every command that draws.
+// --camera-orbit, --camera-distance, --camera-target, --light-azimuth, --light-elevation, --light-distance:
+// another camera and another light than the scene's own, for every command that draws.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,9 @@ namespace gnomon::app {
 struct PoseOptions {
   std::optional<Vec2> camera_orbit;                      ///< azimuth, elevation: degrees
   std::optional<double> camera_distance;                 ///< world units
+  std::optional<Vec3> camera_target;                     ///< world
   std::optional<double> light_azimuth, light_elevation;  ///< degrees
+  std::optional<double> light_distance;                  ///< world units, of a lamp
 };
 
 void add_pose_options(CLI::App& command, PoseOptions& poses);

@@ -15,6 +15,10 @@ find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
 
+# Dear ImGui, for the window alone; its library has the GLFW and OpenGL 3 backends in it. It has no CMake file.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(IMGUI REQUIRED imgui)
+
 # libdeflate 1.14, Debian 12's, has no CMake file.
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 find_path(LIBDEFLATE_HEADERS libdeflate.h REQUIRED)

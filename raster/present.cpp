@@ -8,12 +8,29 @@
 namespace gnomon::raster {
 namespace {
 
+Viewport overlap(const Viewport& a, const Viewport& b) {
+  const int left = std::max(a.x, b.x), low = std::max(a.y, b.y);
+  const int right = std::min(a.x + a.width, b.x + b.width), top = std::min(a.y + a.height, b.y + b.height);
+  return {left, low, right - left, top - low};
+}
+
 class GlPresenter final : public Presenter {
  public:
   GlPresenter(std::unique_ptr<Gl> gl, Program program)
       : gl_(std::move(gl)), program_(std::move(program)), vertex_array_(*gl_) {}
 
-  Expected<void> draw(const Rgb8Image& picture, const Viewport& viewport, Scaling scaling) override {
+  void clear(const glm::u8vec3& colour) override {
+    Gl& gl = *gl_;
+    const Vec3f share = Vec3f(colour) / 255.0f;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    for (const GLenum off : {GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB}) gl->Disable(off);
+    gl->ClearColor(share.r, share.g, share.b, 1.0f);
+    gl->Clear(GL_COLOR_BUFFER_BIT);
+  }
+
+  Expected<void> draw(const Rgb8Image& picture, const Viewport& place, const Viewport& clip,
+                      Scaling scaling) override {
+    const Viewport viewport = overlap(place, clip);
     if (picture.size.pixels() == 0 || viewport.width < 1 || viewport.height < 1) return {};
     Gl& gl = *gl_;
     upload(picture, scaling);
@@ -25,9 +42,9 @@ class GlPresenter final : public Presenter {
     gl->BindVertexArray(vertex_array_.id());
     texture_.bind(shaders::present_unit);
     program_.use();
-    gl->ProgramUniform4f(program_.id(), shaders::viewport_uniform, static_cast<float>(viewport.x),
-                         static_cast<float>(viewport.y), static_cast<float>(viewport.width),
-                         static_cast<float>(viewport.height));
+    gl->ProgramUniform4f(program_.id(), shaders::viewport_uniform, static_cast<float>(place.x),
+                         static_cast<float>(place.y), static_cast<float>(place.width),
+                         static_cast<float>(place.height));
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     gl->BindVertexArray(0);
     gl->UseProgram(0);

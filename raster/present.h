@@ -22,9 +22,14 @@ class Presenter {
   static Expected<std::unique_ptr<Presenter>> create(Context& context);
   virtual ~Presenter() = default;
 
-  /// Draws the picture over the viewport of the default framebuffer, stretched to fill it; 8-bit values reach
-  /// the screen unchanged.
-  virtual Expected<void> draw(const Rgb8Image& picture, const Viewport& viewport, Scaling scaling) = 0;
+  /// Fills the whole default framebuffer.
+  virtual void clear(const glm::u8vec3& colour) = 0;
+
+  /// Draws the picture over `place` of the default framebuffer, stretched to fill it, but only what lies in
+  /// `clip`, a part of the window; 8-bit values reach the screen unchanged. The place may be larger than the
+  /// window.
+  virtual Expected<void> draw(const Rgb8Image& picture, const Viewport& place, const Viewport& clip,
+                              Scaling scaling) = 0;
 
   /// What has been drawn there and not yet been swapped to the screen.
   virtual Expected<Rgb8Image> read(const Viewport& viewport) = 0;

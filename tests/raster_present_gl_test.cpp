@@ -33,7 +33,8 @@ class Present : public testing::Test {
 };
 
 TEST_F(Present, NearestPutsRowZeroAtTheTop) {
-  ASSERT_TRUE(presenter_->draw(picture_, {0, 0, 16, 16}, raster::Scaling::nearest).has_value());
+  ASSERT_TRUE(
+      presenter_->draw(picture_, {0, 0, 16, 16}, {0, 0, 16, 16}, raster::Scaling::nearest).has_value());
   EXPECT_EQ(pixel(0, 15), picture_.at(0, 0));
   EXPECT_EQ(pixel(7, 8), picture_.at(0, 0));
   EXPECT_EQ(pixel(8, 8), picture_.at(1, 0));
@@ -42,7 +43,8 @@ TEST_F(Present, NearestPutsRowZeroAtTheTop) {
 }
 
 TEST_F(Present, LinearBlendsBetweenPixels) {
-  ASSERT_TRUE(presenter_->draw(picture_, {0, 0, 16, 16}, raster::Scaling::linear).has_value());
+  ASSERT_TRUE(
+      presenter_->draw(picture_, {0, 0, 16, 16}, {0, 0, 16, 16}, raster::Scaling::linear).has_value());
   const glm::u8vec3 middle = pixel(7, 14);
   EXPECT_GT(middle.x, 100);
   EXPECT_LT(middle.x, 160);
@@ -50,9 +52,10 @@ TEST_F(Present, LinearBlendsBetweenPixels) {
 }
 
 TEST_F(Present, KeepsToItsViewport) {
-  ASSERT_TRUE(presenter_->draw(picture_, {0, 0, 16, 16}, raster::Scaling::nearest).has_value());
+  ASSERT_TRUE(
+      presenter_->draw(picture_, {0, 0, 16, 16}, {0, 0, 16, 16}, raster::Scaling::nearest).has_value());
   Rgb8Image white({1, 1}, glm::u8vec3(255));
-  ASSERT_TRUE(presenter_->draw(white, {4, 4, 2, 2}, raster::Scaling::nearest).has_value());
+  ASSERT_TRUE(presenter_->draw(white, {4, 4, 2, 2}, {0, 0, 16, 16}, raster::Scaling::nearest).has_value());
   EXPECT_EQ(pixel(4, 4), glm::u8vec3(255));
   EXPECT_EQ(pixel(3, 4), picture_.at(0, 1));
   EXPECT_EQ(pixel(6, 4), picture_.at(0, 1));

@@ -54,9 +54,42 @@ TEST(ViewScript, EveryKeySets) {
   EXPECT_EQ(only_change<LightElevationTo>("set light-elevation 46.5").elevation, 46.5);
   EXPECT_EQ(only_change<OrbitTo>("set camera-orbit 30 -20").elevation, -20.0);
   EXPECT_EQ(only_change<DistanceTo>("set camera-distance 7.5").distance, 7.5);
+  EXPECT_EQ(only_change<LightDistanceTo>("set light-distance 3").distance, 3.0);
+  EXPECT_EQ(only_change<TargetTo>("set camera-target 1 -2 3.5").target, Vec3(1.0, -2.0, 3.5));
+  EXPECT_EQ(only_change<SunHour>("set time-of-day 9.5").hours, 9.5);
+  EXPECT_EQ(only_change<SetPrecision>("set precision exact").precision, raytrace::Precision::exact);
+  EXPECT_EQ(only_change<SetLayout>("set layout quad").layout, PaneLayout::quad);
+  EXPECT_EQ(only_change<SetPane>("set pane 4 gap").picture, Picture::gap);
+  EXPECT_EQ(only_change<SwipeTo>("set swipe 0.25").share, 0.25);
+  EXPECT_EQ(only_change<ZoomPictureTo>("set zoom 4").zoom, 4.0);
+  EXPECT_EQ(only_change<ProbePixel>("set probe 12 7").pixel, (PixelPlace{12, 7}));
+  EXPECT_EQ(only_change<SetTheme>("set theme light").theme, Theme::light);
+  EXPECT_EQ(only_change<SetUiScale>("set ui-scale 2").scale, 2.0);
+  EXPECT_FALSE(only_change<SetFlag>("set panels off").on);
   EXPECT_EQ(only_change<SetMapOption>("set map-size 512").value, "512");
   EXPECT_EQ(only_change<SetMapOption>("set bias -0.5texel").name, "bias");
   EXPECT_EQ(only_change<SetMapOption>("set receiver-plane off").value, "off");
+}
+
+TEST(ViewScript, StepsBesideSet) {
+  const auto steps = parse_script(
+      "drag 1 2 30 40 right\nclick 5 6\nshow leak\nsave-scene a.json\nprint\nopen fence\n"
+      "set light sun\n",
+      "s.txt", lights());
+  ASSERT_TRUE(steps) << steps.error().message();
+  const auto& drag = std::get<DragPointer>((*steps)[0].what);
+  EXPECT_EQ(drag.to, Vec2(30.0, 40.0));
+  EXPECT_EQ(drag.button, 1);
+  EXPECT_EQ(std::get<DragPointer>((*steps)[1].what).from, std::get<DragPointer>((*steps)[1].what).to);
+  EXPECT_EQ(std::get<UsePreset>((*steps)[2].what).preset, 3u);
+  EXPECT_EQ(std::get<SaveScene>((*steps)[3].what).path, "a.json");
+  EXPECT_TRUE(std::holds_alternative<PrintCommand>((*steps)[4].what));
+  EXPECT_EQ(std::get<OpenScene>((*steps)[5].what).name, "fence");
+}
+
+TEST(ViewScript, LightsAreThoseOfTheSceneOpenedLast) {
+  EXPECT_NE(message("open fence\nset light lamp").find("s.txt:2: light:"), std::string::npos);
+  EXPECT_NE(message("open no-such-scene").find("s.txt:1:"), std::string::npos);
 }
 
 TEST(ViewScript, MistakesAreNamedWithTheirLine) {
@@ -67,7 +100,8 @@ TEST(ViewScript, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(message("set depth-formt d16").find("did you mean depth-format?"), std::string::npos);
   EXPECT_NE(message("scrrenshot a.png").find("did you mean screenshot?"), std::string::npos);
   EXPECT_NE(message("set light lmap").find("did you mean lamp?"), std::string::npos);
-  EXPECT_NE(message("set view side").find("allowed raster, raytrace, difference, labels, depth"),
+  EXPECT_NE(message("set view side")
+                .find("allowed raster, raytrace, difference, labels, truth, gap, texels, depth"),
             std::string::npos);
 }
 
@@ -86,6 +120,21 @@ TEST(ViewScript, IncompleteOrExcessiveLinesAreErrors) {
                            "screenshot a.jpg",
                            "screenshot .png.exr",
                            "quit now",
+                           "drag 1 2 3",
+                           "drag 1 2 3 4 upper",
+                           "click 1",
+                           "show",
+                           "show shadows",
+                           "open",
+                           "print all",
+                           "save-scene a.glb",
+                           "set pane 5 gap",
+                           "set swipe 2",
+                           "set zoom 0.5",
+                           "set panels perhaps",
+                           "set ui-scale 4",
+                           "set time-of-day 25",
+                           "set camera-target 1 2",
                            "set size 0x5",
                            "set size 640",
                            "set camera-distance 0",

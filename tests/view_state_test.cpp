@@ -146,8 +146,59 @@ TEST(ViewState, ResetKeepsTheWindowsSize) {
   EXPECT_EQ(state.setup.size, (ImageSize{300, 200}));
 }
 
+TEST(ViewState, PanMovesTheTargetAcrossTheView) {
+  const ViewState state = after(two_light_state(), {PanBy{0.5, 0.0}});
+  ASSERT_TRUE(state.setup.camera && state.setup.camera->target);
+  const Camera camera = posed_camera(state);
+  EXPECT_GT(camera.target.x, 0.0);
+  EXPECT_NEAR(camera.target.y, 0.0, 1e-9);
+  EXPECT_NEAR(glm::length(camera.eye - camera.target), 5.0, 1e-7);  // steps keep nine digits
+}
+
+TEST(ViewState, ALampGoesWhereItIsPlaced) {
+  const Vec3 wanted{1.0, 2.0, -1.5};
+  const ViewState state = after(two_light_state(), {NextLight{}, PlaceLamp{wanted}});
+  EXPECT_LT(glm::length(posed_light(state).position - wanted), 1e-7);
+  EXPECT_EQ(after(two_light_state(), {PlaceLamp{wanted}}).setup.lights[0],
+            std::nullopt);  // a sun has no place
+}
+
+TEST(ViewState, TheSunStandsInTheSouthAtNoonAndComesFromTheEast) {
+  const LightPose noon = sun_at(12.0), morning = sun_at(8.0), evening = sun_at(18.0);
+  EXPECT_NEAR(noon.azimuth_degrees, 0.0, 1e-9);
+  EXPECT_NEAR(noon.elevation_degrees, 45.0, 1e-9);
+  EXPECT_GT(morning.azimuth_degrees, 0.0);
+  EXPECT_NEAR(evening.azimuth_degrees, -90.0, 1e-9);
+  EXPECT_NEAR(evening.elevation_degrees, 0.0, 1e-9);
+  for (const double hours : {6.5, 9.0, 15.25}) EXPECT_NEAR(sun_hour(sun_at(hours)), hours, 1e-9);
+}
+
+TEST(ViewState, ThePlaceUnderThePointerStaysWhenPicturesGrow) {
+  ViewState state = after(two_light_state(), {ZoomPicture{2.0, {0.25, 0.5}}});
+  const auto on_screen = [&](double share) { return 0.5 + state.look.zoom * (share - state.look.middle.x); };
+  EXPECT_NEAR(on_screen(0.25), 0.25, 1e-12);
+  carry_out(state, ZoomPicture{2.0, {0.25, 0.5}});
+  EXPECT_NEAR(on_screen(0.25), 0.25, 1e-12);
+  carry_out(state, ZoomPictureTo{1.0});
+  EXPECT_EQ(state.look.middle, Vec2(0.5, 0.5));
+}
+
+TEST(ViewState, TheLookAsksForNoNewPictures) {
+  const ViewState state = two_light_state();
+  EXPECT_EQ(after(state, {SetLayout{PaneLayout::quad}, NextTheme{}, ScaleUi{1.25}, ToggleFlag{&Look::help},
+                          ProbePixel{PixelPlace{3, 4}}, SwipeTo{0.2}, SetPane{1, Picture::gap}})
+                .revision,
+            state.revision);
+}
+
+TEST(ViewState, TheProbedPixelKeepsItsPlaceInThePicture) {
+  const ViewState state =
+      after(two_light_state(), {Resize{{100, 50}}, ProbePixel{PixelPlace{50, 25}}, Resize{{200, 100}}});
+  EXPECT_EQ(state.look.probe, (PixelPlace{101, 51}));
+}
+
 TEST(ViewState, PictureNamesReadBack) {
-  for (const char* name : {"raster", "raytrace", "difference", "labels", "depth"}) {
+  for (const char* name : {"raster", "raytrace", "difference", "labels", "truth", "gap", "texels", "depth"}) {
     const auto picture = parse_picture(name);
     ASSERT_TRUE(picture) << name;
     EXPECT_EQ(picture_name(*picture), name);

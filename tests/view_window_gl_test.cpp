@@ -15,7 +15,8 @@
 namespace gnomon::app_test {
 namespace {
 
-constexpr const char* tour = R"(# all views of one state, then of others
+constexpr const char* tour = R"(# all views of one state, then of others; the pictures alone
+set panels off
 set size 480x270
 set map-size 256
 set bias 0.25texel
@@ -214,8 +215,8 @@ TEST_F(ViewWindow, ScreenshotShowsWhatWasSetJustBefore) {
 }
 
 TEST_F(ViewWindow, WindowFollowsTheSizeAsked) {
-  const ProcessResult result =
-      run_script("wait 1\nset size 200x120\nset view labels\nwait done\nscreenshot new/small.png\n");
+  const ProcessResult result = run_script(
+      "wait 1\nset panels off\nset size 200x120\nset view labels\nwait done\nscreenshot new/small.png\n");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(picture("new/small.png").size, (ImageSize{200, 120}));
 }

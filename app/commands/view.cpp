@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/invocation.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/technique_options.h"
 
@@ -13,20 +14,31 @@ namespace gnomon::app {
 namespace {
 
 constexpr const char* script_help =
-    "drive the window by a file with one step a line: set KEY VALUE, wait N (frames), wait done "
-    "(until the comparison is shown), screenshot FILE.png, quit; # starts a comment. Keys: view "
-    "(raster, raytrace, difference, labels, depth), size, light, light-azimuth, light-elevation, "
-    "camera-orbit (two values), camera-distance, and the options of the shadow map, such as bias and "
-    "map-size [default off]";
+    "drive the window by a file with one step a line, such as set KEY VALUE, open SCENE, show acne, drag X Y "
+    "X Y, "
+    "wait N (frames), wait done (until the comparison is shown), screenshot FILE.png, print, quit; # starts "
+    "a "
+    "comment; docs/lab.md lists every step and key [default off]";
+constexpr std::pair<std::string_view, Theme> themes[] = {{"dark", Theme::dark}, {"light", Theme::light}};
+
+void add_look(CLI::App& app, ViewOptions& options) {
+  add_choice(app, "--theme", options.theme, themes, "NAME", "colours of the panels");
+  add_number(app, "--ui-scale", options.ui_scale, {least_ui_scale, most_ui_scale},
+             "times the display's own scale", "size of text and panels");
+  app.add_flag("--large-type", options.large_type, "half as large again, for projectors [default off]");
+  app.add_flag("--no-panels", options.no_panels,
+               "begin with the pictures alone; F11 brings the panels [default off]");
+}
 
 }  // namespace
 
 void add_view(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "view",
-      "Turn the camera and the light, change bias and map, and watch the shadows and their differences.");
+  CLI::App* app = program.add_subcommand("view",
+                                         "Open the shadow lab, a window: turn the camera and the light, "
+                                         "change every setting of the shadow map, and "
+                                         "watch what becomes of the shadows and why.");
   app->footer(
-      "gnomon view fence                      H prints the keys\n"
+      "gnomon view fence                      F1 shows the keys\n"
       "gnomon view model.glb --size 1600x900 --bias 0.5texel\n"
       "gnomon view floating-box --script tour.txt");
   const auto options = std::make_shared<ViewOptions>();
@@ -42,6 +54,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_tracer_options(*app, options->compare.accel, options->compare.precision);
   add_min_contribution(*app, options->compare.raytrace.min_contribution);
   add_exposure(*app, options->exposure);
+  add_look(*app, *options);
   app->add_option("--script", options->script, script_help)->type_name("FILE");
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);

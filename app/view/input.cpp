@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -14,7 +15,7 @@ constexpr double light_step = 2.0, fine_light_step = 0.25;        // degrees
 constexpr double bias_step = 1.0 / 16.0, coarse_bias_step = 1.0;  // texels
 constexpr double slope_step = 0.125, coarse_slope_step = 1.0;     // multiples of the texel's depth slope
 constexpr double offset_step = 0.125, coarse_offset_step = 1.0;   // texels
-constexpr double zoom_step = 1.1;                                 // of the distance, per notch or key
+constexpr double click_pixels = 3.0;                              // a hand is not quite still
 constexpr double degrees_per_pixel = 0.25;                        // of a drag
 
 std::optional<Change> view_change(int key) {
@@ -29,6 +30,12 @@ std::optional<Change> view_change(int key) {
       return Show{Picture::labels};
     case GLFW_KEY_5:
       return Show{Picture::depth};
+    case GLFW_KEY_6:
+      return Show{Picture::truth};
+    case GLFW_KEY_G:
+      return Show{Picture::gap};
+    case GLFW_KEY_T:
+      return Show{Picture::texels};
     case GLFW_KEY_TAB:
       return ShowPrevious{};
     default:
@@ -97,18 +104,67 @@ std::optional<Change> map_change(int key, bool coarse) {
   }
 }
 
+std::optional<Change> look_change(int key, bool shift) {
+  switch (key) {
+    case GLFW_KEY_V:
+      return NextLayout{};
+    case GLFW_KEY_Z:
+      return ZoomPicture{shift ? 0.5 : 2.0, {0.5, 0.5}};
+    case GLFW_KEY_F2:
+      return ToggleFlag{&Look::settings};
+    case GLFW_KEY_F3:
+      return ToggleFlag{&Look::results};
+    case GLFW_KEY_F4:
+      return ToggleFlag{&Look::large_type};
+    case GLFW_KEY_F5:
+      return NextTheme{};
+    case GLFW_KEY_F11:
+      return ToggleFlag{&Look::panels};
+    case GLFW_KEY_H:
+    case GLFW_KEY_F1:
+      return ToggleFlag{&Look::help};
+    case GLFW_KEY_X:
+      return ProbePixel{};
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<Action> control_action(int key) {
+  switch (key) {
+    case GLFW_KEY_S:
+      return Command::save_scene;
+    case GLFW_KEY_P:
+      return Command::save_picture;
+    case GLFW_KEY_C:
+      return Command::copy_command;
+    case GLFW_KEY_R:
+      return Command::write_report;
+    case GLFW_KEY_B:
+      return Command::find_best;
+    case GLFW_KEY_Q:
+      return Command::quit;
+    case GLFW_KEY_EQUAL:
+      return Change{ScaleUi{1.25}};
+    case GLFW_KEY_MINUS:
+      return Change{ScaleUi{0.8}};
+    case GLFW_KEY_0:
+      return Change{SetUiScale{1.0}};
+    default:
+      return std::nullopt;
+  }
+}
+
 std::optional<Command> command(int key) {
   switch (key) {
     case GLFW_KEY_P:
     case GLFW_KEY_F12:
       return Command::save_screenshot;
     case GLFW_KEY_C:
-      return Command::print_command;
-    case GLFW_KEY_H:
-    case GLFW_KEY_F1:
-      return Command::print_help;
-    case GLFW_KEY_Q:
+      return Command::copy_command;
     case GLFW_KEY_ESCAPE:
+      return Command::leave;
+    case GLFW_KEY_Q:
       return Command::quit;
     default:
       return std::nullopt;
@@ -117,11 +173,18 @@ std::optional<Command> command(int key) {
 
 }  // namespace
 
-std::optional<Action> action_for_key(int key, bool shift) {
-  if (const auto change = view_change(key)) return *change;
-  if (const auto change = turning_change(key, shift)) return *change;
-  if (const auto change = map_change(key, shift)) return *change;
-  if (const auto asked = command(key)) return *asked;
+std::optional<Action> action_for_key(const Key& key) {
+  if (key.held.control) return control_action(key.code);
+  const bool shift = key.held.shift;
+  if (const auto change = view_change(key.code)) return *change;
+  if (const auto change = turning_change(key.code, shift)) return *change;
+  if (const auto change = map_change(key.code, shift)) return *change;
+  if (const auto change = look_change(key.code, shift)) return *change;
+  if (key.code == GLFW_KEY_F6) return UsePreset{0};
+  if (key.code == GLFW_KEY_F7) return UsePreset{1};
+  if (key.code == GLFW_KEY_F8) return UsePreset{2};
+  if (key.code == GLFW_KEY_F9) return UsePreset{3};
+  if (const auto asked = command(key.code)) return *asked;
   return std::nullopt;
 }
 
@@ -129,33 +192,100 @@ Change zoom_for_scroll(double notches) {
   return ZoomBy{std::pow(zoom_step, -notches)};
 }
 
-void Pointer::press(int button) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT) left_ = true;
-  if (button == GLFW_MOUSE_BUTTON_RIGHT) right_ = true;
+Drag drag_for(int button, const Modifiers& held) {
+  if (button == GLFW_MOUSE_BUTTON_RIGHT) return Drag::turn_light;
+  if (button == GLFW_MOUSE_BUTTON_MIDDLE) return Drag::move_camera;
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return Drag::none;
+  return held.control ? Drag::move_picture : held.shift ? Drag::move_camera : Drag::turn_camera;
 }
 
-void Pointer::release(int button) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT) left_ = false;
-  if (button == GLFW_MOUSE_BUTTON_RIGHT) right_ = false;
+void Pointer::press(int button, const Modifiers& held) {
+  drag_ = drag_for(button, held);
+  button_ = button;
+  moved_ = 0.0;
 }
 
-std::optional<Change> Pointer::move_to(double x, double y) {
-  const double right = (x - x_) * degrees_per_pixel, down = (y - y_) * degrees_per_pixel;
+bool Pointer::release(int button) {
+  if (button != button_) return false;
+  drag_ = Drag::none;
+  button_ = -1;
+  return button == GLFW_MOUSE_BUTTON_LEFT && moved_ <= click_pixels;
+}
+
+std::optional<Change> Pointer::move_to(double x, double y, ImageSize pane) {
+  const double right = x - x_, down = y - y_;
   x_ = x, y_ = y;
-  if (left_) return OrbitBy{-right, down};  // the scene follows the hand
-  if (right_) return TurnLightBy{right, -down};
+  moved_ += std::abs(right) + std::abs(down);
+  // A hand that is not quite still is clicking.
+  if (drag_ == Drag::none || moved_ <= click_pixels) return std::nullopt;
+  switch (drag_) {
+    case Drag::turn_camera:  // the scene follows the hand
+      return OrbitBy{-right * degrees_per_pixel, down * degrees_per_pixel};
+    case Drag::turn_light:
+      return TurnLightBy{right * degrees_per_pixel, -down * degrees_per_pixel};
+    case Drag::move_camera:
+      return PanBy{-right / pane.height, down / pane.height};
+    case Drag::move_picture:
+      return MovePicture{-right / pane.width, -down / pane.height};
+    case Drag::none:
+      break;
+  }
   return std::nullopt;
 }
 
+namespace {
+
+constexpr KeyHelp view_keys[] = {{"1 2 3", "shadow map, ray traced, difference"},
+                                 {"4 5 6", "labels, depth map, true shadow"},
+                                 {"G  T", "gap, texels on receivers"},
+                                 {"Tab", "the view before"},
+                                 {"V", "one view, two with a line between, four"},
+                                 {"Z, shift+Z", "enlarge the pictures, and back"},
+                                 {"click", "explain this pixel; X: no longer"}};
+constexpr KeyHelp move_keys[] = {{"left drag, arrows", "turn the camera (shift: finer)"},
+                                 {"middle or shift+drag", "move the camera"},
+                                 {"wheel, page up/down", "come nearer, go away"},
+                                 {"ctrl+wheel, ctrl+drag", "enlarge and move the pictures"},
+                                 {"right drag, [ ] ; '", "turn the light (shift: finer)"},
+                                 {"L", "next light"}};
+constexpr KeyHelp map_keys[] = {{"-  =", "bias"},
+                                {"9  0", "slope bias"},
+                                {"7  8", "normal offset (shift: coarser)"},
+                                {",  .", "map size"},
+                                {"D  K", "depth format, cull"},
+                                {"F6 to F9", "show acne, peter-panning, aliasing, a leak"},
+                                {"ctrl+B", "search the best setting for this scene"},
+                                {"R", "as at the start"}};
+constexpr KeyHelp file_keys[] = {{"P, F12", "screenshot"},
+                                 {"ctrl+P", "save the picture alone"},
+                                 {"C", "copy and print the compare command"},
+                                 {"ctrl+S", "save as scene"},
+                                 {"ctrl+R", "write the report"}};
+constexpr KeyHelp window_keys[] = {{"F1, H", "this help"},
+                                   {"F2  F3", "settings, results"},
+                                   {"F4  F5", "large type, dark or light"},
+                                   {"ctrl+ = - 0", "larger, smaller, as the display says"},
+                                   {"F11", "the pictures alone"},
+                                   {"alt, ctrl+tab", "menus and panels by keyboard"},
+                                   {"Esc", "leave the panel, stop a search, close"},
+                                   {"Q", "quit"}};
+constexpr KeyGroup groups[] = {{"Views", view_keys},
+                               {"Camera and light", move_keys},
+                               {"Shadow map", map_keys},
+                               {"Files", file_keys},
+                               {"Window", window_keys}};
+
+}  // namespace
+
+std::span<const KeyGroup> key_groups() {
+  return groups;
+}
+
 std::string key_help() {
-  return "left drag, arrows       turn the camera (shift: finer)    scroll, page up/down  zoom\n"
-         "right drag, [ ] ; '     turn the light (shift: finer)     L                     next light\n"
-         "1 raster  2 ray traced  3 difference  4 labels  5 depth map                     tab  the one "
-         "before\n"
-         "- =  bias               9 0  slope bias                   7 8  normal offset    (shift: coarser)\n"
-         ", .  map size           D  depth format                   K  cull               R  as at the "
-         "start\n"
-         "P, F12  screenshot      C  print the compare command      H, F1  this help      Q, Esc  quit\n";
+  std::string text;
+  for (const KeyGroup& group : groups)
+    for (const KeyHelp& key : group.keys) text += fmt::format("{:<24}{}\n", key.keys, key.what);
+  return text;
 }
 
 }  // namespace gnomon::app

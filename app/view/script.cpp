@@ -1,15 +1,19 @@
 #include "app/view/script.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <sstream>
 
+#include "app/lesson_scene.h"
 #include "app/suggest.h"
 #include "app/values.h"
 #include "app/view/map_option.h"
+#include "app/view/script_keys.h"
 #include "scene/files/read_file.h"
+#include "scene/load.h"
 
 namespace gnomon::app {
 
@@ -18,14 +22,11 @@ namespace {
 using Words = std::vector<std::string>;
 using Step = decltype(ScriptStep::what);
 
-constexpr NumberRange azimuth_range{-360.0, 360.0};
-constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
-constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
-constexpr NumberRange distance_range{0.0, 1e12, true};
 constexpr std::int64_t max_wait_frames = 1'000'000;
-constexpr std::array<std::string_view, 4> verbs{"set", "wait", "screenshot", "quit"};
-constexpr std::array<std::string_view, 7> own_keys{
-    "view", "size", "light", "light-azimuth", "light-elevation", "camera-orbit", "camera-distance"};
+constexpr NumberRange pixel_range{-1e6, 1e6};
+constexpr std::array<std::string_view, 10> verbs{"set",  "open",       "show",       "drag",  "click",
+                                                 "wait", "screenshot", "save-scene", "print", "quit"};
+constexpr std::array<std::string_view, 4> preset_names{"acne", "peter-panning", "aliasing", "leak"};
 
 Words words_of(const std::string& line) {
   std::istringstream stream(line.substr(0, line.find('#')));
@@ -43,13 +44,6 @@ Expected<void> expect_count(const Words& words, std::size_t count, std::string_v
   return wrong(fmt::format("wrong number of words (got {}, allowed {}: {})", words.size(), count, usage));
 }
 
-/// Hands the error of `value` on, or the change made of it.
-template <class Value, class Make>
-Expected<Change> change_of(const Expected<Value>& value, const Make& make) {
-  if (!value) return fail(value.error());
-  return Change{make(*value)};
-}
-
 Expected<Change> pick_light(const std::string& name, const std::vector<Light>& lights) {
   std::vector<std::string_view> names;
   for (const Light& light : lights) names.push_back(light.name);
@@ -59,27 +53,6 @@ Expected<Change> pick_light(const std::string& name, const std::vector<Light>& l
                            did_you_mean(name, names)));
 }
 
-Expected<Change> orbit_to(const Words& words) {
-  const Expected<double> azimuth = parse_number(words[2], azimuth_range);
-  if (!azimuth) return fail(azimuth.error());
-  return change_of(parse_number(words[3], camera_elevation_range), [&](double elevation) {
-    return OrbitTo{*azimuth, elevation};
-  });
-}
-
-Expected<Change> set_own(const Words& words, const std::vector<Light>& lights) {
-  const std::string &key = words[1], &value = words[2];
-  if (key == "view") return change_of(parse_picture(value), [](Picture p) { return Show{p}; });
-  if (key == "size") return change_of(parse_size(value), [](ImageSize s) { return Resize{s}; });
-  if (key == "light") return pick_light(value, lights);
-  if (key == "camera-orbit") return orbit_to(words);
-  if (key == "camera-distance")
-    return change_of(parse_number(value, distance_range), [](double d) { return DistanceTo{d}; });
-  if (key == "light-azimuth")
-    return change_of(parse_number(value, azimuth_range), [](double a) { return LightAzimuthTo{a}; });
-  return change_of(parse_number(value, light_elevation_range), [](double e) { return LightElevationTo{e}; });
-}
-
 Expected<Change> set_map(const std::string& key, const std::string& value) {
   raster::MapOptions scratch;
   if (const auto set = set_map_option(scratch, key, value); !set) return fail(set.error());
@@ -87,7 +60,7 @@ Expected<Change> set_map(const std::string& key, const std::string& value) {
 }
 
 Expected<Change> unknown_key(const std::string& key) {
-  std::vector<std::string> names(own_keys.begin(), own_keys.end());
+  std::vector<std::string> names = script_key_names();
   for (const std::string& name : map_option_names()) names.push_back(name);
   const std::vector<std::string_view> known(names.begin(), names.end());
   return wrong(fmt::format("nothing to set by this name (got {}, allowed {}){}", key, fmt::join(names, ", "),
@@ -97,17 +70,52 @@ Expected<Change> unknown_key(const std::string& key) {
 Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
   if (words.size() < 2) return wrong("nothing to set (got set alone, allowed set KEY VALUE)");
   const std::string& key = words[1];
-  const bool own = std::find(own_keys.begin(), own_keys.end(), key) != own_keys.end();
-  if (!own && !is_map_option(key)) return fail(unknown_key(key).error());
-  const bool orbit = key == "camera-orbit";
-  const auto complete =
-      expect_count(words, orbit ? 4 : 3, orbit ? "set camera-orbit AZIMUTH ELEVATION" : "set KEY VALUE");
+  const ScriptKey* own = find_script_key(key);
+  const bool light = key == "light";
+  if (own == nullptr && !light && !is_map_option(key)) return fail(unknown_key(key).error());
+  const std::size_t values = own != nullptr ? own->values : 1;
+  const auto complete = expect_count(words, 2 + values, own != nullptr ? own->usage : "set KEY VALUE");
   if (!complete) return fail(complete.error());
-  const Expected<Change> change = own ? set_own(words, lights) : set_map(key, words[2]);
+  const Expected<Change> change = own != nullptr ? own->read(Words(words.begin() + 2, words.end()))
+                                  : light        ? pick_light(words[2], lights)
+                                                 : set_map(key, words[2]);
   if (change) return Step{*change};
   Error error = change.error();
   error.field = key;
   return fail(std::move(error));
+}
+
+Expected<Step> parse_show(const Words& words) {
+  if (const auto complete = expect_count(words, 2, "show PRESET"); !complete) return fail(complete.error());
+  const auto found = std::find(preset_names.begin(), preset_names.end(), words[1]);
+  if (found != preset_names.end())
+    return Step{UsePreset{static_cast<std::size_t>(found - preset_names.begin())}};
+  return wrong(fmt::format("nothing to show by this name (got {}, allowed {}){}", words[1],
+                           fmt::join(preset_names, ", "), did_you_mean(words[1], preset_names)));
+}
+
+Expected<Step> parse_drag(const Words& words) {
+  const bool click = words[0] == "click";
+  const std::size_t numbers = click ? 2 : 4;
+  const bool has_button = !click && words.size() == 6;
+  if (const auto complete = expect_count(words, (has_button ? 2 : 1) + numbers,
+                                         click ? "click X Y" : "drag X Y X Y [left|right|middle]");
+      !complete)
+    return fail(complete.error());
+  std::array<double, 4> at{};
+  for (std::size_t i = 0; i < numbers; ++i) {
+    const Expected<double> value = parse_number(words[1 + i], pixel_range);
+    if (!value) return fail(value.error());
+    at[i] = *value;
+  }
+  DragPointer drag{{at[0], at[1]}, click ? Vec2{at[0], at[1]} : Vec2{at[2], at[3]}, 0};
+  if (!has_button) return Step{drag};
+  constexpr std::array<std::string_view, 3> buttons{"left", "right", "middle"};
+  const auto found = std::find(buttons.begin(), buttons.end(), words.back());
+  if (found == buttons.end())
+    return wrong(fmt::format("no such button (got {}, allowed {})", words.back(), fmt::join(buttons, ", ")));
+  drag.button = static_cast<int>(found - buttons.begin());
+  return Step{drag};
 }
 
 Expected<Step> parse_wait(const Words& words) {
@@ -120,25 +128,32 @@ Expected<Step> parse_wait(const Words& words) {
   return Step{WaitFrames{*frames}};
 }
 
-Expected<Step> parse_screenshot(const Words& words) {
-  if (const auto complete = expect_count(words, 2, "screenshot FILE.png"); !complete)
-    return fail(complete.error());
-  if (lower_extension(words[1]) != ".png")
-    return wrong(fmt::format("not a PNG file's name (got {}, allowed *.png)", words[1]));
-  return Step{Screenshot{words[1]}};
+Expected<std::string> parse_file(const Words& words, const std::string& extension) {
+  const std::string usage = fmt::format("{} FILE{}", words[0], extension);
+  if (const auto complete = expect_count(words, 2, usage); !complete) return fail(complete.error());
+  if (lower_extension(words[1]) == extension) return words[1];
+  return wrong(fmt::format("the file's name has another ending (got {}, allowed *{})", words[1], extension));
 }
 
 Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) {
   const std::string& verb = words[0];
   if (verb == "set") return parse_set(words, lights);
+  if (verb == "show") return parse_show(words);
+  if (verb == "drag" || verb == "click") return parse_drag(words);
   if (verb == "wait") return parse_wait(words);
-  if (verb == "screenshot") return parse_screenshot(words);
-  if (verb != "quit") {
+  if (verb == "screenshot" || verb == "save-scene") {
+    const auto path = parse_file(words, verb == "screenshot" ? ".png" : ".json");
+    if (!path) return fail(path.error());
+    return verb == "screenshot" ? Step{Screenshot{*path}} : Step{SaveScene{*path}};
+  }
+  if (std::find(verbs.begin(), verbs.end(), verb) == verbs.end())
     return wrong(fmt::format("no such step (got {}, allowed {}){}", verb, fmt::join(verbs, ", "),
                              did_you_mean(verb, verbs)));
-  }
-  if (const auto complete = expect_count(words, 1, "quit"); !complete) return fail(complete.error());
-  return Step{Quit{}};
+  const bool open = verb == "open";
+  if (const auto complete = expect_count(words, open ? 2 : 1, open ? "open SCENE" : verb); !complete)
+    return fail(complete.error());
+  if (open) return Step{OpenScene{words[1]}};
+  return verb == "print" ? Step{PrintCommand{}} : Step{Quit{}};
 }
 
 }  // namespace
@@ -146,15 +161,23 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
 Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std::string& file,
                                                const std::vector<Light>& lights) {
   std::vector<ScriptStep> steps;
+  std::vector<Light> known = lights;
   std::istringstream lines{std::string(text)};
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const Words words = words_of(line);
     if (words.empty()) continue;
-    const Expected<Step> step = parse_step(words, lights);
+    Expected<Step> step = parse_step(words, known);
+    if (step && std::holds_alternative<OpenScene>(*step)) {
+      // Its lights' names are needed from here on.
+      const auto scene = load_scene(scene_of_lesson(words[1]), {.confine_paths = true});
+      if (scene) known = scene->lights;
+      if (!scene) step = fail(scene.error());
+    }
     if (!step) {
       Error error = step.error();
+      if (!error.file.empty()) error.reason = error.message();
       error.kind = ErrorKind::bad_input;
       error.file = file;
       error.line = number;

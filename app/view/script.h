@@ -1,12 +1,20 @@
 // The viewer's scripts: one step a line, `#` starts a comment, words are separated by blanks.
 //
 //   set KEY VALUE...      a key below, or any option of the shadow map as on the command line (set bias
-//   0.5texel) wait N | wait done    N frames, or until the comparison of what is set is finished and shown
+//                         0.5texel)
+//   open SCENE            a file, a built-in scene or a lesson
+//   show PRESET           acne, peter-panning, aliasing or leak
+//   drag X Y X Y [left|right|middle], click X Y      the pointer, in pixels of the window
+//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown
 //   screenshot FILE.png   what the window shows, once all that is set before has been drawn
+//   save-scene FILE.json  the scene as it is set
+//   print                 the compare command, on stdout
 //   quit                  ends the program; so does the end of the script
 //
-// Keys: view NAME, size WxH, light NAME, light-azimuth DEG, light-elevation DEG, camera-orbit AZIMUTH
-// ELEVATION, camera-distance D. A script is read and checked as a whole before the window opens.
+// Keys: view NAME, size WxH (of the window), light NAME, light-azimuth DEG, light-elevation DEG, light-distance
+// D, time-of-day HOURS, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-target X Y Z, precision NAME;
+// layout NAME, pane N VIEW, swipe SHARE, zoom FACTOR, probe X Y, theme NAME, ui-scale FACTOR, and on or off for
+// panels, settings, results, help and large-type. A script is read and checked as a whole before the window opens.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +23,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/view/input.h"
 #include "app/view/state.h"
 #include "scene/expected.h"
 
@@ -28,10 +37,20 @@ struct Screenshot {
   std::string path;
 };
 struct Quit {};
+struct PrintCommand {};
+struct SaveScene {
+  std::string path;
+};
+struct DragPointer {
+  Vec2 from{0.0}, to{0.0};  ///< pixels of the window
+  int button = 0;           ///< GLFW's
+};
 
 struct ScriptStep {
   int line = 0;  ///< from 1
-  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit> what;
+  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer,
+               OpenScene, UsePreset>
+      what;
 };
 
 /// Errors are ErrorKind::bad_input with file, line and field. Light names must be among the scene's.

@@ -2,28 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 
-#include "app/suggest.h"
 #include "app/view/map_option.h"
 
 namespace gnomon::app {
 
 namespace {
-
-constexpr std::array<std::string_view, picture_count> picture_names{"raster", "raytrace", "difference",
-                                                                    "labels", "depth"};
-
-CameraPose current_camera(const ViewState& s) {
-  return s.setup.camera.value_or(camera_pose(s.given.camera));
-}
-
-LightPose current_light(const ViewState& s) {
-  const std::uint32_t i = s.setup.light;
-  return s.setup.lights[i].value_or(light_pose(s.given.lights[i], s.given.centre));
-}
 
 /// Steps and drags leave numbers that a person can read and type again: nine digits, finer than anything on
 /// screen.
@@ -37,12 +25,6 @@ double clamped(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
-void show(ViewState& s, Picture picture) {
-  if (picture == s.picture) return;
-  s.previous = s.picture;
-  s.picture = picture;
-}
-
 /// The setup's changes; each is followed by a new revision.
 struct SetupChange {
   ViewState& s;
@@ -54,8 +36,10 @@ struct SetupChange {
     s.setup.camera = pose;
   }
   void turn_light(double azimuth, double elevation) const {
-    s.setup.lights[s.setup.light] =
-        LightPose{wrapped_degrees(azimuth), clamped(elevation, max_light_elevation_degrees)};
+    LightPose pose = current_light(s);
+    pose.azimuth_degrees = wrapped_degrees(azimuth);
+    pose.elevation_degrees = clamped(elevation, max_light_elevation_degrees);
+    s.setup.lights[s.setup.light] = pose;
   }
   void move_camera(double distance) const {
     CameraPose pose = current_camera(s);
@@ -126,27 +110,142 @@ struct SetupChange {
     [[maybe_unused]] const Expected<void> set = set_map_option(s.setup.map, c.name, c.value);
     assert(set && "checked when it was read");
   }
-  void operator()(const Resize& c) const { s.setup.size = c.size; }
+  /// The pixel that is explained stays at its place in the picture.
+  void operator()(const Resize& c) const {
+    if (auto& probe = s.look.probe) {
+      probe->x = static_cast<int>((probe->x + 0.5) * c.size.width / s.setup.size.width);
+      probe->y = static_cast<int>((probe->y + 0.5) * c.size.height / s.setup.size.height);
+    }
+    s.setup.size = c.size;
+  }
   void operator()(const Reset&) const {
     const ImageSize size = s.setup.size;
     s.setup = s.initial;
     s.setup.size = size;
   }
+  void operator()(const SetMap& c) const { s.setup.map = c.map; }
+  void operator()(const SetPrecision& c) const { s.setup.precision = c.precision; }
+  void operator()(const PanBy& c) const {
+    const Camera camera = posed_camera(s);
+    const Vec3 forward = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+    const double height = 2.0 * glm::length(camera.target - camera.eye) * std::tan(0.5 * camera.vertical_fov);
+    const Vec3 target = camera.target + height * (c.right * right + c.up * up);
+    (*this)(TargetTo{{tidy(target.x), tidy(target.y), tidy(target.z)}});
+  }
+  void operator()(const TargetTo& c) const {
+    CameraPose pose = current_camera(s);
+    pose.target = c.target;
+    s.setup.camera = pose;
+  }
+  void operator()(const LightDistanceTo& c) const {
+    if (s.given.lights[s.setup.light].type == LightType::directional) return;
+    LightPose pose = current_light(s);
+    pose.distance = c.distance;
+    s.setup.lights[s.setup.light] = pose;
+  }
+  void operator()(const PlaceLamp& c) const {
+    Light light = s.given.lights[s.setup.light];
+    const double distance = glm::length(c.position - s.given.centre);
+    if (light.type == LightType::directional || !(distance > 0.0)) return;
+    light.position = c.position;
+    const LightPose pose = light_pose(light, s.given.centre);
+    s.setup.lights[s.setup.light] =
+        LightPose{tidy(pose.azimuth_degrees), tidy(pose.elevation_degrees), tidy(distance)};
+  }
+  void operator()(const SunHour& c) const {
+    if (s.given.lights[s.setup.light].type != LightType::directional) return;
+    const LightPose pose = sun_at(c.hours);
+    turn_light(tidy(pose.azimuth_degrees), tidy(pose.elevation_degrees));
+  }
+};
+
+void keep_in_picture(Look& look) {
+  const double margin = 0.5 / look.zoom;
+  for (int i = 0; i < 2; ++i) look.middle[i] = std::clamp(look.middle[i], margin, 1.0 - margin);
+}
+
+/// The look's changes, which leave the revision as it is.
+struct LookChange {
+  ViewState& s;
+
+  void operator()(const Show& c) const {
+    if (c.picture == s.picture) return;
+    s.previous = s.picture;
+    s.picture = c.picture;
+  }
+  void operator()(const ShowPrevious&) const { (*this)(Show{s.previous}); }
+  void operator()(const SetLayout& c) const { s.look.layout = c.layout; }
+  void operator()(const NextLayout&) const {
+    s.look.layout = static_cast<PaneLayout>((static_cast<int>(s.look.layout) + 1) % 3);
+  }
+  void operator()(const SetTheme& c) const { s.look.theme = c.theme; }
+  void operator()(const NextTheme&) const {
+    s.look.theme = s.look.theme == Theme::dark ? Theme::light : Theme::dark;
+  }
+  void operator()(const SetUiScale& c) const {
+    s.look.ui_scale = std::clamp(c.scale, least_ui_scale, most_ui_scale);
+  }
+  void operator()(const ScaleUi& c) const { (*this)(SetUiScale{s.look.ui_scale * c.factor}); }
+  void operator()(const SetFlag& c) const { s.look.*c.flag = c.on; }
+  void operator()(const ToggleFlag& c) const { s.look.*c.flag = !(s.look.*c.flag); }
+  void operator()(const SwipeTo& c) const { s.look.swipe = std::clamp(c.share, 0.0, 1.0); }
+  void operator()(const SetPane& c) const { s.look.quad[c.pane] = c.picture; }
+  void operator()(const ZoomPicture& c) const {
+    Look& look = s.look;
+    const double zoom = std::clamp(look.zoom * c.factor, 1.0, max_picture_zoom);
+    look.middle = c.about + (look.middle - c.about) * (look.zoom / zoom);  // the place stays where it is
+    look.zoom = zoom;
+    keep_in_picture(look);
+  }
+  void operator()(const ZoomPictureTo& c) const {
+    s.look.zoom = std::clamp(c.zoom, 1.0, max_picture_zoom);
+    keep_in_picture(s.look);
+  }
+  void operator()(const MovePicture& c) const {
+    s.look.middle += Vec2{c.x, c.y};
+    keep_in_picture(s.look);
+  }
+  void operator()(const ProbePixel& c) const { s.look.probe = c.pixel; }
 };
 
 }  // namespace
 
-std::string_view picture_name(Picture picture) {
-  return picture_names[static_cast<std::size_t>(picture)];
+CameraPose current_camera(const ViewState& s) {
+  return s.setup.camera.value_or(camera_pose(s.given.camera));
 }
 
-Expected<Picture> parse_picture(std::string_view name) {
-  for (std::size_t i = 0; i < picture_count; ++i) {
-    if (picture_names[i] == name) return static_cast<Picture>(i);
-  }
-  return fail(ErrorKind::usage,
-              fmt::format("no such view (got {}, allowed {}){}", name, fmt::join(picture_names, ", "),
-                          did_you_mean(name, picture_names)));
+LightPose current_light(const ViewState& s) {
+  const std::uint32_t i = s.setup.light;
+  return s.setup.lights[i].value_or(light_pose(s.given.lights[i], s.given.centre));
+}
+
+Camera posed_camera(const ViewState& s) {
+  return s.setup.camera ? posed_camera(s.given.camera, *s.setup.camera) : s.given.camera;
+}
+
+Light posed_light(const ViewState& s) {
+  const std::uint32_t i = s.setup.light;
+  return s.setup.lights[i] ? posed_light(s.given.lights[i], s.given.centre, *s.setup.lights[i])
+                           : s.given.lights[i];
+}
+
+constexpr double latitude = pi / 4.0;
+
+LightPose sun_at(double hours) {
+  const double angle = (hours - 12.0) * pi / 12.0;  // of the earth since noon
+  const double east = -std::sin(angle), south = std::cos(angle) * std::sin(latitude),
+               up = std::cos(angle) * std::cos(latitude);
+  LightPose pose;
+  pose.azimuth_degrees = std::atan2(east, south) * 180.0 / pi;
+  pose.elevation_degrees = std::asin(std::clamp(up, -1.0, 1.0)) * 180.0 / pi;
+  return pose;
+}
+
+double sun_hour(const LightPose& pose) {
+  const double azimuth = pose.azimuth_degrees * pi / 180.0;
+  const double angle = std::atan2(-std::sin(azimuth) * std::sin(latitude), std::cos(azimuth));
+  return 12.0 + angle * 12.0 / pi;
 }
 
 GivenScene given_scene(const Scene& scene, const World& world) {
@@ -162,14 +261,16 @@ void place(const GivenScene& given, const Setup& setup, Scene& scene) {
 }
 
 void carry_out(ViewState& state, const Change& change) {
-  if (const auto* shown = std::get_if<Show>(&change)) return show(state, shown->picture);
-  if (std::holds_alternative<ShowPrevious>(change)) return show(state, state.previous);
   std::visit(
       [&state](const auto& c) {
-        if constexpr (std::is_invocable_v<SetupChange, decltype(c)>) SetupChange{state}(c);
+        if constexpr (std::is_invocable_v<LookChange, decltype(c)>) {
+          LookChange{state}(c);
+        } else {
+          SetupChange{state}(c);
+          ++state.revision;
+        }
       },
       change);
-  ++state.revision;
 }
 
 }  // namespace gnomon::app

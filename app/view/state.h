@@ -11,17 +11,13 @@
 #include <vector>
 
 #include "app/pose.h"
+#include "app/view/look.h"
 #include "raster/options.h"
+#include "raytrace/tracer.h"
 #include "scene/expected.h"
 #include "scene/world.h"
 
 namespace gnomon::app {
-
-enum class Picture : std::uint8_t { raster, raytrace, difference, labels, depth };
-inline constexpr std::size_t picture_count = 5;
-std::string_view picture_name(Picture picture);
-/// Unknown names are ErrorKind::usage, with a suggestion.
-Expected<Picture> parse_picture(std::string_view name);
 
 /// The scene's own camera and lights, which poses refer to.
 struct GivenScene {
@@ -37,7 +33,8 @@ struct Setup {
   std::vector<std::optional<LightPose>> lights;  ///< as the scene's
   std::uint32_t light = 0;                       ///< the one that is compared and turned
   raster::MapOptions map;
-  ImageSize size{1280, 720};  ///< pixels of the window
+  raytrace::Precision precision = raytrace::Precision::robust;  ///< of the rays
+  ImageSize size{1280, 720};                                    ///< pixels of the picture
 };
 
 /// Gives the scene the camera and the lights that the setup says.
@@ -46,6 +43,7 @@ void place(const GivenScene& given, const Setup& setup, Scene& scene);
 struct ViewState {
   GivenScene given;
   Setup setup, initial;  ///< initial: what Reset goes back to (but for the size, which is the window's)
+  Look look;
   Picture picture = Picture::raster;
   Picture previous = Picture::raytrace;
   std::uint64_t revision = 1;  ///< grows whenever the setup changes
@@ -102,17 +100,102 @@ struct NextCull {};
 struct SetMapOption {
   std::string name, value;
 };  ///< as on the command line, without the dashes; checked (map_option.h)
+struct SetMap {
+  raster::MapOptions map;
+};  ///< all of them; checked (raster::check_map_options)
+struct SetPrecision {
+  raytrace::Precision precision;
+};
 struct Resize {
   ImageSize size;
 };
 struct Reset {};
+/// Of the camera's target, across the view: shares of the picture's height.
+struct PanBy {
+  double right, up;
+};
+struct TargetTo {
+  Vec3 target;
+};
+/// A lamp's, from the scene's centre. A sun has none.
+struct LightDistanceTo {
+  double distance;
+};
+struct PlaceLamp {
+  Vec3 position;
+};
+/// Local solar time, from 0 to 24: the sun of an equinox at 45 degrees north; +z is south, +x is east. Lamps
+/// stay.
+struct SunHour {
+  double hours;
+};
+
+// Of the look; these ask for no new pictures.
+struct SetLayout {
+  PaneLayout layout;
+};
+struct NextLayout {};
+struct SetTheme {
+  Theme theme;
+};
+struct SetUiScale {
+  double scale;
+};
+struct ScaleUi {
+  double factor;
+};
+/// panels, settings, results, help, large_type.
+struct SetFlag {
+  bool Look::*flag;
+  bool on;
+};
+struct ToggleFlag {
+  bool Look::*flag;
+};
+struct NextTheme {};
+struct SwipeTo {
+  double share;
+};
+/// What a pane of the four shows.
+struct SetPane {
+  std::size_t pane;
+  Picture picture;
+};
+/// Enlarges the pictures about a place of theirs (shares of their sides).
+struct ZoomPicture {
+  double factor;
+  Vec2 about;
+};
+struct ZoomPictureTo {
+  double zoom;
+};
+/// Moves what is in the middle (shares of the picture's sides).
+struct MovePicture {
+  double x, y;
+};
+struct ProbePixel {
+  std::optional<PixelPlace> pixel;
+};
 
 using Change =
     std::variant<Show, ShowPrevious, OrbitBy, OrbitTo, ZoomBy, DistanceTo, TurnLightBy, LightAzimuthTo,
                  LightElevationTo, NextLight, PickLight, StepBias, StepSlopeBias, StepNormalOffset, DoubleMap,
-                 HalveMap, NextDepthFormat, NextCull, SetMapOption, Resize, Reset>;
+                 HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap, SetPrecision, Resize, Reset,
+                 PanBy, TargetTo, LightDistanceTo, PlaceLamp, SunHour, SetLayout, NextLayout, SetTheme,
+                 NextTheme, SetUiScale, ScaleUi, SetFlag, ToggleFlag, SwipeTo, SetPane, ZoomPicture,
+                 ZoomPictureTo, MovePicture, ProbePixel>;
 
 void carry_out(ViewState& state, const Change& change);
+
+/// The camera and the light that are compared, as they stand now.
+Camera posed_camera(const ViewState& state);
+Light posed_light(const ViewState& state);
+LightPose current_light(const ViewState& state);
+CameraPose current_camera(const ViewState& state);
+
+/// Where SunHour puts the sun, and the hour at which it stands at this azimuth.
+LightPose sun_at(double hours);
+double sun_hour(const LightPose& pose);
 
 /// Keys zoom and turn within these bounds.
 inline constexpr double max_zoom =

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "app/filter_options.h"
+#include "app/options.h"
 #include "app/shell.h"
 #include "app/technique_options.h"
 #include "app/values.h"
@@ -38,22 +41,30 @@ std::string compared_words(const std::optional<Readings::Compared>& compared) {
                             compare::milliseconds(compared->exact_shadows_ms));
 }
 
+using Words = std::vector<std::string>;
+
 /// A value that begins with a dash is joined to its option, so as not to look like one.
-void add_if(std::string& text, bool wanted, std::string_view key, const std::string& value) {
-  if (wanted) text += fmt::format(" {}{}{}", key, value.starts_with('-') ? "=" : " ", shell_quoted(value));
+void add_if(Words& words, bool wanted, std::string_view key, const std::string& value) {
+  if (!wanted) return;
+  if (value.starts_with('-')) {
+    words.push_back(fmt::format("{}={}", key, value));
+  } else {
+    words.emplace_back(key);
+    words.push_back(value);
+  }
 }
 
-void add_map(std::string& text, const raster::MapOptions& map) {
+void add_map(Words& words, const raster::MapOptions& map) {
   const raster::MapOptions plain;
-  add_if(text, true, "--map-size", std::to_string(map.size));
-  add_if(text, map.technique != plain.technique, "--technique",
+  add_if(words, true, "--map-size", std::to_string(map.size));
+  add_if(words, map.technique != plain.technique, "--technique",
          std::string(raster::technique_name(map.technique)));
   // What is set for another technique stays set, but compare would refuse it.
   const auto add = [&](bool wanted, std::string_view key, const std::string& value) {
-    add_if(text, wanted && technique_reads(key.substr(2), map), key, value);
+    add_if(words, wanted && technique_reads(key.substr(2), map), key, value);
   };
   const auto flag = [&](bool wanted, std::string_view key) {
-    if (wanted && technique_reads(key.substr(2), map)) text += fmt::format(" {}", key);
+    if (wanted && technique_reads(key.substr(2), map)) words.emplace_back(key);
   };
   add(true, "--bias", bias_text(map.bias));
   add(map.bias.slope != 0.0, "--slope-bias", number_text(map.bias.slope));
@@ -68,19 +79,24 @@ void add_map(std::string& text, const raster::MapOptions& map) {
   add(map.depth_format != plain.depth_format, "--depth-format",
       std::string(compare::depth_format_name(map.depth_format)));
   add(map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
-  text += filter_options_text(map);
+  std::istringstream filters(filter_options_text(map));  // plain words and numbers
+  for (std::string word; filters >> word;) words.push_back(word);
 }
 
-void add_poses(std::string& text, const Setup& setup) {
+void add_poses(Words& words, const Setup& setup) {
   if (setup.camera) {
     const CameraPose& pose = *setup.camera;
-    add_if(text, true, "--camera-orbit",
+    add_if(words, true, "--camera-orbit",
            fmt::format("{},{}", number_text(pose.azimuth_degrees), number_text(pose.elevation_degrees)));
-    add_if(text, true, "--camera-distance", number_text(pose.distance));
+    add_if(words, true, "--camera-distance", number_text(pose.distance));
+    if (const auto& target = pose.target)
+      add_if(words, true, "--camera-target",
+             fmt::format("{},{},{}", number_text(target->x), number_text(target->y), number_text(target->z)));
   }
   if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
-    add_if(text, true, "--light-azimuth", number_text(pose->azimuth_degrees));
-    add_if(text, true, "--light-elevation", number_text(pose->elevation_degrees));
+    add_if(words, true, "--light-azimuth", number_text(pose->azimuth_degrees));
+    add_if(words, true, "--light-elevation", number_text(pose->elevation_degrees));
+    if (pose->distance) add_if(words, true, "--light-distance", number_text(*pose->distance));
   }
 }
 
@@ -103,22 +119,64 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
                             compared_words(readings.compared));
 }
 
-std::string compare_command(const ViewState& state, const ViewOptions& options) {
+std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapOptions& map) {
+  Words words;
+  add_map(words, map);
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].starts_with("--")) {
+      settings.back().second = words[i];
+      continue;
+    }
+    const std::size_t equals = words[i].find('=');
+    const std::string name = words[i].substr(2, equals == std::string::npos ? equals : equals - 2);
+    settings.emplace_back(name, equals == std::string::npos ? "true" : words[i].substr(equals + 1));
+  }
+  return settings;
+}
+
+std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
   const compare::CompareOptions plain;
-  std::string text = "gnomon compare " + options.scene.words();
-  add_if(text, !options.camera.empty(), "--camera", shell_quoted(options.camera));
-  add_if(text, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
-  add_map(text, state.setup.map);
-  add_if(text, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
-  add_poses(text, state.setup);
-  add_if(text, options.compare.accel != plain.accel, "--accel", "brute");
-  add_if(text, options.compare.precision != plain.precision, "--precision",
-         std::string(raytrace::precision_name(options.compare.precision)));
-  add_if(text, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
+  Words words;
+  add_if(words, !options.camera.empty(), "--camera", options.camera);
+  add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
+  add_if(words, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
+  add_map(words, state.setup.map);
+  add_if(words, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
+  add_poses(words, state.setup);
+  add_if(words, options.compare.accel != plain.accel, "--accel",
+         std::string(accel_name(options.compare.accel)));
+  add_if(words, state.setup.precision != plain.precision, "--precision",
+         std::string(raytrace::precision_name(state.setup.precision)));
+  add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
          "--min-contribution", number_text(options.compare.raytrace.min_contribution));
+  add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
   if (options.exposure)
-    add_if(text, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+    add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+  return words;
+}
+
+std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene) {
+  std::string text = "gnomon compare " + scene;
+  for (const std::string& word : setting_words(state, options))
+    text += fmt::format(" {}", shell_quoted(word));
   return text;
+}
+
+Readings readings_of(const Snapshot& shown, const ViewState& state) {
+  Readings out{shown.live.bias_world, shown.live.texel_world, shown.live.raster_ms, {}};
+  const ComparisonOutcome* outcome = shown.outcome.get();
+  if (outcome == nullptr) return out;
+  const compare::LightComparison& light = outcome->comparison.lights.front();
+  const raster::LightRecord& drawn = outcome->comparison.raster.lights.front();
+  out.compared = Readings::Compared{outcome->revision == state.revision,
+                                    outcome->preview,
+                                    light.error.wrong_fraction,
+                                    drawn.map_pass.median(),
+                                    drawn.shade_pass.median(),
+                                    outcome->comparison.raytraced.lights.front().exact_times().median(),
+                                    light.error.mean_absolute};
+  return out;
 }
 
 }  // namespace gnomon::app

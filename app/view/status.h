@@ -5,17 +5,39 @@
 #include <string>
 #include <vector>
 
+#include "app/view/render_thread.h"
 #include "app/view/state.h"
-#include "app/view/studio.h"
 #include "app/view/view.h"
 
 namespace gnomon::app {
+
+/// The numbers beside the pictures. They are of the state shown, or of the newest one that is finished.
+struct Readings {
+  double bias_world = 0.0, texel_world = 0.0;
+  double raster_ms = 0.0;  ///< the live picture, with reading it back
+  struct Compared {
+    bool current = false;  ///< of the state as it is now
+    bool preview = false;
+    double wrong_fraction = 0.0;
+    double map_ms = 0.0, shade_ms = 0.0;  ///< full size only; 0 in a preview
+    double exact_shadows_ms = 0.0;
+    double mean_absolute = 0.0;  ///< mean error of visibility
+  };
+  std::optional<Compared> compared;
+};
+Readings readings_of(const Snapshot& shown, const ViewState& state);
 
 /// Scene, view, technique, map size, bias in texels and world units, share of wrong pixels, times.
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene);
 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.
-std::string compare_command(const ViewState& state, const ViewOptions& options);
+/// `scene`: SceneArgument::words().
+std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene);
+/// The same without "gnomon compare SCENE", each word by itself and not quoted.
+std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options);
+
+/// The shadow map's part of it: options without dashes; the value of a flag is "true".
+std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapOptions& map);
 
 /// Lights that were turned but are not the chosen one: the command line has no words for them.
 std::vector<std::string> other_turned_lights(const ViewState& state);

@@ -1,6 +1,6 @@
-// Keeps every picture of the window up to date with its state: the rasterizer at once, on the caller's
-// thread; rays and comparison beside it, first at a quarter of the window's width and height, then in full.
-// Knows no window: any OpenGL context will do. All pictures but the first are made by compare's own code.
+// Keeps every picture of the window up to date with its setup: the rasterizer at once, on the caller's thread;
+// rays and comparison beside it, first at a quarter of the picture's width and height, then in full. Knows no
+// window: any OpenGL context will do. All pictures but those of map_pictures.h are made by compare's own code.
 #pragma once
 
 #include <functional>
@@ -15,69 +15,66 @@
 
 namespace gnomon::app {
 
-/// The numbers beside the pictures. They are of the state shown, or of the newest one that is finished.
-struct Readings {
+/// What is to be drawn.
+struct DrawOrder {
+  std::uint64_t revision = 0;
+  Setup setup;
+};
+
+/// The picture of the shadow map, and what it was drawn with.
+struct LivePicture {
+  std::uint64_t revision = 0;  ///< 0: nothing is drawn yet
+  std::shared_ptr<const Rgb8Image> picture;
+  Camera camera;
+  Light light;
+  LightView map;  ///< of the light that is compared
   double bias_world = 0.0, texel_world = 0.0;
-  double raster_ms = 0.0;  ///< the live picture, with reading it back
-  struct Compared {
-    bool current = false;  ///< of the state as it is now
-    bool preview = false;
-    double wrong_fraction = 0.0;
-    double map_ms = 0.0, shade_ms = 0.0;  ///< full size only; 0 in a preview
-    double exact_shadows_ms = 0.0;
-    double mean_absolute = 0.0;  ///< mean error of visibility
-  };
-  std::optional<Compared> compared;
+  double raster_ms = 0.0;  ///< with reading it back
 };
 
 class Studio {
  public:
-  /// `loaded` must outlive the studio, which moves its scene's camera and lights. `on_finished` is called
-  /// from another thread when it is worth calling compare() again.
+  /// `on_finished` is called from another thread when it is worth calling compare() again.
   static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
-                                                  const LoadedScene& loaded,
+                                                  std::shared_ptr<const LoadedScene> loaded,
                                                   const compare::CompareOptions& options,
                                                   const std::string& shader_folder,
                                                   std::function<void()> on_finished);
 
-  /// Draws the live picture where the state has changed, and sets the state's measures. Error: this cannot be
-  /// drawn.
-  Expected<void> draw(ViewState& state);
+  /// Draws the live picture where the revision is another. Error: this cannot be drawn.
+  Expected<void> draw(const DrawOrder& order);
 
-  /// Takes what is finished and starts what is next, for a state that was drawn. Error, once: a comparison
+  /// Takes what is finished and starts what is next, for an order that was drawn. Error, once: a comparison
   /// failed.
-  Expected<void> compare(const ViewState& state);
+  Expected<void> compare(const DrawOrder& order);
 
-  /// The full comparison of this state is finished.
-  bool is_done(const ViewState& state) const;
-
-  /// Never empty after the first draw(); the live picture stands in for those that are not there yet.
-  const Rgb8Image& picture(Picture picture) const;
-  Readings readings(const ViewState& state) const;
+  const LivePicture& live() const { return live_; }
+  /// The newest; none yet: null.
+  std::shared_ptr<const ComparisonOutcome> outcome() const { return outcome_; }
+  const GivenScene& given() const { return given_; }
   const raster::ContextInfo& context_info() const { return renderer_->info(); }
 
  private:
-  Studio(std::unique_ptr<raster::Renderer> renderer, const LoadedScene& loaded,
+  Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished);
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
   Expected<void> take_outcome();
-  Expected<void> start_next(const ViewState& state);
+  Expected<void> start_next(const DrawOrder& order);
   void encode_live();
 
-  const LoadedScene& loaded_;
+  std::shared_ptr<const LoadedScene> loaded_;
   compare::CompareOptions options_;
+  GivenScene given_;
   std::unique_ptr<raster::Renderer> renderer_;
 
-  std::uint64_t drawn_revision_ = 0;  ///< of the live picture
-  raster::RasterFrame live_;
-  double live_ms_ = 0.0, texel_world_ = 0.0;
+  LivePicture live_;
+  ColorImage live_color_;
   std::optional<double> exposure_;
-  Rgb8Image live_picture_;
 
   std::uint64_t started_revision_ = 0;  ///< of the newest request
   bool started_full_ = false;
-  std::optional<ComparisonOutcome> outcome_;  ///< the newest
-  CompareWorker worker_;                      ///< last: its thread ends first
+  std::shared_ptr<const ComparisonOutcome> outcome_;  ///< the newest
+  CompareWorker worker_;                              ///< last: its thread ends first
 };
 
 }  // namespace gnomon::app

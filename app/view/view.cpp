@@ -11,11 +11,18 @@ namespace gnomon::app {
 
 namespace {
 
+/// The file that a step writes; empty: none.
+std::string output_of(const ScriptStep& step) {
+  if (const auto* shot = std::get_if<Screenshot>(&step.what)) return shot->path;
+  if (const auto* save = std::get_if<SaveScene>(&step.what)) return save->path;
+  return {};
+}
+
 /// A screenshot's file can be written; nobody wants to learn that at the end of a long script.
 Expected<void> check_step_output(const ScriptStep& step, const std::string& script) {
-  const auto* shot = std::get_if<Screenshot>(&step.what);
-  if (shot == nullptr) return {};
-  const Expected<void> writable = check_output_file(shot->path);
+  const std::string path = output_of(step);
+  if (path.empty()) return {};
+  const Expected<void> writable = check_output_file(path);
   if (writable) return {};
   Error error = writable.error();
   error.reason = error.message();
@@ -46,11 +53,16 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
   state.setup.light = lights->front();
   state.setup.map = options.compare.raster.map;
   state.setup.size = options.compare.raster.size;
+  state.setup.precision = options.compare.precision;
   const auto poses = resolve_poses(options.poses, options.light, *loaded.world);
   if (!poses) return fail(poses.error());
   state.setup.camera = poses->camera;
   if (poses->light_pose) state.setup.lights[poses->light] = poses->light_pose;
   state.initial = state.setup;
+  state.look.theme = options.theme;
+  state.look.ui_scale = options.ui_scale;
+  state.look.large_type = options.large_type;
+  state.look.panels = !options.no_panels;
   return state;
 }
 
@@ -62,7 +74,7 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   RunFiles files;
   files.reads(options.scene);
   files.reads(options.script);
-  const auto loaded = load(options.scene, files, console, options.tessellate, options.camera);
+  auto loaded = load(options.scene, files, console, options.tessellate, options.camera);
   if (!loaded) return fail(loaded.error());
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   auto state = first_state(options, *loaded);
@@ -70,12 +82,14 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   auto script = read_script(options.script, *loaded->scene);
   if (!script) return fail(script.error());
   for (const ScriptStep& step : *script)
-    if (const auto* shot = std::get_if<Screenshot>(&step.what))
-      files.writes(fmt::format("{}:{}", options.script, step.line), shot->path);
+    if (const std::string path = output_of(step); !path.empty())
+      files.writes(fmt::format("{}:{}", options.script, step.line), path);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
-  const auto viewer = Viewer::open(options, *loaded, std::move(*state), std::move(*script), console);
+  SceneSource source{options.scene, options.camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
+                     files.inputs()};
+  const auto viewer =
+      Viewer::open(options, std::move(source), std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());
-  if (options.script.empty()) console.lines(key_help());
   if (const auto ran = (*viewer)->run(); !ran) return fail(ran.error());
   return ExitCode::done;
 }

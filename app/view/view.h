@@ -7,6 +7,7 @@
 #include "app/invocation.h"
 #include "app/pose_options.h"
 #include "app/run_files.h"
+#include "app/view/look.h"
 #include "compare/compare.h"
 
 namespace gnomon::app {
@@ -20,8 +21,12 @@ struct ViewOptions {
   PoseOptions poses;
   std::optional<std::optional<double>> exposure;  ///< none: the scene's own
   std::string script;  ///< a file of steps that drives the window (script.h); empty: none
-  int threads = 0;     ///< 0: all cores
-  int tessellate = 0;  ///< sectors; 0: shapes stay exact
+  Theme theme = Theme::dark;
+  double ui_scale = 1.0;    ///< [least_ui_scale, most_ui_scale], times what the display enlarges by
+  bool large_type = false;  ///< for projectors
+  bool no_panels = false;   ///< the pictures alone
+  int threads = 0;          ///< 0: all cores
+  int tessellate = 0;       ///< sectors; 0: shapes stay exact
   bool quiet = false;
 };
 

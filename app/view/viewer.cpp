@@ -2,89 +2,109 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
-#include "app/interrupt.h"
-#include "app/output_path.h"
+#include "app/view/map_rows.h"
+#include "app/view/panels/panels.h"
 #include "app/view/status.h"
-#include "scene/files/image_io.h"
 
 namespace gnomon::app {
 
 namespace {
 
-constexpr double idle_wait_seconds = 1.0;           // between frames when nothing happens
-constexpr double resize_patience_ms = 5000.0;       // for a window manager to grant a size
-const Rgb8Image surround({1, 1}, glm::u8vec3(24));  // where a picture leaves the window free
-
-/// The largest place in the window that has the picture's proportions.
-raster::Viewport fitted(ImageSize picture, ImageSize window) {
-  const double scale = std::min(static_cast<double>(window.width) / picture.width,
-                                static_cast<double>(window.height) / picture.height);
-  const int width = std::max(1, static_cast<int>(std::lround(scale * picture.width)));
-  const int height = std::max(1, static_cast<int>(std::lround(scale * picture.height)));
-  return {(window.width - width) / 2, (window.height - height) / 2, width, height};
-}
+constexpr double idle_wait_seconds = 1.0;  // between frames when nothing happens
+constexpr double busy_wait_seconds = 0.1;  // while a run beside the window is looked after
+constexpr glm::u8vec3 surround{24};        // where a picture leaves the window free
 
 /// Colours that stand for something must not be mixed.
-raster::Scaling scaling_of(Picture picture) {
+raster::Scaling scaling_of(Picture picture, const Look& look) {
   const bool photographic = picture == Picture::raster || picture == Picture::raytrace;
-  return photographic ? raster::Scaling::linear : raster::Scaling::nearest;
+  return photographic && look.zoom == 1.0 ? raster::Scaling::linear : raster::Scaling::nearest;
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, const LoadedScene& loaded,
+Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, SceneSource source,
                                                ViewState state, std::vector<ScriptStep> script,
                                                Console& console) {
-  std::unique_ptr<Viewer> viewer(new Viewer(options, loaded, std::move(state), std::move(script), console));
-  auto window = Window::open("gnomon", viewer->state_.setup.size);
+  std::unique_ptr<Viewer> viewer(new Viewer(options, std::move(state), std::move(script), console));
+  auto window = Window::open("gnomon", options.compare.raster.size);
   if (!window) return fail(window.error());
   viewer->window_ = std::move(*window);
   viewer->context_ = viewer->window_->context();
   auto presenter = raster::Presenter::create(*viewer->context_);
   if (!presenter) return fail(presenter.error());
   viewer->presenter_ = std::move(*presenter);
-  auto studio = Studio::create(viewer->window_->context(), loaded, options.compare, options.shader_folder,
-                               [] { Window::wake(); });
-  if (!studio) return fail(studio.error());
-  viewer->studio_ = std::move(*studio);
   viewer->listen();
+  auto interface = Interface::open(*viewer->window_);
+  if (!interface) return fail(interface.error());
+  viewer->interface_ = std::move(*interface);
+  StudioOptions studio{options.compare, options.shader_folder, options.exposure, options.tessellate};
+  studio.compare.perceptual = false;  // no view shows it
+  viewer->thread_ =
+      std::make_unique<RenderThread>([w = viewer->window_.get()] { return w->hidden_context(); },
+                                     std::move(source), std::move(studio), [] { Window::wake(); });
+  viewer->shown_ = viewer->thread_->snapshot();
   return viewer;
 }
 
-Viewer::Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
-               std::vector<ScriptStep> script, Console& console)
-    : options_(options),
-      loaded_(loaded),
-      console_(console),
-      state_(std::move(state)),
-      script_(std::move(script)) {}
+Viewer::Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console)
+    : options_(options), console_(console), state_(std::move(state)), script_(std::move(script)) {}
 
 void Viewer::listen() {
   WindowEvents events;
-  events.key = [this](int key, bool shift) {
-    if (const auto action = action_for_key(key, shift)) act(*action);
+  events.key = [this](const Key& key) {
+    if (interface_->wants_key(key.code)) return;
+    if (const auto action = action_for_key(key)) act(*action);
   };
-  events.button = [this](int button, bool down) { down ? pointer_.press(button) : pointer_.release(button); };
-  events.pointer = [this](double x, double y) {
-    if (const auto change = pointer_.move_to(x, y)) carry_out(state_, *change);
-  };
-  events.scroll = [this](double notches) { carry_out(state_, zoom_for_scroll(notches)); };
+  events.button = [this](int button, bool down, const Modifiers& held) { press(button, down, held); };
+  events.pointer = [this](double x, double y) { move(x, y); };
+  events.scroll = [this](double notches, const Modifiers& held) { scroll(notches, held); };
+  events.drop = [this](const std::string& path) { act(OpenScene{path}); };
   window_->listen(std::move(events));
 }
 
+TypeSize Viewer::type() const {
+  return type_size(window_->content_scale() * state_.look.ui_scale *
+                   (state_.look.large_type ? large_type_factor : 1.0));
+}
+
 void Viewer::act(const Action& action) {
-  if (const auto* change = std::get_if<Change>(&action)) return carry_out(state_, *change);
-  switch (std::get<Command>(action)) {
+  busy_frames_ = 3;
+  if (const auto* change = std::get_if<Change>(&action)) return app::carry_out(state_, *change);
+  if (const auto* open = std::get_if<OpenScene>(&action)) {
+    note("opening " + open->name);
+    return thread_->open({open->name, false});
+  }
+  if (const auto* use = std::get_if<UsePreset>(&action)) {
+    const Preset& preset = presets()[use->preset];
+    app::carry_out(state_, SetMap{preset.apply(state_.setup.map)});
+    return note(fmt::format("{}: {}", preset.title, preset.what));
+  }
+  carry_out_command(std::get<Command>(action));
+}
+
+void Viewer::carry_out_command(Command command) {
+  switch (command) {
     case Command::save_screenshot:
       screenshot_asked_ = true;
       return;
-    case Command::print_command:
-      print_command();
-      return;
-    case Command::print_help:
-      console_.message(key_help());
+    case Command::save_picture:
+      return save_picture();
+    case Command::copy_command:
+      return copy_command();
+    case Command::save_scene:
+      return save_scene();
+    case Command::write_report:
+      return write_report();
+    case Command::find_best:
+      return find_best();
+    case Command::stop_job:
+      job_.reset();
+      return note("stopped");
+    case Command::leave:
+      if (interface_->leave_panels()) return;
+      if (job_) return carry_out_command(Command::stop_job);
+      if (state_.look.help) return app::carry_out(state_, SetFlag{&Look::help, false});
+      quit_ = true;
       return;
     case Command::quit:
       quit_ = true;
@@ -94,38 +114,77 @@ void Viewer::act(const Action& action) {
 
 Expected<void> Viewer::run() {
   while (!quit_ && !window_->should_close()) {
+    const Stopwatch frame;
     window_->poll();
-    follow_window_size();
+    follow_layout();
+    if (auto ok = take_snapshot(); !ok) return ok;
     if (auto ok = advance_script(); !ok) return ok;
     if (quit_) break;
-    if (auto ok = update_pictures(); !ok) return ok;
+    follow_layout();
+    post_changes();
+    look_after_job();
     if (auto ok = draw_frame(); !ok) return ok;
     window_->show_frame();
+    meter_.frame(frame.elapsed_ms());
+    meter_.shown(*shown_);
     sleep();
   }
+  if (has_script()) console_.message(meter_.words());
   return {};
 }
 
-/// The state's size is always that of the framebuffer; an iconified window keeps its last one.
-void Viewer::follow_window_size() {
+/// A picture has the size of its pane; an iconified window keeps its last one.
+void Viewer::follow_layout() {
   const ImageSize size = window_->framebuffer_size();
-  if (size.pixels() > 0 && !(size == state_.setup.size)) carry_out(state_, Resize{size});
+  if (size.pixels() == 0) return;
+  layout_ = lay_out(size, state_.look, type());
+  if (!(layout_.picture == state_.setup.size)) app::carry_out(state_, Resize{layout_.picture});
 }
 
 /// A person's wish that cannot be drawn is taken back, with a word about it; a script's ends the program.
-Expected<void> Viewer::update_pictures() {
-  Expected<void> drawn = studio_->draw(state_);
-  if (!drawn && drawable_ && !has_script()) {
-    print_error(drawn.error());
-    take_back();
-    drawn = studio_->draw(state_);
+Expected<void> Viewer::take_snapshot() {
+  auto snapshot = thread_->snapshot();
+  if (snapshot == shown_) return {};
+  const bool told = shown_->unreadable.has_value();
+  shown_ = std::move(snapshot);
+  busy_frames_ = 3;
+  if (!shown_->scene)
+    return shown_->unreadable ? Expected<void>(fail(*shown_->unreadable)) : Expected<void>();
+  if (shown_->unreadable && !told) note(*shown_->unreadable);
+  if (shown_->scene->number != scene_) show_scene(*shown_->scene);
+  if (shown_->is_drawn(state_)) {
+    drawable_ = state_.setup;
+    state_.texel_world = shown_->live.texel_world;
+    state_.max_map_size = shown_->max_map_size;
   }
-  if (!drawn) return fail(located(drawn.error(), changed_line_));
-  drawable_ = state_.setup;
-  const Expected<void> compared = studio_->compare(state_);
-  if (!compared && has_script()) return fail(located(compared.error(), changed_line_));
-  if (!compared) print_error(compared.error());
+  if (const auto& failed = shown_->undrawable; failed && failed->revision == state_.revision) {
+    if (has_script() || !drawable_) return fail(located(failed->error, changed_line_));
+    note(failed->error);
+    take_back();
+  }
+  if (const auto& failed = shown_->incomparable; failed && failed->revision == state_.revision) {
+    if (has_script()) return fail(located(failed->error, changed_line_));
+    note(failed->error);
+  }
   return {};
+}
+
+/// The first one is what the command line asked for; what was set stays where a scene is read again.
+void Viewer::show_scene(const OpenedScene& scene) {
+  const bool first = scene_ == 0;
+  scene_ = scene.number;
+  posted_ = 0;
+  state_.given = scene.given;
+  if (first || scene.again) return;
+  const ImageSize size = state_.setup.size;
+  state_.setup = {};
+  state_.setup.lights.resize(scene.given.lights.size());
+  state_.setup.map = scene.map;
+  state_.setup.size = size;
+  state_.initial = state_.setup;
+  state_.look.probe.reset();
+  drawable_.reset();
+  ++state_.revision;
 }
 
 void Viewer::take_back() {
@@ -135,121 +194,111 @@ void Viewer::take_back() {
   ++state_.revision;
 }
 
-Expected<void> Viewer::draw_frame() {
-  const Picture shown = state_.picture;
-  const Rgb8Image& picture = studio_->picture(shown);
-  const ImageSize size = state_.setup.size;
-  const bool as_window = shown != Picture::depth || &picture == &studio_->picture(Picture::raster);
-  const raster::Viewport whole{0, 0, size.width, size.height};
-  if (!as_window) {
-    if (auto ok = presenter_->draw(surround, whole, raster::Scaling::nearest); !ok) return ok;
-  }
-  if (auto ok = presenter_->draw(picture, as_window ? whole : fitted(picture.size, size), scaling_of(shown));
-      !ok)
-    return ok;
-  std::string title = status_line(state_, studio_->readings(state_), loaded_.scene->name);
-  if (title != title_) window_->set_title(title_ = std::move(title));
+void Viewer::post_changes() {
+  if (scene_ == 0 || posted_ == state_.revision) return;
+  posted_ = state_.revision;
+  thread_->post(scene_, {state_.revision, state_.setup});
+  meter_.posted(posted_);
+}
 
+const Rgb8Image* Viewer::picture(Picture view) const {
+  const ComparisonOutcome* outcome = shown_->outcome.get();
+  if (outcome == nullptr || view == Picture::raster) return shown_->live.picture.get();
+  switch (view) {
+    case Picture::raytrace:
+      return &outcome->raytrace;
+    case Picture::difference:
+      return &outcome->difference;
+    case Picture::labels:
+      return &outcome->labels;
+    case Picture::truth:
+      return &outcome->truth;
+    case Picture::gap:
+      return &outcome->gap;
+    case Picture::texels:
+      return &outcome->texels;
+    default:
+      return &outcome->depth;
+  }
+}
+
+Expected<void> Viewer::draw_view(Picture view, const Box& pane, const Box& clip) {
+  const Rgb8Image* image = picture(view);
+  if (image == nullptr) return {};
+  const bool as_pane = view != Picture::depth || image == shown_->live.picture.get();
+  const Box place = as_pane ? placed(layout_.picture, pane, state_.look) : fitted(image->size, pane);
+  const int height = window_->framebuffer_size().height;
+  const auto viewport = [height](const Box& box) {
+    return raster::Viewport{box.x, height - box.y - box.height, box.width, box.height};
+  };
+  return presenter_->draw(*image, viewport(place), viewport(clip), scaling_of(view, state_.look));
+}
+
+Expected<void> Viewer::draw_pictures() {
+  presenter_->clear(surround);
+  if (layout_.panes.size() == 4) {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (auto ok = draw_view(state_.look.quad[i], layout_.panes[i], layout_.panes[i]); !ok) return ok;
+    return {};
+  }
+  const Box pane = layout_.panes.front();
+  if (state_.look.layout != PaneLayout::swipe) return draw_view(state_.picture, pane, pane);
+  Box left = pane, right = pane;
+  left.width = static_cast<int>(std::lround(state_.look.swipe * pane.width));
+  right.x += left.width, right.width -= left.width;
+  if (auto ok = draw_view(state_.previous, pane, left); !ok) return ok;
+  return draw_view(state_.picture, pane, right);
+}
+
+void Viewer::draw_panels() {
+  interface_->begin_frame(state_.look, type(), script_pointer_);
+  if (state_.look.panels && shown_->scene) {
+    const JobStatus job = job_ ? job_->status() : JobStatus{};
+    asked_.clear();
+    PanelContext context{state_, *shown_, layout_, type(), ink_of(state_.look.theme), job, note_, asked_};
+    overlay(context);
+    menu_bar(context);
+    left_column(context);
+    right_column(context);
+    status_bar(context);
+    help_window(context);
+  }
+  interface_->end_frame();
+  for (const Action& action : std::exchange(asked_, {})) act(action);
+}
+
+Expected<void> Viewer::draw_frame() {
+  if (auto ok = draw_pictures(); !ok) return ok;
+  draw_panels();
+  set_title();
   if (shot_after_frame_) {
     const std::string path = *std::exchange(shot_after_frame_, std::nullopt);
     if (auto ok = save_screenshot(path); !ok) return ok;
   }
-  if (std::exchange(screenshot_asked_, false)) {
-    if (auto ok = save_numbered_screenshot(); !ok) print_error(ok.error());
-  }
+  if (std::exchange(screenshot_asked_, false))
+    save_numbered(std::string(picture_name(state_.picture)), ".png",
+                  [this](const std::string& path) { return save_screenshot(path); });
   return {};
 }
 
-Expected<void> Viewer::save_screenshot(const std::string& path) {
-  const ImageSize size = state_.setup.size;
-  const auto picture = presenter_->read({0, 0, size.width, size.height});
-  if (!picture) return fail(picture.error());
-  const OutputGuard whole_output;
-  if (auto made = make_folder_for(path); !made) return made;
-  if (auto written = write_png(path, *picture); !written) return written;
-  console_.message("screenshot: " + path);
-  return {};
+Readings Viewer::readings() const {
+  return readings_of(*shown_, state_);
 }
 
-/// SCENE-VIEW-001.png and so on in the current folder; nothing is overwritten.
-Expected<void> Viewer::save_numbered_screenshot() {
-  const std::string name = std::filesystem::path(options_.scene.name).stem().string();
-  for (int number = 1;; ++number) {
-    const std::string path = fmt::format("{}-{}-{:03}.png", name, picture_name(state_.picture), number);
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return save_screenshot(path);
-  }
-}
-
-void Viewer::print_command() const {
-  print_data(compare_command(state_, options_) + "\n");
-  std::fflush(stdout);
-  for (const std::string& light : other_turned_lights(state_))
-    console_.note(
-        fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
+void Viewer::set_title() {
+  if (!shown_->scene) return;
+  std::string title = status_line(state_, readings(), shown_->scene->name);
+  if (title != title_) window_->set_title(title_ = std::move(title));
 }
 
 void Viewer::sleep() {
-  if (!has_script()) return window_->wait(idle_wait_seconds);
-  const bool waits_for_worker = next_step_ < script_.size() &&
-                                std::holds_alternative<WaitDone>(script_[next_step_].what) &&
-                                !studio_->is_done(state_);
-  if (waits_for_worker || resizing_) window_->wait(idle_wait_seconds / 100.0);
-}
-
-Expected<void> Viewer::advance_script() {
-  while (has_script() && !quit_ && !shot_after_frame_) {
-    if (next_step_ == script_.size()) {
-      quit_ = true;
-      return {};
-    }
-    const Expected<bool> over = pass(script_[next_step_]);
-    if (!over) return fail(located(over.error(), script_[next_step_].line));
-    if (!*over) return {};
-    ++next_step_;
-    frames_waited_ = 0;
+  if (busy_frames_ > 0) {
+    --busy_frames_;
+    return;
   }
-  return {};
-}
-
-Expected<bool> Viewer::pass(const ScriptStep& step) {
-  if (std::holds_alternative<Quit>(step.what)) return quit_ = true;
-  if (std::holds_alternative<WaitDone>(step.what)) return studio_->is_done(state_);
-  if (const auto* wait = std::get_if<WaitFrames>(&step.what)) return frames_waited_++ == wait->frames;
-  if (const auto* shot = std::get_if<Screenshot>(&step.what)) {
-    shot_after_frame_ = shot->path;
-    return true;
-  }
-  const Change& change = std::get<Change>(step.what);
-  changed_line_ = step.line;
-  if (const auto* resize = std::get_if<Resize>(&change)) return pass_resize(*resize);
-  carry_out(state_, change);
-  return true;
-}
-
-/// A window gets its size from the display, in its own time.
-Expected<bool> Viewer::pass_resize(const Resize& resize) {
-  const ImageSize now = window_->framebuffer_size();
-  if (now == resize.size) {
-    resizing_.reset();
-    follow_window_size();
-    return true;
-  }
-  if (!resizing_) {
-    resizing_.emplace();
-    window_->ask_for_size(resize.size);
-  }
-  if (resizing_->elapsed_ms() < resize_patience_ms) return false;
-  return fail(ErrorKind::graphics,
-              fmt::format("the display does not grant this window size (got {}x{}, asked for {}x{})",
-                          now.width, now.height, resize.size.width, resize.size.height));
-}
-
-Error Viewer::located(Error error, int line) const {
-  if (line == 0 || !error.file.empty()) return error;
-  error.file = options_.script;
-  error.line = line;
-  return error;
+  if (!has_script()) return window_->wait(job_ ? busy_wait_seconds : idle_wait_seconds);
+  const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
+  if (waits || resizing_ || opening_after_) window_->wait(idle_wait_seconds / 100.0);
 }
 
 }  // namespace gnomon::app

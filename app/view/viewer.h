@@ -1,17 +1,25 @@
-// One window's life: what the keys, the mouse and the script ask for goes into the state; what the studio
-// draws of the state goes on the screen, one frame after another.
+// One window's life: what the keys, the mouse, the panels and the script ask for goes into the state; the render
+// thread makes pictures of the state; they and the panels go on the screen, one frame after another. The window
+// waits for nothing but the next event.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/session.h"
 #include "app/view/input.h"
+#include "app/view/interface.h"
+#include "app/view/job.h"
+#include "app/view/layout.h"
+#include "app/view/meter.h"
+#include "app/view/projection.h"
+#include "app/view/render_thread.h"
+#include "app/view/save_scene.h"
 #include "app/view/script.h"
 #include "app/view/state.h"
-#include "app/view/studio.h"
+#include "app/view/status.h"
 #include "app/view/view.h"
 #include "app/view/window.h"
 #include "raster/present.h"
@@ -19,10 +27,13 @@
 
 namespace gnomon::app {
 
+/// Whether a script's step has to wait for pictures.
+bool needs_time(const ScriptStep& step, const Snapshot& shown, const ViewState& state);
+
 class Viewer {
  public:
   /// Opens the window. All must outlive the viewer.
-  static Expected<std::unique_ptr<Viewer>> open(const ViewOptions& options, const LoadedScene& loaded,
+  static Expected<std::unique_ptr<Viewer>> open(const ViewOptions& options, SceneSource source,
                                                 ViewState state, std::vector<ScriptStep> script,
                                                 Console& console);
 
@@ -31,49 +42,90 @@ class Viewer {
   Expected<void> run();
 
  private:
-  Viewer(const ViewOptions& options, const LoadedScene& loaded, ViewState state,
-         std::vector<ScriptStep> script, Console& console);
+  Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console);
   void listen();
+  void press(int button, bool down, const Modifiers& held);
+  void move(double x, double y);
+  void scroll(double notches, const Modifiers& held);
   void act(const Action& action);
-  void follow_window_size();
-  Expected<void> update_pictures();
+  void carry_out_command(Command command);
+  void follow_layout();
+  Expected<void> take_snapshot();
+  void show_scene(const OpenedScene& scene);
   void take_back();
+  void post_changes();
   Expected<void> draw_frame();
-  Expected<void> save_screenshot(const std::string& path);
-  Expected<void> save_numbered_screenshot();
-  void print_command() const;
+  Expected<void> draw_pictures();
+  Expected<void> draw_view(Picture view, const Box& pane, const Box& clip);
+  void draw_panels();
+  void set_title();
   void sleep();
+  TypeSize type() const;
+  const Rgb8Image* picture(Picture view) const;
+  Readings readings() const;
 
-  // The script
+  // Files and runs beside the window (viewer_files.cpp).
+  void note(std::string text);
+  void note(const Error& error);
+  Expected<void> save_screenshot(const std::string& path);
+  Expected<void> save_image(const Rgb8Image& image, const std::string& path);
+  void save_numbered(const std::string& kind, const std::string& extension,
+                     const std::function<Expected<void>(const std::string&)>& save);
+  void save_picture();
+  void save_scene();
+  void copy_command();
+  void print_command() const;
+  void write_report();
+  void find_best();
+  void look_after_job();
+  void use_answer(const Job& job);
+
+  // The script (viewer_script.cpp).
   bool has_script() const { return !options_.script.empty(); }
   /// Makes the changes up to the next step that needs a frame or time.
   Expected<void> advance_script();
   /// Whether the step is over; called once before each frame.
   Expected<bool> pass(const ScriptStep& step);
   Expected<bool> pass_resize(const Resize& resize);
+  Expected<bool> pass_open(const OpenScene& open);
+  bool pass_drag(const DragPointer& drag);
   /// With the script's line, where there is one and the error does not name a place of its own.
   Error located(Error error, int line) const;
 
   const ViewOptions& options_;
-  const LoadedScene& loaded_;
   Console& console_;
   ViewState state_;
   std::optional<Setup> drawable_;  ///< the last one that could be drawn
+  std::uint64_t posted_ = 0;       ///< revision
+  std::uint64_t scene_ = 0;        ///< OpenedScene::number
   bool quit_ = false;
   bool screenshot_asked_ = false;
+  int busy_frames_ = 3;  ///< to be drawn before the window sleeps: panels settle over several frames
+  std::string note_;
 
   std::vector<ScriptStep> script_;
   std::size_t next_step_ = 0;
   int changed_line_ = 0;  ///< of the last step that changed the state; 0: none yet
   std::int64_t frames_waited_ = 0;
   std::optional<Stopwatch> resizing_;            ///< since the script asked for another size
+  std::optional<std::uint64_t> opening_after_;   ///< the scene that was there when the script opened another
   std::optional<std::string> shot_after_frame_;  ///< the script's, to be taken when this frame is drawn
+  std::optional<ScriptPointer> script_pointer_;
+  Meter meter_;
 
   std::unique_ptr<Window> window_;  ///< outlives all below
   std::unique_ptr<raster::Context> context_;
   std::unique_ptr<raster::Presenter> presenter_;
-  std::unique_ptr<Studio> studio_;
+  std::unique_ptr<Interface> interface_;
+  std::unique_ptr<RenderThread> thread_;
+  std::shared_ptr<const Snapshot> shown_;
+  std::unique_ptr<Job> job_;
+  bool job_tunes_ = false;
+  LabLayout layout_;
   Pointer pointer_;
+  bool holds_swipe_ = false;                ///< the line of a swipe
+  std::optional<ScreenCamera> held_light_;  ///< the light's handle, and the pane's camera when it was taken
+  std::vector<Action> asked_;               ///< by the panels, in the frame that is drawn
   std::string title_;
 };
 

@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+
 namespace gnomon::app {
 
 namespace {
@@ -42,6 +44,10 @@ void ask_for_core_context() {
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
+Modifiers held_of(int mods) {
+  return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0};
+}
+
 Window& window_of(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
@@ -58,6 +64,9 @@ Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSi
   ask_for_core_context();
   window->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window->window_ == nullptr) return cannot_open("OpenGL 4.5 core: " + library_reason());
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  window->hidden_ = glfwCreateWindow(1, 1, title.c_str(), nullptr, nullptr);
+  if (window->hidden_ == nullptr) return cannot_open("a second OpenGL 4.5 core context: " + library_reason());
   glfwMakeContextCurrent(window->window_);
   glfwSwapInterval(1);
   window->connect();
@@ -65,6 +74,7 @@ Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSi
 }
 
 Window::~Window() {
+  if (hidden_ != nullptr) glfwDestroyWindow(hidden_);
   if (window_ != nullptr) glfwDestroyWindow(window_);
 }
 
@@ -72,11 +82,11 @@ void Window::connect() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
     const auto& told = window_of(w).events_.key;
-    if (told && action != GLFW_RELEASE) told(key, (mods & GLFW_MOD_SHIFT) != 0);
+    if (told && action != GLFW_RELEASE) told({key, held_of(mods)});
   });
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
     const auto& told = window_of(w).events_.button;
-    if (told) told(button, action == GLFW_PRESS);
+    if (told) told(button, action == GLFW_PRESS, held_of(mods));
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     const auto& told = window_of(w).events_.pointer;
@@ -84,7 +94,14 @@ void Window::connect() {
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
     const auto& told = window_of(w).events_.scroll;
-    if (told) told(y);
+    const auto down = [w](int key) { return glfwGetKey(w, key) == GLFW_PRESS; };
+    if (told)
+      told(y, {down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT),
+               down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL)});
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    const auto& told = window_of(w).events_.drop;
+    if (told && count > 0) told(paths[0]);
   });
 }
 
@@ -92,8 +109,22 @@ std::unique_ptr<raster::Context> Window::context() const {
   return std::make_unique<WindowContext>(window_);
 }
 
+std::unique_ptr<raster::Context> Window::hidden_context() const {
+  return std::make_unique<WindowContext>(hidden_);
+}
+
+double Window::content_scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::max(1.0, static_cast<double>(std::max(x, y)));
+}
+
 void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::copy(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
 }
 
 void Window::ask_for_size(ImageSize size) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "app/view/input.h"
 #include "raster/context.h"
 #include "scene/expected.h"
 #include "scene/image.h"
@@ -16,10 +17,11 @@ namespace gnomon::app {
 
 /// What the window tells; each is called from poll() or wait().
 struct WindowEvents {
-  std::function<void(int key, bool shift)> key;  ///< pressed or repeated
-  std::function<void(int button, bool down)> button;
+  std::function<void(const Key& key)> key;  ///< pressed or repeated
+  std::function<void(int button, bool down, const Modifiers& held)> button;
   std::function<void(double x, double y)> pointer;
-  std::function<void(double notches)> scroll;
+  std::function<void(double notches, const Modifiers& held)> scroll;
+  std::function<void(const std::string& path)> drop;  ///< a file let fall on the window
 };
 
 class Window {
@@ -32,9 +34,16 @@ class Window {
 
   /// The window's context as the rasterizer wants it. The window must outlive it.
   std::unique_ptr<raster::Context> context() const;
+  /// A second one of the same driver for another thread. The window must outlive it, and the thread that uses
+  /// it.
+  std::unique_ptr<raster::Context> hidden_context() const;
+  GLFWwindow* handle() const { return window_; }
+  /// What the display enlarges everything by: 1, 1.5, 2 ...
+  double content_scale() const;
 
   void listen(WindowEvents events) { events_ = std::move(events); }
   void set_title(const std::string& title);
+  void copy(const std::string& text);  ///< to the clipboard
   /// Asks for a size; the display may grant it later, or another.
   void ask_for_size(ImageSize size);
   /// Pixels of the framebuffer now; 0x0 while iconified.
@@ -59,6 +68,7 @@ class Window {
 
   std::unique_ptr<Library> library_;
   GLFWwindow* window_ = nullptr;
+  GLFWwindow* hidden_ = nullptr;
   WindowEvents events_;
 };
 

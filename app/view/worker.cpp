@@ -5,6 +5,7 @@
 #include <exception>
 #include <stop_token>
 
+#include "app/view/map_pictures.h"
 #include "compare/outputs.h"
 #include "scene/exposure.h"
 
@@ -50,6 +51,10 @@ void draw_pictures(ComparisonOutcome& outcome) {
   outcome.raytrace = compare::raytraced_picture(comparison);
   outcome.difference = compare::difference_picture(comparison, light);
   outcome.labels = compare::label_picture(comparison, light);
+  const raster::LightRecord& record = comparison.raster.lights.front();
+  outcome.truth = truth_picture(light);
+  outcome.gap = gap_picture(record, light);
+  outcome.texels = texel_picture(compare::raster_picture(comparison), record, light);
   outcome.depth = compare::depth_map_picture(comparison.raster.lights.front().map);
 }
 
@@ -113,7 +118,7 @@ void CompareWorker::run() {
     }
     std::optional<Expected<ComparisonOutcome>> outcome;
     try {
-      if (!tracer_) tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel, options_.precision);
+      prepare_tracer(request.precision);
       outcome = compare(std::move(request), *job);
     } catch (const std::bad_alloc&) {
       outcome = fail(ErrorKind::graphics, "out of memory");
@@ -129,14 +134,25 @@ void CompareWorker::run() {
   }
 }
 
+void CompareWorker::prepare_tracer(raytrace::Precision precision) {
+  if (tracer_ && tracer_precision_ == precision) return;
+  tracer_.reset();
+  tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel, precision);
+  tracer_precision_ = precision;
+}
+
 std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequest request, Job& job) const {
   scene_->camera = request.camera;
   scene_->lights = std::move(request.lights);
-  ComparisonOutcome outcome{request.revision, request.preview, {}, {}, {}, {}, {}};
+  ComparisonOutcome outcome;
+  outcome.revision = request.revision;
+  outcome.preview = request.preview;
+  outcome.precision = request.precision;
+  outcome.camera = request.camera;
   compare::Comparison& comparison = outcome.comparison;
   comparison.world = world_.get();
   comparison.plan = plan_;
-  comparison.precision = options_.precision;
+  comparison.precision = request.precision;
   comparison.raster = std::move(request.drawn);
   comparison.accel_build_ms = tracer_->stats().build_ms;
 
@@ -144,6 +160,8 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   options.raster = comparison.raster.options;
   options.raytrace.size = comparison.raster.options.size;
   const std::vector<std::uint32_t> lights{comparison.raster.lights.front().light};
+  outcome.light = scene_->lights[lights.front()];
+  options.precision = request.precision;
   options.raytrace.stop = job.given_up.get_token();
   comparison.raytraced = raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
   if (job.given_up.stop_requested()) return std::nullopt;
@@ -154,6 +172,10 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   comparison.lights = std::move(*compared);
   comparison.exposure = scene_->exposure ? *scene_->exposure : auto_exposure(comparison.raytraced.color);
   draw_pictures(outcome);
+  outcome.verdict = compare::verdict_sentence(comparison, comparison.lights.front());
+  outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
+  for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
+    outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
   comparison.raytraced.receiver = {};
   return Expected<ComparisonOutcome>(std::move(outcome));
 }

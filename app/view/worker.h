@@ -22,6 +22,7 @@ namespace gnomon::app {
 struct ComparisonRequest {
   std::uint64_t revision = 0;  ///< of the window's state
   bool preview = false;        ///< drawn smaller than the window
+  raytrace::Precision precision = raytrace::Precision::robust;
   Camera camera;
   std::vector<Light> lights;
   raster::RasterFrame drawn;  ///< with the records of the one light to compare
@@ -30,8 +31,13 @@ struct ComparisonRequest {
 struct ComparisonOutcome {
   std::uint64_t revision = 0;
   bool preview = false;
+  raytrace::Precision precision = raytrace::Precision::robust;
+  Camera camera;
+  Light light;                     ///< the one compared
   compare::Comparison comparison;  ///< without the receivers, by far its largest part
-  Rgb8Image raytrace, difference, labels, depth;
+  Image<Vec3f> normals;            ///< of the receivers: geometric, on the viewer's side
+  std::string verdict;             ///< compare's sentence
+  Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
 };
 
 class CompareWorker {
@@ -55,6 +61,7 @@ class CompareWorker {
   void run();
   /// Nothing when the job was given up.
   std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job) const;
+  void prepare_tracer(raytrace::Precision precision);
 
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<World> world_;
@@ -62,6 +69,7 @@ class CompareWorker {
   compare::CompareOptions options_;
   std::function<void()> on_finished_;
   std::unique_ptr<raytrace::Tracer> tracer_;  ///< the thread's own
+  raytrace::Precision tracer_precision_ = raytrace::Precision::robust;
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

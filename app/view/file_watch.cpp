@@ -1,0 +1,37 @@
+#include "app/view/file_watch.h"
+
+namespace gnomon::app {
+
+namespace fs = std::filesystem;
+
+FileWatch::FileWatch(std::vector<std::string> paths) : paths_(std::move(paths)), seen_(look()) {}
+
+bool FileWatch::changed() {
+  std::map<std::string, Stamp> now = look();
+  if (now == seen_) return false;
+  seen_ = std::move(now);
+  return true;
+}
+
+std::map<std::string, FileWatch::Stamp> FileWatch::look() const {
+  std::map<std::string, Stamp> stamps;
+  std::error_code none;
+  const auto add = [&](const fs::path& path) {
+    if (!fs::is_regular_file(path, none)) return;
+    const auto time = fs::last_write_time(path, none);
+    const auto size = fs::file_size(path, none);
+    if (!none) stamps[path.string()] = {time, size};
+  };
+  for (const std::string& path : paths_) {
+    add(path);
+    if (!fs::is_directory(path, none)) continue;
+    for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, none), end;
+         it != end; it.increment(none)) {
+      if (none) break;
+      add(it->path());
+    }
+  }
+  return stamps;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,43 @@
+// Where everything stands in the window: menu bar above, settings at the left, results at the right, a line of
+// words below, and between them the pictures. Pure arithmetic; pixels of the window, (0, 0) at its upper left.
+#pragma once
+
+#include <vector>
+
+#include "app/view/look.h"
+#include "scene/image.h"
+
+namespace gnomon::app {
+
+struct Box {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Box&) const = default;
+  bool holds(double px, double py) const { return px >= x && py >= y && px < x + width && py < y + height; }
+};
+
+/// Sizes of text and of what is around it, pixels.
+struct TypeSize {
+  double scale = 1.0;
+  int font = 15, padding = 4;
+  int bar_height() const { return font + 2 * padding; }
+};
+TypeSize type_size(double scale);
+
+struct LabLayout {
+  Box menu, settings, results, status;  ///< of no size where they are not shown
+  /// There is no room for two columns: the results share the settings' place, as a tab.
+  bool tabs = false;
+  Box pictures;            ///< all the panes together
+  std::vector<Box> panes;  ///< one, or the four of a square in the order of reading
+  ImageSize picture;       ///< pixels that a picture is drawn with: those of the first pane
+};
+
+LabLayout lay_out(ImageSize window, const Look& look, const TypeSize& type);
+
+/// Where a picture of this size lies on the window when it is shown in the pane: as large as fits, enlarged
+/// and moved by the look. It may be larger than the pane.
+Box placed(ImageSize picture, const Box& pane, const Look& look);
+/// The whole picture, never enlarged beyond the pane.
+Box fitted(ImageSize picture, const Box& pane);
+
+}  // namespace gnomon::app

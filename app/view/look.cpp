@@ -1,0 +1,53 @@
+#include "app/view/look.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/suggest.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr std::array<std::string_view, picture_count> picture_names{
+    "raster", "raytrace", "difference", "labels", "truth", "gap", "texels", "depth"};
+constexpr std::array<std::string_view, picture_count> picture_titles{
+    "Shadow map",  "Ray traced", "Difference",          "Labels",
+    "True shadow", "Gap",        "Texels on receivers", "Depth map from the light"};
+constexpr std::array<std::string_view, 3> layout_names{"single", "swipe", "quad"};
+constexpr std::array<std::string_view, 2> theme_names{"dark", "light"};
+
+template <class Enum, std::size_t count>
+Expected<Enum> parse(std::string_view name, const std::array<std::string_view, count>& names,
+                     const char* what) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (names[i] == name) return static_cast<Enum>(i);
+  return fail(ErrorKind::usage, fmt::format("no such {} (got {}, allowed {}){}", what, name,
+                                            fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+}  // namespace
+
+std::string_view picture_name(Picture picture) {
+  return picture_names[static_cast<std::size_t>(picture)];
+}
+std::string_view picture_title(Picture picture) {
+  return picture_titles[static_cast<std::size_t>(picture)];
+}
+Expected<Picture> parse_picture(std::string_view name) {
+  return parse<Picture>(name, picture_names, "view");
+}
+std::string_view pane_layout_name(PaneLayout layout) {
+  return layout_names[static_cast<std::size_t>(layout)];
+}
+Expected<PaneLayout> parse_pane_layout(std::string_view name) {
+  return parse<PaneLayout>(name, layout_names, "layout");
+}
+std::string_view theme_name(Theme theme) {
+  return theme_names[static_cast<std::size_t>(theme)];
+}
+Expected<Theme> parse_theme(std::string_view name) {
+  return parse<Theme>(name, theme_names, "theme");
+}
+
+}  // namespace gnomon::app

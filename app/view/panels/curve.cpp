@@ -1,0 +1,114 @@
+// The error of every constant bias from one rendering, with the bias as a line that can be dragged.
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/view/map_rows.h"
+#include "app/view/panels/panels.h"
+#include "compare/number_text.h"
+#include "compare/palette.h"
+
+namespace gnomon::app {
+
+namespace {
+
+struct Plot {
+  ImVec2 low;  ///< its lower left corner
+  ImVec2 size;
+  double most_bias, most_share;
+  ImVec2 at(double bias, double share) const {
+    return {low.x + size.x * static_cast<float>(bias / most_bias),
+            low.y - size.y * static_cast<float>(std::min(share / most_share, 1.0))};
+  }
+};
+
+ImU32 colour(const glm::u8vec3& c) {
+  return IM_COL32(c.r, c.g, c.b, 255);
+}
+
+void line(const Plot& plot, const compare::LightComparison& light, ImU32 ink,
+          std::uint64_t (*count)(const compare::BiasCurvePoint&)) {
+  std::vector<ImVec2> points;
+  for (const compare::BiasCurvePoint& point : light.bias_curve)
+    points.push_back(plot.at(
+        point.bias, double(count(point)) / double(std::max<std::uint64_t>(1, light.pixels.compared))));
+  ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()), ink, 0,
+                                          0.13f * ImGui::GetFontSize());
+}
+
+/// The largest share of wrong pixels that the plot shows, so that its curve fills it.
+double most_share(const compare::LightComparison& light) {
+  std::uint64_t most = 1;
+  for (const compare::BiasCurvePoint& point : light.bias_curve)
+    most = std::max(most, point.false_shadow + point.missed_shadow);
+  return 1.05 * double(most) / double(std::max<std::uint64_t>(1, light.pixels.compared));
+}
+
+void mark(const Plot& plot, double bias, ImU32 ink, const char* name) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 foot = plot.at(std::clamp(bias, 0.0, plot.most_bias), 0.0);
+  draw.AddLine(foot, {foot.x, plot.low.y - plot.size.y}, ink, 0.13f * ImGui::GetFontSize());
+  const float width = ImGui::CalcTextSize(name).x;
+  const float x = std::min(foot.x + 3.0f, plot.low.x + plot.size.x - width);
+  draw.AddText({x, plot.low.y - plot.size.y}, ink, name);
+}
+
+void drag_bias(PanelContext& context, const Plot& plot) {
+  if (!ImGui::IsItemActive()) return;
+  const double share = (ImGui::GetIO().MousePos.x - plot.low.x) / plot.size.x;
+  const double world = std::clamp(static_cast<double>(share), 0.0, 1.0) * plot.most_bias;
+  raster::MapOptions map = context.state.setup.map;
+  const double texel = context.shown.live.texel_world;
+  set_bias_texels(map.bias, texel > 0.0 ? world / texel : 0.0, texel);
+  if (!(map == context.state.setup.map)) context.ask(Change{SetMap{map}});
+}
+
+}  // namespace
+
+void curve_panel(PanelContext& context) {
+  if (!ImGui::CollapsingHeader("Every constant bias", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  const compare::LightComparison& light = context.outcome()->comparison.lights.front();
+  if (light.bias_curve.empty()) {
+    return faint(light.bias_curve_withheld.empty()
+                     ? "This technique's drawing does not say what another bias would draw."
+                     : std::string(light.bias_curve_withheld));
+  }
+  const float em = ImGui::GetFontSize();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 8.0f * em};
+  ImGui::InvisibleButton("curve", size);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Drag: the constant bias");
+  const Plot plot{
+      {corner.x, corner.y + size.y}, size, std::max(1e-300, light.bias_curve.back().bias), most_share(light)};
+  drag_bias(context, plot);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, context.ink.paper);
+  draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+  line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
+  line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
+  line(plot, light, context.ink.text, [](const auto& p) { return p.false_shadow + p.missed_shadow; });
+  mark(plot, light.best_bias.constant_world, context.ink.good, "best");
+  mark(plot, context.shown.live.bias_world, context.ink.accent, "now");
+  draw.PopClipRect();
+  draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, context.ink.grid);
+  const double texel = light.bias_texel_world;
+  faint(fmt::format(
+      "From 0 to {:.3g} ({}); at most {} wrong. Orange: false shadow, blue: missed shadow, {}: both.",
+      plot.most_bias, compare::texels_text(texel > 0.0 ? plot.most_bias / texel : 0.0),
+      compare::percent(plot.most_share / 1.05), context.state.look.theme == Theme::dark ? "white" : "black"));
+  const compare::BestBias& best = light.best_bias;
+  wrapped(fmt::format("The best constant bias is {:.3g} ({}): {} wrong.", best.constant_world,
+                      compare::texels_text(texel > 0.0 ? best.constant_world / texel : 0.0),
+                      compare::percent(best.wrong_fraction)));
+  if (ImGui::Button("Take the best")) {
+    raster::MapOptions map = context.state.setup.map;
+    map.bias.unit = raster::BiasUnit::world;
+    map.bias.constant = best.constant_world;
+    context.ask(Change{SetMap{map}});
+  }
+  ImGui::Spacing();
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,148 @@
+// What lies over the pictures: their names, the line of a swipe, the pixel that is explained and the one under the
+// pointer in every pane, the light's handle, and the edges of the map.
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <cmath>
+
+#include "app/view/panels/panels.h"
+#include "app/view/projection.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr ImU32 white = IM_COL32(255, 255, 255, 235), black = IM_COL32(0, 0, 0, 200),
+                sun = IM_COL32(255, 210, 60, 255);
+
+ImVec2 at(double x, double y) {
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+
+struct Overlay {
+  PanelContext& context;
+  ImDrawList& draw;
+  float em;
+
+  void name(const Box& pane, Picture picture, bool right = false) const {
+    const std::string text(picture_title(picture));
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float x =
+        static_cast<float>(right ? pane.x + pane.width : pane.x) + (right ? -size.x - 0.9f * em : 0.5f * em);
+    const float y = static_cast<float>(pane.y) + 0.4f * em;
+    draw.AddRectFilled({x - 0.2f * em, y - 0.1f * em}, {x + size.x + 0.3f * em, y + size.y + 0.1f * em},
+                       black, 0.2f * em);
+    draw.AddText({x, y}, white, text.c_str());
+  }
+
+  void line(Vec2 a, Vec2 b, ImU32 colour) const {
+    draw.AddLine(at(a.x, a.y), at(b.x, b.y), black, 0.22f * em);
+    draw.AddLine(at(a.x, a.y), at(b.x, b.y), colour, 0.1f * em);
+  }
+
+  /// A cross at a place of the picture, shares of its sides.
+  void cross(const Box& place, Vec2 share, ImU32 colour, float reach) const {
+    const Vec2 p{place.x + share.x * place.width, place.y + share.y * place.height};
+    for (const Vec2 way : {Vec2{1, 0}, Vec2{0, 1}})
+      for (const double side : {-1.0, 1.0})
+        line(p + way * (side * 0.3 * double(reach)), p + way * (side * double(reach)), colour);
+  }
+
+  void frustum(const ScreenCamera& camera) const {
+    for (const auto& [from, to] : frustum_edges(context.shown.live.map))
+      if (const auto seen = camera.project(from, to)) line(seen->first, seen->second, sun);
+  }
+
+  void handle(const ScreenCamera& camera) const {
+    const LightHandle handle = light_handle(context.state);
+    const auto place = camera.project(handle.place);
+    if (!place) return;
+    if (const auto seen = camera.project(handle.place, handle.centre)) line(seen->first, seen->second, sun);
+    draw.AddCircleFilled(at(place->x, place->y), 0.62f * em, black);
+    draw.AddCircleFilled(at(place->x, place->y), 0.5f * em, sun);
+    for (int i = 0; handle.sun && i < 8; ++i) {
+      const double a = i * pi / 4.0, r = 0.7 * double(em), s = 0.95 * double(em);
+      line(*place + r * Vec2{std::cos(a), std::sin(a)}, *place + s * Vec2{std::cos(a), std::sin(a)}, sun);
+    }
+  }
+
+  void pane(const Box& box, Picture picture) const {
+    const ImageSize size = context.layout.picture;
+    const Box place = placed(size, box, context.state.look);
+    draw.PushClipRect(at(box.x, box.y), at(box.x + box.width, box.y + box.height), true);
+    if (picture != Picture::depth) {
+      const ScreenCamera camera{posed_camera(context.state), place};
+      if (picture == Picture::texels) frustum(camera);
+      if (const auto& probe = context.state.look.probe)
+        cross(place, {(probe->x + 0.5) / size.width, (probe->y + 0.5) / size.height}, white, 0.9f * em);
+      if (picture == Picture::raster || picture == Picture::texels || picture == Picture::raytrace)
+        handle(camera);
+    }
+    draw.PopClipRect();
+  }
+
+  /// The place under the pointer, in every pane but its own.
+  void pointer() const {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const auto& panes = context.layout.panes;
+    for (const Box& own : panes) {
+      if (!own.holds(double(mouse.x), double(mouse.y)) || ImGui::GetIO().WantCaptureMouse) continue;
+      const Box place = placed(context.layout.picture, own, context.state.look);
+      const Vec2 share{(double(mouse.x) - place.x) / place.width, (double(mouse.y) - place.y) / place.height};
+      for (std::size_t i = 0; i < panes.size(); ++i)
+        if (&panes[i] != &own && context.state.look.quad[i] != Picture::depth)
+          cross(placed(context.layout.picture, panes[i], context.state.look), share, sun, 0.6f * em);
+    }
+  }
+};
+
+/// What a pane of the four shows can be chosen by its name.
+void pane_choice(PanelContext& context, std::size_t pane, const Box& box) {
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(at(box.x + 0.3 * double(em), box.y + 0.3 * double(em)));
+  const std::string name = fmt::format("pane {}", pane + 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+  if (ImGui::Begin(name.c_str(), nullptr,
+                   ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBackground |
+                       ImGuiWindowFlags_NoBringToFrontOnFocus)) {
+    const Picture now = context.state.look.quad[pane];
+    ImGui::SetNextItemWidth(std::min(14.0f * em, static_cast<float>(box.width) - em));
+    if (ImGui::BeginCombo("##view", std::string(picture_title(now)).c_str())) {
+      for (std::size_t i = 0; i < picture_count; ++i) {
+        const auto picture = static_cast<Picture>(i);
+        if (ImGui::Selectable(std::string(picture_title(picture)).c_str(), picture == now))
+          context.ask(Change{SetPane{pane, picture}});
+      }
+      ImGui::EndCombo();
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void overlay(PanelContext& context) {
+  const Overlay over{context, *ImGui::GetBackgroundDrawList(), ImGui::GetFontSize()};
+  const LabLayout& layout = context.layout;
+  const ViewState& state = context.state;
+  if (layout.panes.size() == 4) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      over.pane(layout.panes[i], state.look.quad[i]);
+      pane_choice(context, i, layout.panes[i]);
+    }
+    return over.pointer();
+  }
+  const Box& pane = layout.panes.front();
+  over.pane(pane, state.picture);
+  if (state.look.layout != PaneLayout::swipe) return over.name(pane, state.picture);
+  const double x = pane.x + state.look.swipe * pane.width, middle = pane.y + 0.5 * pane.height;
+  over.line({x, double(pane.y)}, {x, double(pane.y + pane.height)}, white);
+  over.draw.AddCircleFilled(at(x, middle), 0.6f * over.em, black);
+  over.draw.AddCircleFilled(at(x, middle), 0.45f * over.em, white);
+  over.name(pane, state.previous);
+  over.name(pane, state.picture, true);
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,54 @@
+// The panels: each draws what it shows of the state with Dear ImGui and says what was asked for as actions. They
+// change nothing themselves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/view/input.h"
+#include "app/view/job.h"
+#include "app/view/layout.h"
+#include "app/view/render_thread.h"
+#include "app/view/state.h"
+#include "app/view/style.h"
+
+namespace gnomon::app {
+
+struct PanelContext {
+  const ViewState& state;
+  const Snapshot& shown;
+  const LabLayout& layout;
+  TypeSize type;
+  Ink ink{};
+  const JobStatus& job;
+  std::string note;  ///< the last thing done, for the status bar
+  std::vector<Action>& actions;
+
+  void ask(Action action) { actions.push_back(std::move(action)); }
+  /// The comparison to read numbers from; null: none yet.
+  const ComparisonOutcome* outcome() const { return shown.outcome.get(); }
+  /// It is of what is set now.
+  bool is_current() const { return shown.outcome && shown.outcome->revision == state.revision; }
+};
+
+void menu_bar(PanelContext& context);
+/// The left column; both parts of it, as tabs, where there is no room for two columns.
+void left_column(PanelContext& context);
+void right_column(PanelContext& context);
+void status_bar(PanelContext& context);
+void help_window(PanelContext& context);
+/// Over the pictures and below the panels: their names, the line of a swipe, the probed pixel, the light's handle
+/// and, over the view of texels, what the map covers.
+void overlay(PanelContext& context);
+
+// Parts of the columns.
+void settings_panel(PanelContext& context);
+void results_panel(PanelContext& context);
+void probe_panel(PanelContext& context);
+void curve_panel(PanelContext& context);
+
+/// Text that wraps at the panel's edge.
+void wrapped(const std::string& text);
+void faint(const std::string& text);
+
+}  // namespace gnomon::app

@@ -1,0 +1,135 @@
+// The results: what is wrong, how much of it, why, what another bias would make of it, and what it took.
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+
+#include "app/view/panels/panels.h"
+#include "app/view/status.h"
+#include "compare/number_text.h"
+#include "compare/outputs.h"
+#include "compare/palette.h"
+#include "compare/report/explanations.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using compare::LightComparison;
+
+ImU32 colour(const glm::u8vec3& c) {
+  return IM_COL32(c.r, c.g, c.b, 255);
+}
+
+/// Of the steps that a wrong pixel is charged to.
+ImU32 step_colour(std::size_t step) {
+  constexpr compare::Label labels[] = {compare::Label::light_size,    compare::Label::aliasing,
+                                       compare::Label::acne,          compare::Label::precision,
+                                       compare::Label::peter_panning, compare::Label::blur};
+  return colour(compare::label_colour(labels[step]));
+}
+
+void right_aligned(const std::string& text) {
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SameLine(std::max(0.0f, ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX() - width));
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void swatch(ImU32 fill) {
+  const float size = ImGui::GetTextLineHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.15f * size},
+                                            {at.x + 0.7f * size, at.y + 0.85f * size}, fill);
+  ImGui::Dummy({0.8f * size, size});
+  ImGui::SameLine();
+}
+
+/// The mean absolute error of each step, side by side; the whole bar is their sum.
+void budget(const PanelContext& context, const LightComparison& light) {
+  ImGui::TextUnformatted("Error budget");
+  double sum = 0.0;
+  for (const compare::BudgetStep& step : light.budget) sum += step.absolute_mean;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 1.3f * ImGui::GetFontSize()};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, context.ink.grid);
+  float x = at.x;
+  for (std::size_t i = 0; sum > 0.0 && i < light.budget.size(); ++i) {
+    const auto width = static_cast<float>(light.budget[i].absolute_mean / sum) * size.x;
+    draw.AddRectFilled({x, at.y}, {x + width, at.y + size.y}, step_colour(i));
+    x += width;
+  }
+  ImGui::Dummy(size);
+  for (std::size_t i = 0; i < light.budget.size(); ++i) {
+    const compare::BudgetStep& step = light.budget[i];
+    if (step.absolute_mean == 0.0) continue;
+    const compare::StepText& words = compare::step_text(static_cast<compare::Cause>(i));
+    swatch(step_colour(i));
+    ImGui::TextUnformatted(std::string(words.name).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(words.what).c_str());
+    right_aligned(fmt::format("{} ({})", compare::percent(step.absolute_mean),
+                              compare::signed_number(step.signed_mean)));
+  }
+  ImGui::TextDisabled("mean |step| (and with its sign)");
+}
+
+void labels(const LightComparison& light) {
+  if (!ImGui::CollapsingHeader("Wrong pixels", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  for (std::size_t i = 0; i < compare::class_count; ++i) {
+    if (light.classes[i] == 0) continue;
+    const auto label = static_cast<compare::Label>(i + 1);
+    const compare::LabelText& words = compare::label_text(label);
+    swatch(colour(compare::label_colour(label)));
+    ImGui::Text("%s  %s", std::string(words.letter).c_str(), std::string(words.name).c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::BeginTooltip();
+      ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
+      ImGui::TextUnformatted(fmt::format("{}: {}", words.what, words.cause).c_str());
+      ImGui::TextUnformatted(fmt::format("Cure: {}", words.cure).c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::EndTooltip();
+    }
+    right_aligned(compare::grouped(light.classes[i]));
+  }
+  ImGui::TextDisabled("of %s pixels compared", compare::grouped(light.pixels.compared).c_str());
+}
+
+void row(const char* what, double ms) {
+  ImGui::TextUnformatted(what);
+  right_aligned(ms > 0.0 ? compare::milliseconds(ms) : "not timed yet");
+}
+
+void times(const PanelContext& context) {
+  if (!ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  const Readings now = readings_of(context.shown, context.state);
+  row("Live picture, with reading back", now.raster_ms);
+  if (!now.compared) return;
+  row("Depth map", now.compared->map_ms);
+  row("Shading with the map", now.compared->shade_ms);
+  row("Exact shadows by rays", now.compared->exact_shadows_ms);
+  faint(context.shown.renderer);
+}
+
+}  // namespace
+
+void results_panel(PanelContext& context) {
+  const ComparisonOutcome* outcome = context.outcome();
+  if (outcome == nullptr) return faint("Comparing ...");
+  const LightComparison& light = outcome->comparison.lights.front();
+  wrapped(outcome->verdict);
+  if (!context.is_current()) {
+    faint("Of the setting before; the new one is being compared.");
+  } else if (outcome->preview) {
+    faint("At a quarter of the size; in full in a moment.");
+  } else {
+    faint("Of the whole picture.");
+  }
+  ImGui::Separator();
+  probe_panel(context);
+  budget(context, light);
+  labels(light);
+  curve_panel(context);
+  times(context);
+}
+
+}  // namespace gnomon::app

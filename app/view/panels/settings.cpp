@@ -1,0 +1,246 @@
+// The settings: technique, map, biases, filter, light. Only what the technique reads is there.
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <cmath>
+
+#include "app/view/map_rows.h"
+#include "app/view/panels/panels.h"
+#include "raster/technique_traits.h"
+
+namespace gnomon::app {
+
+namespace {
+
+void tooltip(const MapRow& row) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
+  ImGui::TextUnformatted(row.what.data(), row.what.data() + row.what.size());
+  ImGui::Spacing();
+  ImGui::Text("Acne: %.*s", static_cast<int>(row.acne.size()), row.acne.data());
+  ImGui::Text("Peter-panning: %.*s", static_cast<int>(row.peter_panning.size()), row.peter_panning.data());
+  ImGui::TextDisabled("--%.*s", static_cast<int>(row.option.size()), row.option.data());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// The row's name above its control, with the unit at the right.
+void title_of(const MapRow& row, std::string_view unit) {
+  ImGui::TextUnformatted(row.title.data(), row.title.data() + row.title.size());
+  tooltip(row);
+  if (unit.empty()) return;
+  const float width = ImGui::CalcTextSize(unit.data(), unit.data() + unit.size()).x;
+  ImGui::SameLine(std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
+  ImGui::TextDisabled("%.*s", static_cast<int>(unit.size()), unit.data());
+}
+
+bool slider(const char* id, double& value, double from, double to, bool logarithmic) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, "%.4g",
+                             logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+}
+
+struct RowControl {
+  const MapRow& row;
+  raster::MapOptions& map;
+  const PanelContext& context;
+
+  bool operator()(const NumberRow& number) const {
+    title_of(row, number.unit);
+    double value = number.get(map);
+    if (!slider("##value", value, number.from, number.to, number.logarithmic)) return false;
+    number.set(map, value);
+    return true;
+  }
+  bool operator()(const IntegerRow& integer) const {
+    title_of(row, integer.unit);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    int value = integer.get(map);
+    if (!integer.powers_of_two) {
+      if (!ImGui::SliderInt("##value", &value, integer.from, integer.to)) return false;
+      integer.set(map, std::clamp(value, integer.from, integer.to));
+      return true;
+    }
+    const int limit = context.shown.max_map_size > 0 ? context.shown.max_map_size : integer.to;
+    int power = static_cast<int>(std::lround(std::log2(std::max(1, value))));
+    const std::string text = fmt::format("{} x {}", value, value);
+    const int most = static_cast<int>(std::log2(std::min(limit, integer.to)));
+    if (!ImGui::SliderInt("##value", &power, 4, most, text.c_str(), ImGuiSliderFlags_NoInput)) return false;
+    integer.set(map, 1 << std::clamp(power, 4, most));
+    return true;
+  }
+  bool operator()(const SwitchRow& flag) const {
+    bool on = flag.get(map);
+    const std::string label = fmt::format("{}##value", row.title);
+    const bool changed = ImGui::Checkbox(label.c_str(), &on);
+    tooltip(row);
+    if (changed) flag.set(map, on);
+    return changed;
+  }
+  bool operator()(const ChoiceRow& choice) const {
+    title_of(row, {});
+    const int now = choice.get(map);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", std::string(choice.names[static_cast<std::size_t>(now)]).c_str()))
+      return false;
+    for (std::size_t i = 0; i < choice.names.size(); ++i) {
+      const bool chosen = static_cast<int>(i) == now;
+      if (ImGui::Selectable(std::string(choice.names[i]).c_str(), chosen) && !chosen) {
+        choice.set(map, static_cast<int>(i));
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+    return changed;
+  }
+  /// In texels whatever the unit, and beside the slider what that is in the world.
+  bool operator()(const BiasRow&) const {
+    const LivePicture& live = context.shown.live;
+    title_of(row, "texels");
+    double texels = bias_texels(map.bias, live.bias_world, live.texel_world);
+    bool changed = slider("##value", texels, 0.0, 10.0, false);
+    if (changed) set_bias_texels(map.bias, texels, live.texel_world);
+    ImGui::TextDisabled("= %.4g world units along the ray", live.bias_world);
+    changed |= unit();
+    return changed;
+  }
+  bool unit() const {
+    constexpr const char* names[] = {"world units", "texels", "automatic"};
+    const raster::BiasUnit before = map.bias.unit;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    int now = static_cast<int>(before);
+    if (!ImGui::Combo("##unit", &now, names, 3) || now == static_cast<int>(before)) return false;
+    const LivePicture& live = context.shown.live;
+    map.bias.unit = static_cast<raster::BiasUnit>(now);
+    switch (map.bias.unit) {
+      case raster::BiasUnit::world:
+        map.bias.constant = live.bias_world;
+        break;
+      case raster::BiasUnit::texel:
+        map.bias.constant = live.texel_world > 0.0 ? live.bias_world / live.texel_world : 0.0;
+        break;
+      case raster::BiasUnit::automatic:
+        map.bias.constant = 1.0;
+        break;
+    }
+    return true;
+  }
+};
+
+bool group(PanelContext& context, raster::MapOptions& map, RowGroup group, const char* title) {
+  bool any = false, changed = false;
+  for (const MapRow& row : map_rows()) any |= row.group == group && is_read(row, map);
+  if (!any || !ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen)) return false;
+  for (const MapRow& row : map_rows()) {
+    if (row.group != group || !is_read(row, map)) continue;
+    ImGui::PushID(row.option.data());
+    changed |= std::visit(RowControl{row, map, context}, row.kind);
+    ImGui::PopID();
+  }
+  ImGui::Spacing();
+  return changed;
+}
+
+/// What the new technique would refuse is set aside.
+void choose(raster::MapOptions& map, raster::Technique technique) {
+  map.technique = technique;
+  if (raster::uses_moments(technique)) map.bias.receiver_plane = map.bias.adaptive = false;
+  if (technique == raster::Technique::second_depth) map.cull = raster::Cull::none;
+}
+
+bool technique(PanelContext& context, raster::MapOptions& map) {
+  const LightType type = context.state.given.lights[context.state.setup.light].type;
+  ImGui::TextUnformatted("Technique");
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  bool changed = false;
+  if (!ImGui::BeginCombo("##technique", std::string(raster::technique_name(map.technique)).c_str()))
+    return false;
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
+    if (!traits.lights.has(type)) continue;
+    const bool chosen = traits.technique == map.technique;
+    if (ImGui::Selectable(std::string(traits.name).c_str(), chosen) && !chosen) {
+      choose(map, traits.technique);
+      changed = true;
+    }
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+void lights(PanelContext& context) {
+  const ViewState& state = context.state;
+  if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (state.given.lights.size() > 1) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::BeginCombo("##light", std::string(state.light_name()).c_str())) {
+      for (std::uint32_t i = 0; i < state.given.lights.size(); ++i)
+        if (ImGui::Selectable(state.given.lights[i].name.c_str(), i == state.setup.light))
+          context.ask(Change{PickLight{i}});
+      ImGui::EndCombo();
+    }
+  }
+  const Light& light = state.given.lights[state.setup.light];
+  const LightPose pose = current_light(state);
+  const auto number = [](const char* title, const char* id, double& value, double from, double to,
+                         const char* format) {
+    ImGui::TextUnformatted(title);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, format);
+  };
+  double azimuth = pose.azimuth_degrees, elevation = pose.elevation_degrees;
+  if (number("Comes from", "##azimuth", azimuth, -180.0, 180.0, "%.1f degrees"))
+    context.ask(Change{LightAzimuthTo{azimuth}});
+  if (number("Height", "##elevation", elevation, -90.0, 90.0, "%.1f degrees"))
+    context.ask(Change{LightElevationTo{elevation}});
+  if (light.type != LightType::directional) {
+    const double own = glm::length(light.position - state.given.centre);
+    double distance = pose.distance.value_or(own);
+    if (own > 0.0 && number("Distance", "##distance", distance, 0.1 * own, 5.0 * own, "%.3g"))
+      context.ask(Change{LightDistanceTo{distance}});
+    return;
+  }
+  double hours = sun_hour(pose);
+  if (number("Time of day", "##hour", hours, 6.0, 18.0,
+             fmt::format("{:02}:{:02}", int(hours), int(60.0 * (hours - int(hours)))).c_str()))
+    context.ask(Change{SunHour{hours}});
+}
+
+void precision(PanelContext& context) {
+  if (!ImGui::CollapsingHeader("Ray tracer")) return;
+  constexpr const char* names[] = {"fast", "robust", "exact"};
+  int now = static_cast<int>(context.state.setup.precision);
+  ImGui::TextUnformatted("Arithmetic of the rays");
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::Combo("##precision", &now, names, 3))
+    context.ask(Change{SetPrecision{static_cast<raytrace::Precision>(now)}});
+}
+
+}  // namespace
+
+void wrapped(const std::string& text) {
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+  ImGui::PopTextWrapPos();
+}
+
+void faint(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+  wrapped(text);
+  ImGui::PopStyleColor();
+}
+
+void settings_panel(PanelContext& context) {
+  raster::MapOptions map = context.state.setup.map;
+  bool changed = technique(context, map);
+  changed |= group(context, map, RowGroup::map, "Map");
+  changed |= group(context, map, RowGroup::bias, "Bias");
+  changed |= group(context, map, RowGroup::filter, "Filter");
+  changed |= group(context, map, RowGroup::cascades, "Cascades");
+  if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
+  lights(context);
+  precision(context);
+}
+
+}  // namespace gnomon::app

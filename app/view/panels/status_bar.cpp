@@ -1,0 +1,56 @@
+// One line below: what was last done, or what is wrong with what was asked for.
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include "app/view/panels/panels.h"
+#include "app/view/status.h"
+#include "scene/one_line.h"
+
+namespace gnomon::app {
+
+namespace {
+
+std::string progress(const PanelContext& context) {
+  if (context.shown.opening) return "opening the scene";
+  if (!context.shown.is_drawn(context.state)) return "drawing";
+  if (context.shown.is_done(context.state)) return "finished";
+  return context.is_current() ? "comparing in full (a quarter of the size is shown)" : "comparing";
+}
+
+}  // namespace
+
+void status_bar(PanelContext& context) {
+  const Box& box = context.layout.status;
+  if (box.width == 0) return;
+  ImGui::SetNextWindowPos({static_cast<float>(box.x), static_cast<float>(box.y)});
+  ImGui::SetNextWindowSize({static_cast<float>(box.width), static_cast<float>(box.height)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10.0f * static_cast<float>(context.type.scale),
+                                                          static_cast<float>(context.type.padding)));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (ImGui::Begin("Status", nullptr, flags)) {
+    const std::string right = context.job.running ? fmt::format("{}, {:.0f} s (Esc stops it)",
+                                                                context.job.title, context.job.seconds)
+                                                  : progress(context);
+    const float width = ImGui::CalcTextSize(right.c_str()).x;
+    const float end = ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX();
+    ImGui::PushClipRect(ImGui::GetWindowPos(),
+                        {ImGui::GetWindowPos().x + end - width - ImGui::GetFontSize(),
+                         ImGui::GetWindowPos().y + ImGui::GetWindowHeight()},
+                        true);
+    if (context.shown.unreadable) {
+      ImGui::PushStyleColor(ImGuiCol_Text, context.ink.warning);
+      ImGui::TextUnformatted(one_line(context.shown.unreadable->message()).c_str());
+      ImGui::PopStyleColor();
+    } else {
+      ImGui::TextUnformatted(context.note.c_str());
+    }
+    ImGui::PopClipRect();
+    ImGui::SameLine(end - width);
+    ImGui::TextDisabled("%s", right.c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,172 @@
+#include "app/view/pixel_story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/number_text.h"
+#include "compare/report/explanations.h"
+#include "raster/technique_traits.h"
+#include "scene/light_view.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using compare::Label;
+
+PixelPlace scaled(PixelPlace place, ImageSize from, ImageSize to) {
+  return {std::clamp(static_cast<int>((place.x + 0.5) * to.width / from.width), 0, to.width - 1),
+          std::clamp(static_cast<int>((place.y + 0.5) * to.height / from.height), 0, to.height - 1)};
+}
+
+/// The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to.
+int deciding_step(const PixelStory& story) {
+  if (!compare::is_wrong(story.label)) return 0;
+  if (story.label == Label::precision) return 4;
+  const auto& v = story.rungs;
+  const auto wrong = [&](std::size_t k) { return std::abs(v[k] - v[0]) > 0.5; };
+  int first = 0, last = 0;
+  for (std::size_t k = 1; k < v.size(); ++k) {
+    if (!wrong(k) || wrong(k - 1)) continue;
+    if (first == 0) first = static_cast<int>(k);
+    last = static_cast<int>(k);
+  }
+  if (v[6] < v[0]) return last;
+  return wrong(5) ? first : 6;
+}
+
+std::string test_words(const PixelStory& story, const raster::LightRecord& record) {
+  const int size = record.map.view.size;
+  if (!std::isfinite(story.gap)) {
+    const bool outside = story.u < 0.0 || story.v < 0.0 || story.u >= size || story.v >= size;
+    return outside ? "The pixel lies outside the map, so the test lets it be lit."
+                   : "The map stores nothing where this pixel looks, so the test lets it be lit.";
+  }
+  const std::string texel = fmt::format("Texel {}, {}", int(std::floor(story.u)), int(std::floor(story.v)));
+  const std::string distance = fmt::format("{:.3g}", std::abs(story.gap));
+  const std::string bias = fmt::format("the constant bias of {:.3g}", story.bias_world);
+  const bool dark = story.gap > story.bias_world;
+  if (story.gap <= 0.0)
+    return fmt::format(
+        "{} stores nothing that is nearer to the light than the other parts of the bias allow for; "
+        "the test draws the pixel {}.",
+        texel, dark ? "dark" : "lit");
+  return fmt::format(
+      "{} stores something {} ({}) nearer to the light. That is {} than {}: the test draws the pixel {}.",
+      texel, distance, compare::texels_text(story.texel_world > 0.0 ? story.gap / story.texel_world : 0.0),
+      dark ? "more" : "no more", bias, dark ? "dark" : "lit");
+}
+
+std::string why_words(const PixelStory& story) {
+  const compare::LabelText& words = compare::label_text(story.label);
+  if (!compare::is_compared(story.label)) return fmt::format("Not compared: {}.", words.what);
+  if (story.deciding == 0)
+    return story.rungs[6] == story.rungs[0] ? "Right: both renderers agree."
+                                            : "Right to within one half: the filter blurs an edge here.";
+  const compare::StepText& step = compare::step_text(static_cast<compare::Cause>(story.deciding - 1));
+  return fmt::format("Wrong because {}: it was right at V{} and went wrong at V{}, {}.", words.what,
+                     story.deciding - 1, story.deciding, step.what);
+}
+
+/// Distance along the light ray through (u, v) at which it meets the plane; NaN where it does not.
+double plane_distance(const LightView& view, int face, double u, double v, const Vec3& point,
+                      const Vec3& normal) {
+  const Ray ray = texel_ray(view, face, u, v);
+  const double along = glm::dot(ray.direction, normal);
+  if (std::abs(along) < 1e-9) return std::nan("");
+  return glm::dot(point - ray.origin, normal) / along;
+}
+
+/// Stored depth of a texel as a distance along the ray through its centre.
+double stored_distance(const raster::ShadowMap& map, int face, int column, int row) {
+  const int n = map.view.size;
+  if (column < 0 || row < 0 || column >= n || row >= n || map.depth.empty()) return std::nan("");
+  const double stored = static_cast<double>(map.depth[map.texel_index(face, column, row)]);
+  if (!holds_caster(map.view, stored)) return std::numeric_limits<double>::infinity();
+  const double depth = depth_from_stored(map.view, face, row + 0.5, stored);
+  const Ray ray = texel_ray(map.view, face, column + 0.5, row + 0.5);
+  return depth / glm::dot(ray.direction, map.view.face(face).forward);
+}
+
+void add_neighbours(const raster::LightRecord& record, PixelPlace pixel, LightCut& cut, int texels) {
+  constexpr int reach = 80;  // pixels
+  const ImageSize size = record.gap.size;
+  const int across = cut.along_v ? 0 : 1, along = 1 - across;
+  const Vec2f own = record.texel_uv.at(pixel.x, pixel.y);
+  const std::uint8_t face = record.face.at(pixel.x, pixel.y);
+  for (int y = std::max(0, pixel.y - reach); y < std::min(size.height, pixel.y + reach); ++y)
+    for (int x = std::max(0, pixel.x - reach); x < std::min(size.width, pixel.x + reach); ++x) {
+      const Vec2f uv = record.texel_uv.at(x, y);
+      if (record.face.at(x, y) != face || std::floor(uv[across]) != std::floor(own[across])) continue;
+      const float d = record.distance.at(x, y);
+      if (d == 0.0f || std::abs(uv[along] - own[along]) > float(texels) + 1.0f) continue;
+      cut.neighbours.emplace_back(uv[along], d);
+    }
+}
+
+}  // namespace
+
+PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageSize picture) {
+  const compare::LightComparison& light = outcome.comparison.lights.front();
+  const raster::LightRecord& record = outcome.comparison.raster.lights.front();
+  PixelStory story;
+  story.pixel = scaled(place, picture, light.labels.size);
+  const int x = story.pixel.x, y = story.pixel.y;
+  story.label = light.labels.at(x, y);
+  story.seen = story.label != Label::background;
+  for (std::size_t k = 0; k < compare::rung_count; ++k)
+    story.rungs[k] = static_cast<double>(light.rungs[k].at(x, y));
+  story.gap = static_cast<double>(record.gap.at(x, y));
+  story.distance = static_cast<double>(record.distance.at(x, y));
+  story.texel_world = record.texel_world;
+  story.bias_world = record.bias_constant_world;
+  const Vec2f uv = record.texel_uv.at(x, y);
+  story.u = static_cast<double>(uv.x), story.v = static_cast<double>(uv.y);
+  story.face = record.face.at(x, y);
+  story.deciding = deciding_step(story);
+  story.why = why_words(story);
+  if (story.seen && raster::compares_depths(outcome.comparison.raster.options.map.technique))
+    story.test = test_words(story, record);
+  if (story.deciding > 0) story.cure = compare::label_text(story.label).cure;
+  return story;
+}
+
+std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story, ImageSize,
+                                    int texels) {
+  const raster::LightRecord& record = outcome.comparison.raster.lights.front();
+  const LightView& view = record.map.view;
+  if (!story.seen || record.map.depth.empty() || story.distance == 0.0 ||
+      record.outside_map.at(story.pixel.x, story.pixel.y) != 0)
+    return std::nullopt;
+  LightCut cut;
+  cut.distance = story.distance;
+  cut.bias = story.bias_world;
+  const Ray ray = texel_ray(view, story.face, story.u, story.v);
+  const Vec3 point = ray.origin + story.distance * ray.direction;
+  const Vec3 normal(outcome.normals.at(story.pixel.x, story.pixel.y));
+  const auto slope = [&](double du, double dv) {
+    return std::abs(plane_distance(view, story.face, story.u + du, story.v + dv, point, normal) -
+                    plane_distance(view, story.face, story.u - du, story.v - dv, point, normal));
+  };
+  cut.along_v = slope(0.0, 0.5) > slope(0.5, 0.0);  // the steeper way shows more
+  cut.at = cut.along_v ? story.v : story.u;
+  const int own = static_cast<int>(std::floor(cut.at));
+  const int other = static_cast<int>(std::floor(cut.along_v ? story.u : story.v));
+  cut.first = own - texels;
+  for (int k = cut.first; k <= own + texels; ++k)
+    cut.stored.push_back(
+        stored_distance(record.map, story.face, cut.along_v ? other : k, cut.along_v ? k : other));
+  const int samples = 8 * (2 * texels + 1);
+  for (int i = 0; i <= samples; ++i) {
+    const double t = cut.first + (2.0 * texels + 1.0) * i / samples;
+    const double d =
+        plane_distance(view, story.face, cut.along_v ? story.u : t, cut.along_v ? t : story.v, point, normal);
+    if (std::isfinite(d)) cut.receiver.emplace_back(t, d);
+  }
+  add_neighbours(record, story.pixel, cut, texels);
+  return cut;
+}
+
+}  // namespace gnomon::app

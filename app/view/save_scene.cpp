@@ -1,0 +1,143 @@
+#include "app/view/save_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/interrupt.h"
+#include "app/lesson_scene.h"
+#include "app/output_path.h"
+#include "app/view/status.h"
+#include "scene/builtin.h"
+#include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
+#include "scene/load.h"
+
+namespace gnomon::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+double degrees(double radians) {
+  return radians * 180.0 / pi;
+}
+
+Json camera_json(const Camera& camera) {
+  Json json{{"eye", vector_json(camera.eye)},
+            {"target", vector_json(camera.target)},
+            {"up", vector_json(camera.up)},
+            {"vertical_fov_degrees", degrees(camera.vertical_fov)}};
+  if (camera.samples_per_pixel != 1) json["samples_per_pixel"] = camera.samples_per_pixel;
+  return json;
+}
+
+void add_extent(Json& json, const Light& light) {
+  if (const auto* sun = std::get_if<SunDisc>(&light.extent))
+    json["angular_diameter_degrees"] = degrees(sun->angular_diameter);
+  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
+    json["sphere"] = {{"radius", sphere->radius}};
+  if (const auto* disc = std::get_if<DiscLight>(&light.extent))
+    json["disc"] = {{"radius", disc->radius}, {"normal", vector_json(disc->normal)}};
+  if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
+    const Vec3 &width = rectangle->half_width, &height = rectangle->half_height;
+    json["rectangle"] = {{"width", 2.0 * glm::length(width)},
+                         {"height", 2.0 * glm::length(height)},
+                         {"normal", vector_json(glm::cross(width, height))},
+                         {"up", vector_json(height)}};
+  }
+  if (light.shadow_samples != Light{}.shadow_samples) json["shadow_samples"] = light.shadow_samples;
+}
+
+Json light_json(const Light& light) {
+  constexpr const char* types[] = {"directional", "point", "spot"};
+  Json json{{"name", light.name}, {"type", types[static_cast<std::size_t>(light.type)]}};
+  if (light.type != LightType::directional) json["position"] = vector_json(light.position);
+  if (light.type != LightType::point) json["direction"] = vector_json(light.direction);
+  json["intensity"] = vector_json(Vec3(light.intensity));
+  if (light.type == LightType::spot) {
+    json["inner_angle_degrees"] = degrees(light.inner_angle);
+    json["outer_angle_degrees"] = degrees(light.outer_angle);
+  }
+  add_extent(json, light);
+  return json;
+}
+
+bool is_own_format(const std::string& name) {
+  return find_builtin_scene(name) || fs::path(name).extension() == ".json";
+}
+
+/// The file as it is, or a new one that includes the model.
+Expected<Json> base_json(const std::string& name, const std::string& path) {
+  if (!is_own_format(name)) {
+    const fs::path folder = fs::absolute(path).parent_path();
+    const std::string model = fs::absolute(name).lexically_relative(folder).string();
+    if (model.empty() || model.starts_with(".."))
+      return fail(ErrorKind::usage,
+                  fmt::format("{}: a scene file includes only what lies in its folder or below", name));
+    return Json{{"schema", "gnomon/scene/1"}, {"name", fs::path(name).stem().string()}, {"include", {model}}};
+  }
+  std::string text;
+  if (const auto builtin = find_builtin_scene(name)) {
+    text = builtin->text;
+  } else {
+    auto read = read_file(name);
+    if (!read) return fail(read.error());
+    text = std::move(*read);
+  }
+  Json json = Json::parse(text, nullptr, false, true);
+  if (!json.is_object()) return fail(ErrorKind::bad_input, name + ": not a JSON object");
+  return json;
+}
+
+/// Read again, the file says what was meant.
+Expected<void> check(const std::string& path, const Scene& meant) {
+  const auto scene = load_scene(path, {.confine_paths = true});
+  if (!scene) return fail(scene.error());
+  bool same = scene->lights.size() == meant.lights.size();
+  for (std::size_t i = 0; same && i < meant.lights.size(); ++i) {
+    const Light &a = scene->lights[i], &b = meant.lights[i];
+    same = a.name == b.name && a.type == b.type && glm::length(a.direction - b.direction) < 1e-9 &&
+           glm::length(a.position - b.position) <= 1e-9 * (1.0 + glm::length(b.position));
+  }
+  if (same) return {};
+  return fail(ErrorKind::usage, "the scene includes lights that a file of its own cannot move");
+}
+
+}  // namespace
+
+std::string folder_for_scene(const SceneArgument& opened) {
+  const std::string name = scene_of_lesson(opened.name);
+  if (find_builtin_scene(name)) return "";
+  const std::string folder = fs::path(name).parent_path().string();
+  return folder.empty() ? "" : folder + "/";
+}
+
+Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state) {
+  const std::string name = scene_of_lesson(opened.name);
+  auto json = base_json(name, path);
+  if (!json) return fail(json.error());
+  Scene meant;
+  place(state.given, state.setup, meant);
+  json->erase("cameras");
+  (*json)["camera"] = camera_json(meant.camera);
+  (*json)["lights"] = Json::array();
+  for (const Light& light : meant.lights) (*json)["lights"].push_back(light_json(light));
+  (*json)["settings"] = Json::object();
+  for (const auto& [option, value] : map_settings(state.setup.map)) (*json)["settings"][option] = value;
+  const OutputGuard whole_output;
+  if (auto made = make_folder_for(path); !made) return made;
+  if (auto written = write_file(path, json->dump(2) + "\n"); !written) return written;
+  auto same = check(path, meant);
+  std::error_code ignored;
+  if (!same) fs::remove(path, ignored);
+  return same;
+}
+
+}  // namespace gnomon::app

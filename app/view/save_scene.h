@@ -1,0 +1,21 @@
+// A scene file of what the window shows: the scene that was opened, with the camera, the lights and the settings
+// of the shadow map as they are now.
+#pragma once
+
+#include <string>
+
+#include "app/run_files.h"
+#include "app/view/state.h"
+#include "scene/expected.h"
+
+namespace gnomon::app {
+
+/// A .json that `gnomon compare` takes. A scene in the project's own format is written again with all that is in
+/// it, but for comments; a model is included, and a file that the scene names must lie in the new file's folder
+/// or below. Error: usage where that is not so, or where the scene brings lights that the file cannot change.
+Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state);
+
+/// Where such a file of this scene finds all that it names: the scene's own folder.
+std::string folder_for_scene(const SceneArgument& opened);
+
+}  // namespace gnomon::app

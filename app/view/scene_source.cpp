@@ -1,0 +1,42 @@
+// CLI11 throws; what is thrown here is caught here.
+#include "app/view/scene_source.h"
+
+#include <CLI/App.hpp>
+
+#include "app/lesson_scene.h"
+#include "app/options.h"
+#include "app/technique_options.h"
+
+namespace gnomon::app {
+
+Expected<SceneSource> read_source(const SceneArgument& argument, const std::string& camera,
+                                  const StudioOptions& options) {
+  Console quiet(true);
+  RunFiles files;
+  files.reads(argument);
+  auto loaded = load(argument, files, quiet, options.tessellate, camera);
+  if (!loaded) return fail(loaded.error());
+  if (options.exposure) loaded->scene->exposure = *options.exposure;
+  return SceneSource{argument, camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
+                     files.inputs()};
+}
+
+Expected<raster::MapOptions> first_map_options(const SceneArgument& argument) {
+  CLI::App command;
+  command.set_help_flag();
+  SceneArgument scene;
+  raster::MapOptions map;
+  add_scene(command, scene);
+  add_map_options(command, map);
+  try {
+    command.parse(std::vector<std::string>{argument.name});
+    add_lesson_settings(command);
+    if (const auto added = add_scene_settings(command); !added) return fail(added.error());
+    finish_map_options(command, map);
+  } catch (const CLI::ParseError& error) {
+    return fail(ErrorKind::bad_input, error.what());
+  }
+  return map;
+}
+
+}  // namespace gnomon::app

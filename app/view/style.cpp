@@ -1,0 +1,85 @@
+#include "app/view/style.h"
+
+#include <imgui/imgui.h>
+
+#include <array>
+#include <filesystem>
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                           "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
+// Latin with accents, Greek, dashes and quotes, super- and subscripts, arrows, mathematical signs, shapes, check
+// marks.
+constexpr std::array<ImWchar, 17> glyphs{0x0020, 0x017f, 0x0370, 0x03ff, 0x2010, 0x2027,
+                                         0x2070, 0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
+                                         0x25a0, 0x25ff, 0x2713, 0x2717, 0};
+
+void darker_panels() {
+  ImGui::StyleColorsDark();
+  ImVec4* colours = ImGui::GetStyle().Colors;
+  colours[ImGuiCol_WindowBg] = {0.11f, 0.12f, 0.14f, 1.0f};
+  colours[ImGuiCol_PopupBg] = {0.14f, 0.15f, 0.18f, 0.98f};
+  colours[ImGuiCol_MenuBarBg] = {0.15f, 0.16f, 0.19f, 1.0f};
+  colours[ImGuiCol_FrameBg] = {0.20f, 0.22f, 0.26f, 1.0f};
+  colours[ImGuiCol_FrameBgHovered] = {0.26f, 0.29f, 0.34f, 1.0f};
+  colours[ImGuiCol_FrameBgActive] = {0.30f, 0.34f, 0.40f, 1.0f};
+  colours[ImGuiCol_SliderGrab] = {0.34f, 0.71f, 0.91f, 1.0f};
+  colours[ImGuiCol_SliderGrabActive] = {0.55f, 0.82f, 0.97f, 1.0f};
+  colours[ImGuiCol_CheckMark] = {0.34f, 0.71f, 0.91f, 1.0f};
+  colours[ImGuiCol_TextDisabled] = {0.66f, 0.68f, 0.72f, 1.0f};
+}
+
+void lighter_panels() {
+  ImGui::StyleColorsLight();
+  ImVec4* colours = ImGui::GetStyle().Colors;
+  colours[ImGuiCol_WindowBg] = {0.97f, 0.97f, 0.96f, 1.0f};
+  colours[ImGuiCol_FrameBg] = {0.87f, 0.88f, 0.90f, 1.0f};
+  colours[ImGuiCol_SliderGrab] = {0.0f, 0.40f, 0.66f, 1.0f};
+  colours[ImGuiCol_SliderGrabActive] = {0.0f, 0.30f, 0.52f, 1.0f};
+  colours[ImGuiCol_CheckMark] = {0.0f, 0.40f, 0.66f, 1.0f};
+  colours[ImGuiCol_TextDisabled] = {0.36f, 0.37f, 0.40f, 1.0f};
+}
+
+}  // namespace
+
+void apply_style(Theme theme, const TypeSize& type) {
+  ImGuiStyle fresh;
+  ImGui::GetStyle() = fresh;
+  theme == Theme::dark ? darker_panels() : lighter_panels();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowPadding = {10.0f, 8.0f};
+  style.FramePadding = {6.0f, 3.0f};
+  style.ItemSpacing = {8.0f, 5.0f};
+  style.FrameRounding = 3.0f;
+  style.GrabMinSize = 12.0f;
+  style.ScrollbarSize = 12.0f;
+  style.ScaleAllSizes(static_cast<float>(type.scale));
+  style.WindowRounding = 0.0f;
+  style.WindowBorderSize = 0.0f;
+  style.FramePadding.y = static_cast<float>(type.padding);
+}
+
+void load_font(const TypeSize& type) {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  std::error_code none;
+  for (const char* file : fonts)
+    if (std::filesystem::is_regular_file(file, none) &&
+        atlas.AddFontFromFileTTF(file, static_cast<float>(type.font), nullptr, glyphs.data()) != nullptr)
+      return;
+  ImFontConfig own;
+  own.SizePixels = static_cast<float>(type.font);
+  atlas.AddFontDefault(&own);
+}
+
+Ink ink_of(Theme theme) {
+  if (theme == Theme::dark)
+    return {0xffe8e6e4, 0xffb0aca8, 0xff4a4642, 0xff1c1816, 0xffe9b456, 0xff4a9cff, 0xff8fce60};
+  return {0xff201c1a, 0xff605a55, 0xffcfcbc8, 0xffffffff, 0xffa86600, 0xff004fc0, 0xff3c7a10};
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,153 @@
+// What the viewer leaves behind: screenshots, pictures, the command line, a scene file, a report; and the runs of
+// this program beside the window.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/interrupt.h"
+#include "app/output_path.h"
+#include "app/view/map_option.h"
+#include "app/view/save_scene.h"
+#include "app/view/status.h"
+#include "app/view/viewer.h"
+#include "scene/files/image_io.h"
+#include "scene/one_line.h"
+
+namespace gnomon::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The size that the tuner draws at: its answer hardly depends on it, its time does.
+constexpr const char* tuned_size = "480x270";
+constexpr const char* tuned_error = "1%";
+
+}  // namespace
+
+void Viewer::note(std::string text) {
+  note_ = one_line(text);
+  busy_frames_ = 3;
+}
+
+void Viewer::note(const Error& error) {
+  note(error.message());
+  print_error(error);
+}
+
+Expected<void> Viewer::save_image(const Rgb8Image& image, const std::string& path) {
+  const OutputGuard whole_output;
+  if (auto made = make_folder_for(path); !made) return made;
+  return write_png(path, image);
+}
+
+Expected<void> Viewer::save_screenshot(const std::string& path) {
+  const ImageSize size = window_->framebuffer_size();
+  const auto picture = presenter_->read({0, 0, size.width, size.height});
+  if (!picture) return fail(picture.error());
+  if (auto written = save_image(*picture, path); !written) return written;
+  console_.message("screenshot: " + path);
+  return {};
+}
+
+/// SCENE-KIND-001.png and so on in the current folder; nothing is overwritten.
+void Viewer::save_numbered(const std::string& kind, const std::string& extension,
+                           const std::function<Expected<void>(const std::string&)>& save) {
+  const std::string name = fs::path(shown_->scene->argument.name).stem().string();
+  for (int number = 1;; ++number) {
+    const std::string path = fmt::format("{}-{}-{:03}{}", name, kind, number, extension);
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) continue;
+    const Expected<void> saved = save(path);
+    return saved ? note("saved " + path) : note(saved.error());
+  }
+}
+
+/// As many pixels as it was made with, whatever stands around it.
+void Viewer::save_picture() {
+  const Rgb8Image* image = picture(state_.picture);
+  if (image == nullptr) return;
+  save_numbered(std::string(picture_name(state_.picture)), ".png",
+                [&](const std::string& path) { return save_image(*image, path); });
+}
+
+void Viewer::save_scene() {
+  const std::string folder = folder_for_scene(shown_->scene->argument);
+  save_numbered("scene", ".json", [&](const std::string& path) {
+    return write_scene(folder + path, shown_->scene->argument, state_);
+  });
+}
+
+void Viewer::copy_command() {
+  const std::string command = compare_command(state_, options_, shown_->scene->argument.words());
+  window_->copy(command);
+  print_command();
+  note("copied: " + command);
+}
+
+void Viewer::print_command() const {
+  print_data(compare_command(state_, options_, shown_->scene->argument.words()) + "\n");
+  std::fflush(stdout);
+  for (const std::string& light : other_turned_lights(state_))
+    console_.note(
+        fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
+}
+
+void Viewer::write_report() {
+  if (job_) return note("something runs already; Esc stops it");
+  const std::string name = fs::path(shown_->scene->argument.name).stem().string();
+  std::string folder;
+  std::error_code ignored;
+  for (int number = 1; folder.empty() || fs::exists(folder, ignored); ++number)
+    folder = fmt::format("{}-report-{:03}", name, number);
+  std::vector<std::string> words{"compare", shown_->scene->argument.name, "-o", folder, "--quiet"};
+  for (std::string& word : setting_words(state_, options_)) words.push_back(std::move(word));
+  auto job = Job::start("writing the report to " + folder, words);
+  if (!job) return note(job.error());
+  job_ = std::move(*job);
+  job_tunes_ = false;
+  note("writing the report to " + folder + "; Esc stops it");
+}
+
+void Viewer::find_best() {
+  if (job_) return note("something runs already; Esc stops it");
+  const std::string& light = state_.given.lights[state_.setup.light].name;
+  auto job = Job::start("searching the cheapest setting with at most 1 % wrong",
+                        {"tune", shown_->scene->argument.name, "--max-error", tuned_error, "--size",
+                         tuned_size, "--light", light, "--runs", "1", "--json", "-", "--quiet"});
+  if (!job) return note(job.error());
+  job_ = std::move(*job);
+  job_tunes_ = true;
+  note("searching the cheapest setting with at most 1 % wrong; Esc stops it");
+}
+
+void Viewer::look_after_job() {
+  if (!job_ || !job_->ended()) return;
+  const std::unique_ptr<Job> done = std::move(job_);
+  const int code = done->exit_code();
+  if (code > 1) return note(fmt::format("it failed ({}): {}", code, done->err()));
+  if (job_tunes_) return use_answer(*done);
+  note("done: " + done->status().title);
+}
+
+/// The options of the tuner's answer, by their names on the command line.
+void Viewer::use_answer(const Job& job) {
+  const auto answer = nlohmann::json::parse(job.out(), nullptr, false);
+  if (!answer.is_object() || !answer.contains("options")) return note("the tuner gave no answer");
+  raster::MapOptions map;
+  map.bias.slope = 0.0;
+  std::string words;
+  for (const auto& [name, value] : answer["options"].items()) {
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (!is_map_option(name)) continue;
+    if (const auto set = set_map_option(map, name, text); !set) return note(set.error());
+    words += fmt::format(" --{} {}", name, text);
+  }
+  app::carry_out(state_, SetMap{map});
+  note(fmt::format("{}:{}",
+                   answer.value("feasible", true) ? "best for this scene" : "nothing is good enough; nearest",
+                   words));
+}
+
+}  // namespace gnomon::app

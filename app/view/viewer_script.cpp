@@ -1,0 +1,127 @@
+// How a script drives the window: its steps, one after another, between the frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/view/viewer.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr double resize_patience_ms = 5000.0;  // for a window manager to grant a size
+constexpr std::int64_t drag_frames = 8;        // from the press to the release
+
+}  // namespace
+
+bool needs_time(const ScriptStep& step, const Snapshot& shown, const ViewState& state) {
+  if (std::holds_alternative<WaitDone>(step.what)) return !shown.is_done(state);
+  return std::holds_alternative<Screenshot>(step.what) && !shown.is_drawn(state);
+}
+
+Expected<void> Viewer::advance_script() {
+  while (has_script() && !quit_ && !shot_after_frame_) {
+    if (next_step_ == script_.size()) {
+      quit_ = true;
+      return {};
+    }
+    const Expected<bool> over = pass(script_[next_step_]);
+    if (!over) return fail(located(over.error(), script_[next_step_].line));
+    if (!*over) return {};
+    ++next_step_;
+    frames_waited_ = 0;
+  }
+  return {};
+}
+
+Expected<bool> Viewer::pass(const ScriptStep& step) {
+  if (std::holds_alternative<Quit>(step.what)) return quit_ = true;
+  if (!shown_->scene) return false;
+  if (needs_time(step, *shown_, state_) || busy_frames_ > 0) {
+    const bool waits =
+        std::holds_alternative<WaitDone>(step.what) || std::holds_alternative<Screenshot>(step.what);
+    if (waits) return false;
+  }
+  if (std::holds_alternative<WaitDone>(step.what)) return true;
+  if (const auto* wait = std::get_if<WaitFrames>(&step.what)) return frames_waited_++ == wait->frames;
+  if (const auto* shot = std::get_if<Screenshot>(&step.what)) {
+    shot_after_frame_ = shot->path;
+    return true;
+  }
+  if (std::holds_alternative<PrintCommand>(step.what)) {
+    print_command();
+    return true;
+  }
+  if (const auto* drag = std::get_if<DragPointer>(&step.what)) return pass_drag(*drag);
+  if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open(*open);
+  changed_line_ = step.line;
+  if (const auto* save = std::get_if<SaveScene>(&step.what)) {
+    const auto saved = write_scene(save->path, shown_->scene->argument, state_);
+    return saved ? Expected<bool>(true) : fail(saved.error());
+  }
+  if (const auto* use = std::get_if<UsePreset>(&step.what)) {
+    act(*use);
+    return true;
+  }
+  const Change& change = std::get<Change>(step.what);
+  if (const auto* resize = std::get_if<Resize>(&change)) return pass_resize(*resize);
+  act(change);
+  follow_layout();  // panels that come or go change the picture's size
+  return true;
+}
+
+/// The scene that was there stays until the other has been read.
+Expected<bool> Viewer::pass_open(const OpenScene& open) {
+  if (!opening_after_) {
+    opening_after_ = scene_;
+    act(open);
+    return false;
+  }
+  if (shown_->unreadable) return fail(*shown_->unreadable);
+  if (scene_ == *opening_after_) return false;
+  opening_after_.reset();
+  return true;
+}
+
+/// A press, a move in steps and a release, each in a frame of its own, for the panels and the pictures alike.
+bool Viewer::pass_drag(const DragPointer& drag) {
+  const std::int64_t frame = frames_waited_++;
+  if (!script_pointer_) script_pointer_.emplace();
+  ScriptPointer& pointer = *script_pointer_;
+  const double share = std::clamp(double(frame - 2) / double(drag_frames - 2), 0.0, 1.0);
+  pointer.x = drag.from.x + share * (drag.to.x - drag.from.x);
+  pointer.y = drag.from.y + share * (drag.to.y - drag.from.y);
+  move(pointer.x, pointer.y);
+  busy_frames_ = 3;
+  const auto button = static_cast<std::size_t>(drag.button);
+  if (frame == 2) pointer.down[button] = true, press(drag.button, true, {});
+  if (frame == drag_frames + 1) pointer.down[button] = false, press(drag.button, false, {});
+  return frame > drag_frames + 2;
+}
+
+/// A window gets its size from the display, in its own time.
+Expected<bool> Viewer::pass_resize(const Resize& resize) {
+  const ImageSize now = window_->framebuffer_size();
+  if (now == resize.size) {
+    resizing_.reset();
+    follow_layout();
+    return true;
+  }
+  if (!resizing_) {
+    resizing_.emplace();
+    window_->ask_for_size(resize.size);
+  }
+  if (resizing_->elapsed_ms() < resize_patience_ms) return false;
+  return fail(ErrorKind::graphics,
+              fmt::format("the display does not grant this window size (got {}x{}, asked for {}x{})",
+                          now.width, now.height, resize.size.width, resize.size.height));
+}
+
+Error Viewer::located(Error error, int line) const {
+  if (line == 0 || !error.file.empty()) return error;
+  error.file = options_.script;
+  error.line = line;
+  return error;
+}
+
+}  // namespace gnomon::app
