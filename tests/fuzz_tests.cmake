@@ -1,17 +1,18 @@
-# Fuzz targets (tests/fuzz): one per loader, and one that builds small worlds. Everywhere they replay their seeds and a fixed
+# Fuzz targets (tests/fuzz): one per loader, one that builds small worlds, and one for each other text that comes from
+# outside: captures, rubrics, what a sweep left behind, command lines. Everywhere they replay their seeds and a fixed
 # series of mutations; with clang and -DGNOMON_FUZZ=ON they are libFuzzer programs as well:
 #   build/fuzz/tests/fuzz_json -rss_limit_mb=2048 -timeout=10 CORPUS
 
 function(gnomon_fuzz_target name)
   set(sources fuzz/fuzz_${name}.cpp fuzz/load_as.cpp)
   add_executable(fuzz_replay_${name} fuzz/fuzz_replay.cpp ${sources})
-  target_link_libraries(fuzz_replay_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace)
+  target_link_libraries(fuzz_replay_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace ${ARGN})
   file(GLOB crashes CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/crashes/${name}/*)
   add_test(NAME fuzz_replay_${name} COMMAND fuzz_replay_${name} --mutations 400 ${crashes})
   set_tests_properties(fuzz_replay_${name} PROPERTIES TIMEOUT 900)
   if(GNOMON_FUZZ)
     add_executable(fuzz_${name} ${sources})
-    target_link_libraries(fuzz_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace)
+    target_link_libraries(fuzz_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace ${ARGN})
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
   endif()
 endfunction()
@@ -19,3 +20,7 @@ endfunction()
 foreach(target json gltf obj ply world)
   gnomon_fuzz_target(${target})
 endforeach()
+gnomon_fuzz_target(capture gnomon::compare)
+gnomon_fuzz_target(sweep gnomon::compare)
+gnomon_fuzz_target(rubric gnomon::app)
+gnomon_fuzz_target(words gnomon::app)

@@ -275,8 +275,14 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   journal.table_file_ = std::move(*table);
   journal.cells_ = std::move(cells);
   remove_strays(folder, std::span(journal.cells_).first(keep));
-  for (std::size_t i = 0; i < keep; ++i)
-    journal.table_.add(journal.cells_[i], journal.lines_[i], journal.times_[i]);
+  for (std::size_t i = 0; i < keep; ++i) try {
+      journal.table_.add(journal.cells_[i], journal.lines_[i], journal.times_[i]);
+    } catch (const Json::exception&) {
+      return bad_line(
+          path_in(folder, "sweep.jsonl"), i + 1,
+          "a line of another version of the program, which lacks what its table needs (--restart makes "
+          "the sweep anew)");
+    }
   if (auto written = journal.write_table(); !written) return fail(written.error());
   return journal;
 }

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/expected.h"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace gnomon::fuzz {
@@ -21,7 +23,15 @@ std::vector<std::string> seeds();
 /// is a sound scene or a one-line error of a kind that a file may cause.
 void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size);
 
-/// What load_as has done so far.
+/// A folder for all of a process's inputs, gone with it.
+const std::string& folder();
+/// The bytes as a file of that folder; its path.
+std::string put(const std::string& name, std::string_view bytes);
+/// Counts a file that was read (no error), or one that was refused. Aborts unless that is with one line and for a
+/// reason that lies in the file.
+void note_read(const Error* error);
+
+/// What was read so far.
 struct LoadCounts {
   std::size_t tried = 0, loaded = 0;
   std::string last_error;

@@ -13,7 +13,6 @@
 namespace gnomon::fuzz {
 namespace {
 
-/// A folder for all of a process's inputs, gone with it.
 class Folder {
  public:
   Folder() {
@@ -32,20 +31,6 @@ class Folder {
  private:
   std::string path_;
 };
-
-const std::string& folder() {
-  static const Folder all;
-  return all.path();
-}
-
-std::string put(std::string_view extension, const std::uint8_t* data, std::size_t size) {
-  const std::string path = folder() + "/input" + std::string(extension);
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) broken("cannot write " + path);
-  const bool written = std::fwrite(data, 1, size, file) == size;
-  if (std::fclose(file) != 0 || !written) broken("cannot write " + path);
-  return path;
-}
 
 bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -92,16 +77,35 @@ void broken(const std::string& what) {
   std::abort();
 }
 
-void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size) {
-  const std::string path = put(extension, data, size);
-  const Expected<Scene> scene = load_scene(path, {.confine_paths = true});
+const std::string& folder() {
+  static const Folder all;
+  return all.path();
+}
+
+std::string put(const std::string& name, std::string_view bytes) {
+  std::string path = folder() + "/" + name;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) broken("cannot write " + path);
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (std::fclose(file) != 0 || !written) broken("cannot write " + path);
+  return path;
+}
+
+void note_read(const Error* error) {
   ++counts.tried;
-  if (scene) {
+  if (error == nullptr) {
     ++counts.loaded;
-    return check_world(*scene);
+    return;
   }
-  counts.last_error = scene.error().message();
-  check_error(scene.error());
+  counts.last_error = error->message();
+  check_error(*error);
+}
+
+void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size) {
+  const std::string path = put("input" + std::string(extension), {reinterpret_cast<const char*>(data), size});
+  const Expected<Scene> scene = load_scene(path, {.confine_paths = true});
+  note_read(scene ? nullptr : &scene.error());
+  if (scene) check_world(*scene);
 }
 
 }  // namespace gnomon::fuzz
