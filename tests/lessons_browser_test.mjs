@@ -191,6 +191,49 @@ operate.structure = async (page, figure, id) => {
   await slide(page, id, { step: 1, toY: 0.02, zoom: 2 });
   assert.notDeepEqual(await said(page, id), whole);
 };
+// Against what the ray tracer finds for the same rays.
+operate.intersection = async (page, { settings: { kind }, data: { checks } }, id) => {
+  assert.ok(checks.some(({ t }) => t === null) && checks.some(({ t }) => t !== null));
+  if (kind === "triangle") {
+    for (const { corners, t } of checks) {
+      await slide(page, id, Object.fromEntries(corners.flatMap(([x, y], i) => [[`${"ABC"[i]}x`, x], [`${"ABC"[i]}y`, y]])));
+      const { hit, z } = (await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset })));
+      assert.equal(hit === "true", t !== null, JSON.stringify(corners));
+      if (t !== null) near(Number(z), t, 1e-9, "z");
+    }
+    return;
+  }
+  for (const { from, to, t } of checks) {
+    await slide(page, id, { ox: from[0], oy: from[1], ax: to[0], ay: to[1] });
+    const found = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
+    const roots = kind === "box" ? (found.hit === "true" ? [Number(found.entry)] : []) : found.roots.split(" ").filter((r) => r !== "").map(Number).filter((r) => r > 0);
+    if (t === null) assert.deepEqual(roots, [], `${kind} from ${from} to ${to}`);
+    else near(roots[0], t, 1e-6, `${kind} from ${from} to ${to}`);
+  }
+};
+// The lookup of a cube map, worked out here; and what the texel in the middle below the lamp stores.
+operate["cube-faces"] = async (page, figure, id) => {
+  for (const [lampX, lampY, x, texels] of [[-0.9, 2, 1.6, 8], [1.5, 1, 1.5, 9], [-1.5, 0.5, 2.5, 16]]) {
+    await slide(page, id, { lampX, lampY, x, texels });
+    const { z, u, wide, texel, stored } = await said(page, id), d = [x - lampX, -lampY], along = Math.max(Math.abs(d[0]), Math.abs(d[1]));
+    near(z, along, 1e-9, "z");
+    near(wide, (2 * along) / texels, 1e-9, "width of a texel");
+    assert.ok(u > 0 && u < 1 && texel === Math.floor(u * texels));
+    if (lampX === x) near(stored, lampY, 1e-9, "depth below the lamp");
+  }
+};
+operate.whitted = async (page, { data: { fresnel } }, id) => {
+  const shares = await page.evaluate((all) => all.map(({ cosine, ratio }) => globalThis.gnomonFresnel(cosine, ratio)), fresnel);
+  fresnel.forEach(({ reflected }, i) => near(shares[i], reflected, 1e-12, "Fresnel"));
+  await slide(page, id, { step: 1 });
+  const { total } = await said(page, id);
+  assert.ok(total >= 6, `${total} rays`);
+  await slide(page, id, { step: 0 });
+  for (let ray = 1; ray <= 3; ++ray) {
+    await page.locator(`${id} .next-ray`).click();
+    await page.waitForFunction(([i, n]) => document.querySelector(`${i} [role=status]`).dataset.rays === n, [id, String(ray)]);
+  }
+};
 const operated = new Set();
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);

@@ -6,6 +6,7 @@
 
 #include "app/console.h"
 #include "app/lessons/flatland.h"
+#include "app/lessons/intersection.h"
 #include "app/lessons/structure.h"
 
 namespace gnomon::app::lessons {
@@ -91,6 +92,9 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   if (mark.name == "flatland")
     made = flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
   if (mark.name == "structure") made = structure_cut(mark.setting("kind"), mark.setting("scene"));
+  if (mark.name == "whitted") made = whitted_cut();
+  if (mark.name == "intersection") made = intersection_checks(mark.setting("kind"));
+  if (mark.name == "cube-faces") made = lessons::flatland("ball");
   if (mark.name == "two-passes") made = two_passes(mark);
   if (!made) return fail(made.error());
   if (made->is_null())

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "compare/report/section_mesh.h"
+#include "raytrace/frame.h"
+#include "raytrace/shading/fresnel.h"
 #include "scene/load.h"
 
 namespace gnomon::app::lessons {
@@ -24,14 +26,17 @@ struct Flatland {
 // The sun of acne-floor stands at an azimuth of 35 degrees; the plane holds its direction.
 constexpr double floor_azimuth = 35.0 * pi / 180.0;
 
-std::array<Flatland, 6> all_flatlands() {
+std::array<Flatland, 7> all_flatlands() {
   const Vec3 to_sun(std::sin(floor_azimuth), 0.0, std::cos(floor_azimuth));
+  const Vec3 through_balls =
+      glm::normalize(Vec3(1.4, 0.0, -2.0));  // from the centre of glass to that of the mirror
   return {{{"boxes", "floating-box", {}, {-2.9, 3.3, -0.35, 1.75}},
            {"wall", "thin-wall", {}, {-2.2, 1.2, -0.3, 1.25}},
            {"floor", "acne-floor", {Vec3(0.0), to_sun}, {-3.0, 3.0, -0.6, 2.4}},
            {"leak", "thin-wall", {}, {-2.2, 1.2, -0.3, 1.25}},
            {"ball", "sphere-plane", {}, {-2.0, 3.0, -0.3, 2.3}},
-           {"disc", "penumbra", {}, {-4.2, 4.2, -0.5, 4.6}}}};
+           {"disc", "penumbra", {}, {-4.2, 4.2, -0.5, 4.6}},
+           {"whitted", "whitted", {Vec3(-0.45, 0.0, 1.6), through_balls}, {-3.6, 4.6, -0.4, 4.2}}}};
 }
 
 /// The cut as it is made: everything in the plane's coordinates.
@@ -134,6 +139,29 @@ Expected<nlohmann::ordered_json> flatland(const std::string& name) {
   json["scene"] = found->scene;
   json["window"] = {w.left, w.right, w.bottom, w.top};
   json["light"] = light_json(scene->lights.front(), Cut(found->plane, w));
+  return json;
+}
+
+Expected<nlohmann::ordered_json> whitted_cut() {
+  auto json = flatland("whitted");
+  if (!json) return json;
+  const auto scene = load_scene("whitted");
+  if (!scene) return fail(scene.error());
+  (*json)["materials"] = Json::array();
+  for (const Shape& shape : scene->shapes) {
+    const Material& m = scene->materials[shape.material];
+    if (std::holds_alternative<Sphere>(shape.geometry))
+      (*json)["materials"].push_back(
+          {{"name", shape.name}, {"mirror", m.mirror}, {"transmission", m.transmission}, {"ior", m.ior}});
+  }
+  (*json)["least_share"] = raytrace::RaytraceOptions{}.min_contribution;
+  (*json)["fresnel"] = Json::array();
+  for (const double ratio : {1.0 / 1.5, 1.5, 1.0 / 1.33})
+    for (const double cosine : {1.0, 0.9, 0.75, 0.7, 0.3, 0.01}) {
+      const Vec3 incoming(std::sqrt(1.0 - cosine * cosine), -cosine, 0.0);
+      const auto made = raytrace::refract(incoming, Vec3(0.0, 1.0, 0.0), ratio);
+      (*json)["fresnel"].push_back({{"cosine", cosine}, {"ratio", ratio}, {"reflected", made.reflectance}});
+    }
   return json;
 }
 

@@ -29,4 +29,9 @@ nlohmann::ordered_json cut_world(const World& world, const CutPlane& plane, cons
 /// plane sees it: {"direction": [x, y]} or {"position": [x, y]}, "radius" of its size. Error (internal): no such name.
 Expected<nlohmann::ordered_json> flatland(const std::string& name);
 
+/// The scene `whitted` cut by the upright plane through the centres of its glass and its mirror ball: a flatland, and
+/// "materials" [{name, mirror, transmission, ior}] of its circles, "least_share" of a pixel for which a ray is followed, and
+/// "fresnel" [{cosine, ratio, reflected}]: what the ray tracer computes.
+Expected<nlohmann::ordered_json> whitted_cut();
+
 }  // namespace gnomon::app::lessons

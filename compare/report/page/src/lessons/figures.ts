@@ -2,10 +2,13 @@
 // program says of them (app/lessons/figures.h) is in the page's data.
 import { pageData } from "../parts";
 import { biasFigure } from "./bias_figure";
+import { cubeFigure } from "./cube_figure";
 import { flatlandFigure } from "./flatland_figure";
+import { intersectionFigure } from "./intersection_figure";
 import { mapSizeFigure } from "./map_size_figure";
 import { structureFigure } from "./structure_figure";
 import { twoPassesFigure } from "./two_passes_figure";
+import { whittedFigure } from "./whitted_figure";
 
 export interface FigureJson<Data = never> {
   name: string;
@@ -14,7 +17,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, flatland: flatlandFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, "cube-faces": cubeFigure, flatland: flatlandFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
 
 export async function startFigures(): Promise<void> {
   const { figures } = pageData<{ figures: (FigureJson | null)[] }>();

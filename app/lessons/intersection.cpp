@@ -1,0 +1,109 @@
+#include "app/lessons/intersection.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "raytrace/tracer.h"
+#include "scene/expression.h"
+#include "scene/world.h"
+
+namespace gnomon::app::lessons {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view ovals = "(x^2 + y^2)^2 - 2*(x^2 - y^2) - (0.985^4 - 1)";
+
+/// What the figures draw: the box of half 0.9 by 0.6, the sphere about (0.2, 0) of radius 0.9, Cassini's ovals.
+Expected<Scene> scene_of(const std::string& kind) {
+  Scene scene;
+  scene.materials.emplace_back();
+  if (kind == "sphere") {
+    scene.shapes.push_back({"sphere", Sphere{Vec3(0.2, 0.0, 0.0), 0.9}, 0});
+  } else if (kind == "implicit") {
+    auto function = parse_expression(ovals);
+    if (!function) return fail(function.error());
+    Implicit body;
+    body.box = {Vec3(-2.0), Vec3(2.0)};
+    body.text = ovals;
+    body.function = std::move(*function);
+    scene.shapes.push_back({"ovals", std::move(body), 0});
+  } else if (kind == "box") {
+    Mesh mesh;
+    for (const double z : {-1.0, 1.0})
+      for (const auto& [x, y] :
+           std::array<std::pair<double, double>, 4>{{{-0.9, -0.6}, {0.9, -0.6}, {0.9, 0.6}, {-0.9, 0.6}}})
+        mesh.positions.emplace_back(x, y, z);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t j = (i + 1) % 4;
+      mesh.triangles.push_back({i, j, j + 4}), mesh.triangles.push_back({i, j + 4, i + 4});
+    }
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.emplace_back();
+    scene.instances.back().mesh = 0;
+  } else {
+    return fail(ErrorKind::internal, fmt::format("no such kind of intersection (got {})", kind));
+  }
+  return scene;
+}
+
+/// As a slider of the figures holds it.
+double on_slider(double value) {
+  return std::round(200.0 * value) / 200.0;
+}
+
+Json distance(const std::optional<raytrace::Hit>& hit) {
+  return hit ? Json(hit->t) : Json();
+}
+
+Json ray_checks(const World& world) {
+  const raytrace::Tracer tracer(world, raytrace::Accel::bvh);
+  Json checks = Json::array();
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 0.1 + 0.27 * i;
+    const Vec3 from(on_slider(2.5 * std::cos(angle)), on_slider(1.4 * std::sin(angle)), 0.0);
+    const Vec3 to(on_slider(1.6 * std::cos(2.3 * angle)), on_slider(1.3 * std::sin(1.7 * angle)), 0.0);
+    const auto hit = tracer.closest_hit(Ray{from, glm::normalize(to - from), {}});
+    checks.push_back({{"from", {from.x, from.y}}, {"to", {to.x, to.y}}, {"t", distance(hit)}});
+  }
+  return checks;
+}
+
+Json triangle_checks() {
+  constexpr std::array depths{2.0, 3.0, 5.0};
+  Json checks = Json::array();
+  for (int i = 0; i < 16; ++i) {
+    Scene scene;
+    scene.materials.emplace_back();
+    Mesh mesh;
+    Json corners = Json::array();
+    for (int k = 0; k < 3; ++k) {
+      const double angle = 0.4 * i + 2.1 * k + 0.3 * (i % 5) * k;
+      const Vec3 corner(on_slider(1.3 * std::cos(angle) + 0.02 * i),
+                        on_slider(0.9 * std::sin(angle) - 0.03 * i), depths[static_cast<std::size_t>(k)]);
+      corners.push_back({corner.x, corner.y});
+      mesh.positions.push_back(corner);
+    }
+    mesh.triangles.push_back({0, 1, 2});
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.emplace_back();
+    const World world = make_world(scene);
+    const raytrace::Tracer tracer(world, raytrace::Accel::bvh);
+    checks.push_back({{"corners", std::move(corners)},
+                      {"t", distance(tracer.closest_hit(Ray{Vec3(0.0), Vec3(0.0, 0.0, 1.0), {}}))}});
+  }
+  return checks;
+}
+
+}  // namespace
+
+Expected<nlohmann::ordered_json> intersection_checks(const std::string& kind) {
+  if (kind == "triangle") return Json{{"checks", triangle_checks()}};
+  const auto scene = scene_of(kind);
+  if (!scene) return fail(scene.error());
+  return Json{{"checks", ray_checks(make_world(*scene))}};
+}
+
+}  // namespace gnomon::app::lessons

@@ -1,0 +1,182 @@
+// A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a
+// triangle: the numbers of each test, as the lesson derives them.
+import { html, number } from "../svg";
+import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
+import type { FigureJson } from "./figures";
+import { frame } from "./flatland_figure";
+import { Sliders, Stage } from "./stage";
+import type { FlatlandJson } from "./flatland_figure";
+
+type Interval = readonly [number, number];
+
+/** The interval of the ray in the slab between two planes, ordered by the sign of its direction; a parallel ray is in it for ever or never. */
+export function slab(origin: number, direction: number, low: number, high: number): Interval {
+  if (direction === 0) return origin >= low && origin <= high ? [-Infinity, Infinity] : [Infinity, -Infinity];
+  const [near, far] = direction < 0 ? [high, low] : [low, high];
+  return [(near - origin) / direction, (far - origin) / direction];
+}
+
+/** The ray and a ball, by the point of the ray nearest to the centre (Haines et al. 2019). */
+export function sphereRoots(origin: Vec2, direction: Vec2, center: Vec2, radius: number): { foot: Vec2; discriminant: number; roots: number[] } {
+  const f = sub(origin, center), b = -dot(f, direction), l = add(f, direction, b), discriminant = radius * radius - dot(l, l);
+  if (discriminant < 0) return { foot: add(center, l), discriminant, roots: [] };
+  const q = b + Math.sign(b || 1) * Math.sqrt(discriminant), roots = [q, (dot(f, f) - radius * radius) / q];
+  return { foot: add(center, l), discriminant, roots: roots.sort((a, c) => a - c) };
+}
+
+const times = ([a, b]: Interval, [c, d]: Interval): Interval => { const all = [a * c, a * d, b * c, b * d]; return [Math.min(...all), Math.max(...all)]; };
+const square = ([a, b]: Interval): Interval => (a <= 0 && b >= 0 ? [0, Math.max(a * a, b * b)] : a > 0 ? [a * a, b * b] : [b * b, a * a]);
+const plus = (a: Interval, b: Interval): Interval => [a[0] + b[0], a[1] + b[1]];
+const scaled = (s: number, [a, b]: Interval): Interval => (s < 0 ? [s * b, s * a] : [s * a, s * b]);
+
+// Cassini's ovals: the product of the distances to (-c, 0) and (c, 0) is a². Two ovals, for a < c: a ray meets up to four walls.
+const c2 = 1, a4 = 0.985 ** 4;
+export const cassini = ([x, y]: Vec2): number => (x * x + y * y) ** 2 - 2 * c2 * (x * x - y * y) - (a4 - c2 * c2);
+function cassiniBounds(x: Interval, y: Interval): Interval {
+  const xx = square(x), yy = square(y);
+  return plus(plus(square(plus(xx, yy)), scaled(-2 * c2, plus(xx, scaled(-1, yy)))), [c2 * c2 - a4, c2 * c2 - a4]);
+}
+/** Of its derivative along the ray. */
+function slopeBounds(x: Interval, y: Interval, d: Vec2): Interval {
+  const sum = plus(square(x), square(y)), byX = plus(scaled(4, times(x, sum)), scaled(-4 * c2, x)), byY = plus(scaled(4, times(y, sum)), scaled(4 * c2, y));
+  return plus(scaled(d[0], byX), scaled(d[1], byY));
+}
+
+export interface Stretch {
+  from: number;
+  to: number;
+  verdict: "none" | "one" | "split";
+}
+/** Halves a ray until every stretch is proved to hold no root, or one alone, which is then found by halving. */
+export function implicitRoots(origin: Vec2, direction: Vec2, from: number, to: number): { stretches: Stretch[]; roots: number[] } {
+  const stretches: Stretch[] = [], roots: number[] = [], at = (t: number) => add(origin, direction, t);
+  const search = (a: number, b: number, depth: number): void => {
+    const span = (k: 0 | 1): Interval => { const p = at(a)[k], q = at(b)[k]; return [Math.min(p, q), Math.max(p, q)]; };
+    const x = span(0), y = span(1), f = cassiniBounds(x, y), slope = slopeBounds(x, y, direction), holds = (i: Interval) => i[0] <= 0 && i[1] >= 0;
+    if (!holds(f)) return void stretches.push({ from: a, to: b, verdict: "none" });
+    if (!holds(slope) || depth > 40) {
+      stretches.push({ from: a, to: b, verdict: "one" });
+      let [low, high] = [a, b];
+      if (cassini(at(low)) > 0 === cassini(at(high)) > 0) return;  // its one root, if any, lies beyond
+      for (let i = 0; i < 60; ++i) {
+        const middle = (low + high) / 2;
+        if (cassini(at(middle)) > 0 === cassini(at(low)) > 0) low = middle;
+        else high = middle;
+      }
+      roots.push((low + high) / 2);
+      return;
+    }
+    stretches.push({ from: a, to: b, verdict: "split" });
+    search(a, (a + b) / 2, depth + 1);
+    search((a + b) / 2, b, depth + 1);
+  };
+  search(from, to, 0);
+  return { stretches, roots: roots.sort((a, b) => a - b) };
+}
+
+const window: FlatlandJson["window"] = [-3, 3, -1.5, 1.5];
+const box = { low: [-0.9, -0.6] as Vec2, high: [0.9, 0.6] as Vec2 }, ball = { center: [0.2, 0] as Vec2, radius: 0.9 };
+const arc = (center: Vec2, radius: number): Vec2[] => Array.from({ length: 121 }, (_, i) => add(center, [Math.cos((i * Math.PI) / 60), Math.sin((i * Math.PI) / 60)], radius));
+const list = (roots: number[]): string => (roots.length === 0 ? "none" : roots.map((t) => number(t, 4)).join(", "));
+
+interface Drawn {
+  elements: SVGElement[];
+  words: string;
+  numbers: Record<string, string>;
+}
+
+function drawBox(stage: Stage, o: Vec2, d: Vec2): Drawn {
+  const intervals = ([0, 1] as const).map((k) => slab(o[k], d[k], box.low[k], box.high[k])), entry = Math.max(0, ...intervals.map((i) => i[0])), exit = Math.min(...intervals.map((i) => i[1])), hit = entry <= exit;
+  const shown = (i: Interval): Vec2[] => [add(o, d, Math.min(Math.max(i[0], 0), 9)), add(o, d, Math.min(Math.max(i[1], 0), 9))], side: Vec2 = [-d[1], d[0]];
+  const corners: Vec2[] = [box.low, [box.high[0], box.low[1]], box.high, [box.low[0], box.high[1]], box.low];
+  const planes: Vec2[][] = [...[box.low[0], box.high[0]].map((x): Vec2[] => [[x, -9], [x, 9]]), ...[box.low[1], box.high[1]].map((y): Vec2[] => [[-9, y], [9, y]])];
+  return {
+    elements: [stage.path("ghost", planes), stage.path("profile thin", [corners]), ...intervals.map((i, k) => stage.path(k === 0 ? "slab x" : "slab y", i[0] <= i[1] ? [shown(i).map((p) => add(p, side, 0.05 + 0.06 * k))] : [])),
+      ...(hit ? [stage.circle("hit", add(o, d, entry), 8), stage.circle("hit far", add(o, d, exit), 6)] : [])],
+    words: `In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!.map((t) => number(t, 4)).join(", ")}] (blue): the last entry ${number(entry, 4)} is ${hit ? "not after" : "after"} the first exit ${number(exit, 4)}, so the ray ${hit ? "hits" : "misses"} the box.`,
+    numbers: { entry: String(entry), exit: String(exit), hit: String(hit) },
+  };
+}
+
+function drawSphere(stage: Stage, o: Vec2, d: Vec2): Drawn {
+  const { foot, discriminant, roots } = sphereRoots(o, d, ball.center, ball.radius), ahead = roots.filter((t) => t > 0), check = meetCircle(o, d, ball);
+  return {
+    elements: [stage.path("profile thin", [arc(ball.center, ball.radius)]), stage.path("ghost", [[ball.center, foot]]), stage.circle("moved", foot, 7), stage.label("middle", add(foot, sub(ball.center, foot), 0.5), "l", -8), ...ahead.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8))],
+    words: `From the ray's foot to the centre |l| = ${number(Math.hypot(...sub(ball.center, foot)), 4)}, the radius is ${ball.radius}: Δ = r² − l·l = ${number(discriminant, 4)}${discriminant < 0 ? " < 0, the ray misses." : `, and t = ${list(roots)}.`}`,
+    numbers: { discriminant: String(discriminant), roots: roots.join(" "), check: check ? check.join(" ") : "" },
+  };
+}
+
+function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
+  const { stretches, roots } = implicitRoots(o, d, 0, 8), side: Vec2 = [-d[1], d[0]], leaves = stretches.filter((s) => s.verdict !== "split");
+  const inner = Math.sqrt(c2 - Math.sqrt(a4)), outer = Math.sqrt(c2 + Math.sqrt(a4));
+  const body = [-1, 1].map((sign) => Array.from({ length: 241 }, (_, i): Vec2 => {  // twice along x, once above and once below
+    const turn = (i * Math.PI) / 120, x = 0.5 * (inner + outer) - 0.5 * (outer - inner) * Math.cos(turn), yy = Math.sqrt(4 * c2 * x * x + a4) - x * x - c2;
+    return [sign * x, Math.sign(Math.sin(turn)) * Math.sqrt(Math.max(0, yy))];
+  }));
+  const ticks = leaves.map((s): Vec2[] => [add(add(o, d, s.to), side, -0.05), add(add(o, d, s.to), side, 0.05)]);
+  return {
+    elements: [stage.path("profile thin", body), stage.path("stretch none", leaves.filter((s) => s.verdict === "none").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("stretch one", leaves.filter((s) => s.verdict === "one").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("normals", ticks),
+      ...roots.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8))],
+    words: `${leaves.length} stretches after ${stretches.length - leaves.length} halvings: ${leaves.filter((s) => s.verdict === "none").length} are proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
+    numbers: { roots: roots.join(" "), stretches: String(leaves.length) },
+  };
+}
+
+const kinds: Record<string, (stage: Stage, o: Vec2, d: Vec2) => Drawn> = { box: drawBox, sphere: drawSphere, implicit: drawImplicit };
+const hints: Record<string, string> = {
+  box: "Drag either end of the ray. Dotted: the planes of the two slabs.",
+  sphere: "Drag either end of the ray. Open circle: the point of the ray nearest to the centre.",
+  implicit: "Drag either end of the ray. The surface is (x² + y²)² − 2(x² − y²) = a⁴ − 1 with a = 0.985, of which only the function and its derivative are computed, on intervals.",
+};
+
+function rayFigure(kind: string, id: string): HTMLElement {
+  let o: Vec2 = [0, 0], aim: Vec2 = [0, 0];
+  const stage = new Stage(window, `A ray and ${kind === "implicit" ? "a surface given by a function" : `a ${kind}`}`, (at) => {
+    const key = Math.hypot(...sub(at, o)) < Math.hypot(...sub(at, aim)) ? "o" : "a";
+    sliders.set(`${key}x`, at[0]);
+    sliders.set(`${key}y`, at[1]);
+  });
+  const said = html("p", { class: "bias-counts", role: "status" });
+  const slider = (name: string, k: 0 | 1, value: number) => ({ name, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value, text: (v: number) => number(v, 3) });
+  const sliders: Sliders<string> = new Sliders<string>({
+    ox: slider("Start, left and right", 0, -2.6), oy: slider("Start, up and down", 1, 0.9),
+    ax: slider("Aim, left and right", 0, 1.6), ay: slider("Aim, up and down", 1, kind === "implicit" ? -0.35 : -0.5),
+  }, () => show());
+  const show = () => {
+    [o, aim] = [[sliders.value("ox"), sliders.value("oy")], [sliders.value("ax"), sliders.value("ay")]];
+    const d = unit(Math.hypot(...sub(aim, o)) > 0 ? sub(aim, o) : [1, 0]), { elements, words, numbers } = kinds[kind]!(stage, o, d);
+    stage.put(stage.path("ray thin", [[o, add(o, d, 9)]]), ...elements, stage.circle("point", o, 11), stage.circle("moved", aim, 9));
+    Object.assign(said.dataset, { ox: String(o[0]), oy: String(o[1]), ax: String(aim[0]), ay: String(aim[1]), ...numbers });
+    said.textContent = words;
+  };
+  show();
+  return frame(id, stage, sliders.bar, said, hints[kind]!);
+}
+
+/** Seen along the ray: the corners move, the ray is the origin. */
+function triangleFigure(id: string): HTMLElement {
+  let corners: Vec2[] = [];
+  const names = ["A", "B", "C"], depths = [2, 3, 5];
+  const stage = new Stage(window, "A triangle seen along the ray, which is the middle point", (at) => {
+    const i = [0, 1, 2].reduce((a, b) => (Math.hypot(...sub(at, corners[b]!)) < Math.hypot(...sub(at, corners[a]!)) ? b : a));
+    sliders.set(`${names[i]}x`, at[0]);
+    sliders.set(`${names[i]}y`, at[1]);
+  });
+  const said = html("p", { class: "bias-counts", role: "status" });
+  const start: Vec2[] = [[-1.2, -0.7], [1.5, -0.4], [0.2, 1.1]];
+  const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: `Corner ${name}, ${k === 0 ? "left and right" : "up and down"}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3) }]))), () => show());
+  const show = () => {
+    corners = names.map((name): Vec2 => [sliders.value(`${name}x`), sliders.value(`${name}y`)]);
+    const [A, B, C] = corners as [Vec2, Vec2, Vec2], u = cross(C, B), v = cross(A, C), w = cross(B, A), sum = u + v + w;
+    const inside = ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) && sum !== 0, z = (u * depths[0]! + v * depths[1]! + w * depths[2]!) / sum;
+    const area = (kind: string, p: Vec2, q: Vec2) => stage.path(`area ${kind}`, [[[0, 0], p, q, [0, 0]]]);
+    stage.put(area("u", B, C), area("v", C, A), area("w", A, B), stage.path("profile thin", [[A, B, C, A]]), ...corners.map((p, i) => stage.label("middle", add(p, unit(Math.hypot(...p) > 0 ? p : [1, 0]), 0.16), names[i]!, 6)), ...corners.map((p) => stage.circle("point", p, 9)), stage.circle(inside ? "hit" : "moved", [0, 0], 9));
+    Object.assign(said.dataset, { u: String(u), v: String(v), w: String(w), z: String(z), hit: String(inside) });
+    said.textContent = `u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? `none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : "their signs differ, the ray misses."}`;
+  };
+  show();
+  return frame(id, stage, sliders.bar, said, "Drag a corner: seen along the ray the ray is the point in the middle. Each coloured triangle is half of one of the three numbers.");
+}
+
+export const intersectionFigure = ({ settings }: FigureJson, id: string): HTMLElement => (settings.kind === "triangle" ? triangleFigure(id) : rayFigure(settings.kind!, id));
