@@ -45,8 +45,8 @@ struct Local {
 constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
-/// in double: texels from its texel, nearness from its nearness. On a perspective map a texel coordinate is a
-/// quotient U / w; less its value c at the origin it is (U - c w) / w, small over small again.
+/// in double: texels from its texel, reciprocal depth from its reciprocal depth. On a perspective map a texel
+/// coordinate is a quotient U / w; less its value c at the origin it is (U - c w) / w, small over small again.
 class Classifier {
  public:
   Classifier(const LightSheets& sheets, const Light& light, const QuantisedTile& tile)
@@ -79,8 +79,9 @@ class Classifier {
     const double lateral = grid_.grid_error / least_depth_ + size * (rounding + by_depth + 0x1p-24) + 0x1p-22;
     usable_ = usable_ && lateral < texel_slack;
     // 1 / w - 1 / w0 = -(w - w0) / (w w0)
-    nearness_scale_ = perspective_ ? 1.0 / (least_depth_ * origin_.w) : 1.0;
-    doubt_ = 4.0 * rounding * w_.size * nearness_scale_ + 0x1p-22 * std::abs(origin_.reciprocal_depth);
+    reciprocal_depth_scale_ = perspective_ ? 1.0 / (least_depth_ * origin_.w) : 1.0;
+    slack_ =
+        4.0 * rounding * w_.size * reciprocal_depth_scale_ + 0x1p-22 * std::abs(origin_.reciprocal_depth);
   }
 
   // In passes over the tile, so that what one pass finds comes from memory before the next one reads it.
@@ -161,7 +162,7 @@ class Classifier {
     asked &= inside;
     if (!sheets_.is_built()) add(out_->unsure, asked);
     if (asked == 0 || !sheets_.is_built()) return 0;
-    hn::Store(hn::Neg(deeper), f, nearness_ + lane_);
+    hn::Store(hn::Neg(deeper), f, reciprocal_depths_ + lane_);
     hn::Store(hn::Sub(u, hn::Add(column, all(0.5))), f, from_middle_u_ + lane_);
     hn::Store(hn::Sub(v, hn::Add(row, all(0.5))), f, from_middle_v_ + lane_);
     const M on_map = mask_of(asked);
@@ -226,16 +227,16 @@ class Classifier {
     };
     const V by_u = hn::Mul(slope(first), at.u), by_v = hn::Mul(slope(second), at.v);
     // The products' rounding, beside what widens the bounds (texel_slack times the slopes).
-    const V doubt = hn::MulAdd(hn::Add(hn::Abs(by_u), hn::Abs(by_v)), all(0x1p-21), all(doubt_));
+    const V slack = hn::MulAdd(hn::Add(hn::Abs(by_u), hn::Abs(by_v)), all(0x1p-21), all(slack_));
     const V value = hn::Add(hn::Sub(at.reciprocal_depth, hn::Add(by_u, by_v)), all(origin_.reciprocal_depth));
-    return {bits_of(hn::Gt(hn::Sub(value, doubt), bound(first))),
-            bits_of(hn::Lt(hn::Add(value, doubt), bound(second)))};
+    return {bits_of(hn::Gt(hn::Sub(value, slack), bound(first))),
+            bits_of(hn::Lt(hn::Add(value, slack), bound(second)))};
   }
 
   void judge(unsigned asked) {
     const Told told =
         tell(&bounds_[lane_], {hn::Load(f, from_middle_u_ + lane_), hn::Load(f, from_middle_v_ + lane_),
-                               hn::Load(f, nearness_ + lane_)});
+                               hn::Load(f, reciprocal_depths_ + lane_)});
     const unsigned lit = asked & told.lit, dark = asked & told.dark;
     add(out_->lit, lit), add(out_->shadowed, dark);
     for (unsigned left = asked & ~(lit | dark); left != 0; left &= left - 1)
@@ -259,7 +260,7 @@ class Classifier {
     const std::size_t count = find_parts();
     for (std::size_t k = 0; k < count; k += hn::Lanes(f)) {
       const Told told = tell(&bounds_[k], {hn::Load(f, from_middle_u_ + k), hn::Load(f, from_middle_v_ + k),
-                                           hn::Load(f, nearness_ + k)});
+                                           hn::Load(f, reciprocal_depths_ + k)});
       for (std::size_t i = 0; i < std::min(hn::Lanes(f), count - k); ++i)
         set((told.lit >> i & 1) != 0    ? out_->lit
             : (told.dark >> i & 1) != 0 ? out_->shadowed
@@ -283,7 +284,7 @@ class Classifier {
       }
       from_middle_u_[count] = SheetTile::from_middle_of_part(u, part % parts_per_side);
       from_middle_v_[count] = SheetTile::from_middle_of_part(v, part / parts_per_side % parts_per_side);
-      nearness_[count] = nearness_[lane], bounds_[count] = *found;
+      reciprocal_depths_[count] = reciprocal_depths_[lane], bounds_[count] = *found;
       left_[count++] = lane;
     }
     return count;
@@ -309,14 +310,14 @@ class Classifier {
   ProjectedPoint origin_;
   double base_u_, base_v_, texel_u_, texel_v_;
   Local u_, v_, w_;
-  double least_depth_, nearness_scale_, doubt_;
+  double least_depth_, reciprocal_depth_scale_, slack_;
   V local_[3];            // of the vector at work
   std::size_t lane_ = 0;  // where it starts
   TileClasses* out_ = nullptr;
   LaneMask asked_;                                      // those on the map
   std::array<std::uint8_t, raytrace::tile_rays> left_;  // lanes to be judged in parts
   std::size_t left_count_ = 0;
-  alignas(64) float nearness_[raytrace::tile_rays];  // less the origin's
+  alignas(64) float reciprocal_depths_[raytrace::tile_rays];  // less the origin's
   alignas(64) float from_middle_u_[raytrace::tile_rays], from_middle_v_[raytrace::tile_rays];  // of the texel
   alignas(64) PackedBounds bounds_[raytrace::tile_rays];
   alignas(64) std::int32_t texel_[raytrace::tile_rays], sheet_[raytrace::tile_rays];  // in its tile; the tile

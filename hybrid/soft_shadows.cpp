@@ -4,6 +4,7 @@
 
 #include "raytrace/error_bounds.h"
 #include "raytrace/shading/light_samples.h"
+#include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
 
@@ -133,6 +134,7 @@ class SoftLight::Block {
 
 SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<Verdict>& verdicts, int samples,
                            std::uint64_t seed, Image<Decision>& decisions, Image<float>& visibility) const {
+  raytrace::prepare_light_shafts(tracer_, samples);
   const raytrace::TileGrid grid{receivers.size};
   std::vector<SoftCounts> tiles(grid.count());
   const auto pixel = [&](int x, int y, std::span<const std::uint32_t> edges, SoftCounts& counts) {

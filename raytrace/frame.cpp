@@ -6,6 +6,7 @@
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/packets/unstored.h"
 #include "raytrace/shading/light_samples.h"
+#include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
 #include "scene/paging.h"
@@ -123,6 +124,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
   };
   std::vector<Counts> rays(grid.count());
   truth.soft_shadow_rays = time_pass(soft_shadow_stages, options, [&] {
+    prepare_light_shafts(tracer, truth.samples);
     std::fill(rays.begin(), rays.end(), Counts{});
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);

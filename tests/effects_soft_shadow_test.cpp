@@ -300,5 +300,19 @@ TEST(SoftShadows, TheSeedDecidesNotTheThreads) {
   EXPECT_NE(other.lights[0].visibility.data, all.lights[0].visibility.data);
 }
 
+// What rays before them had made must not change how many are cast.
+TEST(SoftShadows, TheCountDoesNotDependOnTheRaysBefore) {
+  const TestWorld w(soft_whitted());
+  const Tracer tracer(w.world(), Accel::bvh);
+  RaytraceOptions options;
+  options.size = {80, 60}, options.shadow_samples = 8;
+  const EffectPlan plan = plan_effects(w.scene());
+  const RayTracedFrame first = trace_frame(tracer, plan, w.scene().camera, {{0}}, options);
+  const RayTracedFrame second = trace_frame(tracer, plan, w.scene().camera, {{0}}, options);
+  EXPECT_LT(first.lights[0].soft_rays, first.lights[0].soft_rays_asked) << "shafts were looked through";
+  EXPECT_EQ(first.lights[0].soft_rays, second.lights[0].soft_rays);
+  EXPECT_EQ(first.rays.soft_shadow, second.rays.soft_shadow);
+}
+
 }  // namespace
 }  // namespace gnomon

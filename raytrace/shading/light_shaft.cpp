@@ -3,6 +3,7 @@
 #include "raytrace/bvh/wide_shaft.h"
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/precision/ray_offset.h"
+#include "raytrace/single_rays.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -170,6 +171,10 @@ bool spares_planes(const Structures& s, const LightShaft& shaft, std::uint32_t s
 }
 
 }  // namespace
+
+void prepare_light_shafts(const Tracer& tracer, int rays) {
+  if (rays >= least_shaft_rays) prepare_single_rays(tracer);
+}
 
 bool surely_sees_whole_light(const Tracer& tracer, const SurfacePoint& from, const Light& light) {
   const Structures& s = tracer.structures();

@@ -1,8 +1,10 @@
 #include "raytrace/shading/picture.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
+#include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture_kernels.h"
 #include "raytrace/shapes/inside.h"
 
@@ -14,6 +16,15 @@ PictureKernel kernel_for(const EffectPlan& plan, const RaytraceOptions& options)
   if (plan.simulates(Effect::indirect_light))
     return soft ? soft_indirect_kernel(plan, options) : indirect_kernel(plan, options);
   return soft ? soft_kernel(plan, options) : plain_kernel(plan, options);
+}
+
+/// Rays from a point to a light with size.
+int most_samples(const Scene& scene, const RaytraceOptions& options) {
+  int most = options.shadow_samples;
+  if (most > 0) return most;
+  for (const Light& light : scene.lights)
+    if (has_size(light)) most = std::max(most, light.shadow_samples);
+  return most;
 }
 
 }  // namespace
@@ -92,6 +103,8 @@ void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& vie
                    const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame) {
   PictureInput input{.tracer = tracer, .view = view, .options = options, .unstored = unstored};
   if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
+  if (plan.simulates(Effect::soft_shadow))
+    prepare_light_shafts(tracer, most_samples(*tracer.world().scene, options));
   kernel_for(plan, options)(input, frame);
 }
 

@@ -1,0 +1,251 @@
+// One tile's shadow rays while a block is traversed (shadow_block.cpp): what is still asked, what is known, and the
+// regions of the plane that primitives must touch to matter.
+
+#if defined(GNOMON_RAYTRACE_PACKETS_TILE_STATE_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_PACKETS_TILE_STATE_INL_H_
+#undef GNOMON_RAYTRACE_PACKETS_TILE_STATE_INL_H_
+#else
+#define GNOMON_RAYTRACE_PACKETS_TILE_STATE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+
+#include "raytrace/packets/blocked-inl.h"
+#include "raytrace/packets/shadow_block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+
+/// Bit i: the i-th of sixteen regions may be touched within these bounds, in front of what it knows already.
+inline unsigned touched(const Packets& regions, const PrimitiveBounds& b) {
+  unsigned hit = 0;
+  for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+    const auto at = [&](const float* row) { return hn::Load(f, row + i); };
+    const M across =
+        hn::And(hn::Ge(at(regions.u_max), all(b.u_min)), hn::Le(at(regions.u_min), all(b.u_max)));
+    const M down = hn::And(hn::Ge(at(regions.v_max), all(b.v_min)), hn::Le(at(regions.v_min), all(b.v_max)));
+    const V far = at(regions.far_min);
+    const M asks = hn::And(hn::Lt(far, all(inf)), hn::Le(far, all(b.nearest)));
+    hit |= bits_of(hn::And(asks, hn::And(across, down))) << i;
+  }
+  return hit;
+}
+
+/// Sixteen regions of the plane, each in one part or in two: a silhouette's rays start from two surfaces, and a
+/// rectangle around both would be touched by all that lies between them.
+struct SplitRegions {
+  Packets part[2];
+  bool split = false;  ///< whether any has a second part
+
+  unsigned touched_by(const PrimitiveBounds& bounds) const {
+    return touched(part[0], bounds) | (split ? touched(part[1], bounds) : 0);
+  }
+  float far_min() const {
+    return std::min(smallest(part[0].far_min), split ? smallest(part[1].far_min) : inf);
+  }
+};
+
+/// A rectangle of the plane.
+struct Extent {
+  float u_min = inf, u_max = -inf, v_min = inf, v_max = -inf;
+  bool empty() const { return u_min > u_max; }
+  float area() const { return empty() ? 0.0f : (u_max - u_min) * (v_max - v_min); }
+  float width() const { return u_max - u_min; }
+  float height() const { return v_max - v_min; }
+  void grow(const Extent& e) {
+    u_min = std::min(u_min, e.u_min), u_max = std::max(u_max, e.u_max);
+    v_min = std::min(v_min, e.v_min), v_max = std::max(v_max, e.v_max);
+  }
+  void store(Packets& to, std::size_t i) const {
+    to.u_min[i] = u_min, to.u_max[i] = u_max, to.v_min[i] = v_min, to.v_max[i] = v_max;
+  }
+  static Extent of(const Packets& from, std::size_t i) {
+    return {from.u_min[i], from.u_max[i], from.v_min[i], from.v_max[i]};
+  }
+};
+
+/// Two parts are worth their second test where together they are much smaller than the whole.
+inline bool worth_splitting(const Extent& whole, const Extent& a, const Extent& b) {
+  return !a.empty() && !b.empty() && a.area() + b.area() < 0.5f * whole.area();
+}
+
+/// One tile's rays: what is still asked, and what is known.
+class TileState {
+ public:
+  void start(const ShadowTileRays& tile) {
+    rays_ = tile.rays, out_ = tile.shadows;
+    out_->shadowed.fill(0), out_->ambiguous.fill(0), out_->ambiguous_count = 0;
+    packets_.split = false;
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+        const std::size_t at = p * packet_rays + i;
+        const M alive = mask_of(static_cast<unsigned>(rays_->alive[p]) >> i);
+        hn::Store(hn::IfThenElse(alive, hn::Load(f, rays_->far + at), all(inf)), f, far_ + at);
+      }
+    }
+    find_extents();
+    for (std::size_t p = 0; p < tile_packets; ++p) update(p);
+  }
+
+  const SplitRegions& packets() const { return packets_; }
+  float far_min() const { return packets_.far_min(); }
+
+  /// The tile's own place in the block's regions.
+  void enter(SplitRegions& regions, std::size_t t) {
+    Extent whole, part[2];
+    for (const Packets& p : packets_.part)
+      for (std::size_t i = 0; i < tile_packets; ++i) whole.grow(Extent::of(p, i));
+    const bool by_u = whole.width() > whole.height();
+    const float middle = by_u ? 0.5f * (whole.u_min + whole.u_max) : 0.5f * (whole.v_min + whole.v_max);
+    std::array<unsigned, 2> second{};
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < tile_packets; ++i) {
+        const Extent e = Extent::of(packets_.part[k], i);
+        if (e.empty()) continue;
+        const bool beyond = (by_u ? e.u_min + e.u_max : e.v_min + e.v_max) > 2.0f * middle;
+        part[beyond].grow(e);
+        second[k] |= static_cast<unsigned>(beyond) << i;
+      }
+    divided_ = packets_.split && worth_splitting(whole, part[0], part[1]);
+    second_ = second;
+    if (!divided_) part[0] = whole, part[1] = Extent{};
+    regions.split |= divided_;
+    part[0].store(regions.part[0], t), part[1].store(regions.part[1], t);
+    update_regions(regions, t);
+  }
+  void update_regions(SplitRegions& regions, std::size_t t) const {
+    if (!divided_) {
+      regions.part[0].far_min[t] = far_min(), regions.part[1].far_min[t] = inf;
+      return;
+    }
+    V least[2] = {all(inf), all(inf)};
+    for (std::size_t k = 0; k < (packets_.split ? 2 : 1); ++k)
+      for (std::size_t i = 0; i < tile_packets; i += lanes()) {
+        const V far = hn::Load(f, packets_.part[k].far_min + i);
+        const M beyond = mask_of(second_[k] >> i);
+        least[0] = hn::Min(least[0], hn::IfThenElse(beyond, all(inf), far));
+        least[1] = hn::Min(least[1], hn::IfThenElse(beyond, far, all(inf)));
+      }
+    for (std::size_t k = 0; k < 2; ++k) regions.part[k].far_min[t] = hn::GetLane(hn::MinOfLanes(f, least[k]));
+  }
+
+  /// True when rays have been found to be shadowed.
+  template <bool plane>
+  bool test(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays, unsigned packets) {
+    bool any = false;
+    for (; packets != 0; packets &= packets - 1)
+      any |= test_packet<plane>(primitive, leaf, rays, static_cast<std::size_t>(std::countr_zero(packets)));
+    return any;
+  }
+
+  void finish() {
+    for (std::size_t p = 0; p < tile_packets; ++p)
+      out_->ambiguous[p] &= static_cast<std::uint16_t>(~out_->shadowed[p]);
+  }
+
+ private:
+  Extent extent_of(std::size_t p, unsigned bits) const {
+    V u_min = all(inf), u_max = all(-inf), v_min = all(inf), v_max = all(-inf);
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const M in = mask_of(bits >> i);
+      const V u = hn::Load(f, rays_->u + p * packet_rays + i),
+              v = hn::Load(f, rays_->v + p * packet_rays + i);
+      u_min = hn::Min(u_min, hn::IfThenElse(in, u, u_min)),
+      u_max = hn::Max(u_max, hn::IfThenElse(in, u, u_max));
+      v_min = hn::Min(v_min, hn::IfThenElse(in, v, v_min)),
+      v_max = hn::Max(v_max, hn::IfThenElse(in, v, v_max));
+    }
+    return {hn::GetLane(hn::MinOfLanes(f, u_min)), hn::GetLane(hn::MaxOfLanes(f, u_max)),
+            hn::GetLane(hn::MinOfLanes(f, v_min)), hn::GetLane(hn::MaxOfLanes(f, v_max))};
+  }
+
+  /// Packets that are much wider than the tile's others are divided.
+  void find_extents() {
+    float width = 0.0f, height = 0.0f, count = 0.0f;
+    Packets& whole = packets_.part[0];
+    beyond_.fill(0);
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      const Extent e = extent_of(p, rays_->alive[p]);
+      e.store(whole, p), Extent{}.store(packets_.part[1], p);
+      if (!e.empty()) width += e.width(), height += e.height(), count += 1.0f;
+    }
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      const Extent e = Extent::of(whole, p);
+      if (!e.empty() && (count * e.width() > 2.0f * width || count * e.height() > 2.0f * height))
+        divide(p, e);
+    }
+  }
+
+  /// Across the middle of the longer side, where that pays.
+  void divide(std::size_t p, const Extent& whole) {
+    const unsigned alive = rays_->alive[p];
+    const bool by_u = whole.width() > whole.height();
+    const V middle = all(by_u ? 0.5f * (whole.u_min + whole.u_max) : 0.5f * (whole.v_min + whole.v_max));
+    unsigned beyond = 0;
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const float* along = (by_u ? rays_->u : rays_->v) + p * packet_rays + i;
+      beyond |= bits_of(hn::Gt(hn::Load(f, along), middle)) << i;
+    }
+    const Extent a = extent_of(p, alive & ~beyond), b = extent_of(p, alive & beyond);
+    if (!worth_splitting(whole, a, b)) return;
+    packets_.split = true;
+    a.store(packets_.part[0], p), b.store(packets_.part[1], p);
+    beyond_[p] = static_cast<std::uint16_t>(beyond);
+  }
+  void update(std::size_t p) {
+    packets_.part[1].far_min[p] = inf;
+    if (beyond_[p] == 0) {
+      packets_.part[0].far_min[p] = smallest(far_ + p * packet_rays);
+      return;
+    }
+    V least[2] = {all(inf), all(inf)};
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const V far = hn::Load(f, far_ + p * packet_rays + i);
+      const M second = mask_of(static_cast<unsigned>(beyond_[p]) >> i);
+      least[0] = hn::Min(least[0], hn::IfThenElse(second, all(inf), far));
+      least[1] = hn::Min(least[1], hn::IfThenElse(second, far, all(inf)));
+    }
+    for (std::size_t k = 0; k < 2; ++k)
+      packets_.part[k].far_min[p] = hn::GetLane(hn::MinOfLanes(f, least[k]));
+  }
+
+  template <bool plane>
+  bool test_packet(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays,
+                   std::size_t packet) {
+    bool taken = false;
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const std::size_t at = packet * packet_rays + i;
+      const V far = hn::Load(f, far_ + at);
+      const Blocked blocked =
+          blocked_by<plane>(primitive, rays, hn::Load(f, rays_->u + at), hn::Load(f, rays_->v + at), far,
+                            hn::Load(ids, rays_->source + at), hn::Lt(far, all(inf)));
+      if (hn::AllFalse(f, blocked.perhaps)) continue;
+      const unsigned bits = bits_of(blocked.surely);
+      const unsigned open = bits_of(blocked.perhaps) & ~bits;
+      out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << i);
+      if (!plane) out_->note(leaf, at, open);
+      if (bits == 0) continue;
+      out_->shadowed[packet] |= static_cast<std::uint16_t>(bits << i);
+      hn::Store(hn::IfThenElse(blocked.surely, all(inf), far), f, far_ + at);
+      taken = true;
+    }
+    if (taken) update(packet);
+    return taken;
+  }
+
+  const TileRays* rays_ = nullptr;
+  TileShadows* out_ = nullptr;
+  SplitRegions packets_;
+  LaneMask beyond_;                 ///< of each packet the rays of its second part
+  std::array<unsigned, 2> second_;  ///< packets' first and second parts that are of the tile's second part
+  bool divided_ = false;
+  alignas(64) float far_[tile_rays];
+};
+
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
