@@ -55,9 +55,14 @@ Expected<std::string> html_of(std::string_view markdown) {
     return fail(ErrorKind::internal, "a lesson's Markdown cannot be read");
   html = replaced(html, "<table>", "</table>", [](std::string_view table) {
     return fmt::format(
-        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Table\"><table>{}</table></div>",
+        "<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-label=\"Table\"><table>{}</table></div>",
         table);
   });
+  // A corner of a table without words is no heading.
+  for (const char* align : {"", " align=\"left\"", " align=\"center\"", " align=\"right\""})
+    html = replaced(html, fmt::format("<th{}>", align), "</th>", [align](std::string_view cell) {
+      return fmt::format("<{0}{1}>{2}</{0}>", cell.empty() ? "td" : "th", align, cell);
+    });
   return html;
 }
 

@@ -14,6 +14,8 @@ const largest = 34, smallest = 15;  // CSS pixels, of the root's font
 const isAlone = (element: Element): boolean => element.matches(".live, details, p:has(> img), .scroll");
 /** Buttons to copy belong to the commands before them and are not for a projector. */
 const isShown = (element: Element): boolean => !element.matches("h1, h2, .copy");
+/** "1. No bias": an experiment begins. */
+const begins = (element: Element): boolean => /^\d+\.\s/.test(element.firstElementChild?.matches("strong") ? element.textContent! : "");
 // A line of code takes the room of a line, however short it is.
 const weight = (element: Element): number =>
   element.matches("pre") ? 60 * element.textContent!.trim().split("\n").length : element.textContent!.length;
@@ -27,7 +29,7 @@ function slidesOf(part: HTMLElement): Slide[] {
   };
   for (const element of [...part.children].filter(isShown)) {
     const more = weight(element);
-    if (isAlone(element) || size + more > mostText) close();
+    if (isAlone(element) || begins(element) || size + more > mostText) close();
     group.push(element);
     size += more;
     if (isAlone(element)) close();
