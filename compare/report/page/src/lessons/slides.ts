@@ -12,6 +12,8 @@ const mostText = 620;  // characters
 const largest = 34, smallest = 15;  // CSS pixels, of the root's font
 
 const isAlone = (element: Element): boolean => element.matches(".live, details, p:has(> img), .scroll");
+/** So many characters before a table or a figure are its heading, and share its slide. */
+const leadOf = (element: Element): number => (element.matches(".scroll") ? 260 : element.matches(".live, p:has(> img)") ? 60 : 0);
 /** Buttons to copy belong to the commands before them and are not for a projector. */
 const isShown = (element: Element): boolean => !element.matches("h1, h2, .copy");
 /** "1. No bias": an experiment begins. */
@@ -29,7 +31,8 @@ function slidesOf(part: HTMLElement): Slide[] {
   };
   for (const element of [...part.children].filter(isShown)) {
     const more = weight(element);
-    if (isAlone(element) || begins(element) || size + more > mostText) close();
+    const joins = size > 0 && size < leadOf(element);
+    if (!joins && (isAlone(element) || begins(element) || size + more > mostText)) close();
     group.push(element);
     size += more;
     if (isAlone(element)) close();
