@@ -23,11 +23,63 @@ pair() {
   oiiotool --nosoftwareattrib "$work/$name/$left.png" "$work/$name/$right.png" --mosaic:pad=8 2x1 -o "$images/lesson-$name.png"
 }
 
+# rendered NAME OPTIONS…: one ray-traced picture
+rendered() {
+  name=$1
+  shift
+  "$program" raytrace "$@" --quiet -o "$work/$name.png"
+}
+
+# beside NAME COLUMNSxROWS PICTURE…: pictures of the same size in one
+beside() {
+  name=$1 grid=$2
+  shift 2
+  oiiotool --nosoftwareattrib "$@" --mosaic:pad=8 "$grid" -o "$images/lesson-$name.png"
+}
+
 # The two of the first page.
 "$program" compare fence --size 960x540 --runs 1 --quiet -o "$work/fence"
 for picture in raster difference; do
   oiiotool --nosoftwareattrib "$work/fence/$picture.png" -o "$images/fence-$picture.png"
 done
+
+# with_map NAME WIDTH SCENE OPTIONS…: what the light stores, WIDTH pixels wide, beside what the eye sees
+with_map() {
+  name=$1 width=$2
+  shift 2
+  "$program" compare "$@" --size 480x270 --runs 1 --quiet -o "$work/$name"
+  oiiotool "$work/$name/depth-map.png" --resize "${width}x270" -o "$work/$name/small.png"
+  oiiotool --nosoftwareattrib --create "$((width + 488))x270" 3 "$work/$name/small.png" --swap --paste +0+0 \
+    "$work/$name/raster.png" --swap --paste "+$((width + 8))+0" -o "$images/lesson-$name.png"
+}
+with_map shadow-map 270 teapot --map-size 512
+with_map cube-maps 405 sphere-plane --map-size 256
+
+# Maps of several sizes.
+for size in 128 1024; do
+  "$program" compare teapot --map-size $size --size 320x180 --runs 1 --quiet -o "$work/size-$size"
+done
+beside map-sizes 2x1 "$work/size-128/difference.png" "$work/size-1024/difference.png"
+for size in 256 1024 4096; do
+  "$program" compare fence --map-size $size --size 320x180 --runs 1 --quiet -o "$work/cost-$size"
+done
+beside cost 3x1 "$work/cost-256/difference.png" "$work/cost-1024/difference.png" "$work/cost-4096/difference.png"
+
+# Rays.
+rendered ray-tracing whitted --size 640x360 --aa 16
+oiiotool --nosoftwareattrib "$work/ray-tracing.png" -o "$images/lesson-ray-tracing.png"
+rendered intersections shapes --size 640x360 --aa 16
+oiiotool --nosoftwareattrib "$work/intersections.png" -o "$images/lesson-intersections.png"
+rendered smooth sphere-plane --size 320x180 --camera-distance 5.2
+rendered facets sphere-plane --size 320x180 --camera-distance 5.2 --tessellate 12
+beside terminator 2x1 "$work/smooth.png" "$work/facets.png"
+rendered naive far-away --size 320x180 --camera-distance 5.2 --precision fast
+rendered robust far-away --size 320x180 --camera-distance 5.2
+beside robustness 2x1 "$work/naive.png" "$work/robust.png"
+for structure in octree kdtree bsp bvh; do
+  rendered "$structure" stadium --accel $structure --heatmap nodes --size 320x180
+done
+beside structures 2x2 "$work/octree.png" "$work/kdtree.png" "$work/bsp.png" "$work/bvh.png"
 
 pair acne raster difference acne-floor --bias 0 --map-size 64
 pair peter-panning raster difference floating-box --bias 0.6

@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 15> scenes{{
+constexpr std::array<BuiltinScene, 16> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
@@ -21,6 +21,7 @@ constexpr std::array<BuiltinScene, 15> scenes{{
     {"wires", "Straight edges and wires thinner than a texel, along the map's rows and slanted."},
     {"sphere-plane",
      "One exact sphere over an exact plane under a point light: the truth has a closed form."},
+    {"far-away", "The scene sphere-plane a hundred thousand units from the origin: where floats break."},
     {"shapes",
      "Quadrics, a torus and implicit surfaces, all exact: what is wrong in a shadow is the shadow map's "
      "alone."},

@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 15u);
+  ASSERT_EQ(scenes.size(), 16u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
@@ -25,7 +25,7 @@ TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   }
   for (const std::string_view name :
        {"acne-floor", "floating-box", "fence", "thin-wall", "whitted", "courtyard", "teapot", "stadium",
-        "field", "penumbra", "studio", "orchard", "wires"}) {
+        "field", "far-away", "penumbra", "studio", "orchard", "wires"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_FALSE(find_builtin_scene("no-such-scene"));

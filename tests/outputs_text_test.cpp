@@ -286,13 +286,15 @@ TEST(FileNames, KeepLightsApart) {
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
-  ASSERT_EQ(all_lessons().size(), 12u);
+  ASSERT_EQ(all_lessons().size(), 20u);
   for (const Lesson& one : all_lessons()) {
     EXPECT_FALSE(one.title.empty()) << one.name;
     EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;
     const std::string html = lesson_html(one);
     EXPECT_TRUE(html.starts_with("<p>")) << one.name;
     EXPECT_EQ(html.find("!["), std::string::npos) << one.name;
+    EXPECT_EQ(html.find("<!--"), std::string::npos) << one.name;
+    EXPECT_EQ(html.find("You can"), std::string::npos) << one.name << ": the goal is no explanation";
     for (const char* tag : {"p", "b", "em", "code"}) {
       const auto count = [&html](const std::string& text) {
         std::size_t n = 0;
@@ -308,6 +310,46 @@ TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
     const bool has_its_own =
         label != Label::unexplained;  // of another renderer's picture: the budget as a whole
     EXPECT_EQ(lesson_of(label).name != "error-budget", has_its_own) << k;
+  }
+}
+
+std::size_t times(std::string_view text, std::string_view word) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+std::string_view between_parts(std::string_view text, std::string_view from, std::string_view to) {
+  const std::size_t begin = text.find(from), end = text.find(to);
+  return begin < end && end != std::string_view::npos ? text.substr(begin, end - begin) : std::string_view();
+}
+
+std::string_view last_paragraph(std::string_view text) {
+  return text.substr(text.rfind("\n\n"));
+}
+
+// Goal, explanation, closed form beside the measurement, three experiments with commands, questions with folded
+// answers, and the way to the next lesson.
+TEST(Lessons, HaveTheirParts) {
+  const auto lessons = all_lessons();
+  for (std::size_t i = 0; i < lessons.size(); ++i) {
+    const auto& [name, title, text, command] = lessons[i];
+    EXPECT_NE(title.find(": "), std::string_view::npos) << name;
+    EXPECT_TRUE(text.starts_with(std::string("# ").append(title).append("\n\n## Goal\n\n"))) << name;
+    for (const char* part :
+         {"\n## The closed form beside the measurement\n", "\n## Experiments\n", "\n## Questions\n"})
+      EXPECT_EQ(times(text, part), 1u) << name << part;
+    const std::string_view experiments = between_parts(text, "\n## Experiments\n", "\n## Questions\n");
+    for (const char* number : {"\n**1. ", "\n**2. ", "\n**3. "})
+      EXPECT_EQ(times(experiments, number), 1u) << name << number;
+    EXPECT_GE(times(experiments, "\ngnomon "), 3u) << name;
+    EXPECT_GE(times(text, "<details><summary>"), 3u) << name;
+    EXPECT_EQ(times(text, "<details><summary>"), times(text, "</summary>\n\n")) << name;
+    EXPECT_EQ(times(text, "<details><summary>"), times(text, "\n\n</details>\n")) << name;
+    EXPECT_EQ(times(text, "<!-- live: "), times(text, " -->\n!["))
+        << name << ": a figure without its picture";
+    const std::string_view next = lessons[(i + 1) % lessons.size()].name;
+    EXPECT_EQ(times(last_paragraph(text), std::string("(").append(next).append(".md)")), 1u) << name;
   }
 }
 

@@ -13,9 +13,11 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr std::array<std::string_view, 12> names{"acne",      "peter-panning", "light-leaks",  "aliasing",
-                                                 "bias",      "filtering",     "soft-shadows", "cascades",
-                                                 "precision", "hybrid",        "error-budget", "shimmer"};
+// In the order in which to read them; docs/lessons/README.md has the same.
+constexpr std::array<std::string_view, 20> names{
+    "shadow-map",  "acne",          "peter-panning", "light-leaks", "aliasing", "bias",       "precision",
+    "filtering",   "soft-shadows",  "cascades",      "cube-maps",   "shimmer",  "terminator", "error-budget",
+    "ray-tracing", "intersections", "structures",    "robustness",  "hybrid",   "cost"};
 
 // What stands between two texts; nothing when they are not there.
 std::string_view between(std::string_view text, std::string_view from, std::string_view to) {
@@ -23,6 +25,15 @@ std::string_view between(std::string_view text, std::string_view from, std::stri
   if (start == std::string_view::npos) return {};
   const std::string_view rest = text.substr(start + from.size());
   return rest.substr(0, rest.find(to));
+}
+
+// The section behind "## Goal", without its heading.
+std::string_view explanation(std::string_view text) {
+  constexpr std::string_view heading = "\n## ";
+  const std::size_t goal = text.find(heading), start = text.find(heading, goal + 1);
+  assert(goal != std::string_view::npos && start != std::string_view::npos);
+  text.remove_prefix(text.find('\n', start + heading.size()));
+  return text.substr(0, text.find(heading));
 }
 
 Lesson make_lesson(std::string_view name) {
@@ -99,14 +110,14 @@ const Lesson& lesson_of(Label label) {
 }
 
 std::string lesson_html(const Lesson& lesson) {
-  std::string_view rest = lesson.text.substr(0, lesson.text.find("\n## "));
-  rest.remove_prefix(std::min(rest.size(), rest.find("\n\n")));
+  std::string_view rest = explanation(lesson.text);
   std::string out;
   while (!rest.empty()) {
     rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of('\n')));
     const std::string_view paragraph = rest.substr(0, rest.find("\n\n"));
     rest.remove_prefix(paragraph.size());
-    if (!paragraph.empty() && !paragraph.starts_with("![")) out += "<p>" + inline_html(paragraph) + "</p>\n";
+    const bool is_figure = paragraph.starts_with("![") || paragraph.starts_with("<!--");
+    if (!paragraph.empty() && !is_figure) out += "<p>" + inline_html(paragraph) + "</p>\n";
   }
   return out;
 }

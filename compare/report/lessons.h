@@ -1,5 +1,5 @@
-// The lessons (docs/lessons), embedded. A lesson's first part, up to its first "## ", is its short form,
-// which the report page carries; a picture in it is left to the manual.
+// The lessons (docs/lessons), embedded. A lesson begins with its goal ("## Goal"); the section behind that explains, and
+// is its short form, which the report page carries; a figure in it is left to the manual.
 #pragma once
 
 #include <span>
