@@ -118,8 +118,9 @@ TEST(LessonFaults, TeapotInTheStadiumRuinsTheGrid) {
   const ProcessResult result = run_gnomon(
       {"bench", "stadium", "--accel", "grid,kdtree", "--size", "16x9", "--runs", "1", "--json", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json bench = json::parse(result.out);
   std::map<std::string, double> values;
-  for (const json& row : json::parse(result.out)["rows"]) values[row["name"]] = row["value"].get<double>();
+  for (const json& row : bench["rows"]) values[row["name"]] = row["value"].get<double>();
   EXPECT_GT(values.at("grid triangles per ray"), 5000.0);
   EXPECT_LT(values.at("kdtree triangles per ray"), 20.0);
 }
