@@ -20,7 +20,11 @@ constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
 constexpr std::pair<std::string_view, raster::Cull> culls[] = {
     {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
 constexpr std::pair<std::string_view, raster::Backend> backends[] = {
-    {"auto", raster::Backend::automatic}, {"osmesa", raster::Backend::osmesa}, {"egl", raster::Backend::egl}};
+    {"auto", raster::Backend::automatic},
+    {"osmesa", raster::Backend::osmesa},
+    {"egl", raster::Backend::egl},
+    {"egl-software", raster::Backend::egl_software},
+    {"egl-hardware", raster::Backend::egl_hardware}};
 constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {
     {"bvh", raytrace::Accel::bvh},
     {"bvh-median", raytrace::Accel::bvh_median},
@@ -154,8 +158,13 @@ std::span<const std::pair<std::string_view, raster::Technique>> all_techniques()
 void add_backend(CLI::App& command, raster::Backend& backend) {
   add_choice(command, "--backend", backend, backends, "NAME",
              "where OpenGL comes from; auto tries OSMesa, then EGL in software, then EGL on a GPU; egl takes "
-             "a GPU when there "
-             "is one");
+             "a GPU where there is one, egl-hardware nothing else, and egl-software none");
+}
+
+std::string backend_argument(raster::Backend backend) {
+  for (const auto& [name, choice] : backends)
+    if (choice == backend && choice != raster::Backend::automatic) return fmt::format(" --backend {}", name);
+  return {};
 }
 
 void add_shader_dir(CLI::App& command, std::string& folder) {

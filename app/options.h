@@ -34,6 +34,8 @@ void add_map_options(CLI::App& command, raster::MapOptions& map);
 std::vector<std::string> technique_names();
 std::span<const std::pair<std::string_view, raster::Technique>> all_techniques();
 void add_backend(CLI::App& command, raster::Backend& backend);
+/// " --backend NAME" for what was chosen; nothing for auto.
+std::string backend_argument(raster::Backend backend);
 /// --shader-dir.
 void add_shader_dir(CLI::App& command, std::string& folder);
 /// --accel, --precision.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "raster/context_backends.h"
 
 namespace gnomon::raster {
@@ -11,12 +14,21 @@ tl::unexpected<Error> no_context(const std::string& tried) {
   return fail(ErrorKind::graphics, "no OpenGL 4.5 context: " + tried);
 }
 
+/// What a backend means to EGL, and what to call it when it fails; none of those that begin with OSMesa.
+std::optional<std::pair<const char*, EglDevices>> egl_alone(Backend backend) {
+  if (backend == Backend::egl) return std::pair{"egl", EglDevices::hardware_first};
+  if (backend == Backend::egl_software) return std::pair{"egl-software", EglDevices::software};
+  if (backend == Backend::egl_hardware) return std::pair{"egl-hardware", EglDevices::hardware};
+  return std::nullopt;
+}
+
 }  // namespace
 
 Expected<std::unique_ptr<Context>> create_context(Backend backend) {
-  if (backend == Backend::egl) {
-    auto context = create_egl_context(EglDevices::hardware_first);
-    return context ? std::move(context) : no_context(fmt::format("egl: {}", context.error().reason));
+  if (const auto egl = egl_alone(backend)) {
+    auto context = create_egl_context(egl->second);
+    return context ? std::move(context)
+                   : no_context(fmt::format("{}: {}", egl->first, context.error().reason));
   }
   auto osmesa = create_osmesa_context();
   if (osmesa) return osmesa;

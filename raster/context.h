@@ -22,8 +22,8 @@ class Context {
 };
 
 /// Backend::automatic tries OSMesa, then EGL in software, then EGL on hardware, so that the same machine draws the
-/// same whether or not it has a GPU; Backend::egl takes a GPU where there is one. Error (graphics): one line naming everything that was tried and
-/// why it failed.
+/// same whether or not it has a GPU; Backend::egl takes a GPU where there is one, and the last two only what they name.
+/// Error (graphics): one line naming everything that was tried and why it failed.
 Expected<std::unique_ptr<Context>> create_context(Backend backend);
 
 }  // namespace gnomon::raster

@@ -11,7 +11,7 @@
 
 namespace gnomon::raster {
 
-enum class Backend : std::uint8_t { automatic, osmesa, egl };
+enum class Backend : std::uint8_t { automatic, osmesa, egl, egl_software, egl_hardware };
 /// app/options.cpp offers those that are finished.
 enum class Technique : std::uint8_t {
   hard,

@@ -29,6 +29,23 @@ TEST(Context, EglMakesOpenGl45CoreWithoutADisplay) {
   expect_modern(**context);
 }
 
+TEST(Context, EglDrawsWithWhatIsNamedOrNotAtAll) {
+  int made = 0;
+  for (const auto& [backend, name] : {std::pair(raster::Backend::egl_software, "egl-software"),
+                                      std::pair(raster::Backend::egl_hardware, "egl-hardware")}) {
+    auto context = raster::create_context(backend);
+    if (context) {
+      EXPECT_STREQ((*context)->backend(), name);
+      expect_modern(**context);
+      ++made;
+    } else {
+      EXPECT_NE(context.error().message().find(std::string(name) + ": "), std::string::npos)
+          << context.error().message();
+    }
+  }
+  EXPECT_EQ(raster::create_context(raster::Backend::egl).has_value(), made > 0);
+}
+
 TEST(Context, OneOfThemIsAlwaysThere) {
   const auto context = raster::create_context(raster::Backend::automatic);
   ASSERT_TRUE(context.has_value()) << context.error().message();

@@ -237,6 +237,21 @@ TEST_F(SweepProgram, RefusesAnotherConfiguration) {
   EXPECT_NE(lines("whole"), before);
 }
 
+TEST_F(SweepProgram, TwoBackendsAreNotMixedWithoutAWord) {
+  const auto part = [&](const char* folder, const char* shard, const char* backend) {
+    return run(words(folder, {"--shard", shard, "--backend", backend}));
+  };
+  if (part("part1", "1/2", "osmesa") != 0 || part("part2", "2/2", "egl-software") != 0)
+    GTEST_SKIP() << "one backend alone: " << said();
+  fs::resize_file(root / "part1/sweep.jsonl", lines("part1").size() - 100);
+  EXPECT_EQ(part("part1", "1/2", "egl-software"), 2);
+  EXPECT_NE(said().find("were drawn by osmesa"), std::string::npos) << said();
+  EXPECT_EQ(part("part1", "1/2", "osmesa"), 0) << said();
+  EXPECT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "all").string()}), 0);
+  EXPECT_NE(said().find("not all cells were drawn alike: egl-software"), std::string::npos) << said();
+}
+
 TEST_F(SweepProgram, InterruptLeavesWholeLines) {
   ASSERT_EQ(run(words("whole")), 0) << said();
   const pid_t child = start(words("stopped"), log());

@@ -67,8 +67,7 @@ std::string task_arguments(const SweepCommand& command) {
     text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());
   if (command.runs) text += fmt::format(" --runs {}", *command.runs);
   if (command.threads != 0) text += fmt::format(" --threads {}", command.threads);
-  if (command.backend != raster::Backend::automatic)
-    text += command.backend == raster::Backend::egl ? " --backend egl" : " --backend osmesa";
+  text += backend_argument(command.backend);
   for (const auto& [given, name] :
        {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
         std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart")})
