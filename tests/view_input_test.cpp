@@ -80,6 +80,17 @@ TEST(ViewInput, ControlMakesOtherActionsOfTheSameKeys) {
   EXPECT_FALSE(action_for_key({GLFW_KEY_1, {false, true}}));
 }
 
+TEST(ViewInput, KeysHaveNames) {
+  EXPECT_EQ(key_of_name("B")->code, GLFW_KEY_B);
+  EXPECT_EQ(key_of_name("=")->code, GLFW_KEY_EQUAL);
+  EXPECT_EQ(key_of_name("F9")->code, GLFW_KEY_F9);
+  EXPECT_EQ(key_of_name("F11")->code, GLFW_KEY_F11);
+  EXPECT_TRUE(key_of_name("ctrl+S")->held.control);
+  EXPECT_TRUE(key_of_name("shift+tab")->held.shift);
+  EXPECT_FALSE(key_of_name("enter"));
+  EXPECT_FALSE(key_of_name("ctrl+"));
+}
+
 TEST(ViewInput, EveryKeyOfTheHelpDoesSomething) {
   for (const KeyGroup& group : key_groups()) EXPECT_FALSE(group.keys.empty()) << group.title;
   for (const int key :

@@ -6,6 +6,10 @@ namespace fs = std::filesystem;
 
 FileWatch::FileWatch(std::vector<std::string> paths) : paths_(std::move(paths)), seen_(look()) {}
 
+void FileWatch::watch(std::vector<std::string> paths) {
+  if (paths != paths_) *this = FileWatch(std::move(paths));
+}
+
 bool FileWatch::changed() {
   std::map<std::string, Stamp> now = look();
   if (now == seen_) return false;

@@ -14,6 +14,8 @@ class FileWatch {
   FileWatch() = default;
   /// Files, and folders with all that is in them.
   explicit FileWatch(std::vector<std::string> paths);
+  /// Another list; the same one again changes nothing.
+  void watch(std::vector<std::string> paths);
   /// Since the last call that said so, or the start. A file that is gone or new is a change.
   bool changed();
 

@@ -188,6 +188,30 @@ std::optional<Action> action_for_key(const Key& key) {
   return std::nullopt;
 }
 
+std::optional<Key> key_of_name(std::string_view name) {
+  Key key;
+  for (const auto& [prefix, flag] : {std::pair{std::string_view("ctrl+"), &Modifiers::control},
+                                     std::pair{std::string_view("shift+"), &Modifiers::shift}}) {
+    if (!name.starts_with(prefix)) continue;
+    key.held.*flag = true;
+    name.remove_prefix(prefix.size());
+  }
+  constexpr std::pair<std::string_view, int> named[] = {
+      {"tab", GLFW_KEY_TAB},        {"esc", GLFW_KEY_ESCAPE},
+      {"left", GLFW_KEY_LEFT},      {"right", GLFW_KEY_RIGHT},
+      {"up", GLFW_KEY_UP},          {"down", GLFW_KEY_DOWN},
+      {"pageup", GLFW_KEY_PAGE_UP}, {"pagedown", GLFW_KEY_PAGE_DOWN},
+      {"F10", GLFW_KEY_F10},        {"F11", GLFW_KEY_F11},
+      {"F12", GLFW_KEY_F12}};
+  for (const auto& [text, code] : named)
+    if (text == name) key.code = code;
+  if (name.size() == 2 && name[0] == 'F' && name[1] >= '1' && name[1] <= '9')
+    key.code = GLFW_KEY_F1 + name[1] - '1';
+  // GLFW's codes of printable keys are their characters.
+  if (name.size() == 1 && name[0] > ' ' && name[0] <= '~') key.code = name[0];
+  return key.code != 0 ? std::optional(key) : std::nullopt;
+}
+
 Change zoom_for_scroll(double notches) {
   return ZoomBy{std::pow(zoom_step, -notches)};
 }

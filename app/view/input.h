@@ -46,6 +46,9 @@ using Action = std::variant<Change, Command, OpenScene, UsePreset>;
 /// Shift: coarse steps for the biases, fine ones for turning.
 std::optional<Action> action_for_key(const Key& key);
 
+/// "B", "5", "F6", "ctrl+B", "shift+Z", "tab", "esc", "left": nothing for other words.
+std::optional<Key> key_of_name(std::string_view name);
+
 /// One wheel notch up (y = 1) comes nearer.
 Change zoom_for_scroll(double notches);
 inline constexpr double zoom_step = 1.1;  ///< of a notch

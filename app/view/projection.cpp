@@ -32,8 +32,10 @@ Vec3 corner_of(const LightView& view, const LightFace& face, double x, double y,
          y * face.half_extent.y * face.up;
 }
 
+/// So that the dome lies inside the picture.
 double sun_radius(const ViewState& state) {
-  return 0.35 * glm::length(state.given.camera.target - state.given.camera.eye);
+  const Camera camera = posed_camera(state);
+  return 0.65 * glm::length(camera.target - camera.eye) * std::tan(0.5 * camera.vertical_fov);
 }
 
 }  // namespace

@@ -96,7 +96,10 @@ void RenderThread::run() {
       if (task.quit) break;
       if (task.open) read_scene(*task.open, {}, false);
       read_changed_files();
-      if (task.order) last_order_ = std::move(task.order);
+      if (task.order) {
+        last_order_ = std::move(task.order);
+        if (std::exchange(only_said_, false)) now_.unreadable.reset();
+      }
       if (last_order_ && studio_) carry_out(*last_order_);
     }
   } catch (const std::exception& error) {
@@ -113,6 +116,7 @@ void RenderThread::read_scene(const SceneArgument& argument, const std::string& 
   now_.opening = false;
   if (source) return install(std::move(*source), again);
   now_.unreadable = source.error();
+  only_said_ = !again;
   publish();
 }
 
@@ -129,8 +133,9 @@ Expected<std::unique_ptr<Studio>> RenderThread::make_studio(const SceneSource& s
 
 /// Where a new studio for the scene cannot be made the one before stays.
 void RenderThread::install(SceneSource source, bool again) {
-  const auto fail_with = [this](const Error& error) {
+  const auto fail_with = [this, again](const Error& error) {
     now_.unreadable = error;
+    only_said_ = !again;
     publish();
   };
   const auto map = first_map_options(source.argument);
@@ -138,8 +143,8 @@ void RenderThread::install(SceneSource source, bool again) {
   auto studio = make_studio(source, again);
   if (!studio) return fail_with(studio.error());
   studio_ = std::move(*studio);
-  scene_files_ = FileWatch(source.files);
-  shader_files_ = options_.shader_folder.empty() ? FileWatch() : FileWatch({options_.shader_folder});
+  scene_files_.watch(source.files);
+  if (!options_.shader_folder.empty()) shader_files_.watch({options_.shader_folder});
   auto scene = std::make_shared<OpenedScene>();
   scene->number = now_.scene ? now_.scene->number + 1 : 1;
   scene->again = again;

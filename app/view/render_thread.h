@@ -91,6 +91,7 @@ class RenderThread {
   FileWatch scene_files_, shader_files_;
   Snapshot now_;
   std::optional<DrawOrder> last_order_;
+  bool only_said_ = false;  ///< what is unreadable is another scene than the one that is shown
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

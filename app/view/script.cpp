@@ -24,7 +24,7 @@ using Step = decltype(ScriptStep::what);
 
 constexpr std::int64_t max_wait_frames = 1'000'000;
 constexpr NumberRange pixel_range{-1e6, 1e6};
-constexpr std::array<std::string_view, 10> verbs{"set",  "open",       "show",       "drag",  "click",
+constexpr std::array<std::string_view, 11> verbs{"set",  "key",        "open",       "show",  "drag", "click",
                                                  "wait", "screenshot", "save-scene", "print", "quit"};
 constexpr std::array<std::string_view, 4> preset_names{"acne", "peter-panning", "aliasing", "leak"};
 
@@ -94,6 +94,15 @@ Expected<Step> parse_show(const Words& words) {
                            fmt::join(preset_names, ", "), did_you_mean(words[1], preset_names)));
 }
 
+Expected<Step> parse_key(const Words& words) {
+  if (const auto complete = expect_count(words, 2, "key NAME"); !complete) return fail(complete.error());
+  const std::optional<Key> key = key_of_name(words[1]);
+  if (!key || !action_for_key(*key))
+    return wrong(fmt::format(
+        "a key that does nothing (got {}, allowed those of docs/lab.md, such as F6, tab, ctrl+B)", words[1]));
+  return Step{PressKey{*key}};
+}
+
 Expected<Step> parse_drag(const Words& words) {
   const bool click = words[0] == "click";
   const std::size_t numbers = click ? 2 : 4;
@@ -139,6 +148,7 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
   const std::string& verb = words[0];
   if (verb == "set") return parse_set(words, lights);
   if (verb == "show") return parse_show(words);
+  if (verb == "key") return parse_key(words);
   if (verb == "drag" || verb == "click") return parse_drag(words);
   if (verb == "wait") return parse_wait(words);
   if (verb == "screenshot" || verb == "save-scene") {

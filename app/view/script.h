@@ -5,7 +5,9 @@
 //   open SCENE            a file, a built-in scene or a lesson
 //   show PRESET           acne, peter-panning, aliasing or leak
 //   drag X Y X Y [left|right|middle], click X Y      the pointer, in pixels of the window
-//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown
+//   key NAME              a key of docs/lab.md: F6, tab, ctrl+B
+//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown, and a search or
+//                         a report that was begun is done
 //   screenshot FILE.png   what the window shows, once all that is set before has been drawn
 //   save-scene FILE.json  the scene as it is set
 //   print                 the compare command, on stdout
@@ -38,6 +40,9 @@ struct Screenshot {
 };
 struct Quit {};
 struct PrintCommand {};
+struct PressKey {
+  Key key;  ///< one that does something
+};
 struct SaveScene {
   std::string path;
 };
@@ -48,7 +53,7 @@ struct DragPointer {
 
 struct ScriptStep {
   int line = 0;  ///< from 1
-  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer,
+  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PressKey,
                OpenScene, UsePreset>
       what;
 };

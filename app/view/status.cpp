@@ -135,6 +135,13 @@ std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapO
   return settings;
 }
 
+std::vector<std::string> pose_words(const ViewState& state) {
+  Words words;
+  add_if(words, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
+  add_poses(words, state.setup);
+  return words;
+}
+
 std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
   const compare::CompareOptions plain;
   Words words;
@@ -142,8 +149,7 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
   add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
   add_if(words, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
   add_map(words, state.setup.map);
-  add_if(words, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
-  add_poses(words, state.setup);
+  for (std::string& word : pose_words(state)) words.push_back(std::move(word));
   add_if(words, options.compare.accel != plain.accel, "--accel",
          std::string(accel_name(options.compare.accel)));
   add_if(words, state.setup.precision != plain.precision, "--precision",

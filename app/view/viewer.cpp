@@ -298,7 +298,7 @@ void Viewer::sleep() {
   }
   if (!has_script()) return window_->wait(job_ ? busy_wait_seconds : idle_wait_seconds);
   const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
-  if (waits || resizing_ || opening_after_) window_->wait(idle_wait_seconds / 100.0);
+  if (waits || resizing_ || opening_after_ || job_) window_->wait(idle_wait_seconds / 100.0);
 }
 
 }  // namespace gnomon::app

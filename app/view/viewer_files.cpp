@@ -24,6 +24,10 @@ namespace fs = std::filesystem;
 constexpr const char* tuned_size = "480x270";
 constexpr const char* tuned_error = "1%";
 
+bool is_bias_option(std::string_view name) {
+  return name == "bias" || name == "normal-offset" || name == "receiver-plane" || name == "adaptive-bias";
+}
+
 }  // namespace
 
 void Viewer::note(std::string text) {
@@ -136,14 +140,17 @@ void Viewer::use_answer(const Job& job) {
   const auto answer = nlohmann::json::parse(job.out(), nullptr, false);
   if (!answer.is_object() || !answer.contains("options")) return note("the tuner gave no answer");
   raster::MapOptions map;
-  map.bias.slope = 0.0;
   std::string words;
+  bool biased = false, slope = false;
   for (const auto& [name, value] : answer["options"].items()) {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (!is_map_option(name)) continue;
     if (const auto set = set_map_option(map, name, text); !set) return note(set.error());
     words += fmt::format(" --{} {}", name, text);
+    if (name == "slope-bias") slope = true;
+    biased = biased || is_bias_option(name);
   }
+  if (!slope) map.bias.slope = biased ? 0.0 : raster::default_bias(map).slope;
   app::carry_out(state_, SetMap{map});
   note(fmt::format("{}:{}",
                    answer.value("feasible", true) ? "best for this scene" : "nothing is good enough; nearest",

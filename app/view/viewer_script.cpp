@@ -42,7 +42,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
         std::holds_alternative<WaitDone>(step.what) || std::holds_alternative<Screenshot>(step.what);
     if (waits) return false;
   }
-  if (std::holds_alternative<WaitDone>(step.what)) return true;
+  if (std::holds_alternative<WaitDone>(step.what)) return job_ == nullptr;
   if (const auto* wait = std::get_if<WaitFrames>(&step.what)) return frames_waited_++ == wait->frames;
   if (const auto* shot = std::get_if<Screenshot>(&step.what)) {
     shot_after_frame_ = shot->path;
@@ -55,6 +55,10 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
   if (const auto* drag = std::get_if<DragPointer>(&step.what)) return pass_drag(*drag);
   if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open(*open);
   changed_line_ = step.line;
+  if (const auto* press = std::get_if<PressKey>(&step.what)) {
+    act(*action_for_key(press->key));
+    return true;
+  }
   if (const auto* save = std::get_if<SaveScene>(&step.what)) {
     const auto saved = write_scene(save->path, shown_->scene->argument, state_);
     return saved ? Expected<bool>(true) : fail(saved.error());

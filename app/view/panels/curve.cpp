@@ -46,13 +46,13 @@ double most_share(const compare::LightComparison& light) {
   return 1.05 * double(most) / double(std::max<std::uint64_t>(1, light.pixels.compared));
 }
 
-void mark(const Plot& plot, double bias, ImU32 ink, const char* name) {
+void mark(const Plot& plot, double bias, ImU32 ink, const char* name, float line) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 foot = plot.at(std::clamp(bias, 0.0, plot.most_bias), 0.0);
   draw.AddLine(foot, {foot.x, plot.low.y - plot.size.y}, ink, 0.13f * ImGui::GetFontSize());
   const float width = ImGui::CalcTextSize(name).x;
   const float x = std::min(foot.x + 3.0f, plot.low.x + plot.size.x - width);
-  draw.AddText({x, plot.low.y - plot.size.y}, ink, name);
+  draw.AddText({x, plot.low.y - plot.size.y + line * ImGui::GetFontSize()}, ink, name);
 }
 
 void drag_bias(PanelContext& context, const Plot& plot) {
@@ -89,8 +89,8 @@ void curve_panel(PanelContext& context) {
   line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
   line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
   line(plot, light, context.ink.text, [](const auto& p) { return p.false_shadow + p.missed_shadow; });
-  mark(plot, light.best_bias.constant_world, context.ink.good, "best");
-  mark(plot, context.shown.live.bias_world, context.ink.accent, "now");
+  mark(plot, light.best_bias.constant_world, context.ink.good, "best", 0.0f);
+  mark(plot, context.shown.live.bias_world, context.ink.accent, "now", 1.1f);
   draw.PopClipRect();
   draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, context.ink.grid);
   const double texel = light.bias_texel_world;

@@ -1,0 +1,148 @@
+// The shadow lab as a person uses it, under Xvfb: its numbers are those of `gnomon compare`, its panels take the
+// pointer, and many changes in a row leave no error. Skipped where there is no Xvfb.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+
+#include "scene/files/image_io.h"
+#include "tests/app_process.h"
+#include "tests/view_display.h"
+
+namespace gnomon::app_test {
+namespace {
+
+class ViewLab : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { display_ = new VirtualDisplay; }
+  static void TearDownTestSuite() {
+    delete display_;
+    display_ = nullptr;
+  }
+  void SetUp() override {
+    if (!display_->missing().empty()) GTEST_SKIP() << display_->missing();
+  }
+  ProcessResult run(const std::vector<std::string>& words) const {
+    ProcessOptions options;
+    options.folder = folder_.path();
+    options.environment = {display_->variable(), "WAYLAND_DISPLAY="};
+    return run_gnomon(words, options);
+  }
+  ProcessResult drive(const std::string& scene, const std::string& script) const {
+    write_text(folder_ / "script.txt", script);
+    return run({"view", scene, "--script", "script.txt"});
+  }
+  std::vector<glm::u8vec4> texels(const std::string& name) const {
+    const auto texture = read_texture(folder_ / name, true);
+    EXPECT_TRUE(texture) << name;
+    return texture ? texture->texels : std::vector<glm::u8vec4>{};
+  }
+  TemporaryFolder folder_;
+  static VirtualDisplay* display_;
+};
+
+VirtualDisplay* ViewLab::display_ = nullptr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// "gnomon compare ..." without its first word. No word of it is quoted here.
+Words words_of(const std::string& command) {
+  std::istringstream stream(command);
+  Words words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words.empty() ? words : Words(words.begin() + 1, words.end());
+}
+
+/// Some setting, light and camera.
+std::string random_state(std::mt19937& random) {
+  const auto number = [&](double from, double to) {
+    return from + (to - from) * double(random()) / double(std::mt19937::max());
+  };
+  constexpr std::array techniques{"hard", "pcf", "vsm", "second-depth", "csm", "hybrid"};
+  return fmt::format(
+      "set technique {}\nset map-size {}\nset bias {:.3f}texel\nset slope-bias {:.2f}\nset light-azimuth "
+      "{:.1f}\n"
+      "set light-elevation {:.1f}\nset camera-orbit {:.1f} {:.1f}\nset camera-target {:.2f} 0.5 0\n",
+      techniques[random() % techniques.size()], 64 << random() % 4, number(0.0, 3.0), number(0.0, 2.0),
+      number(-180.0, 180.0), number(20.0, 80.0), number(-180.0, 180.0), number(10.0, 60.0),
+      number(-0.5, 0.5));
+}
+
+TEST_F(ViewLab, LabelsOnTheScreenAreThoseOfThePrintedCommand) {
+  constexpr int states = 4;  // view_thread_gl_test goes through more of them
+  std::mt19937 random(7);
+  std::string script = "set panels off\nset size 96x64\nset view labels\n";
+  for (int i = 0; i < states; ++i)
+    script += random_state(random) + fmt::format("wait done\nscreenshot {}.png\nprint\n", i);
+  const ProcessResult result = drive("floating-box", script);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> commands = lines_of(result.out);
+  ASSERT_EQ(commands.size(), std::size_t{states});
+  for (int i = 0; i < states; ++i) {
+    const std::string& command = commands[static_cast<std::size_t>(i)];
+    const Words more{"-o", fmt::format("r{}", i), "--runs", "1", "--no-report", "--quiet"};
+    ASSERT_EQ(run(words_of(command) + more).exit_code, 0) << command;
+    EXPECT_EQ(texels(fmt::format("{}.png", i)), texels(fmt::format("r{}/labels.png", i))) << command;
+  }
+}
+
+// The settings' column at its first size: its sliders lie one below the other, at heights that follow from the
+// size of the text alone.
+TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
+  const ProcessResult result =
+      drive("floating-box",
+            "set size 900x700\nset results off\nset bias 0texel\nset slope-bias 0\nwait 4\n"
+            "drag 20 315 150 315\nwait 2\nprint\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::size_t at = result.out.find("--bias ");
+  ASSERT_NE(at, std::string::npos) << result.out;
+  const double texels = std::stod(result.out.substr(at + 7));
+  EXPECT_GT(texels, 3.0) << result.out;  // half the slider, which ends at 10
+  EXPECT_LT(texels, 7.0) << result.out;
+}
+
+TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
+  const ProcessResult result = drive("floating-box",
+                                     "set size 900x700\nset results off\nwait 4\ndrag 150 339 200 "
+                                     "339\nprint\ndrag 700 600 760 600\nprint\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto commands = lines_of(result.out);
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_EQ(commands[0].find("--camera-orbit"), std::string::npos) << commands[0];
+  EXPECT_NE(commands[1].find("--camera-orbit"), std::string::npos) << commands[1];
+}
+
+TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {
+  std::string script = "set size 800x600\nset probe 100 100\nshow acne\nwait done\n";
+  for (const char* view : {"raster", "raytrace", "difference", "labels", "truth", "gap", "texels", "depth"})
+    script += fmt::format("set view {}\nwait 2\n", view);
+  for (const char* look : {"layout swipe", "layout quad", "theme light", "zoom 8", "ui-scale 2",
+                           "large-type on", "help on", "settings off", "results off", "panels off"})
+    script += fmt::format("set {}\nwait 3\n", look);
+  script += "open acne\nwait done\nkey F8\nkey V\nwait done\nscreenshot end.png\nsave-scene saved.json\n";
+  const ProcessResult result = drive("floating-box", script);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.find("OpenGL"), std::string::npos) << result.err;
+  EXPECT_EQ(texels("end.png").size(), 800u * 600u);
+  EXPECT_EQ(run({"compare", "saved.json", "--size", "64x48", "--json", "-", "--runs", "1"}).exit_code, 0);
+}
+
+TEST_F(ViewLab, AReportIsWrittenBesideTheWindow) {
+  const ProcessResult result =
+      drive("floating-box", "set size 300x200\nset panels off\nset map-size 64\nkey ctrl+R\nwait done\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto entries = folder_.entries();
+  ASSERT_NE(std::find(entries.begin(), entries.end(), "floating-box-report-001/"), entries.end());
+  EXPECT_NE(read_file(folder_ / "floating-box-report-001/result.json").find("\"size\": 64"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
