@@ -158,14 +158,13 @@ constexpr Preset preset_table[] = {
        out.size = 128;
        return out;
      }},
-    {"Show a leak", "a variance map without bleeding reduction: light where two shadows overlap",
+    {"Show a leak", "an exponential map with too small an exponent: light gets through behind near casters",
      [](const MapOptions& map) {
        MapOptions out = map;
-       out.technique = raster::Technique::vsm;
+       out.technique = raster::Technique::esm;
        out.cull = raster::Cull::none;
        out.bias = MapOptions{}.bias;
-       out.filter.blur_radius_texels = 4;
-       out.filter.light_bleeding_reduction = 0.0;
+       out.filter.esm_exponent = 10.0;
        return out;
      }},
 };
