@@ -8,13 +8,12 @@
 namespace gnomon::raytrace {
 
 /// normal: unit shading normal on the viewer's side; to_viewer: unit. The result does not include the shadow.
-template <bool specular>
 inline Vec3f blinn_phong(const LightAtPoint& light, const Vec3& normal, const Vec3& to_viewer,
-                         const Vec3f& diffuse, const Material& material) {
+                         const Vec3f& diffuse, const Material& material, bool specular) {
   const double n_dot_l = glm::dot(normal, light.to_light);
   if (!(n_dot_l > 0.0)) return Vec3f(0.0f);
   Vec3f radiance = diffuse * static_cast<float>(n_dot_l);
-  if constexpr (specular) {
+  if (specular) {
     const Vec3 half_way = light.to_light + to_viewer;
     const double length = glm::length(half_way);
     const double n_dot_h = length > 0.0 ? std::max(0.0, glm::dot(normal, half_way) / length) : 0.0;

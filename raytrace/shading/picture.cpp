@@ -11,11 +11,19 @@
 namespace gnomon::raytrace {
 namespace {
 
+using PictureKernel = void (*)(const PictureInput&, RayTracedFrame&);
+
+template <Secondary secondary>
+PictureKernel kernel_of(const RaytraceOptions& options) {
+  using Kind = PathKind<secondary>;
+  return options.samples_per_pixel > 1 ? shade_samples<Kind> : shade_centres<Kind>;
+}
+
 PictureKernel kernel_for(const EffectPlan& plan, const RaytraceOptions& options) {
-  const bool soft = plan.simulates(Effect::soft_shadow);
-  if (plan.simulates(Effect::indirect_light))
-    return soft ? soft_indirect_kernel(plan, options) : indirect_kernel(plan, options);
-  return soft ? soft_kernel(plan, options) : plain_kernel(plan, options);
+  if (plan.simulates(Effect::refraction) || plan.simulates(Effect::absorption))
+    return kernel_of<Secondary::glass>(options);
+  if (plan.simulates(Effect::reflection)) return kernel_of<Secondary::mirror>(options);
+  return kernel_of<Secondary::none>(options);
 }
 
 /// Rays from a point to a light with size.
@@ -101,7 +109,11 @@ Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& ray
 
 void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
                    const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame) {
-  PictureInput input{.tracer = tracer, .view = view, .options = options, .unstored = unstored};
+  PictureInput input{.tracer = tracer,
+                     .view = view,
+                     .options = options,
+                     .effects = ShadedEffects(plan),
+                     .unstored = unstored};
   if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
   if (plan.simulates(Effect::soft_shadow))
     prepare_light_shafts(tracer, most_samples(*tracer.world().scene, options));

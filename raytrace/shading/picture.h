@@ -1,5 +1,5 @@
-// The ray-traced picture of a frame whose receivers and shadows are known. Every set of effects has its own
-// kernel (raytrace/shading/shade.h); the plan chooses it.
+// The ray-traced picture of a frame whose receivers and shadows are known. Every kind of path has its own
+// loop (raytrace/shading/picture_kernels.h); the plan chooses it.
 #pragma once
 
 #include "raytrace/frame.h"

@@ -1,5 +1,4 @@
-// The loops over pixels, one for each set of effects. The sets are compiled in four files: with and without
-// soft shadows and indirect light.
+// The loops over pixels, one for each kind of path.
 #pragma once
 
 #include <limits>
@@ -9,14 +8,6 @@
 #include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
-
-using PictureKernel = void (*)(const PictureInput&, RayTracedFrame&);
-
-PictureKernel plain_kernel(const EffectPlan& plan, const RaytraceOptions& options);     // plain.cpp
-PictureKernel soft_kernel(const EffectPlan& plan, const RaytraceOptions& options);      // soft.cpp
-PictureKernel indirect_kernel(const EffectPlan& plan, const RaytraceOptions& options);  // indirect.cpp
-PictureKernel soft_indirect_kernel(const EffectPlan& plan,
-                                   const RaytraceOptions& options);  // soft_indirect.cpp
 
 /// For each light of the scene its place in RayTracedFrame::lights, or npos.
 std::vector<std::size_t> truth_of_light(const Scene& scene, const RayTracedFrame& frame);
@@ -36,10 +27,10 @@ struct TileCounts {
 void add_counts(const std::vector<TileCounts>& tiles, RayTracedFrame& frame);
 
 /// What the eye sees of a point. In glass the way to it counts too.
-template <class Policy, class Shadow>
-Vec3f seen(Shader<Policy>& shader, const PictureInput& input, const SurfacePoint& point, PathOf<Policy> path,
+template <class Kind, class Shadow>
+Vec3f seen(Shader<Kind>& shader, const PictureInput& input, const SurfacePoint& point, PathOf<Kind> path,
            RayCounts& rays, const Shadow& shadow) {
-  if constexpr (Policy::refracts) {
+  if constexpr (Kind::refracts) {
     path.inside = input.eye;
     if (!path.inside.empty())
       return shader.arriving(point, glm::length(point.position - input.view.eye), path, rays.refraction);
@@ -65,7 +56,7 @@ void for_each_receiver(const PictureInput& input, const RayTracedFrame& frame, c
 }
 
 /// One sample, at the pixel's centre, where receivers and verdicts are known.
-template <class Policy>
+template <class Kind>
 void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
   const Scene& scene = *input.tracer.world().scene;
   const std::vector<std::size_t> truth = truth_of_light(scene, frame);
@@ -77,21 +68,19 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
       return;
     }
     RayCounts& rays = counts[tile].rays;
-    Shader<Policy> shader(input, frame.color.index(x, y), rays);
-    const PathOf<Policy> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
+    Shader<Kind> shader(input, frame.color.index(x, y), rays);
+    const PathOf<Kind> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
     // A verdict already known saves the ray, but for light that glass may let through and for ambiguous
     // pixels.
     const auto shadow = [&](std::uint32_t i) {
       if (truth[i] < frame.lights.size()) {
-        if constexpr (Policy::soft) {
-          const Image<float>& visibility = frame.lights[truth[i]].visibility;
-          if (!visibility.data.empty())
-            return Policy::refracts && visibility.at(x, y) < 1.0f ? shader.transmittance(point, path, i)
-                                                                  : Vec3f(visibility.at(x, y));
-        }
+        const Image<float>& visibility = frame.lights[truth[i]].visibility;
+        if (!visibility.data.empty())
+          return Kind::refracts && visibility.at(x, y) < 1.0f ? shader.transmittance(point, path, i)
+                                                              : Vec3f(visibility.at(x, y));
         const Verdict verdict = frame.lights[truth[i]].verdict.at(x, y);
         if (verdict == Verdict::lit) return Vec3f(1.0f);
-        if (verdict == Verdict::shadowed && !Policy::refracts) return Vec3f(0.0f);
+        if (verdict == Verdict::shadowed && !Kind::refracts) return Vec3f(0.0f);
       }
       return shader.transmittance(point, path, i);
     };
@@ -102,7 +91,7 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
 
 /// Several samples, spread over the pixel's area, each with its own ray from the eye; their mean is the
 /// pixel.
-template <class Policy>
+template <class Kind>
 void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
   const Tracer& tracer = input.tracer;
   const int per_pixel = input.options.samples_per_pixel;
@@ -112,7 +101,7 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
   for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
     RayCounts& rays = counts[tile].rays;
     const std::size_t pixel = frame.color.index(x, y);
-    Shader<Policy> shader(input, pixel, rays);
+    Shader<Kind> shader(input, pixel, rays);
     const StratifiedSquare square(static_cast<std::uint32_t>(per_pixel), shader.next_key());
     Vec3 sum(0.0);
     for (int s = 0; s < per_pixel; ++s) {
@@ -124,7 +113,7 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
         sum += Vec3(tracer.world().scene->background);
         continue;
       }
-      const PathOf<Policy> path{.direction = ray.direction, .siblings = per_pixel};
+      const PathOf<Kind> path{.direction = ray.direction, .siblings = per_pixel};
       const SurfacePoint point = tracer.surface_point(ray, *hit);
       const auto shadow = [&](std::uint32_t i) { return shader.transmittance(point, path, i); };
       sum += Vec3(counts[tile].finite(seen(shader, input, point, path, rays, shadow)));
@@ -132,35 +121,6 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
     frame.color.data[pixel] = Vec3f(sum / static_cast<double>(per_pixel));
   });
   add_counts(counts, frame);
-}
-
-template <Secondary secondary, bool glossy, bool soft, bool indirect>
-PictureKernel choose_local(const EffectPlan& plan, const RaytraceOptions& options) {
-  const bool textures = plan.simulates(Effect::textures), specular = plan.simulates(Effect::specular);
-  const auto kernel = [&]<bool with_textures, bool with_specular>() -> PictureKernel {
-    using Policy = ShadePolicy<secondary, glossy, with_textures, with_specular, soft, indirect>;
-    return options.samples_per_pixel > 1 ? shade_samples<Policy> : shade_centres<Policy>;
-  };
-  if (textures)
-    return specular ? kernel.template operator()<true, true>() : kernel.template operator()<true, false>();
-  return specular ? kernel.template operator()<false, true>() : kernel.template operator()<false, false>();
-}
-
-template <Secondary secondary, bool soft, bool indirect>
-PictureKernel choose_roughness(const EffectPlan& plan, const RaytraceOptions& options) {
-  return plan.simulates(Effect::glossy) ? choose_local<secondary, true, soft, indirect>(plan, options)
-                                        : choose_local<secondary, false, soft, indirect>(plan, options);
-}
-
-template <bool soft, bool indirect>
-PictureKernel choose_kernel(const EffectPlan& plan, const RaytraceOptions& options) {
-  if (plan.simulates(Effect::absorption))
-    return choose_roughness<Secondary::absorbing_glass, soft, indirect>(plan, options);
-  if (plan.simulates(Effect::refraction))
-    return choose_roughness<Secondary::glass, soft, indirect>(plan, options);
-  if (plan.simulates(Effect::reflection))
-    return choose_roughness<Secondary::mirror, soft, indirect>(plan, options);
-  return choose_local<Secondary::none, false, soft, indirect>(plan, options);
 }
 
 }  // namespace gnomon::raytrace

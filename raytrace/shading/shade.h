@@ -1,6 +1,7 @@
 // Whitted's recursion (Whitted 1980): local shading, the mirror's ray, and behind glass Fresnel's split into
-// a reflected and a refracted ray; rough surfaces and indirect light by samples. Specialised by what the
-// scene calls for: an effect that is not called for has no code here.
+// a reflected and a refracted ray; rough surfaces and indirect light by samples. Compiled for what changes a path
+// (no secondary rays, mirrors, glass); the other effects are asked of the plan, which says the same for a whole
+// picture: such a branch takes no time that could be measured beside a ray.
 //
 // Conventions. The geometric normal decides what a surface is turned towards (light, viewer, entering or
 // leaving); the interpolated one, turned to the viewer's side, shades, reflects and refracts. Closed surfaces
@@ -24,18 +25,29 @@
 
 namespace gnomon::raytrace {
 
-enum class Secondary : std::uint8_t { none, mirror, glass, absorbing_glass };
+enum class Secondary : std::uint8_t { none, mirror, glass };
 
-template <Secondary secondary_, bool glossy_, bool textures_, bool specular_, bool soft_, bool indirect_>
-struct ShadePolicy {
-  static constexpr bool reflects = secondary_ != Secondary::none;
-  static constexpr bool refracts = secondary_ == Secondary::glass || secondary_ == Secondary::absorbing_glass;
-  static constexpr bool absorbs = secondary_ == Secondary::absorbing_glass;
-  static constexpr bool glossy = glossy_;  ///< some mirror or glass is rough
-  static constexpr bool textures = textures_;
-  static constexpr bool specular = specular_;
-  static constexpr bool soft = soft_;          ///< some light has a size
-  static constexpr bool indirect = indirect_;  ///< the scene asks for it
+/// What a path may do.
+template <Secondary secondary>
+struct PathKind {
+  static constexpr bool reflects = secondary != Secondary::none;
+  static constexpr bool refracts = secondary == Secondary::glass;
+};
+
+/// The other effects that the scene calls for.
+struct ShadedEffects {
+  explicit ShadedEffects(const EffectPlan& plan)
+      : textures(plan.simulates(Effect::textures)),
+        specular(plan.simulates(Effect::specular)),
+        soft(plan.simulates(Effect::soft_shadow)),
+        glossy(plan.simulates(Effect::glossy)),
+        absorbs(plan.simulates(Effect::absorption)),
+        indirect(plan.simulates(Effect::indirect_light)) {}
+  bool textures, specular;
+  bool soft;      ///< some light has a size
+  bool glossy;    ///< some mirror or glass is rough
+  bool absorbs;   ///< some glass takes light on the way through it
+  bool indirect;  ///< the scene asks for it
 };
 
 /// Interpolated and normalised, on the side of the point's geometric normal; the geometric normal where the
@@ -46,9 +58,9 @@ Vec3 shading_normal(const World& world, const SurfacePoint& point);
 struct NoGlass {};
 
 /// What a ray has hit on its way into the recursion.
-template <class Policy>
+template <class Kind>
 struct PathOf {
-  using Inside = std::conditional_t<Policy::refracts, Interior, NoGlass>;
+  using Inside = std::conditional_t<Kind::refracts, Interior, NoGlass>;
   Vec3 direction;                         ///< unit
   int depth = 0;                          ///< 0: from the eye
   double weight = 1.0;                    ///< share of the pixel
@@ -64,14 +76,15 @@ struct PictureInput {
   const Tracer& tracer;
   const View& view;
   const RaytraceOptions& options;
+  const ShadedEffects effects;
   Interior eye{};                               ///< the glass that the camera is in
   const UnstoredReceivers* unstored = nullptr;  ///< where the frame stores no receivers of pixel centres
 };
 
-template <class Policy>
+template <class Kind>
 class Shader {
  public:
-  using Path = PathOf<Policy>;
+  using Path = PathOf<Kind>;
 
   /// One for each pixel: its number and options.seed choose the samples.
   Shader(const PictureInput& input, std::size_t pixel, RayCounts& counts)
@@ -79,6 +92,7 @@ class Shader {
         world_(tracer_.world()),
         scene_(*world_.scene),
         options_(input.options),
+        on_(input.effects),
         pixel_key_(sample_key(options_.seed, pixel)),
         counts_(counts) {}
 
@@ -92,17 +106,17 @@ class Shader {
     const Material& material = scene_.materials[world_.material_of(point.primitive)];
     const Vec3 normal = shading_normal(world_, point);
     const float local_share =
-        Policy::reflects ? std::max(0.0f, 1.0f - material.mirror - material.transmission) : 1.0f;
+        Kind::reflects ? std::max(0.0f, 1.0f - material.mirror - material.transmission) : 1.0f;
     Vec3f radiance = material.emission;
     if (local_share > 0.0f) radiance += local_share * local(point, path, material, normal, shadow);
-    if constexpr (Policy::reflects) radiance += secondary(point, path, material, normal);
+    if constexpr (Kind::reflects) radiance += secondary(point, path, material, normal);
     return radiance;
   }
 
   /// Radiance along a path that intersects the point after `length`, through what is no boundary of its
   /// medium. `count` counts the rays that go on behind that.
   Vec3f arriving(SurfacePoint point, double length, Path path, std::uint64_t& count) {
-    if constexpr (Policy::refracts) {
+    if constexpr (Kind::refracts) {
       for (int passed = 0; !is_boundary(point, path.inside); ++passed) {
         if (passed == max_glass_surfaces) return Vec3f(0.0f);
         ++count;
@@ -115,17 +129,17 @@ class Shader {
     }
     const auto shadow = [&](std::uint32_t i) { return transmittance(point, path, i); };
     Vec3f radiance = leaving(point, path, shadow);
-    if constexpr (Policy::absorbs) radiance *= absorbed(path.inside.medium(scene_), length);
+    if constexpr (Kind::refracts)
+      if (on_.absorbs) radiance *= absorbed(path.inside.medium(scene_), length);
     return radiance;
   }
 
   /// Share of the light that arrives along straight lines.
   Vec3f transmittance(const SurfacePoint& point, const Path& path, std::uint32_t light_index) {
     const Light& light = scene_.lights[light_index];
-    if constexpr (Policy::soft)
-      if (has_size(light)) return soft_transmittance(point, path, light, light_index);
+    if (on_.soft && has_size(light)) return soft_transmittance(point, path, light, light_index);
     ++counts_.shadow;
-    if constexpr (!Policy::refracts)
+    if constexpr (!Kind::refracts)
       return Vec3f(is_blocked(point, light) ? 0.0f : 1.0f);
     else
       return through_glass(tracer_.shadow_ray(point, light), path.inside);
@@ -144,7 +158,7 @@ class Shader {
   static int shared(int wanted, const Path& path) { return (wanted + path.siblings - 1) / path.siblings; }
 
   static bool is_in_vacuum(const Path& path) {
-    if constexpr (Policy::refracts) return path.inside.empty();
+    if constexpr (Kind::refracts) return path.inside.empty();
     return true;
   }
 
@@ -163,7 +177,7 @@ class Shader {
       const std::optional<Ray> ray = samples[i];
       if (!ray) continue;
       ++counts_.soft_shadow;
-      if constexpr (Policy::refracts)
+      if constexpr (Kind::refracts)
         sum += through_glass(*ray, path.inside);
       else
         sum += Vec3f(tracer_.occluded(*ray) ? 0.0f : 1.0f);
@@ -175,23 +189,21 @@ class Shader {
   Vec3f local(const SurfacePoint& point, const Path& path, const Material& material, const Vec3& normal,
               const Shadow& shadow) {
     Vec3f diffuse = material.diffuse;
-    if constexpr (Policy::textures) {
-      if (material.diffuse_texture != no_id) {
-        const Vec2 uv = surface_uv(world_, point.primitive, point.barycentric, point.position);
-        diffuse *= Vec3f(sample_texture(scene_.textures[material.diffuse_texture],
-                                        transform_uv(material.texture_transform, uv)));
-      }
+    if (on_.textures && material.diffuse_texture != no_id) {
+      const Vec2 uv = surface_uv(world_, point.primitive, point.barycentric, point.position);
+      diffuse *= Vec3f(sample_texture(scene_.textures[material.diffuse_texture],
+                                      transform_uv(material.texture_transform, uv)));
     }
     Vec3f radiance = scene_.ambient * diffuse;
     for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
       const Light& light = scene_.lights[i];
       if (light_cannot_reach(light, point.position, point.normal)) continue;
-      const Vec3f unshadowed = blinn_phong<Policy::specular>(light_at(light, point.position), normal,
-                                                             -path.direction, diffuse, material);
+      const Vec3f unshadowed = blinn_phong(light_at(light, point.position), normal, -path.direction, diffuse,
+                                           material, on_.specular);
       if (unshadowed != Vec3f(0.0f)) radiance += unshadowed * shadow(i);
     }
-    if constexpr (Policy::indirect)
-      if (!path.gathers && diffuse != Vec3f(0.0f)) radiance += diffuse * gathered(point, path, normal);
+    if (on_.indirect && !path.gathers && diffuse != Vec3f(0.0f))
+      radiance += diffuse * gathered(point, path, normal);
     return radiance;
   }
 
@@ -216,8 +228,7 @@ class Shader {
     if (material.mirror <= 0.0f && material.transmission <= 0.0f) return Vec3f(0.0f);
     // A shading normal turned away from the ray cannot guide it.
     const Vec3 normal = glm::dot(shading, path.direction) < 0.0 ? shading : point.normal;
-    if constexpr (Policy::glossy)
-      if (material.roughness > 0.0f) return rough(point, path, material, normal);
+    if (on_.glossy && material.roughness > 0.0f) return rough(point, path, material, normal);
     return scattered(point, path, material, normal, normal, Smooth{}, counts_.reflection, counts_.refraction);
   }
 
@@ -245,7 +256,7 @@ class Shader {
                   std::uint64_t& refractions) {
     Vec3f radiance(0.0f);
     double reflected = material.mirror;
-    if constexpr (Policy::refracts) {
+    if constexpr (Kind::refracts) {
       if (material.transmission > 0.0f) {
         const double transmission = static_cast<double>(material.transmission);
         Path next = path;
@@ -330,7 +341,7 @@ class Shader {
         share *= material.transmission;
       } else {
         const Crossing crossing = cross(scene_, inside, id, is_entering(point));
-        if constexpr (Policy::absorbs) share *= absorbed(crossing.before, hit->t);
+        if (on_.absorbs) share *= absorbed(crossing.before, hit->t);
         if (crossing.is_boundary()) share *= material.transmission * passing(crossing, ray, point);
         inside = crossing.inside;
       }
@@ -344,7 +355,7 @@ class Shader {
 
   /// The last piece, when the light itself is in glass.
   Vec3f to_the_light(const Ray& ray, const Interior& inside) const {
-    if constexpr (Policy::absorbs)
+    if (on_.absorbs)
       if (std::isfinite(ray.t.max)) return absorbed(inside.medium(scene_), ray.t.max);
     return Vec3f(1.0f);
   }
@@ -360,6 +371,7 @@ class Shader {
   const World& world_;
   const Scene& scene_;
   const RaytraceOptions& options_;
+  const ShadedEffects& on_;
   const std::uint64_t pixel_key_;
   std::uint64_t points_sampled_ = 0;  // so far
   RayCounts& counts_;
