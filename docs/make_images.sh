@@ -78,8 +78,8 @@ rendered robust far-away --size 320x180 --camera-distance 5.2
 beside robustness 2x1 "$work/naive.png" "$work/robust.png"
 for structure in octree kdtree bsp bvh; do
   rendered "$structure" stadium --accel $structure --heatmap nodes --size 320x180
+  oiiotool --nosoftwareattrib "$work/$structure.png" -o "$images/lesson-$structure.png"
 done
-beside structures 2x2 "$work/octree.png" "$work/kdtree.png" "$work/bsp.png" "$work/bvh.png"
 
 pair acne raster difference acne-floor --bias 0 --map-size 64
 pair peter-panning raster difference floating-box --bias 0.6

@@ -310,6 +310,10 @@ TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
     const bool has_its_own =
         label != Label::unexplained;  // of another renderer's picture: the budget as a whole
     EXPECT_EQ(lesson_of(label).name != "error-budget", has_its_own) << k;
+    const std::string html =
+        lesson_html(lesson_of(label));  // words alone: the page sets neither tables nor formulas
+    EXPECT_EQ(html.find("<p>|"), std::string::npos) << lesson_of(label).name;
+    EXPECT_EQ(html.find("<p>    "), std::string::npos) << lesson_of(label).name;
   }
 }
 
