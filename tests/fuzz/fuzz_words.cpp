@@ -79,17 +79,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 std::vector<std::string> gnomon::fuzz::seeds() {
-  return {
-      "compare\nfence\n--size\n64x36\n--map-size\n512\n--bias\n0.5texel\n--slope-bias\n1\n--fail-"
-      "above\nwrong:1%",
-      "compare\nfence\n--technique\npcf\n--filter-kernel\npoisson\n--filter-radius\n2.5\n--exposure\nauto\n--"
-      "seed\n7",
-      "compare\nfence\n--camera-orbit\n30,20\n--light-azimuth\n10\n--light-elevation\n45\n--threads\n2\n--"
-      "runs\n3",
-      "sweep\nfence\n--bias\n0:0.1:64\n--map-size\n128:8192:x2\n--technique\nhard,pcf\n--shard\n1/2\n--zip",
-      "tune\nfence\n--max-error\n0.5%\n--map-size\n256:4096:x2",
-      "raytrace\nfence\n-o\na.png\n--precision\nexact\n--accel\nkdtree\n--samples\n16",
-      "shimmer\nfence\n--path\ndrift\n--drift\n0.2,0.1\n--frames\n8",
-      "plan\nfence\n--json\n-",
-      "verify\n--help"};
+  std::vector<std::string> lines{
+      "compare fence --size 64x36 --map-size 512 --bias 0.5texel --slope-bias 1 --fail-above wrong:1%",
+      "compare fence --technique pcf --filter-kernel poisson --filter-radius 2.5 --exposure auto --seed 7",
+      "compare fence --camera-orbit 30,20 --light-azimuth 10 --light-elevation 45 --threads 2 --runs 3",
+      "sweep fence --bias 0:0.1:64 --map-size 128:8192:x2 --technique hard,pcf --shard 1/2 --zip",
+      "tune fence --max-error 0.5% --map-size 256:4096:x2",
+      "raytrace fence -o a.png --precision exact --accel kdtree --samples 16",
+      "shimmer fence --path drift --drift 0.2,0.1 --frames 8",
+      "plan fence --json -",
+      "verify --help"};
+  for (std::string& line : lines) std::replace(line.begin(), line.end(), ' ', '\n');
+  return lines;
 }
