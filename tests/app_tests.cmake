@@ -6,7 +6,7 @@ gnomon_test(app_test
 add_dependencies(app_test gnomon_program fault_in_worker)
 
 # The lessons' own commands, and the fault that each of them shows.
-gnomon_test(lesson_faults_gl_test SOURCES lesson_faults_gl_test.cpp app_process.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
+gnomon_test(lesson_faults_gl_test TIMEOUT 900 SOURCES lesson_faults_gl_test.cpp app_process.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 add_dependencies(lesson_faults_gl_test gnomon_program)
 
 # The conformance suite that gnomon export writes.
