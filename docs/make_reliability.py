@@ -75,7 +75,7 @@ def exactness(page):
     done, seconds = page.run([page.test('precisions_agree_test'), str(n)])
     pixels, doubtful, differ, asked, wrong = numbers(done.stdout)[:5]
     page.add(f'`robust` against `exact`: pixels of {n} random scenes of which `robust` is certain', pixels - doubtful, differ,
-             seconds, f'precisions_agree_test {n}')
+             seconds, f'`precisions_agree_test {n}`')
     page.add('`exact` against rational numbers: pixels of those scenes', asked, wrong, 0, 'the same')
     n = page.times(150)
     done, seconds = page.run([page.test('random_scenes_gl_test'), str(n)])
@@ -83,24 +83,24 @@ def exactness(page):
         found = re.match(r'(\w+) +(\d+) scenes, (\d+) pixels with a certain verdict, (\d+) wrong', line)
         if found:
             page.add(f'`{found[1]}` against the ray tracer: pixels of {found[2]} random scenes', int(found[3]), int(found[4]),
-                     seconds, f'random_scenes_gl_test {n}')
+                     seconds, f'`random_scenes_gl_test {n}`')
             seconds = 0
     n = page.times(1e6)
     done, seconds = page.run([page.test('exact_gmp_test'), str(n)])
     page.add('`exact` against rational numbers: triangles of eight hard kinds', n, 0 if done.returncode == 0 else 'some',
-             seconds, f'exact_gmp_test {n}')
+             seconds, f'`exact_gmp_test {n}`')
     n = page.times(2)
     done, seconds = page.run([page.test('compare_invariance_gl_test')], env=dict(os.environ, GNOMON_INVARIANCE=str(n)))
     failures = done.stdout.count(': Failure')
     page.add(f'{n} random scenes, every technique: scaled, shuffled, cut, moved', 5 * n, failures, seconds,
-             f'GNOMON_INVARIANCE={n} compare_invariance_gl_test')
+             f'`GNOMON_INVARIANCE={n} compare_invariance_gl_test`')
 
 
 def hard_cases(page):
     done, seconds = page.run([page.program(), 'verify', '--rays', str(page.times(100000)), '--json', '-', '-q'])
     rows = json.loads(done.stdout)['rows']
     page.add(f'Hard cases: checks in the {len(rows)} rows of `gnomon verify`', sum(r['tried'] for r in rows),
-             sum(r['wrong'] for r in rows if not r['ok']), seconds, f'gnomon verify --rays {page.times(100000)}')
+             sum(r['wrong'] for r in rows if not r['ok']), seconds, f'`gnomon verify --rays {page.times(100000)}`')
 
 
 def mutated_files(page):
@@ -108,7 +108,7 @@ def mutated_files(page):
     for target, what in FUZZ_TARGETS.items():
         done, seconds = page.run([page.test(f'fuzz_replay_{target}'), '--mutations', str(n), '--seed', '2'])
         page.add(f'Mutations of {what}: crashes, sanity checks failed', n, 0 if done.returncode == 0 else 1, seconds,
-                 f'fuzz_replay_{target} --mutations {n} --seed 2')
+                 f'`fuzz_replay_{target} --mutations {n} --seed 2`')
 
 
 def faults(page):
@@ -118,7 +118,7 @@ def faults(page):
     failed = re.search(r'\[  FAILED  \] (\d+) test', done.stdout)
     skipped = re.search(r'\[  SKIPPED \] (\d+) test', done.stdout)
     page.add('Faults provoked (full disk, limits, signals, broken pipe, no driver, an error in a thread, ...): tests',
-             int(ran[1]) if ran else 0, int(failed[1]) if failed else 0, seconds, f"app_test --gtest_filter='{names}'")
+             int(ran[1]) if ran else 0, int(failed[1]) if failed else 0, seconds, f"`app_test --gtest_filter='{names}'`")
     if skipped:
         page.notes.append(f'{skipped[1]} of the tests of faults were skipped: what they need is not on this machine.')
 
@@ -174,7 +174,7 @@ def text_of(page):
              '| what | tried | failed | seconds | command |', '|---|--:|--:|--:|---|']
     for what, tried, failed, seconds, command in page.rows:
         time_text = f'{seconds:.0f}' if seconds else ''
-        lines.append(f'| {what} | {tried:,} | {failed} | {time_text} | `{command}` |')
+        lines.append(f'| {what} | {tried:,} | {failed} | {time_text} | {command} |')
     lines += ['', *page.notes] if page.notes else []
     lines += ['', 'What each hard case is stands in [hard-cases.md](hard-cases.md).']
     return '\n'.join(lines) + '\n' + PEERS
