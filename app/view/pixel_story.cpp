@@ -37,7 +37,9 @@ int deciding_step(const PixelStory& story) {
   return wrong(5) ? first : 6;
 }
 
-std::string test_words(const PixelStory& story, const raster::LightRecord& record) {
+std::string test_words(const PixelStory& story, const raster::LightRecord& record, const raster::Bias& own) {
+  const bool bias_is_constant =
+      own.slope == 0.0 && own.normal_offset_texels == 0.0 && !own.receiver_plane && !own.adaptive;
   const int size = record.map.view.size;
   if (!std::isfinite(story.gap)) {
     const bool outside = story.u < 0.0 || story.v < 0.0 || story.u >= size || story.v >= size;
@@ -48,6 +50,9 @@ std::string test_words(const PixelStory& story, const raster::LightRecord& recor
   const std::string distance = fmt::format("{:.3g}", std::abs(story.gap));
   const std::string bias = fmt::format("the constant bias of {:.3g}", story.bias_world);
   const bool dark = story.gap > story.bias_world;
+  if (story.gap <= 0.0 && bias_is_constant)
+    return fmt::format("{} stores a depth {} behind this point: the test draws the pixel {}.", texel,
+                       distance, dark ? "dark" : "lit");
   if (story.gap <= 0.0)
     return fmt::format(
         "{} stores nothing that is nearer to the light than the other parts of the bias allow for; "
@@ -128,7 +133,7 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   story.deciding = deciding_step(story);
   story.why = why_words(story);
   if (story.seen && raster::compares_depths(outcome.comparison.raster.options.map.technique))
-    story.test = test_words(story, record);
+    story.test = test_words(story, record, outcome.comparison.raster.options.map.bias);
   if (story.deciding > 0) story.cure = compare::label_text(story.label).cure;
   return story;
 }

@@ -12,11 +12,11 @@ namespace {
 constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                            "/usr/share/fonts/TTF/DejaVuSans.ttf",
                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
-// Latin with accents, Greek, dashes and quotes, super- and subscripts, arrows, mathematical signs, shapes, check
-// marks.
-constexpr std::array<ImWchar, 17> glyphs{0x0020, 0x017f, 0x0370, 0x03ff, 0x2010, 0x2027,
-                                         0x2070, 0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
-                                         0x25a0, 0x25ff, 0x2713, 0x2717, 0};
+// Latin with accents, Greek, dashes and quotes, superscripts, arrows, a few mathematical signs, check marks: no more
+// than is shown, for a font is made anew at every scale.
+constexpr std::array<ImWchar, 17> glyphs{0x0020, 0x017f, 0x0391, 0x03c9, 0x2010, 0x2027,
+                                         0x2070, 0x2079, 0x2190, 0x2193, 0x2212, 0x2212,
+                                         0x2248, 0x2265, 0x2713, 0x2717, 0};
 
 void darker_panels() {
   ImGui::StyleColorsDark();

@@ -69,7 +69,12 @@ TypeSize Viewer::type() const {
 
 void Viewer::act(const Action& action) {
   busy_frames_ = 3;
-  if (const auto* change = std::get_if<Change>(&action)) return app::carry_out(state_, *change);
+  if (const auto* change = std::get_if<Change>(&action)) {
+    const std::uint64_t before = state_.revision;
+    app::carry_out(state_, *change);
+    if (state_.revision != before) note_.clear();  // it was said of another setting
+    return;
+  }
   if (const auto* open = std::get_if<OpenScene>(&action)) {
     note("opening " + open->name);
     return thread_->open({open->name, false});
@@ -125,7 +130,7 @@ Expected<void> Viewer::run() {
     look_after_job();
     if (auto ok = draw_frame(); !ok) return ok;
     window_->show_frame();
-    meter_.frame(frame.elapsed_ms());
+    meter_.frame(frame.elapsed_ms() - std::exchange(writing_ms_, 0.0));
     meter_.shown(*shown_);
     sleep();
   }
@@ -275,9 +280,7 @@ Expected<void> Viewer::draw_frame() {
     const std::string path = *std::exchange(shot_after_frame_, std::nullopt);
     if (auto ok = save_screenshot(path); !ok) return ok;
   }
-  if (std::exchange(screenshot_asked_, false))
-    save_numbered(std::string(picture_name(state_.picture)), ".png",
-                  [this](const std::string& path) { return save_screenshot(path); });
+  if (std::exchange(screenshot_asked_, false)) save_numbered_screenshot();
   return {};
 }
 
@@ -296,7 +299,7 @@ void Viewer::sleep() {
     --busy_frames_;
     return;
   }
-  if (!has_script()) return window_->wait(job_ ? busy_wait_seconds : idle_wait_seconds);
+  if (!has_script()) return window_->wait(job_ || saving_.valid() ? busy_wait_seconds : idle_wait_seconds);
   const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
   if (waits || resizing_ || opening_after_ || job_) window_->wait(idle_wait_seconds / 100.0);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,9 +69,11 @@ class Viewer {
   void note(std::string text);
   void note(const Error& error);
   Expected<void> save_screenshot(const std::string& path);
-  Expected<void> save_image(const Rgb8Image& image, const std::string& path);
-  void save_numbered(const std::string& kind, const std::string& extension,
-                     const std::function<Expected<void>(const std::string&)>& save);
+  Expected<Rgb8Image> screenshot() const;
+  void save_numbered(const std::string& start, const std::string& extension,
+                     std::function<Expected<void>(const std::string&)> save);
+  std::string file_start(std::string_view kind) const;
+  void save_numbered_screenshot();
   void save_picture();
   void save_scene();
   void copy_command();
@@ -121,6 +124,9 @@ class Viewer {
   std::shared_ptr<const Snapshot> shown_;
   std::unique_ptr<Job> job_;
   bool job_tunes_ = false;
+  std::future<Expected<void>> saving_;  ///< a file that is written beside the window
+  std::string saving_path_;
+  double writing_ms_ = 0.0;  ///< of this frame, spent on a script's screenshot
   LabLayout layout_;
   Pointer pointer_;
   bool holds_swipe_ = false;                ///< the line of a swipe

@@ -2,6 +2,7 @@
 // this program beside the window.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +25,12 @@ namespace fs = std::filesystem;
 constexpr const char* tuned_size = "480x270";
 constexpr const char* tuned_error = "1%";
 
+Expected<void> save_image(const Rgb8Image& image, const std::string& path) {
+  const OutputGuard whole_output;
+  if (auto made = make_folder_for(path); !made) return made;
+  return write_png(path, image);
+}
+
 bool is_bias_option(std::string_view name) {
   return name == "bias" || name == "normal-offset" || name == "receiver-plane" || name == "adaptive-bias";
 }
@@ -40,47 +47,60 @@ void Viewer::note(const Error& error) {
   print_error(error);
 }
 
-Expected<void> Viewer::save_image(const Rgb8Image& image, const std::string& path) {
-  const OutputGuard whole_output;
-  if (auto made = make_folder_for(path); !made) return made;
-  return write_png(path, image);
-}
-
+/// A script's: written before the next step.
 Expected<void> Viewer::save_screenshot(const std::string& path) {
-  const ImageSize size = window_->framebuffer_size();
-  const auto picture = presenter_->read({0, 0, size.width, size.height});
+  const Stopwatch watch;
+  const auto picture = screenshot();
   if (!picture) return fail(picture.error());
   if (auto written = save_image(*picture, path); !written) return written;
   console_.message("screenshot: " + path);
+  writing_ms_ += watch.elapsed_ms();
   return {};
 }
 
-/// SCENE-KIND-001.png and so on in the current folder; nothing is overwritten.
-void Viewer::save_numbered(const std::string& kind, const std::string& extension,
-                           const std::function<Expected<void>(const std::string&)>& save) {
-  const std::string name = fs::path(shown_->scene->argument.name).stem().string();
+Expected<Rgb8Image> Viewer::screenshot() const {
+  const ImageSize size = window_->framebuffer_size();
+  return presenter_->read({0, 0, size.width, size.height});
+}
+
+/// SCENE-KIND-001.png and so on; nothing is overwritten. `save` runs beside the window.
+void Viewer::save_numbered(const std::string& start, const std::string& extension,
+                           std::function<Expected<void>(const std::string&)> save) {
+  if (saving_.valid()) return note("still saving " + saving_path_);
   for (int number = 1;; ++number) {
-    const std::string path = fmt::format("{}-{}-{:03}{}", name, kind, number, extension);
+    saving_path_ = fmt::format("{}-{:03}{}", start, number, extension);
     std::error_code ignored;
-    if (fs::exists(path, ignored)) continue;
-    const Expected<void> saved = save(path);
-    return saved ? note("saved " + path) : note(saved.error());
+    if (!fs::exists(saving_path_, ignored)) break;
   }
+  saving_ =
+      std::async(std::launch::async, [save = std::move(save), path = saving_path_] { return save(path); });
+}
+
+/// "courtyard-labels".
+std::string Viewer::file_start(std::string_view kind) const {
+  return fmt::format("{}-{}", fs::path(shown_->scene->argument.name).stem().string(), kind);
+}
+
+void Viewer::save_numbered_screenshot() {
+  auto picture = screenshot();
+  if (!picture) return note(picture.error());
+  save_numbered(file_start(picture_name(state_.picture)), ".png",
+                [image = std::move(*picture)](const std::string& path) { return save_image(image, path); });
 }
 
 /// As many pixels as it was made with, whatever stands around it.
 void Viewer::save_picture() {
   const Rgb8Image* image = picture(state_.picture);
   if (image == nullptr) return;
-  save_numbered(std::string(picture_name(state_.picture)), ".png",
-                [&](const std::string& path) { return save_image(*image, path); });
+  save_numbered(file_start(fmt::format("{}-picture", picture_name(state_.picture))), ".png",
+                [image, keeps = shown_](const std::string& path) { return save_image(*image, path); });
 }
 
 void Viewer::save_scene() {
-  const std::string folder = folder_for_scene(shown_->scene->argument);
-  save_numbered("scene", ".json", [&](const std::string& path) {
-    return write_scene(folder + path, shown_->scene->argument, state_);
-  });
+  const SceneArgument& opened = shown_->scene->argument;
+  save_numbered(
+      folder_for_scene(opened) + file_start("scene"), ".json",
+      [opened, state = state_](const std::string& path) { return write_scene(path, opened, state); });
 }
 
 void Viewer::copy_command() {
@@ -127,6 +147,10 @@ void Viewer::find_best() {
 }
 
 void Viewer::look_after_job() {
+  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    const Expected<void> saved = saving_.get();
+    saved ? note("saved " + saving_path_) : note(saved.error());
+  }
   if (!job_ || !job_->ended()) return;
   const std::unique_ptr<Job> done = std::move(job_);
   const int code = done->exit_code();
