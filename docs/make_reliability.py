@@ -92,7 +92,7 @@ def exactness(page):
     n = page.times(2)
     done, seconds = page.run([page.test('compare_invariance_gl_test')], env=dict(os.environ, GNOMON_INVARIANCE=str(n)))
     failures = done.stdout.count(': Failure')
-    page.add(f'{n} random scenes, every technique: scaled, shuffled, cut, moved', 5 * n, failures, seconds,
+    page.add(f'{n} random scene{"s" if n > 1 else ""}, every technique: scaled, shuffled, cut, moved', 5 * n, failures, seconds,
              f'`GNOMON_INVARIANCE={n} compare_invariance_gl_test`')
 
 
