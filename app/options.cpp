@@ -90,6 +90,8 @@ void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
   command.add_flag("--cascade-fit", cascades.fit_samples,
                    "fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
                    "[default off]");
+  add_number(command, "--cascade-blend", cascades.blend, {0.0, 0.5}, "share of a cascade's width",
+             "how far from its border on a cascade is mixed with the next; 0 leaves a seam");
 }
 
 }  // namespace
@@ -136,6 +138,11 @@ void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
   add_filter_options(command, map.filter);
   add_cascade_options(command, map.cascades);
+  command.add_flag(
+      "--snap", map.snap,
+      "let the map of a directional light stand still between steps, so that edges hold still: sizes by "
+      "steps of a quarter octave, places by whole texels (lispsm: all by steps); costs up to a fifth of "
+      "the resolution along each axis [default off]");
   name_readers(command);
 }
 

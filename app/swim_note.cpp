@@ -37,6 +37,7 @@ bool single_map_moves(const World& world, const Light& light, const raster::MapO
 bool swims(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
   if (light.type != LightType::directional) return false;     // its map stays with the light
   if (!raster::compares_depths(map.technique)) return false;  // whatever the map, the answer is the same
+  if (map.snap) return false;                                 // it stands still between steps
   switch (raster::traits_of(map.technique).texels) {
     case raster::TexelShape::cascades:
       return !map.cascades.snap || map.cascades.fit_samples;
@@ -61,7 +62,7 @@ std::string swim_note(const World& world, const raster::MapOptions& map, ImageSi
   return fmt::format(
       "The map of {} follows the camera by parts of a texel ({}): its shadow edges swim when the camera "
       "moves; "
-      "--technique csm moves by whole texels.",
+      "--technique csm moves by whole texels, and so do other maps with --snap.",
       fmt::join(names, ", "), raster::technique_name(map.technique));
 }
 

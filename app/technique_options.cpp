@@ -46,7 +46,9 @@ constexpr Row rows[] = {{"bias", MapOption::bias},
                         {"cascades", MapOption::cascades},
                         {"cascade-lambda", MapOption::cascade_lambda},
                         {"no-snap", MapOption::no_snap},
-                        {"cascade-fit", MapOption::cascade_fit}};
+                        {"cascade-fit", MapOption::cascade_fit},
+                        {"cascade-blend", MapOption::cascade_blend},
+                        {"snap", MapOption::snap}};
 
 const Row* row_of(std::string_view option) {
   const Row* found =

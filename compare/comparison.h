@@ -185,6 +185,22 @@ struct RayWork {
   std::uint64_t rays = 0, boxes = 0, primitives = 0;  ///< tested
 };
 
+/// Of a film whose first frame is the comparison's picture (compare/shimmer/shimmer.h).
+struct ShimmerFigures {
+  int frames = 0;
+  double fps = 0.0;
+  std::uint64_t receiver_steps = 0;  ///< receivers compared in two following frames, over all pairs of them
+  std::uint64_t flips = 0;
+  double flips_per_receiver_second = 0.0;
+  double mean_absolute = 0.0;  ///< of the temporal error
+};
+
+/// Where cascades meet (cascades.h).
+struct SeamCount {
+  std::uint64_t at_border = 0;  ///< receivers beside a change of cascades
+  std::uint64_t changed = 0;    ///< of them those whose visibility changes only because the cascade does
+};
+
 struct LightComparison {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
@@ -197,6 +213,8 @@ struct LightComparison {
   Detachment detachment;
   BleedingStats bleeding;
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
+  std::optional<SeamCount> seams;         ///< of technique csm
+  std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
   /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
   std::vector<BiasCurvePoint> bias_curve;
   std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty

@@ -6,6 +6,7 @@
 #include "compare/bias_kinds.h"
 #include "compare/bleeding.h"
 #include "compare/budget.h"
+#include "compare/cascades.h"
 #include "compare/edges.h"
 #include "compare/flip.h"
 #include "compare/option_names.h"
@@ -181,6 +182,7 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   out.texel_world = map.texel_world;
   out.theory = map.theory;
   out.bias_texel_world = in.record.texel_world;
+  out.seams = count_seams(in, out.labels);
   out.lookups = count_lookups(in.drawn, in.record, out.labels);
   if (options.perceptual) out.ray_work = count_ray_work(in.tracer, in.light, in.traced.receiver, out.labels);
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record);

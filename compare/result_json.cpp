@@ -197,9 +197,12 @@ std::string dumped(const Json& json, int indent) {
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
   Json json = result_object(c, report_ms, total_ms);
-  for (std::size_t i = 0; i < c.lights.size(); ++i)
+  for (std::size_t i = 0; i < c.lights.size(); ++i) {
     if (Json cascades = by_cascade_json(c, c.lights[i]); !cascades.is_null())
       json["lights"][i]["by_cascade"] = std::move(cascades);
+    if (const auto& seams = c.lights[i].seams)
+      json["lights"][i]["seams"] = {{"at_border", seams->at_border}, {"changed", seams->changed}};
+  }
   if (c.judged) json["judged"] = judged_json(*c.judged);
   add_threshold(c, json);
   return dumped(json, 2);

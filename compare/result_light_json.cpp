@@ -88,6 +88,7 @@ Json cascades_json(const raster::MapOptions& map, const LightView& view) {
           {"lambda", number(map.cascades.lambda)},
           {"snap", map.cascades.snap && !map.cascades.fit_samples},
           {"fit_samples", map.cascades.fit_samples},
+          {"blend", number(map.cascades.blend)},
           {"faces", std::move(faces)}};
 }
 
@@ -142,6 +143,7 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"cull", cull_name(map.cull)},
             {"bias", bias_json(c, light)},
             {"custom_shader", custom_shader_json(c.raster)},
+            {"snap", map.snap},
             {"cascades", cascades_json(map, record.map.view)},
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(map)},

@@ -131,6 +131,11 @@ std::string accidents_line(const RightByAccident& a) {
                      grouped(a.shadowed), grouped(a.lit));
 }
 
+std::string seams_line(const SeamCount& seams) {
+  return fmt::format("{} of {} receivers beside another cascade would be drawn otherwise by it",
+                     grouped(seams.changed), grouped(seams.at_border));
+}
+
 // What each step took and what it added.
 std::string budget_line(const Comparison& c, const LightComparison& light) {
   std::string text;
@@ -291,6 +296,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by chance", accidents_line(light.accidents));
     page.field("budget", budget_line(c, light));
+    if (light.seams) page.field("seams", seams_line(*light.seams));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
     if (!lacks_map(c)) add_theory(page, light.theory);

@@ -35,4 +35,11 @@ bool Surfaces::same(std::uint32_t a, std::uint32_t b) const {
   return parent_[topology_.welded(a, 0)] == parent_[topology_.welded(b, 0)];
 }
 
+bool on_smooth_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world) {
+  if (a.primitive == no_id || b.primitive == no_id) return false;
+  if (!world.is_triangle(a.primitive) || !world.is_triangle(b.primitive)) return a.primitive == b.primitive;
+  constexpr double least_cosine = 0.9;
+  return glm::dot(a.normal, b.normal) > least_cosine;
+}
+
 }  // namespace gnomon::compare

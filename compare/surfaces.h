@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "raytrace/frame.h"
 #include "raytrace/sheets.h"
 
 namespace gnomon::compare {
@@ -22,5 +23,9 @@ class Surfaces {
   mutable std::once_flag once_;
   mutable std::vector<std::uint32_t> parent_;  ///< by welded vertex; its own where it stands for its surface
 };
+
+/// Whether two neighbouring pixels see one smooth surface: the same shape, or triangles whose normals differ by 25
+/// degrees at most.
+bool on_smooth_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world);
 
 }  // namespace gnomon::compare

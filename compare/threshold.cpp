@@ -22,6 +22,8 @@ std::string_view measure_name(ErrorMeasure measure) {
       return "flip";
     case ErrorMeasure::edge:
       return "edge";
+    case ErrorMeasure::shimmer:
+      return "shimmer";
   }
   return "";
 }
@@ -34,6 +36,8 @@ std::string threshold_text(const Threshold& t) {
       return fmt::format("flip:{:.6g}", t.limit);
     case ErrorMeasure::edge:
       return fmt::format("edge:{:.6g}texel", t.limit);
+    case ErrorMeasure::shimmer:
+      return fmt::format("shimmer:{:.6g}", t.limit);
     default:
       return fmt::format("{}:{:.6g}%", measure_name(t.measure), 100.0 * t.limit);
   }
@@ -51,14 +55,22 @@ std::string limit_words(const Threshold& t) {
       return fmt::format("a mean FLIP of at most {}", plain_number(t.limit));
     case ErrorMeasure::edge:
       return fmt::format("shadow edges displaced by at most {} (RMS)", texels_text(t.limit));
+    case ErrorMeasure::shimmer:
+      return fmt::format("at most {} flips per receiver and second", plain_number(t.limit));
   }
   return {};
 }
 
 ErrorFigures figures_of(const LightComparison& light) {
-  return {light.error.wrong_fraction,       light.error.mean_absolute, light.error.flip,
-          light.edges.rms_texels,           light.pixels.compared,     light.pixels.uncertain,
-          light.pixels.uncertain_by_samples};
+  return {
+      light.error.wrong_fraction,
+      light.error.mean_absolute,
+      light.error.flip,
+      light.edges.rms_texels,
+      light.pixels.compared,
+      light.pixels.uncertain,
+      light.pixels.uncertain_by_samples,
+      light.shimmer ? light.shimmer->flips_per_receiver_second : std::numeric_limits<double>::quiet_NaN()};
 }
 
 double figure(const ErrorFigures& f, ErrorMeasure measure) {
@@ -73,11 +85,15 @@ double figure(const ErrorFigures& f, ErrorMeasure measure) {
       return f.flip;
     case ErrorMeasure::edge:
       return f.edge_rms_texels;
+    case ErrorMeasure::shimmer:
+      return f.flips_per_second;
   }
   return 0.0;
 }
 
 std::string figure_words(const ErrorFigures& f, ErrorMeasure measure) {
+  if (measure == ErrorMeasure::shimmer)
+    return plain_number(f.flips_per_second) + " flips per receiver and second";
   std::string text =
       fmt::format("{} wrong, mean error {}", percent(f.wrong_fraction), percent(f.mean_absolute));
   if (measure == ErrorMeasure::flip) text += ", mean FLIP " + plain_number(f.flip);
@@ -92,7 +108,8 @@ std::uint64_t unknown_pixels(const ErrorFigures& f, ErrorMeasure measure) {
 
 bool too_uncertain(const Threshold& t, const ErrorFigures& f) {
   const std::uint64_t unknown = unknown_pixels(f, t.measure);
-  if (t.measure == ErrorMeasure::edge) return f.compared == 0 && unknown > 0;
+  if (t.measure == ErrorMeasure::edge || t.measure == ErrorMeasure::shimmer)
+    return f.compared == 0 && unknown > 0;
   return static_cast<double>(unknown) > t.limit * static_cast<double>(f.compared + f.uncertain);
 }
 

@@ -16,17 +16,18 @@ enum class ErrorMeasure : std::uint8_t {
   wrong,           ///< share of wrong pixels
   mean,            ///< mean |V6 - V0|
   flip,            ///< mean FLIP of the visibility pictures
-  edge             ///< RMS displacement of shadow edges, texels
+  edge,            ///< RMS displacement of shadow edges, texels
+  shimmer          ///< flips per receiver and second of a film (docs/shimmer.md)
 };
-/// "wrong", "mean", "flip", "edge"; "wrong and mean" for both.
+/// "wrong", "mean", "flip", "edge", "shimmer"; "wrong and mean" for both.
 std::string_view measure_name(ErrorMeasure measure);
 
 struct Threshold {
   ErrorMeasure measure = ErrorMeasure::wrong_and_mean;
-  double limit = 0.0;  ///< a share in [0, 1]; of `edge` texels
+  double limit = 0.0;  ///< a share in [0, 1]; of `edge` texels, of `shimmer` flips per receiver and second
   bool operator==(const Threshold&) const = default;
 };
-/// As it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel".
+/// As it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 std::string threshold_text(const Threshold& threshold);
 /// "at most 1 % wrong and mean error"
 std::string limit_words(const Threshold& threshold);
@@ -39,6 +40,7 @@ struct ErrorFigures {
   std::uint64_t compared = 0, uncertain = 0;  ///< pixels
   std::uint64_t uncertain_by_samples = 0;     ///< of the uncertain ones: their visibility is known, but not
                                               ///< on which side of one half it lies
+  double flips_per_second = std::numeric_limits<double>::quiet_NaN();  ///< per receiver
 };
 ErrorFigures figures_of(const LightComparison& light);
 /// The figure that a measure is about.
@@ -50,7 +52,7 @@ std::string figure_words(const ErrorFigures& figures, ErrorMeasure measure);
 /// samples leave in doubt.
 std::uint64_t unknown_pixels(const ErrorFigures& figures, ErrorMeasure measure);
 /// So many pixels are uncertain that they alone could exceed the threshold: of those that show a lit or
-/// shadowed surface a larger share than the limit; for `edge`, which is no share, all of them.
+/// shadowed surface a larger share than the limit; for `edge` and `shimmer`, which are no shares, all of them.
 bool too_uncertain(const Threshold& threshold, const ErrorFigures& figures);
 /// The figure is more than the limit, or not known.
 bool exceeds(const Threshold& threshold, const ErrorFigures& figures);

@@ -48,7 +48,8 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   block.area_u = Vec4f(Vec4(u, 0.0));
   block.area_v = Vec4f(Vec4(v, 0.0));
   const FilterOptions& f = map.filter;
-  block.filter_radii = Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, 0.0));
+  block.filter_radii =
+      Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, map.cascades.blend));
   block.moments = map.technique == Technique::evsm
                       ? Vec4f(Vec4(f.evsm_positive_exponent, f.evsm_negative_exponent, 0.0, 0.0))
                       : Vec4f(Vec4(f.esm_exponent, 0.0, f.moment_bias, 0.0));

@@ -15,9 +15,6 @@ struct MapCamera {
   Camera camera;
   Vec3 shift{0.0};      ///< world units; orthographic maps move by what of it lies across the light
   double margin = 0.0;  ///< world units, >= 0; of orthographic maps without a warp
-  /// Orthographic maps of one face without a warp: sizes from a ladder of a quarter octave's steps, and places that
-  /// are whole texels apart, so that what stands still keeps its texels while the size stays.
-  bool snap = false;
 };
 
 /// From the next frame on; nothing: the picture's own camera, as it is at first. The renderer is one that

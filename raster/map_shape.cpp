@@ -35,7 +35,7 @@ Expected<LightView> fit_map(const World& world, const Light& light, const Camera
   auto view = options.technique == Technique::csm
                   ? fit_cascades(world, light, camera, aspect, options.size, options.cascades, visible)
               : options.technique == Technique::lispsm
-                  ? fit_warped(world, light, camera, aspect, options.size)
+                  ? fit_warped(world, light, camera, aspect, options.size, options.snap)
                   : fit_light_view(world, light, camera, aspect, options.size);
   if (!view) return view;
   view->seamless = light.type == LightType::point;

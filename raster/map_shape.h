@@ -26,7 +26,7 @@ Expected<LightView> fit_map(const World& world, const Light& light, const Camera
 /// orthographic map across the light by `shift`, both in world units.
 void move_window(const Vec3& shift, double margin, LightView& view);
 
-/// MapCamera::snap.
+/// MapOptions::snap of an orthographic map of one face without a warp; of any other nothing.
 void snap_window(LightView& view);
 
 /// Whether two maps have the same texels at the same places.

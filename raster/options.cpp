@@ -61,6 +61,9 @@ Expected<void> check_cascades(const CascadeOptions& cascades) {
   if (!(cascades.lambda >= 0.0 && cascades.lambda <= 1.0))
     return fail(
         usage("cascade lambda", fmt::format("is out of range (got {}, allowed 0 to 1)", cascades.lambda)));
+  if (!(cascades.blend >= 0.0 && cascades.blend <= 0.5))
+    return fail(
+        usage("cascade blend", fmt::format("is out of range (got {}, allowed 0 to 0.5)", cascades.blend)));
   return {};
 }
 

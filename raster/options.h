@@ -113,6 +113,9 @@ struct MapOptions {
   Bias bias{.slope = 1.0};
   FilterOptions filter;
   CascadeOptions cascades;  ///< csm
+  /// Maps of a directional light that are one window: what stands still keeps its texels while the camera moves. Sizes
+  /// go by steps of a quarter octave and places by whole texels; of lispsm see fit_warped().
+  bool snap = false;
   bool operator==(const MapOptions&) const = default;
 };
 

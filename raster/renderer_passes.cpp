@@ -98,7 +98,7 @@ Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptio
   const double aspect = double(job.options.size.width) / job.options.size.height;
   auto view = fit_map(*world_, light, camera, aspect, map, visible);
   if (view && map_camera_) move_window(map_camera_->shift, map_camera_->margin, *view);
-  if (view && map_camera_ && map_camera_->snap) snap_window(*view);
+  if (view && map.snap) snap_window(*view);
   return view;
 }
 

@@ -89,6 +89,8 @@ TechniqueShader technique_shader(const MapOptions& options, const Light& light) 
       return {"external", {"EXTERNAL"}};
     case Technique::izb:
       return {"izb", {}};
+    case Technique::csm:
+      return options.cascades.blend > 0.0 ? TechniqueShader{"cascade_blend", {}} : TechniqueShader{};
     default:
       return {};  // the hard test
   }

@@ -11,15 +11,16 @@ constexpr Lights every_light(LightType::directional, LightType::point, LightType
 constexpr Lights sun(LightType::directional);
 
 constexpr Options depth(bias, slope_bias, normal_offset, depth_format);
-constexpr Options one_depth = depth | Options(receiver_plane, adaptive_bias, cull);
+constexpr Options of_cube = depth | Options(receiver_plane, adaptive_bias, cull);
+constexpr Options one_depth = of_cube | Options(snap);
 // The filter compares with the receiver's plane by an option of its own.
 constexpr Options averages =
     one_depth.without(Options(receiver_plane)) | Options(filter_plane, filter_samples);
 constexpr Options pcf = averages | Options(filter_kernel, filter_radius);
 constexpr Options pcss = averages | Options(blocker_samples, search_radius);
-constexpr Options blurs = depth | Options(cull, blur_radius, mipmaps);
+constexpr Options blurs = depth | Options(cull, blur_radius, mipmaps, snap);
 constexpr Options bleeds = blurs | Options(bleeding_reduction);
-constexpr Options csm = one_depth | Options(cascades, cascade_lambda, no_snap, cascade_fit);
+constexpr Options csm = of_cube | Options(cascades, cascade_lambda, no_snap, cascade_fit, cascade_blend);
 
 constexpr double planar = 1.0;  // the slope bias that leaves no acne on a plane
 
@@ -47,7 +48,7 @@ constexpr TechniqueTraits techniques[] = {
     {Technique::lispsm, "lispsm", MapContents::nearest_depth, 1, ShadowTest::single, sun, TexelShape::warped,
      planar, one_depth},
     {Technique::cube, "cube", MapContents::nearest_depth, 1, ShadowTest::single, Lights(LightType::point),
-     TexelShape::of_light, planar, one_depth},
+     TexelShape::of_light, planar, of_cube},
     {Technique::izb,
      "izb",
      MapContents::pixels,

@@ -61,7 +61,9 @@ enum class MapOption : std::uint8_t {
   cascades,
   cascade_lambda,
   no_snap,
-  cascade_fit
+  cascade_fit,
+  cascade_blend,
+  snap
 };
 
 /// A set of the members of an enumeration of at most 32, a bit for each.

@@ -248,16 +248,17 @@ struct Warp {
   double half = infinity;  // half width at its centre
 };
 
-// |x - middle| <= half (1 + s y) for the whole polygon, with the middle that makes half least: a convex
-// function.
+// The least half width with |x - middle| <= half (1 + s y) for the whole polygon, y from `center`.
+double half_width(const std::vector<Vec2>& polygon, double middle, double center, double warp) {
+  double most = 0.0;
+  for (const Vec2& p : polygon) most = std::max(most, std::abs(p.x - middle) / (1.0 + warp * (p.y - center)));
+  return most;
+}
+
+// With the middle that makes it least: a convex function.
 Warp narrowest(const std::vector<Vec2>& polygon, const Rect& rect, double warp) {
   const double center = rect.middle().y;
-  const auto half = [&](double middle) {
-    double most = 0.0;
-    for (const Vec2& p : polygon)
-      most = std::max(most, std::abs(p.x - middle) / (1.0 + warp * (p.y - center)));
-    return most;
-  };
+  const auto half = [&](double middle) { return half_width(polygon, middle, center, warp); };
   double low = rect.min.x, high = rect.max.x;
   for (int i = 0; i < 100; ++i) {  // thirds: each step leaves two of three
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
@@ -267,6 +268,31 @@ Warp narrowest(const std::vector<Vec2>& polygon, const Rect& rect, double warp) 
       low = a;
   }
   return {0.5 * (low + high), half(0.5 * (low + high))};
+}
+
+// Of a warped map that stands still between steps (fit_warped).
+constexpr double angle_step = 2.0 * pi / 64.0;
+constexpr double steps_per_side = 16.0;
+
+// The view's direction across the light, turned to the nearest step from a frame that the light alone decides.
+Vec3 stepped_up(const Vec3& towards, const Vec3& ahead) {
+  const LightFace frame = light_fit::face_along(towards);
+  const double angle = std::atan2(glm::dot(ahead, frame.up), glm::dot(ahead, frame.right));
+  const double stepped = std::round(angle / angle_step) * angle_step;
+  return std::cos(stepped) * frame.right + std::sin(stepped) * frame.up;
+}
+
+// Both ends along up moved outwards to whole steps.
+Rect stepped_sides(Rect rect) {
+  const double step = rounded_up(rect.extent().y) / steps_per_side;
+  rect.min.y = std::floor(rect.min.y / step) * step, rect.max.y = std::ceil(rect.max.y / step) * step;
+  return rect;
+}
+
+Warp stepped_width(const std::vector<Vec2>& polygon, const Rect& rect, double warp, const Warp& narrowest) {
+  const double step = rounded_up(narrowest.half) / steps_per_side;
+  const double middle = std::round(narrowest.middle / step) * step;
+  return {middle, rounded_up(half_width(polygon, middle, rect.middle().y, warp))};
 }
 
 }  // namespace
@@ -295,12 +321,13 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
 }
 
 Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
-                               int size) {
+                               int size, bool snap) {
   const View view = view_of(camera, aspect);
   const double sine = glm::length(glm::cross(view.forward, light.direction));
   if (world.finite_bounds.empty() || sine < least_sine)
     return fit_light_view(world, light, camera, aspect, size);
-  const Fit fit = make_fit(world, light, view, light_fit::face_along(light.direction, view.forward));
+  const Vec3 up = snap ? stepped_up(light.direction, view.forward) : view.forward;
+  const Fit fit = make_fit(world, light, view, light_fit::face_along(light.direction, up));
   const Interval seen = seen_depths(fit);
   const double far = seen.max, near = std::max(nearest_seen(world, view, far), nearest_share * far);
   if (!(far > 0.0)) return fit_light_view(world, light, camera, aspect, size);
@@ -309,12 +336,15 @@ Expected<LightView> fit_warped(const World& world, const Light& light, const Cam
   if (rect.empty() || !(rect.extent().x > 0.0 && rect.extent().y > 0.0))
     return fit_light_view(world, light, camera, aspect, size);
   rect = with_border(rect, size);
+  if (snap) rect = stepped_sides(rect);
   // Wimmer et al. 2004, equation 8: the warp's near distance in world units.
-  const double n_opt = (near + std::sqrt(near * far)) / sine;
+  const double exact_n_opt = (near + std::sqrt(near * far)) / sine;
+  const double n_opt = snap ? rounded_up(exact_n_opt) : exact_n_opt;
   const double half = 0.5 * rect.extent().y;
   LightFace face = fit.frame;
   face.warp = 1.0 / (n_opt + half);
-  const Warp warp = narrowest(polygon, rect, face.warp);
+  Warp warp = narrowest(polygon, rect, face.warp);
+  if (snap) warp = stepped_width(polygon, rect, face.warp, warp);
   const double half_x = std::max(warp.half, 1e-6 * half) * (size / std::max(1.0, size - 2.0));
   face.center = Vec2(warp.middle, rect.middle().y);
   face.half_extent = Vec2(half_x, half);

@@ -19,6 +19,8 @@ struct CascadeOptions {
   /// Splits and rectangles from the surfaces that the camera sees (Lauritzen, Salvi, Lefohn 2010, "Sample
   /// Distribution Shadow Maps"); follows every move of the camera, so `snap` does not apply.
   bool fit_samples = false;
+  /// In [0, 0.5]: along the border of a cascade, over this share of its width, its test is mixed with the next one's.
+  double blend = 0.0;
   bool operator==(const CascadeOptions&) const = default;
 };
 
@@ -29,7 +31,10 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
                                  int size, const CascadeOptions& options, std::span<const Vec3> visible);
 
 /// One face, warped by n_opt (section 4 of the paper). With the light along the view direction, no warp.
+/// `snap`: all that the map depends on goes by steps, each of them outwards: a 64th of a turn, a quarter octave of
+/// warp and width, a 16th of the sides. Between two steps the map stands still in the world to the last bit, which is
+/// all that a warp allows: its texels differ in size, so that no way moves each of them onto another.
 Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
-                               int size);
+                               int size, bool snap = false);
 
 }  // namespace gnomon

@@ -76,7 +76,11 @@ TexelCoordinate project_to_texel(const LightView& view, const Vec3& world) {
     return t;
   }
   if (is_perspective(view)) return project_to_face(view, 0, world);
-  for (int face = 0; face + 1 < view.face_count; ++face) {
+  return project_from_cascade(view, 0, world);
+}
+
+TexelCoordinate project_from_cascade(const LightView& view, int first, const Vec3& world) {
+  for (int face = first; face + 1 < view.face_count; ++face) {
     const TexelCoordinate t = project_to_face(view, face, world);
     if (holds_neighbours(view, t)) return t;
   }

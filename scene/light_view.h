@@ -72,6 +72,8 @@ int cube_face(const Vec3& from_light);
 /// A point in several cascades belongs to the first that holds it and the four texels around it; one in none,
 /// to the last.
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world);
+/// The same among the cascades from `first` on.
+TexelCoordinate project_from_cascade(const LightView& view, int first, const Vec3& world);
 /// The same on a face already chosen.
 TexelCoordinate project_to_face(const LightView& view, int face, const Vec3& world);
 

@@ -44,14 +44,14 @@ struct ShadowTest {
   bool outside;  // the lookup fell outside the map, or beyond its depths where nothing is stored
 };
 
-// `normal` is the geometric normal on the viewer's side.
-ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
+// `normal` is the geometric normal on the viewer's side. Cascades before `first` are left out.
+ShadowTest shadow_test_from_cascade(int first, vec3 position, vec3 normal, vec3 to_light) {
   ShadowTest test;
-  test.own = project_to_texel(position);
+  test.own = project_from_cascade(first, position);
   Texel at = test.own;
 #ifdef NORMAL_OFFSET
   float sine = length(cross(normal, to_light));
-  at = project_to_texel(position + normal * (light.bias.z * texel_world_size(at) * sine));
+  at = project_from_cascade(first, position + normal * (light.bias.z * texel_world_size(at) * sine));
 #endif
   test.at = at;
   test.gap = -infinite;
@@ -89,4 +89,8 @@ ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
   test.gap *= light.rounding.w / texel_world_size(at);
 #endif
   return test;
+}
+
+ShadowTest shadow_test(vec3 position, vec3 normal, vec3 to_light) {
+  return shadow_test_from_cascade(0, position, normal, to_light);
 }

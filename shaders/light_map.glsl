@@ -18,7 +18,7 @@ layout(std140, binding = light_block) uniform Light {
   ivec4 counts;                  // faces
   vec4 area_u;                   // a light with size: two vectors from its centre that span it (raster/light_block.cpp)
   vec4 area_v;
-  vec4 filter_radii;             // filter and search radius, texels; bleeding reduction
+  vec4 filter_radii;             // filter and search radius, texels; bleeding reduction; blended share of a cascade
   vec4 moments;                  // positive and negative exponent, moment bias
 } light;
 
@@ -91,13 +91,14 @@ Texel project_direction(vec3 direction) {
 }
 #endif
 
-// A point in several cascades belongs to the first that holds it and the four texels around it.
-Texel project_to_texel(vec3 position) {
+// A point in several cascades belongs to the first that holds it and the four texels around it; those before `first` are
+// left out.
+Texel project_from_cascade(int first, vec3 position) {
 #if defined(CUBE)
   return project_direction(position - light.origin_and_size.xyz);
 #elif defined(CASCADES)
   int last = light.counts.x - 1;
-  for (int face = 0; face < last; ++face) {
+  for (int face = first; face < last; ++face) {
     Texel t = project_to_face(face, position);
     if (all(greaterThanEqual(t.uv, vec2(1.0))) && all(lessThan(t.uv, vec2(light.origin_and_size.w - 1.0)))) return t;
   }
@@ -106,6 +107,8 @@ Texel project_to_texel(vec3 position) {
   return project_to_face(0, position);
 #endif
 }
+
+Texel project_to_texel(vec3 position) { return project_from_cascade(0, position); }
 
 // The share of the stored range that a warped face leaves to the ray at height v (texels).
 float warp_share(int face, float v) {

@@ -50,7 +50,9 @@ constexpr Choice choices[] = {{"bias", "3texel"},
                               {"cascades", "2"},
                               {"cascade-lambda", "0.9"},
                               {"no-snap", "on"},
-                              {"cascade-fit", "on"}};
+                              {"cascade-fit", "on"},
+                              {"cascade-blend", "0.3"},
+                              {"snap", "on"}};
 
 TEST(TechniqueOptions, EveryOptionOfTheTableIsTried) {
   std::set<std::string_view> tried;

@@ -37,7 +37,7 @@ class Shapes : public testing::TestWithParam<Kind> {
   LightView fitted(int size) const {
     const Kind k = GetParam();
     auto view = k.warped
-                    ? fit_warped(world_, scene_.lights[0], scene_.camera, 1.6, size)
+                    ? fit_warped(world_, scene_.lights[0], scene_.camera, 1.6, size, k.snap)
                     : fit_cascades(world_, scene_.lights[0], scene_.camera, 1.6, size, {.snap = k.snap}, {});
     EXPECT_TRUE(view.has_value());
     view->reversed = k.reversed;
@@ -130,8 +130,10 @@ TEST_P(Shapes, NothingThatTheCameraSeesIsCutOff) {
 
 INSTANTIATE_TEST_SUITE_P(All, Shapes,
                          testing::Values(Kind{"cascades", false, false, true},
-                                         Kind{"tight", false, true, false}, Kind{"warped", true, false, true},
-                                         Kind{"warped_reversed", true, true, true}),
+                                         Kind{"tight", false, true, false},
+                                         Kind{"warped", true, false, false},
+                                         Kind{"warped_snapped", true, false, true},
+                                         Kind{"warped_reversed", true, true, false}),
                          [](const auto& chosen) { return std::string(chosen.param.name); });
 
 // Zhang et al. 2006, equation 9: even and logarithmic splits, and their mean.

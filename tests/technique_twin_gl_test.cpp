@@ -1,5 +1,6 @@
 // What each technique draws (V6) is its bias and its texel in double precision (V5), but for a few pixels on
 // texel borders; and the whole ladder adds up. The same for every depth format.
+#include "compare/cascades.h"
 #include "scene/load.h"
 #include "support/compare_support.h"
 #include "support/one_world.h"
@@ -75,6 +76,86 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"hard_adaptive", Technique::hard, spot, DepthFormat::d32f, true},
         Case{"csm_plane", Technique::csm, directional, DepthFormat::d32f, false, true}),
     [](const auto& chosen) { return std::string(chosen.param.name); });
+
+// The mix of two cascades' hard tests, in double precision; the lower rungs stay those of the receiver's own cascade.
+TEST(CascadeBlend, DrawnIsTheTwinsMix) {
+  for (const double normal_offset : {0.0, 1.5}) {
+    OneWorld one(still_life());
+    one.scene.lights = {sun({0.6, -1.0, 0.35})};
+    compare::CompareOptions options = test_options({320, 200}, 128, 0.01);
+    raster::MapOptions& map = options.raster.map;
+    map.technique = Technique::csm;
+    map.cascades.count = 3, map.cascades.blend = 0.3;
+    map.bias = {.constant = 0.5, .unit = raster::BiasUnit::texel, .slope = 1.0};
+    map.bias.normal_offset_texels = normal_offset;
+    const compare::Comparison result = one.compare(options);
+    const compare::LightComparison& light = result.lights[0];
+    const raster::LightRecord& record = result.raster.lights[0];
+    std::size_t compared = 0, unlike = 0, mixed = 0, looked_up = 0;
+    for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+      if (!compare::is_compared(light.labels.data[i])) continue;
+      ++compared;
+      const double twin = compare::cascade_visibility(record, result.raster.options.map, one.scene.lights[0],
+                                                      result.raytraced.receiver.data[i], record.face.data[i]);
+      const double drawn = double{light.rungs[6].data[i]};
+      unlike += std::abs(drawn - twin) > 1e-3 ? 1 : 0;  // shares are told by floats in thousands of texels
+      mixed += drawn > 0.0 && drawn < 1.0 ? 1 : 0;
+      looked_up += record.lookups.data[i] == 2 ? 1 : 0;
+    }
+    EXPECT_GT(compared, 15000u);
+    EXPECT_LE(unlike, compared / 1000) << "texel borders and depths that rounding decides";
+    EXPECT_GT(mixed, 100u);
+    EXPECT_GT(looked_up, mixed);
+    EXPECT_FALSE(light.bias_curve_withheld.empty()) << "the gap of one cascade does not tell the mix";
+    double steps = 0.0;
+    for (const compare::BudgetStep& step : light.budget) steps += step.signed_mean;
+    EXPECT_NEAR(steps, light.rung_mean[6] - light.rung_mean[0], 1e-12);
+  }
+}
+
+// A floor under a slab, seen from between them. The bias, in texels of the cascade looked up, is less than the slab is
+// high in the first cascade and more in the second: there the shadow is missed, and every receiver beside the change
+// of cascades is a seam's. In world units it is the same in both, and a mix has no edge.
+TEST(Seams, AreThePixelsWhereTheCascadeAloneDecides) {
+  constexpr double height = 3.0;
+  Scene scene = sunlit_scene({floor_mesh(60, 60), box_mesh({-60, height, -60}, {60, height + 0.1, 60})},
+                             {0.0, -1.0, 0.0});
+  scene.camera = {{0.0, 1.5, 8.0}, {0.0, 0.0, 3.0}, {0, 1, 0}, 0.7};
+  OneWorld one(std::move(scene));
+  compare::CompareOptions options = test_options({160, 100}, 64);
+  raster::MapOptions& map = options.raster.map;
+  map.technique = Technique::csm;
+  map.cascades.count = 2;
+  const auto seams = [&](const raster::Bias& bias, double blend) {
+    map.bias = bias, map.cascades.blend = blend;
+    return one.compare(options);
+  };
+  const compare::Comparison first = seams({.constant = 0.01, .unit = raster::BiasUnit::world}, 0.0);
+  const LightView& view = first.raster.lights[0].map.view;
+  const Image<std::uint8_t>& face = first.raster.lights[0].face;
+  std::uint64_t beside = 0;
+  for (int y = 0; y < face.size.height; ++y)
+    for (int x = 0; x < face.size.width; ++x) {
+      ASSERT_TRUE(compare::is_compared(first.lights[0].labels.at(x, y))) << "the floor fills the picture";
+      const int own = face.at(x, y);
+      beside += (x > 0 && face.at(x - 1, y) != own) || (y > 0 && face.at(x, y - 1) != own) ||
+                        (x + 1 < face.size.width && face.at(x + 1, y) != own) ||
+                        (y + 1 < face.size.height && face.at(x, y + 1) != own)
+                    ? 1
+                    : 0;
+    }
+  ASSERT_GT(beside, 100u);
+  EXPECT_EQ(first.lights[0].seams->at_border, beside);
+  EXPECT_EQ(first.lights[0].seams->changed, 0u);
+  const double texels = height / std::sqrt(texel_world_size(view, 0, 1.0) * texel_world_size(view, 1, 1.0));
+  const raster::Bias by_texel{.constant = texels, .unit = raster::BiasUnit::texel};
+  const compare::Comparison cut = seams(by_texel, 0.0);
+  EXPECT_EQ(cut.lights[0].seams->at_border, beside);
+  EXPECT_EQ(cut.lights[0].seams->changed, beside);
+  EXPECT_EQ(seams(by_texel, 0.4).lights[0].seams->changed, 0u);
+  map.technique = Technique::hard;
+  EXPECT_FALSE(seams({}, 0.0).lights[0].seams.has_value());
+}
 
 // A floor seen from straight above, with pixel centres exactly where two faces of the cube meet.
 TEST(CubeSeams, AReceiverOnASeamIsInTheMap) {

@@ -31,7 +31,6 @@ struct ShimmerCommand {
   MovementOptions movement;
   compare::FilmTime time;
   int anchors = 1;
-  bool snap = false;
   double report_max_mb = compare::default_film_max_mb;
   std::optional<double> fail_above;  ///< flips per receiver and second
   raster::Backend backend = raster::Backend::automatic;
@@ -75,8 +74,7 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   if (!path) return fail(path.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
-  compare::ShimmerOptions options{command.setting.options, std::move(*path), command.time, command.snap,
-                                  command.anchors};
+  compare::ShimmerOptions options{command.setting.options, std::move(*path), command.time, command.anchors};
   options.compare.raytrace.seed = command.seed;
   Filmed out;
   compare::FrameSink sink;
@@ -163,10 +161,6 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
   add_movement_options(app, command.movement);
   add_integer(app, "--anchors", command.anchors, 1, most_anchors, "pixels",
               "receivers at every so many pixels of the first frame, along both axes");
-  app.add_flag("--snap", command.snap,
-               "maps of one window (not csm, lispsm): sizes by steps of a quarter octave, and moves by whole "
-               "texels, so "
-               "that edges hold still; costs up to a fifth of the resolution along each axis [default off]");
   add_setting_options(app, command.setting);
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);

@@ -76,6 +76,8 @@ void add_map(Words& words, const raster::MapOptions& map) {
   add(map.cascades.lambda != plain.cascades.lambda, "--cascade-lambda", number_text(map.cascades.lambda));
   flag(!map.cascades.snap, "--no-snap");
   flag(map.cascades.fit_samples, "--cascade-fit");
+  add(map.cascades.blend != plain.cascades.blend, "--cascade-blend", number_text(map.cascades.blend));
+  flag(map.snap, "--snap");
   add(map.depth_format != plain.depth_format, "--depth-format",
       std::string(compare::depth_format_name(map.depth_format)));
   add(map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));

@@ -58,6 +58,14 @@ std::string fact_value(const LightBlock& b, std::string_view key, double value) 
   return keyed(b.key(key), value, plain_number(value));
 }
 
+std::string seam_facts(const LightBlock& b) {
+  if (!b.light.seams) return "";
+  const SeamCount& seams = *b.light.seams;
+  return fact("Seams", keyed_things(b.key("seams.changed"), seams.changed, "receiver"),
+              fmt::format("that the next cascade would draw otherwise, of {} beside another cascade",
+                          keyed_things(b.key("seams.at_border"), seams.at_border, "receiver")));
+}
+
 std::string edge_facts(const LightBlock& b) {
   const EdgeStats& e = b.light.edges;
   if (e.edges == 0) return "";
@@ -211,7 +219,7 @@ std::string facts_block(const LightBlock& b) {
   };
   return R"(<h3>How far, how visible</h3>
 <dl class="facts">
-)" + (lacks_map(b.in.comparison) ? "" : edge_facts(b)) +
+)" + (lacks_map(b.in.comparison) ? "" : seam_facts(b) + edge_facts(b)) +
          detachment_fact(b) + bleeding_fact(b) + penumbra_facts(b) +
          (lacks_map(b.in.comparison) ? "" : texel_fact(b) + theory_facts(b)) +
          fact("FLIP", fact_value(b, "error.flip", error.flip),

@@ -143,7 +143,7 @@ std::string shimmer_json(const Shimmer& shimmer, const ShimmerProvenance& from) 
       {"fps", number(o.time.fps)},
       {"path", path_json(o)},
       {"anchors", o.anchors},
-      {"snap", o.snap},
+      {"snap", o.compare.raster.map.snap},
       {"lights", std::move(lights)},
       {"times_ms",
        {{"accel_build", one_time_json(shimmer.accel_build_ms)},

@@ -31,7 +31,7 @@ Expected<LightView> first_fit(const World& world, const Light& light, const Came
     case raster::TexelShape::cascades:
       return fit_cascades(world, light, camera, aspect, map.size, cascades, {});
     case raster::TexelShape::warped:
-      return fit_warped(world, light, camera, aspect, map.size);
+      return fit_warped(world, light, camera, aspect, map.size, map.snap);
     case raster::TexelShape::of_light:
       break;
   }
@@ -125,7 +125,7 @@ Expected<void> Film::find_drift() {
 }
 
 raster::MapCamera Film::map_camera(const Pose& pose, int frame) const {
-  raster::MapCamera out{.camera = pose.camera, .snap = out_.options.snap};
+  raster::MapCamera out{.camera = pose.camera};
   if (out_.options.path.camera != CameraPath::drift) return out;
   const Vec3 way = double(frame) * drift_.step;
   if (raster::follows_camera(out_.options.compare.raster.map.technique)) {
@@ -227,11 +227,6 @@ Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Rendere
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
                                const FrameSink& sink, const Progress& progress) {
   if (const auto sound = check_path(options.path, scene); !sound) return fail(sound.error());
-  const raster::Technique technique = options.compare.raster.map.technique;
-  if (options.snap && raster::follows_camera(technique))
-    return fail(ErrorKind::usage,
-                fmt::format("--snap: is for maps of one window (got {}{})", raster::technique_name(technique),
-                            technique == raster::Technique::csm ? ", which snaps by itself" : ""));
   return Film(world, scene, renderer, lights, options).run(sink, progress);
 }
 

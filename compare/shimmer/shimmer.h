@@ -14,8 +14,7 @@ struct ShimmerOptions {
   CompareOptions compare;  ///< times are not taken
   ShimmerPath path;
   FilmTime time;
-  bool snap = false;  ///< raster::MapCamera::snap; not for techniques that follow the camera by themselves
-  int anchors = 1;    ///< receivers at every so many pixels along both axes, in [1, 64]
+  int anchors = 1;  ///< receivers at every so many pixels along both axes, in [1, 64]
 };
 
 struct ShimmerLight {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/ladder.h"
+#include "compare/surfaces.h"
 
 namespace gnomon::compare {
 namespace {
@@ -17,14 +18,6 @@ std::array<float, rung_count> rungs_at(const RungFrame& frame, std::size_t i) {
   std::array<float, rung_count> out{};
   for (std::size_t k = 0; k < rung_count; ++k) out[k] = frame.rungs[k].data[i];
   return out;
-}
-
-bool same_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world) {
-  if (a.primitive == no_id || b.primitive == no_id) return false;
-  if (!world.is_triangle(a.primitive) || !world.is_triangle(b.primitive)) return a.primitive == b.primitive;
-  constexpr double least_cosine =
-      0.9;  // neighbours on one smooth face; a ridge between them ends the surface
-  return glm::dot(a.normal, b.normal) > least_cosine;
 }
 
 }  // namespace
@@ -72,7 +65,7 @@ ReceiverSpacing receiver_spacing(const Image<raytrace::SurfacePoint>& receivers,
       if (x + step >= size.width || y + step >= size.height) continue;
       const auto &here = receivers.at(x, y), &right = receivers.at(x + step, y),
                  &down = receivers.at(x, y + step);
-      if (!same_surface(here, right, world) || !same_surface(here, down, world)) continue;
+      if (!on_smooth_surface(here, right, world) || !on_smooth_surface(here, down, world)) continue;
       const Vec3 a = right.position - here.position, b = down.position - here.position;
       out.right.at(x, y) = static_cast<float>(glm::length(a));
       out.down.at(x, y) = static_cast<float>(glm::length(b));

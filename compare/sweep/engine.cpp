@@ -60,7 +60,8 @@ double raster_ms(const raster::RasterFrame& frame) {
 }  // namespace
 
 bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  return raster::traits_of(map.technique).test == raster::ShadowTest::single;
+  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
+  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !mixes;
 }
 
 raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {
