@@ -318,9 +318,18 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
 }
 
 void add_threshold(CLI::App& command, const std::string& name, std::optional<compare::Threshold>& threshold,
-                   std::string_view what, std::string_view fallback) {
-  add_value(command, name, "LIMIT", describe(what, threshold_range, fallback),
-            [&threshold](const std::string& value) { return assign(threshold, parse_threshold(value)); });
+                   std::string_view what, std::string_view fallback, bool filmed) {
+  add_value(command, name, "LIMIT", describe(what, filmed ? film_threshold_range : threshold_range, fallback),
+            [&threshold, filmed](const std::string& value) -> Expected<void> {
+              const auto parsed = parse_threshold(value);
+              if (!parsed) return fail(parsed.error());
+              if (parsed->measure == compare::ErrorMeasure::shimmer && !filmed)
+                return fail(
+                    ErrorKind::usage,
+                    fmt::format("a still picture has no flips (got {}; gnomon shimmer counts them)", value));
+              threshold = *parsed;
+              return {};
+            });
 }
 
 void add_report_max_mb(CLI::App& command, double& megabytes) {

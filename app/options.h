@@ -62,9 +62,9 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
                  const std::function<Expected<void>(const std::string&)>& store);
 /// Left alone: each light's own number.
 void add_samples(CLI::App& command, int& samples);
-/// --fail-above, --max-error: an error and its limit; `what` happens at it.
+/// --fail-above, --max-error: an error and its limit; `what` happens at it. `filmed`: also of flips.
 void add_threshold(CLI::App& command, const std::string& name, std::optional<compare::Threshold>& threshold,
-                   std::string_view what, std::string_view fallback);
+                   std::string_view what, std::string_view fallback, bool filmed = false);
 /// --report-max-mb.
 void add_report_max_mb(CLI::App& command, double& megabytes);
 /// What is said of a page that grew larger than that.

@@ -24,20 +24,20 @@
 namespace gnomon::app {
 
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console, int tessellate,
-                           const std::string& camera) {
+                           const std::string& camera, bool with_paths) {
   const TimedStage stage("load");
   if (startable_threads(1) == 0)
     return fail(ErrorKind::graphics, "not one thread can be started (a limit on processes, ulimit -u)");
   const Stopwatch watch;
   console.progress("loading", 0.0);
   std::vector<std::string> read;
-  Expected<Scene> scene =
-      load_scene(scene_of_lesson(argument.name),
-                 {.confine_paths = !argument.allow_outside, .camera = camera, .files = &read});
+  LoadedScene loaded;
+  LoadOptions options{.confine_paths = !argument.allow_outside, .camera = camera, .files = &read};
+  if (with_paths) options.paths = &loaded.paths;
+  Expected<Scene> scene = load_scene(scene_of_lesson(argument.name), options);
   if (!scene) return fail(scene.error());
   if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());
   if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
-  LoadedScene loaded;
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
   loaded.world = std::make_unique<World>(make_world(*loaded.scene));
   if (loaded.world->primitive_count() > raytrace::most_primitives)

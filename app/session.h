@@ -11,6 +11,7 @@
 #include "raster/renderer.h"
 #include "scene/effects.h"
 #include "scene/expected.h"
+#include "scene/keyed_path.h"
 #include "scene/world.h"
 
 namespace gnomon::app {
@@ -20,6 +21,8 @@ struct LoadedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<World> world;
   EffectPlan plan;
+  std::vector<KeyedPath>
+      paths{};  ///< that the file itself has (LoadOptions::paths), where they were asked for
   double load_ms = 0.0;
 };
 
@@ -27,7 +30,7 @@ struct LoadedScene {
 /// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera. `files` learns what the scene
 /// consists of; ErrorKind::usage when an output is among it.
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console,
-                           int tessellate = 0, const std::string& camera = {});
+                           int tessellate = 0, const std::string& camera = {}, bool with_paths = false);
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);

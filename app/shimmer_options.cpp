@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "app/option_kinds.h"
+#include "app/shell.h"
 
 namespace gnomon::app {
 
@@ -15,6 +16,8 @@ using compare::Moves;
 
 constexpr std::pair<std::string_view, Moves> all_moves[] = {
     {"camera", Moves::camera}, {"light", Moves::light}, {"both", Moves::both}};
+constexpr std::pair<std::string_view, Metric> metrics[] = {{"still", Metric::still},
+                                                           {"shimmer", Metric::shimmer}};
 constexpr std::pair<std::string_view, CameraPath> camera_paths[] = {{"orbit", CameraPath::orbit},
                                                                     {"walk", CameraPath::walk},
                                                                     {"turn", CameraPath::turn},
@@ -24,6 +27,8 @@ constexpr std::pair<std::string_view, LightPath> light_paths[] = {
     {"orbit", LightPath::orbit}, {"sun", LightPath::sun}, {"still", LightPath::still}};
 constexpr NumberRange speed_range{-1e6, 1e6};
 constexpr NumberRange drift_range{-1000.0, 1000.0};
+constexpr int most_frames = 10000;
+constexpr int most_anchors = 64;
 
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
@@ -60,9 +65,10 @@ LightPath usual_light_path(const Scene& scene) {
 }
 
 // The first name is the camera's where it moves; the last one the light's.
-Expected<void> take_names(const MovementOptions& movement, compare::ShimmerPath& path) {
-  const bool camera = movement.moves != Moves::light, light = movement.moves != Moves::camera;
-  const auto& names = movement.paths;
+Expected<void> take_names(const FilmOptions& film, compare::ShimmerPath& path) {
+  const Moves moves = film.moves.value_or(Moves::camera);
+  const bool camera = moves != Moves::light, light = moves != Moves::camera;
+  const auto& names = film.paths;
   if (names.size() > (camera && light ? 2u : 1u))
     return fail(ErrorKind::usage,
                 fmt::format("--path: one path for each of what moves (got {} paths)", names.size()));
@@ -83,57 +89,155 @@ Expected<void> take_names(const MovementOptions& movement, compare::ShimmerPath&
   return {};
 }
 
-}  // namespace
+// An option whose text is kept, to be typed again.
+template <class Store>
+void add_kept(CLI::App& app, FilmOptions& film, const std::string& name, const char* type,
+              const std::string& text, Store store) {
+  add_value(app, name, type, text, [&film, name, store](const std::string& value) {
+    film.given.emplace_back(name, value);
+    return store(value);
+  });
+}
 
-void add_movement_options(CLI::App& app, MovementOptions& movement) {
-  add_choice(app, "--move", movement.moves, all_moves, "WHAT", "what moves");
-  add_value(
-      app, "--path", "NAME[,NAME]|FILE.json",
+void add_movement(CLI::App& app, FilmOptions& film) {
+  add_kept(
+      app, film, "--move", "WHAT",
+      describe("what moves", choice_names<Moves>(all_moves, " or "),
+               "camera; along a path by keys all that it has keys of"),
+      [&film](const std::string& text) { return assign(film.moves, parse_choice<Moves>(text, all_moves)); });
+  add_kept(
+      app, film, "--path", "NAME[,NAME]|FILE.json",
       describe(
           "how: of the camera orbit, walk, turn, drift (sideways by parts of a texel, the map's window along "
           "with it) or still; of the light orbit, sun (over a day) or still; the camera's first where both "
-          "move; or keys from a file (gnomon/path/1, docs/shimmer.md)",
-          "names", "orbit; of a light sun where one is directional"),
-      [&movement](const std::string& text) -> Expected<void> {
-        movement.paths = parts_of(text);
-        if (movement.paths.empty()) return fail(ErrorKind::usage, "wrong value (got nothing)");
+          "move; or one of the scene's own paths by its name (an animation of a glTF file); or keys from a "
+          "file "
+          "(gnomon/path/1, docs/shimmer.md)",
+          "names", "the scene's first; else orbit, of a light sun where one is directional"),
+      [&film](const std::string& text) -> Expected<void> {
+        film.paths = parts_of(text);
+        if (film.paths.empty()) return fail(ErrorKind::usage, "wrong value (got nothing)");
         return {};
       });
-  add_number(app, "--speed", movement.speed, speed_range, "factor",
-             "how fast a path that is built in goes; orbit and turn: 10 degrees a second, walk: a tenth of "
-             "the way to "
-             "the camera's target a second, sun: a day in the whole film");
-  add_value(
-      app, "--drift", "U,V",
-      describe(
-          "of --path drift: how far the map's window goes with each frame, along its right and its up",
-          fmt::format("texels, each {}", range_text(drift_range)),
-          fmt::format("{},{}", number_text(movement.drift_texels.x), number_text(movement.drift_texels.y))),
-      [&movement](const std::string& text) { return assign(movement.drift_texels, parse_drift(text)); });
+  add_kept(
+      app, film, "--speed", "NUMBER",
+      describe("how fast a path that is built in goes; orbit and turn: 10 degrees a second, walk: a tenth of "
+               "the way to the camera's target a second, sun: a day in the whole film",
+               fmt::format("factor, {}", range_text(speed_range)), number_text(film.speed)),
+      [&film](const std::string& text) { return assign(film.speed, parse_number(text, speed_range)); });
+  add_kept(
+      app, film, "--drift", "U,V",
+      describe("of --path drift: how far the map's window goes with each frame, along its right and its up",
+               fmt::format("texels, each {}", range_text(drift_range)),
+               fmt::format("{},{}", number_text(film.drift_texels.x), number_text(film.drift_texels.y))),
+      [&film](const std::string& text) { return assign(film.drift_texels, parse_drift(text)); });
 }
 
-std::string path_file(const MovementOptions& movement) {
-  return movement.paths.size() == 1 && is_file(movement.paths.front()) ? movement.paths.front()
-                                                                       : std::string();
+bool is_given(const FilmOptions& film, std::string_view option) {
+  return std::any_of(film.given.begin(), film.given.end(),
+                     [&](const auto& given) { return given.first == option; });
 }
 
-Expected<compare::ShimmerPath> resolve_movement(const MovementOptions& movement, const Scene& scene) {
-  const bool camera = movement.moves != Moves::light, light = movement.moves != Moves::camera;
-  compare::ShimmerPath path;
-  path.speed = movement.speed;
-  path.drift_texels = movement.drift_texels;
-  path.camera = camera ? CameraPath::orbit : CameraPath::still;
-  path.light = light ? usual_light_path(scene) : LightPath::still;
-  if (const std::string file = path_file(movement); !file.empty()) {
-    auto keys = compare::read_path(file);
-    if (!keys) return fail(keys.error());
-    path.keys = std::move(*keys);
-    path.camera = camera ? CameraPath::keys : CameraPath::still;
-    path.light = light ? LightPath::keys : LightPath::still;
-    return path;
-  }
-  if (const auto taken = take_names(movement, path); !taken) return fail(taken.error());
+// Of very many lights some are left out, and their keys with them.
+KeyedPath of_kept_lights(KeyedPath path, const Scene& scene) {
+  std::erase_if(path.lights, [&](const auto& keys) {
+    return std::none_of(scene.lights.begin(), scene.lights.end(),
+                        [&](const Light& light) { return light.name == keys.first; });
+  });
   return path;
+}
+
+// A file's keys, or those of one of the scene's own paths; nothing where a built-in path is meant.
+Expected<std::optional<KeyedPath>> find_keys(const FilmOptions& film, const LoadedScene& loaded,
+                                             Console& console) {
+  if (const std::string file = path_file(film); !file.empty()) {
+    auto keys = read_path(file);
+    if (!keys) return fail(keys.error());
+    return std::optional(std::move(*keys));
+  }
+  for (const KeyedPath& own : loaded.paths)
+    if (film.paths.size() == 1 && own.name == film.paths.front())
+      return std::optional(of_kept_lights(own, *loaded.scene));
+  const bool asked =
+      film.moves || !film.paths.empty() || is_given(film, "--speed") || is_given(film, "--drift");
+  if (asked || loaded.paths.empty()) return std::optional<KeyedPath>();
+  const KeyedPath& first = loaded.paths.front();
+  console.note(fmt::format("the scene's path {} is taken; it lasts {:g} s (--path takes another)", first.name,
+                           first.seconds()));
+  return std::optional(of_kept_lights(first, *loaded.scene));
+}
+
+}  // namespace
+
+void add_film_options(CLI::App& app, FilmOptions& film) {
+  add_kept(
+      app, film, "--frames", "N",
+      describe("frames of the film", fmt::format("2 to {}", most_frames), std::to_string(film.time.frames)),
+      [&film](const std::string& text) {
+        return assign(film.time.frames, parse_integer(text, 2, most_frames));
+      });
+  constexpr NumberRange fps{0.0, 1e6, true};
+  add_kept(app, film, "--fps", "NUMBER",
+           describe("speed of the film", fmt::format("frames a second, {}", range_text(fps)),
+                    number_text(film.time.fps)),
+           [&film, fps](const std::string& text) { return assign(film.time.fps, parse_number(text, fps)); });
+  add_movement(app, film);
+  add_kept(app, film, "--anchors", "N",
+           describe("receivers at every so many pixels of the first frame, along both axes",
+                    fmt::format("pixels, 1 to {}", most_anchors), std::to_string(film.anchors)),
+           [&film](const std::string& text) {
+             return assign(film.anchors, parse_integer(text, 1, most_anchors));
+           });
+}
+
+std::string path_file(const FilmOptions& film) {
+  return film.paths.size() == 1 && is_file(film.paths.front()) ? film.paths.front() : std::string();
+}
+
+Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedScene& loaded,
+                                         Console& console) {
+  compare::FilmPlan plan{{}, film.time, film.anchors};
+  compare::ShimmerPath& path = plan.path;
+  path.speed = film.speed;
+  path.drift_texels = film.drift_texels;
+  auto keys = find_keys(film, loaded, console);
+  if (!keys) return fail(keys.error());
+  if (*keys) {
+    path.keys = std::move(**keys);
+    const bool camera = path.keys.moves_camera(), light = !path.keys.lights.empty();
+    path.camera = camera && film.moves != Moves::light ? CameraPath::keys : CameraPath::still;
+    path.light = light && film.moves != Moves::camera ? LightPath::keys : LightPath::still;
+    return plan;
+  }
+  const Moves moves = film.moves.value_or(Moves::camera);
+  path.camera = moves != Moves::light ? CameraPath::orbit : CameraPath::still;
+  path.light = moves != Moves::camera ? usual_light_path(*loaded.scene) : LightPath::still;
+  if (const auto taken = take_names(film, path); !taken) return fail(taken.error());
+  if (const auto sound = check_path(path, *loaded.scene); !sound) return fail(sound.error());
+  return plan;
+}
+
+void add_metric_options(CLI::App& app, MetricOptions& options) {
+  add_choice(app, "--metric", options.metric, metrics, "NAME",
+             "what errors are: of the still picture, or the flips per receiver and second of a film as "
+             "gnomon shimmer "
+             "makes it (docs/shimmer.md), which the options below describe");
+  add_film_options(app, options.film);
+}
+
+Expected<void> finish_metric(MetricOptions& options, const std::optional<compare::Threshold>& threshold) {
+  if (threshold && threshold->measure == compare::ErrorMeasure::shimmer) options.metric = Metric::shimmer;
+  if (options.is_filmed() || options.film.given.empty()) return {};
+  return fail(ErrorKind::usage,
+              fmt::format("{}: belongs to --metric shimmer", options.film.given.front().first));
+}
+
+std::string film_arguments(const FilmOptions& film) {
+  std::string text;
+  for (const auto& [option, value] : film.given)
+    text += value.starts_with('-') ? fmt::format(" {}={}", option, shell_quoted(value))
+                                   : fmt::format(" {} {}", option, shell_quoted(value));
+  return text;
 }
 
 }  // namespace gnomon::app

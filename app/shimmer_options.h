@@ -1,6 +1,9 @@
-// The options of `gnomon shimmer` that say how camera and light move.
+// The options that say what a film of shadows shows: of `gnomon shimmer`, and of `sweep` and `tune` with --metric shimmer.
 #pragma once
 
+#include <optional>
+
+#include "app/session.h"
 #include "compare/shimmer/shimmer.h"
 
 namespace CLI {
@@ -9,18 +12,38 @@ class App;
 
 namespace gnomon::app {
 
-struct MovementOptions {
-  compare::Moves moves = compare::Moves::camera;
-  std::vector<std::string> paths;  ///< names of built-in ones, or one file; empty: the usual ones
+struct FilmOptions {
+  std::optional<compare::Moves> moves;  ///< none: the camera; of a path by keys all that it moves
+  std::vector<std::string>
+      paths;  ///< names of built-in ones, or one of the scene's, or one file; empty: the usual
   double speed = 1.0;
   Vec2 drift_texels{0.1, 0.07};
+  compare::FilmTime time;
+  int anchors = 1;
+  std::vector<std::pair<std::string, std::string>> given;  ///< options and values, as they were typed
 };
 
-/// --move, --path, --speed, --drift.
-void add_movement_options(CLI::App& app, MovementOptions& movement);
+/// --frames, --fps, --move, --path, --speed, --drift, --anchors.
+void add_film_options(CLI::App& app, FilmOptions& film);
 /// The file that --path names; empty: none.
-std::string path_file(const MovementOptions& movement);
-/// Errors: usage for a path that does not suit what moves; bad input of a file.
-Expected<compare::ShimmerPath> resolve_movement(const MovementOptions& movement, const Scene& scene);
+std::string path_file(const FilmOptions& film);
+/// The scene's own path goes before a built-in one of the same name; where nothing is asked for, its first one is taken
+/// and a note says so. Errors: usage for a path that does not suit what moves; bad input of a file.
+Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedScene& loaded,
+                                         Console& console);
+
+/// What errors of a sweep or of the tuner are about.
+enum class Metric : std::uint8_t { still, shimmer };
+struct MetricOptions {
+  Metric metric = Metric::still;
+  FilmOptions film;
+  bool is_filmed() const { return metric == Metric::shimmer; }
+};
+/// --metric and the film's options.
+void add_metric_options(CLI::App& app, MetricOptions& options);
+/// A threshold of flips asks for films. Error (usage): options of a film without one.
+Expected<void> finish_metric(MetricOptions& options, const std::optional<compare::Threshold>& threshold);
+/// " --frames 24 --path walk": what was given, to be typed again.
+std::string film_arguments(const FilmOptions& film);
 
 }  // namespace gnomon::app

@@ -99,6 +99,9 @@ Json family_json(const TuneAnswer& answer, std::size_t i) {
           {"error", attempt.error},
           {"wrong_fraction", attempt.figures.wrong_fraction},
           {"mean_absolute", attempt.figures.mean_absolute},
+          {"flips_per_receiver_second", std::isfinite(attempt.figures.flips_per_second)
+                                            ? Json(attempt.figures.flips_per_second)
+                                            : Json(nullptr)},
           {"time_ms", attempt.time_ms},
           {"runs_ms", attempt.times.runs},
           {"costs",
@@ -131,9 +134,12 @@ std::string TuneAnswer::line(std::size_t family) const {
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
   };
-  return "gnomon compare " + question.scene.words() + option("--camera", question.camera) +
+  const bool filmed = question.metric.is_filmed();
+  return (filmed ? "gnomon shimmer " : "gnomon compare ") + question.scene.words() +
+         option("--camera", question.camera) +
          setting_arguments(
              answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
+         (filmed ? film_arguments(question.metric.film) : std::string()) +
          option("--shader-dir", question.shader_folder);
 }
 
@@ -156,8 +162,10 @@ std::string TuneAnswer::text() const {
   std::string text = line(result.winner) + "\n\n";
   if (!result.feasible) text += "The goal cannot be met.\n";
   text += paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
-  text += fmt::format("{} drawing{} made; the command's own comparison gave the error.\n", result.renders,
-                      result.renders == 1 ? " was" : "s were");
+  text +=
+      fmt::format("{} {}{} made; the command's own {} gave the error.\n", result.renders,
+                  question.metric.is_filmed() ? "film" : "drawing", result.renders == 1 ? " was" : "s were",
+                  question.metric.is_filmed() ? "film" : "comparison");
   text += units_text(result);
   const std::vector<std::size_t> order = others();
   if (!order.empty()) text += "\nThe others:\n";

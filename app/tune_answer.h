@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/run_files.h"
+#include "app/shimmer_options.h"
 #include "app/tune_families.h"
 #include "compare/tune/tune.h"
 #include "raster/frame.h"
@@ -19,6 +20,7 @@ struct TuneQuestion {
   OptionValues fixed;  ///< options with one value
   compare::TuneGoal goal;
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
+  MetricOptions metric{};
 };
 
 /// Of a family what meets the goal, or what comes nearest to it.
@@ -35,7 +37,7 @@ struct TuneAnswer {
   const std::vector<OptionFamily>& families;
   const compare::TuneResult& result;
 
-  /// gnomon compare SCENE … at a family's answer.
+  /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
   std::string line(std::size_t family) const;
   /// The other families: of each technique the best first.
   std::vector<std::size_t> others() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "app/options.h"
 #include "app/setting.h"
@@ -30,6 +31,12 @@ std::vector<Values> default_kinds() {
           {{"cull", "front"}}};
 }
 
+/// What keeps a map still.
+std::vector<Values> still_kinds() {
+  return {{}, {{"snap", "on"}}, {{"cascade-blend", "0.1"}}};
+}
+constexpr std::array<const char*, 2> still_options{"snap", "cascade-blend"};
+
 // "slope bias 1", "receiver plane", "front faces culled"
 std::string option_words(std::string option, const std::string& value) {
   if (option == "cull" && value != "none") return value + " faces culled";
@@ -40,7 +47,7 @@ std::string option_words(std::string option, const std::string& value) {
 /// The options that say what kind of bias it is.
 constexpr std::array<const char*, 4> kind_options{"slope-bias", "normal-offset", "receiver-plane", "cull"};
 
-std::string family_name(const Values& values, const Values& fixed, raster::Technique technique) {
+std::string family_name(const Values& values, const Values& fixed, raster::Technique technique, bool filmed) {
   std::string name;
   bool kind = std::any_of(kind_options.begin(), kind_options.end(),
                           [&](const char* option) { return is_named(fixed, option); });
@@ -49,13 +56,14 @@ std::string family_name(const Values& values, const Values& fixed, raster::Techn
     kind = kind || option != "technique";
     name += (name.empty() ? "" : ", ") + (option == "technique" ? value : option_words(option, value));
   }
-  if (!raster::compares_depths(technique) && !kind) return std::string(raster::technique_name(technique));
+  if ((filmed || !raster::compares_depths(technique)) && !kind)
+    return std::string(raster::technique_name(technique));
   if (kind) return name.empty() ? std::string(raster::technique_name(technique)) : name;
   return name.empty() ? "constant bias alone" : name + ", constant bias alone";
 }
 
 /// Everything fixed, with the values of one family that its technique reads.
-Expected<OptionFamily> make_family(Values values, const Values& fixed) {
+Expected<OptionFamily> make_family(Values values, const Values& fixed, bool filmed) {
   Values all = fixed;
   all.insert(all.end(), values.begin(), values.end());
   const Values read = values_read(all);
@@ -63,7 +71,7 @@ Expected<OptionFamily> make_family(Values values, const Values& fixed) {
   const auto parsed = parse_setting(read);
   if (!parsed) return fail(parsed.error());
   return OptionFamily{
-      {family_name(values, fixed, parsed->options.raster.map.technique), parsed->options.raster.map},
+      {family_name(values, fixed, parsed->options.raster.map.technique, filmed), parsed->options.raster.map},
       std::move(values)};
 }
 
@@ -87,7 +95,7 @@ bool is_given(const Values& fixed, const compare::Grid& grid, const std::string&
 }
 
 /// The combinations of what was given as lists, and of the defaults where nothing was given.
-Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed) {
   const auto grid = options.grid(false);
   if (!grid) return fail(grid.error());
   const Values fixed = options.fixed();
@@ -95,8 +103,10 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
   for (const compare::Axis& axis : grid->axes())
     if (axis.name != "map-size") axes.push_back(axis);
   if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
-  std::vector<Values> kinds = default_kinds();
-  for (const char* name : kind_options)
+  std::vector<Values> kinds = filmed ? still_kinds() : default_kinds();
+  const std::span<const char* const> said =
+      filmed ? std::span<const char* const>(still_options) : std::span<const char* const>(kind_options);
+  for (const char* name : said)
     if (is_given(fixed, *grid, name)) kinds = {{}};
   const auto product = compare::Grid::make(axes, false);
   if (!product) return fail(product.error());
@@ -108,7 +118,7 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options) {
       for (std::size_t k = 0; k < axes.size(); ++k)
         values.emplace_back(axes[k].name, product->value(k, cell));
       values.insert(values.end(), kind.begin(), kind.end());
-      auto family = make_family(std::move(values), fixed);
+      auto family = make_family(std::move(values), fixed, filmed);
       if (!family) return fail(family.error());
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();

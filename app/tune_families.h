@@ -25,9 +25,9 @@ std::vector<std::string> tuned_techniques();
 /// An option was given one value, or several.
 bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::string& name);
 
-/// Every technique, with each kind of bias that goes with it, unless `options` say which. Errors are
-/// ErrorKind::usage.
-Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options);
+/// Every technique, with each kind of bias that goes with it, unless `options` say which; `filmed`: with the bias that
+/// each has anyway, snapped and not. Errors are ErrorKind::usage.
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed = false);
 
 /// Without the techniques that have no map for a light compared.
 Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,

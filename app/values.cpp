@@ -108,8 +108,8 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
   if (const std::size_t colon = text.find(':'); colon != std::string_view::npos) {
     const std::string_view name = text.substr(0, colon);
     number.remove_prefix(colon + 1);
-    for (const ErrorMeasure m :
-         {ErrorMeasure::wrong, ErrorMeasure::mean, ErrorMeasure::flip, ErrorMeasure::edge})
+    for (const ErrorMeasure m : {ErrorMeasure::wrong, ErrorMeasure::mean, ErrorMeasure::flip,
+                                 ErrorMeasure::edge, ErrorMeasure::shimmer})
       if (name == measure_name(m)) out.measure = m;
     if (out.measure == ErrorMeasure::wrong_and_mean) return wrong("not a limit", text, threshold_range);
   }
@@ -120,6 +120,12 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
     const std::optional<double> value = whole_number<double>(number);
     if (!value || !contains(texels, *value)) return wrong("not a limit", text, "edge: and texels, 0 to 1e6");
     out.limit = *value;
+    return out;
+  }
+  if (out.measure == ErrorMeasure::shimmer) {
+    const Expected<double> flips = parse_number(std::string(number), {0.0, 1e9});
+    if (!flips) return wrong("not a limit", text, "shimmer: and flips per receiver and second, 0 to 1e9");
+    out.limit = *flips;
     return out;
   }
   const Expected<double> share = parse_share(number);

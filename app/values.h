@@ -45,11 +45,14 @@ std::string bias_text(const raster::Bias& bias);
 /// "1%" or "0.01": a share in [0, 1].
 Expected<double> parse_share(std::string_view text);
 
-/// "1%" (wrong and mean error both), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel".
+/// "1%" (wrong and mean error both), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 Expected<compare::Threshold> parse_threshold(std::string_view text);
 inline constexpr std::string_view threshold_range =
     "a share for wrong pixels and mean error both, such as 1%, or wrong:1%, mean:0.5%, flip:0.05, "
     "edge:0.5texel";
+inline constexpr std::string_view film_threshold_range =
+    "a share for wrong pixels and mean error both, such as 1%, or wrong:1%, mean:0.5%, flip:0.05, "
+    "edge:0.5texel, shimmer:0.1 (flips per receiver and second; includes --metric shimmer)";
 
 inline constexpr NumberRange exposure_range{0.0, 1e6, true};
 /// "auto" (no value) or a linear factor.

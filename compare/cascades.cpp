@@ -1,5 +1,6 @@
 #include "compare/cascades.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include "compare/biased_test.h"

@@ -335,6 +335,19 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
   return json;
 }
 
+namespace {
+
+Json shimmer_figures_json(const ShimmerFigures& film) {
+  return {{"frames", film.frames},
+          {"fps", number(film.fps)},
+          {"receiver_steps", film.receiver_steps},
+          {"flips", film.flips},
+          {"flips_per_receiver_second", number(film.flips_per_receiver_second)},
+          {"mean_absolute", number(film.mean_absolute)}};
+}
+
+}  // namespace
+
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
   Json block{{"light", light_json(light_of(c, light))},
@@ -373,6 +386,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"ray_tests", ray_tests_json(light.ray_work)},
              {"times_ms", light_times_json(c, light)}};
   if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
+  if (light.shimmer) block["shimmer"] = shimmer_figures_json(*light.shimmer);
   if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
   if (truth.is_soft()) {
     block["shadow_samples"] = truth.samples;

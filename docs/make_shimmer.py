@@ -12,8 +12,10 @@ SIZE = ["--size", "640x360", "--map-size", "1024"]
 FILM = ["--frames", "30", "--path", "orbit"]
 ROWS = [(f"`{name}`", [name], []) for name in ("hard", "pcf", "pcss", "vsm", "esm", "evsm", "msm", "second-depth", "midpoint")]
 ROWS += [("`hard`, snapped", ["hard"], ["--snap"]), ("`pcf`, snapped", ["pcf"], ["--snap"])]
-ROWS += [("`csm`", ["csm"], []), ("`csm`, not snapped", ["csm", "--no-snap"], [])]
-ROWS += [("`lispsm`", ["lispsm"], []), ("`izb`", ["izb"], []), ("`hybrid`", ["hybrid"], [])]
+ROWS += [("`csm`", ["csm"], []), ("`csm`, blended", ["csm"], ["--cascade-blend", "0.1"]),
+         ("`csm`, not snapped", ["csm"], ["--no-snap"])]
+ROWS += [("`lispsm`", ["lispsm"], []), ("`lispsm`, snapped", ["lispsm"], ["--snap"])]
+ROWS += [("`izb`", ["izb"], []), ("`hybrid`", ["hybrid"], [])]
 
 
 def asked(*words):
@@ -21,24 +23,26 @@ def asked(*words):
     return json.loads(done.stdout)["lights"][0]
 
 
-def still_error(scene, technique):
-    error = asked("compare", scene, *SIZE, "--runs", "1", "--technique", *technique)["error"]
-    return f"{100 * error['wrong_fraction']:.3f} | {error['mean_absolute']:.5f}"
+def still(scene, technique, more):
+    light = asked("compare", scene, *SIZE, "--runs", "1", "--technique", *technique, *more)
+    error, texel = light["error"], light["map"]["texel_world"]["median"]
+    seams = light.get("seams")
+    return (f"{100 * error['wrong_fraction']:.3f} | {error['mean_absolute']:.5f} | {1000 * texel:.1f} | "
+            f"{seams['changed'] if seams else ''}")
 
 
 def row(scene, name, technique, more):
-    still = "– | –" if more else still_error(scene, technique)  # compare does not snap a map of one window
     film = asked("shimmer", scene, *SIZE, *FILM, "--technique", *technique, *more)
     steps = {step["cause"]: step["absolute"] for step in film["budget"]}
     mostly = max(film["by_label"], key=film["by_label"].get).replace("_", " ") if film["flips"] else ""
-    return (f"| {name} | {still} | {film['flips']} | {film['flips_per_receiver_second']:.4f} | "
+    return (f"| {name} | {still(scene, technique, more)} | {film['flips']} | {film['flips_per_receiver_second']:.4f} | "
             f"{film['error']['absolute']:.5f} | {film['edges']['drawn_texels_per_frame']:.3f} | {mostly} | "
             f"{steps['filter']:.5f} |")
 
 
 def main():
-    print("| technique | still: wrong % | still: mean error | flips | per receiver and second | mean temporal error | "
-          "edges, texels a frame | mostly by | filter step |\n|---|---:|---:|---:|---:|---:|---:|---|---:|")
+    print("| technique | still: wrong % | still: mean error | texel, thousandths | still: seams | flips | per receiver and second | mean temporal error | "
+          "edges, texels a frame | mostly by | filter step |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---|---:|")
     for name, technique, more in ROWS:
         print(row("courtyard", name, technique, more), flush=True)
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/expected.h"
+#include "scene/keyed_path.h"
 #include "scene/scene.h"
 
 namespace gnomon {
@@ -17,6 +18,9 @@ struct LoadOptions {
   std::string camera{};        ///< of the file's cameras: a name, or a number from 0; empty: the first
   std::string root{};          ///< the scene's own folder; load_scene sets it to where the main file lies
   std::vector<std::string>* files = nullptr;  ///< where given, takes the path of every file that is named
+  /// Where given, takes the paths along which the file itself moves the chosen camera and lights: "paths" of a scene in
+  /// the project's own format, animations of a glTF file. Those of included files are not read.
+  std::vector<KeyedPath>* paths = nullptr;
 };
 
 /// The whole scene, checked: indices in range, finite positions, unit directions, at least one material, one

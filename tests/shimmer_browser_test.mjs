@@ -73,6 +73,7 @@ async function checkFilm(page) {
   assert.deepEqual(drawn, [...lastPicture(join(whole, "film-0-drawn.png"))]);
   await page.locator(".film input[type=range]").fill("2");
   await showsFrame(page, 2);
+  assert.equal(await page.locator(".film-frame").textContent(), `frame 3 of ${frames}`);
 }
 
 async function checkProbe(page) {

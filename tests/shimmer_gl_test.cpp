@@ -37,11 +37,13 @@ Scene boxes_under_a_sun() {
 }
 
 TEST(Shimmer, StillnessFlipsNothing) {
+  OneWorld sunlit(boxes_under_a_sun());
+  Scene by_a_bulb = boxes_under_three_lights();
+  by_a_bulb.lights.erase(by_a_bulb.lights.begin(), by_a_bulb.lights.begin() + 2);
+  OneWorld lamplit(std::move(by_a_bulb));
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
-    Scene scene = boxes_under_three_lights();
-    std::erase_if(scene.lights, [&](const Light& light) { return !traits.lights.has(light.type); });
-    scene.lights.resize(1);
-    OneWorld one(std::move(scene));
+    if (traits.technique == raster::Technique::hybrid) continue;  // asks a room that is not linked here
+    OneWorld& one = traits.lights.has(LightType::directional) ? sunlit : lamplit;
     ShimmerOptions options = film_options({96, 64}, 128, 3);
     options.compare.raster.map.technique = traits.technique;
     options.path.camera = CameraPath::still;
@@ -173,8 +175,8 @@ TEST(Shimmer, FirstFrameIsThePicturesOwn) {
 
 // Parallel edges, those of slats above the camera, their shadow on a floor straight below. The camera is turned about its
 // axis, so that rows of pixels do not run along the edges, and pixels are smaller than texels.
-constexpr double slat = 0.0357;  // world units, from edge to edge: four and a half texels
-constexpr int slats = 8;         // on either side of the middle; the picture shows fewer
+constexpr double slat = 0.0229;  // world units: 2.9 texels; a flip reaches less than one to each side
+constexpr int slats = 9;         // on either side of the middle; the picture shows fewer
 constexpr double field = 0.5;    // world units, the picture's side
 
 Scene straight_edges(double degrees) {
@@ -219,9 +221,11 @@ double edge_length_world(const Vec2& n, const Vec2& along, const Camera& camera)
   return length;
 }
 
-// 2 %: the goal that the project set itself. Five steps are whole periods of each drift, over the edges' 900 texels.
+// 2 %: the goal that the project set itself. Five steps are whole periods of each drift, over the edges' 1500 texels. At 45
+// degrees an edge meets the grid in one phase all along, and so it does at 0: the mean over phases is one over the edges, of
+// which there have to be many, at a distance that is no simple part of a texel.
 TEST(Shimmer, StraightEdgeUnderADriftingMap) {
-  for (const double degrees : {0.0, 23.0, 41.0}) {
+  for (const double degrees : {0.0, 23.0, 41.0, 45.0}) {
     OneWorld one(straight_edges(degrees));
     for (const Vec2 drift :
          {Vec2(0.2, 0.0), Vec2(0.4, 0.0), Vec2(0.6, 0.2), Vec2(0.8, 0.6), Vec2(1.2, 0.0)}) {

@@ -60,17 +60,15 @@ TEST(ShimmerPath, TheScenesSunStandsAtNoon) {
 }
 
 TEST(ShimmerPath, KeysAreMetAndStepsStand) {
-  compare::KeyedVector keys{
-      compare::Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 2, 0}, {4, 2, 1}}};
+  KeyedVector keys{Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 2, 0}, {4, 2, 1}}};
   for (std::size_t i = 0; i < keys.times.size(); ++i)
     EXPECT_NEAR(glm::length(keys.at(keys.times[i]) - keys.values[i]), 0.0, rounding);
   // Keys on a line, evenly in time: so is the curve.
-  const compare::KeyedVector line{
-      compare::Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}};
+  const KeyedVector line{Interpolation::cubic, {0.0, 1.0, 3.0}, {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}};
   EXPECT_NEAR(line.at(2.2).x, 2.2, rounding);
-  keys.interpolation = compare::Interpolation::step;
+  keys.interpolation = Interpolation::step;
   EXPECT_EQ(keys.at(2.9), keys.values[1]);
-  keys.interpolation = compare::Interpolation::linear;
+  keys.interpolation = Interpolation::linear;
   EXPECT_NEAR(keys.at(2.0).x, 2.5, rounding);
   EXPECT_EQ(keys.at(9.0), keys.values[2]);
 }
@@ -78,7 +76,7 @@ TEST(ShimmerPath, KeysAreMetAndStepsStand) {
 std::string path_error(const std::string& text) {
   const std::string file = ::testing::TempDir() + "gnomon-shimmer-path.json";
   std::ofstream(file) << text;
-  const auto read = compare::read_path(file);
+  const auto read = read_path(file);
   return read ? std::string() : read.error().message();
 }
 

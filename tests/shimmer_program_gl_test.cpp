@@ -1,6 +1,8 @@
 // gnomon shimmer seen from outside: its files, its exit codes, and what it says of a wrong call.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app_process.h"
@@ -34,11 +36,55 @@ TEST(ShimmerProgram, ThresholdDecidesTheExitCode) {
   EXPECT_EQ(run_gnomon(quick + json_only + Words{"--snap", "--fail-above", "0"}).exit_code, 0);
 }
 
+// What a scene moves by itself is played where nothing else is asked for, and by its name.
+TEST(ShimmerProgram, PlaysTheScenesOwnPath) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "moving.json";
+  std::ofstream(scene) << R"({"schema": "gnomon/scene/1", "materials": [{"name": "grey"}],
+    "shapes": [{"plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}, "material": "grey"},
+               {"sphere": {"center": [0, 1, 0], "radius": 0.5}, "material": "grey"}],
+    "lights": [{"name": "sun", "type": "directional", "direction": [0.5, -1, 0.2]}],
+    "camera": {"eye": [0, 2, 6], "target": [0, 0.5, 0]},
+    "paths": [{"name": "past", "camera": {"eye": {"times": [0, 1], "values": [[1, 2, 6], [3, 2, 6]]}}},
+              {"name": "noon", "lights": {"sun": {"direction": {"times": [0, 1], "values": [[0.5, -1, 0.2], [0, -1, 0]]}}}}]})";
+  const Words film = {"shimmer",  scene, "--size", "96x64", "--map-size", "64",
+                      "--frames", "4",   "--fps",  "4",     "--json",     "-"};
+  const ProcessResult first = run_gnomon(film);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find("path past is taken"), std::string::npos) << first.err;
+  const json path = json::parse(first.out)["path"];
+  EXPECT_EQ(path["name"], "past");
+  EXPECT_EQ(path["camera"], "keys");
+  EXPECT_EQ(path["light"], "still");
+  const ProcessResult noon = run_gnomon(film + Words{"--path", "noon"});
+  ASSERT_EQ(noon.exit_code, 0) << noon.err;
+  EXPECT_EQ(json::parse(noon.out)["path"]["light"], "keys");
+  EXPECT_GT(json::parse(noon.out)["lights"][0]["edges"]["true_world_per_second"].get<double>(), 0.0);
+  EXPECT_EQ(json::parse(run_gnomon(film + Words{"--path", "orbit"}).out)["path"]["camera"], "orbit");
+}
+
+// Where ffmpeg is installed a film is an MP4 of as many frames; where it is not, the call says so.
+TEST(ShimmerProgram, MakesMp4ThroughFfmpeg) {
+  const TemporaryFolder folder;
+  const Words film = quick + Words{"--quiet", "--film", "mp4", "-o", folder / "out"};
+  ProcessOptions bare;
+  bare.environment = {"PATH=/nowhere"};
+  expect_one_line(run_gnomon(film, bare), 2, "ffmpeg makes it, and is not installed");
+  if (std::system("command -v ffmpeg > /dev/null") != 0) return;
+  const ProcessResult made = run_gnomon(film);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string mp4 = read_file(folder / "out/film-0-flips.mp4");
+  EXPECT_EQ(mp4.substr(4, 4), "ftyp");
+  EXPECT_TRUE(read_file(folder / "out/film-0-flips.png").empty());
+  EXPECT_NE(read_file(folder / "out/report.html").find("film-0-drawn.mp4"), std::string::npos);
+}
+
 TEST(ShimmerProgram, WrongCallsAreOneLine) {
   const Words nothing = {"--json", "-"};
   expect_one_line(run_gnomon(quick + nothing + Words{"--path", "sun"}), 2, "no path of a camera");
   expect_one_line(run_gnomon(quick + nothing + Words{"--path", "walk,sun"}), 2, "one path for each");
-  expect_one_line(run_gnomon(quick + nothing + Words{"--snap", "--technique", "csm"}), 2, "snaps by itself");
+  expect_one_line(run_gnomon(quick + nothing + Words{"--snap", "--technique", "csm"}), 2,
+                  "--technique is csm");
   expect_one_line(run_gnomon(quick + nothing + Words{"--path", "nowhere.json"}), 3, "nowhere.json");
 }
 

@@ -51,6 +51,41 @@ TEST_F(SweepProgram, WritesResultsWithAxes) {
   EXPECT_EQ(one["costs"], cell["costs"]);
 }
 
+// Each cell's film is the one that gnomon shimmer makes, and its flips are the error of headline and table.
+TEST_F(SweepProgram, CountsFlipsOfFilms) {
+  const Words setting{"thin-wall", "--size", "192x108", "--map-size", "64"};
+  const Words film{"--frames", "3", "--path", "drift", "--drift", "0.5,0.5"};
+  const auto joined = [](Words all, const std::vector<Words>& more) {
+    for (const Words& each : more) all.insert(all.end(), each.begin(), each.end());
+    return all;
+  };
+  const std::string folder = (root / "films").string();
+  ASSERT_EQ(
+      run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--metric", "shimmer", "-o", folder}})), 0)
+      << said();
+  EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("films"));
+  std::vector<nlohmann::json> cells;
+  for (std::string line; std::getline(stream, line);) cells.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(cells.size(), 2u);
+  for (const nlohmann::json& cell : cells)
+    for (const std::string& problem : schema.violations(cell)) ADD_FAILURE() << problem;
+  const std::string alone = (root / "alone.json").string();
+  ASSERT_EQ(run(joined({"shimmer"}, {setting, film, {"--json", alone, "-o", (root / "alone").string()}})), 0)
+      << said();
+  const nlohmann::json shimmer = nlohmann::json::parse(bytes(alone))["lights"][0];
+  const nlohmann::json counted = cells[0]["lights"][0]["shimmer"];
+  EXPECT_GT(counted["flips"], 0);
+  for (const char* key : {"flips", "receiver_steps", "flips_per_receiver_second"})
+    EXPECT_EQ(counted[key], shimmer[key]);
+  EXPECT_EQ(cells[1]["lights"][0]["shimmer"]["flips"], 0);
+  EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
+  EXPECT_NE(bytes(root / "films/report.html").find("flips per receiver and second"), std::string::npos);
+  EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
+}
+
 TEST_F(SweepProgram, KilledAnywhereItEndsInTheSameBytes) {
   ASSERT_EQ(run(words("whole")), 0) << said();
   const auto begin = std::chrono::steady_clock::now();  // with warm caches

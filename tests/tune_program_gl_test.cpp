@@ -57,6 +57,44 @@ TEST_F(TuneProgram, KeepsItsWordForLightsWithSize) {
   EXPECT_NE(error["wrong_fraction"], error["mean_absolute"]);
 }
 
+// Under a drift an unsnapped map flips at every size: only what is snapped is good enough, and the command says so.
+TEST_F(TuneProgram, FindsWhatHoldsStill) {
+  const std::string json = (root / "answer.json").string();
+  ASSERT_EQ(run({"tune",        "thin-wall",
+                 "--technique", "hard",
+                 "--size",      "192x108",
+                 "--max-error", "shimmer:0",
+                 "--map-size",  "64,128",
+                 "--runs",      "1",
+                 "--frames",    "4",
+                 "--path",      "drift",
+                 "--drift",     "0.5,0.5",
+                 "--json",      json,
+                 "-o",          (root / "page").string()}),
+            0)
+      << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  EXPECT_EQ(answer["goal"]["measure"], "shimmer");
+  EXPECT_EQ(answer["options"]["snap"], "on");
+  EXPECT_EQ(answer["error"], 0.0);
+  ASSERT_EQ(answer["others"].size(), 1u);
+  EXPECT_GT(answer["others"][0]["error"].get<double>(), 0.0);
+  EXPECT_NE(bytes(root / "page/report.html").find("flips per receiver and second"), std::string::npos);
+  // Both families' own commands give what was said of them.
+  for (const nlohmann::json* family : {&answer, &answer["others"][0]}) {
+    std::istringstream command((*family)["command"].get<std::string>());
+    Words words;
+    for (std::string word; command >> word;) words.push_back(word);
+    ASSERT_EQ(words.at(0) + words.at(1), "gnomonshimmer");
+    words.erase(words.begin());
+    words.insert(words.end(),
+                 {"--quiet", "--json", (root / "film.json").string(), "-o", (root / "film").string()});
+    ASSERT_EQ(run(words), 0) << said();
+    const nlohmann::json film = nlohmann::json::parse(bytes(root / "film.json"));
+    EXPECT_EQ(film["lights"][0]["flips_per_receiver_second"], (*family)["error"]);
+  }
+}
+
 TEST_F(TuneProgram, SaysWhyNothingCanWork) {
   const std::string json = (root / "answer.json").string();
   EXPECT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "0", "--map-size", "16,32",

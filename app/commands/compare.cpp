@@ -8,8 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/effect_options.h"
-#include "app/invocation.h"
+#include "app/bind.h"
 #include "app/machine.h"
 #include "app/result_output.h"
 #include "app/run_options.h"
@@ -17,7 +16,6 @@
 #include "app/setting.h"
 #include "app/strongest_lights.h"
 #include "app/swim_note.h"
-#include "app/technique_options.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
 
@@ -153,11 +151,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<CompareCommand>();
   command->command_line = invocation.command_line;
   add_options(*app, *command);
-  app->callback([command, &invocation, app] {
-    invocation.finish = [command, app] { finish_map_options(*app, command->setting.options.raster.map); };
-    command->given = given_options(*app);
-    invocation.action = [command] { return run_compare(*command); };
-  });
+  bind_run(*app, invocation, command, run_compare);
 }
 
 }  // namespace gnomon::app

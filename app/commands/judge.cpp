@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "app/bind.h"
 #include "app/judge_options.h"
 #include "app/machine.h"
 #include "app/result_output.h"
@@ -238,7 +239,7 @@ void add_judge(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<JudgeCommand>();
   command->command_line = invocation.command_line;
   add_options(*app, *command);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_judge(*command); }; });
+  bind_run(*app, invocation, command, run_judge);
 }
 
 }  // namespace gnomon::app

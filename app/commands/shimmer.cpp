@@ -5,9 +5,8 @@
 #include <fstream>
 #include <memory>
 
-#include "app/effect_options.h"
+#include "app/bind.h"
 #include "app/interrupt.h"
-#include "app/invocation.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/output_path.h"
@@ -15,7 +14,6 @@
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
-#include "app/technique_options.h"
 #include "compare/shimmer/write.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
@@ -28,9 +26,8 @@ struct ShimmerCommand {
   SceneArgument scene;
   std::string camera, folder, json, shader_folder;
   SettingOptions setting;
-  MovementOptions movement;
-  compare::FilmTime time;
-  int anchors = 1;
+  FilmOptions film;
+  compare::FilmFormat film_format = compare::FilmFormat::apng;
   double report_max_mb = compare::default_film_max_mb;
   std::optional<double> fail_above;  ///< flips per receiver and second
   raster::Backend backend = raster::Backend::automatic;
@@ -42,15 +39,16 @@ struct ShimmerCommand {
   std::vector<std::string> given;  ///< options
 };
 
-constexpr int most_frames = 10000;
-constexpr int most_anchors = 64;
+constexpr std::pair<std::string_view, compare::FilmFormat> film_formats[] = {
+    {"apng", compare::FilmFormat::apng}, {"mp4", compare::FilmFormat::mp4}};
 
 Expected<RunFiles> check_files(ShimmerCommand& command) {
   if (command.folder.empty() && command.json != "-")
     command.folder = default_output(command.scene.name) + "-shimmer";
+  if (const auto fine = compare::check_film_format(command.film_format); !fine) return fail(fine.error());
   RunFiles files;
   files.reads(command.scene);
-  files.reads(path_file(command.movement));
+  files.reads(path_file(command.film));
   files.writes("--json", command.json);
   constexpr std::array<std::string_view, 2> names{"report.html", "result.json"};
   if (!command.folder.empty()) files.writes_folder("-o", command.folder, names);
@@ -70,18 +68,18 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   for (const std::string& note :
        idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
-  auto path = resolve_movement(command.movement, *loaded.scene);
-  if (!path) return fail(path.error());
+  auto plan = resolve_film(command.film, loaded, console);
+  if (!plan) return fail(plan.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
-  compare::ShimmerOptions options{command.setting.options, std::move(*path), command.time, command.anchors};
+  compare::ShimmerOptions options{std::move(*plan), command.setting.options};
   options.compare.raytrace.seed = command.seed;
   Filmed out;
   compare::FrameSink sink;
   if (!command.folder.empty()) {
     auto base = compare::unshadowed_picture(*loaded.scene, **renderer, options);
     if (!base) return fail(base.error());
-    out.pictures.emplace(std::move(*base), command.time.fps);
+    out.pictures.emplace(std::move(*base), options.time.fps);
     sink = [&](const compare::ShimmerFrame& frame) { return out.pictures->add(frame); };
   }
   auto shimmer =
@@ -96,8 +94,9 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
                          const RunFiles& files, Console& console) {
   const OutputGuard whole_outputs;
   if (film.pictures) {
-    const auto megabytes = compare::write_shimmer(film.shimmer, *film.pictures, command.command_line, json,
-                                                  {command.folder, command.report_max_mb, files.inputs()});
+    const auto megabytes =
+        compare::write_shimmer(film.shimmer, *film.pictures, command.command_line, json,
+                               {command.folder, command.report_max_mb, files.inputs(), command.film_format});
     if (!megabytes) return fail(megabytes.error());
     if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));
   }
@@ -126,7 +125,7 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command);
   if (!files) return fail(files.error());
-  auto loaded = load(command.scene, *files, console, command.tessellate, command.camera);
+  auto loaded = load(command.scene, *files, console, command.tessellate, command.camera, true);
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, usual_max_lights, named_lights(command.setting.light), console);
   const auto posed =
@@ -154,13 +153,11 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
   add_output(app, "-o,--output", command.folder, "DIR",
-             "folder for report.html, result.json and the films as animated PNG [default out/NAME-shimmer; "
+             "folder for report.html, result.json and the film files [default out/NAME-shimmer; "
              "none with --json - alone]");
-  add_integer(app, "--frames", command.time.frames, 2, most_frames, "", "frames of the film");
-  add_number(app, "--fps", command.time.fps, {0.0, 1e6, true}, "frames a second", "speed of the film");
-  add_movement_options(app, command.movement);
-  add_integer(app, "--anchors", command.anchors, 1, most_anchors, "pixels",
-              "receivers at every so many pixels of the first frame, along both axes");
+  add_film_options(app, command.film);
+  add_choice(app, "--film", command.film_format, film_formats, "FORMAT",
+             "of the film files; mp4 needs ffmpeg to be installed");
   add_setting_options(app, command.setting);
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);
@@ -191,11 +188,7 @@ void add_shimmer(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<ShimmerCommand>();
   command->command_line = invocation.command_line;
   add_options(*app, *command);
-  app->callback([command, &invocation, app] {
-    invocation.finish = [command, app] { finish_map_options(*app, command->setting.options.raster.map); };
-    command->given = given_options(*app);
-    invocation.action = [command] { return run_shimmer(*command); };
-  });
+  bind_run(*app, invocation, command, run_shimmer);
 }
 
 }  // namespace gnomon::app

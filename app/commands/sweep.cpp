@@ -9,8 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/bind.h"
 #include "app/interrupt.h"
-#include "app/invocation.h"
 #include "app/machine.h"
 #include "app/output_path.h"
 #include "app/session.h"
@@ -89,6 +89,11 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
+  if (command.metric.is_filmed()) {
+    const auto film = resolve_film(command.metric.film, loaded, console);
+    if (!film) return fail(film.error());
+    engine.film_with(*film);
+  }
   Workshop shop{command, plan, loaded, {}, machine_info(), engine, {command.folder, engine}, console};
   shop.given.camera = loaded.scene->camera;
   shop.given.lights = loaded.scene->lights;
@@ -146,6 +151,9 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
 
 Expected<ExitCode> run_sweep(SweepCommand& command) {
   const Stopwatch total;
+  if (command.max_error && command.max_error->measure == compare::ErrorMeasure::flip)
+    command.perceptual = true;
+  if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
   std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then an error of write()
   if (command.slurm_tasks) {
     if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
@@ -158,12 +166,13 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (!plan) return fail(plan.error());
   RunFiles files;
   files.reads(command.scene);
+  files.reads(path_file(command.metric.film));
   files.writes_folder("-o", command.folder, compare::sweep_file_names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();
-  auto loaded = load(command.scene, files, console, 0, command.camera);
+  auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
   if (command.exposure) loaded->scene->exposure = *command.exposure;
@@ -251,7 +260,8 @@ void add_options(CLI::App& app, SweepCommand& command) {
   add_threshold(app, "--max-error", command.max_error,
                 "name the cheapest cell whose every light has at most this error, and exit with 1 when there "
                 "is none; flip includes --perceptual",
-                "none");
+                "none", true);
+  add_metric_options(app, command.metric);
   add_report_max_mb(app, command.report_max_mb);
   add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
@@ -270,15 +280,12 @@ void add_sweep(CLI::App& program, Invocation& invocation) {
       "gnomon sweep fence --bias 0:0.1:64                   64 biases from one drawing\n"
       "gnomon sweep courtyard --map-size 128:8192:x2 --slope-bias 0,1,2 -o sizes\n"
       "gnomon sweep fence --map-size 256:4096:x2 --technique hard,pcf --max-error mean:0.5%\n"
+      "gnomon sweep courtyard --technique hard,pcf,csm,lispsm --snap off,on --metric shimmer --frames 24\n"
       "gnomon sweep model.glb --camera-orbit 0,30:330,30:12    a path around it\n"
       "gnomon sweep model.glb --map-size 256,512 --bias 0.5texel,1texel --zip");
   const auto command = std::make_shared<SweepCommand>();
   add_options(*app, *command);
-  app->callback([command, &invocation] {
-    if (command->max_error && command->max_error->measure == compare::ErrorMeasure::flip)
-      command->perceptual = true;
-    invocation.action = [command] { return run_sweep(*command); };
-  });
+  bind_run(*app, invocation, command, run_sweep);
 }
 
 }  // namespace gnomon::app

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/bind.h"
 #include "app/interrupt.h"
-#include "app/invocation.h"
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
+#include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "app/tune_answer.h"
@@ -40,6 +41,7 @@ struct TuneCommand {
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
+  MetricOptions metric;
   raster::Backend backend = raster::Backend::automatic;
   std::optional<int> runs;
   int threads = 0;
@@ -76,6 +78,21 @@ Expected<void> check_lists(const TuneCommand& command) {
     return fail(ErrorKind::usage, "--bias: the tuner finds the constant bias itself");
   if (command.goal.max_error.has_value() == command.goal.max_time_ms.has_value())
     return fail(ErrorKind::usage, "one goal is needed: --max-error LIMIT or --max-time MS");
+  return {};
+}
+
+/// With --metric shimmer a plain limit is one of flips.
+Expected<void> finish_goal(TuneCommand& command) {
+  auto& goal = command.goal;
+  if (const auto fine = finish_metric(command.metric, goal.max_error); !fine) return fine;
+  if (!command.metric.is_filmed()) return {};
+  goal.of_time = compare::ErrorMeasure::shimmer;
+  if (!goal.max_error || goal.max_error->measure == compare::ErrorMeasure::shimmer) return {};
+  if (goal.max_error->measure != compare::ErrorMeasure::wrong_and_mean)
+    return fail(ErrorKind::usage,
+                fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",
+                            compare::threshold_text(*goal.max_error)));
+  goal.max_error->measure = compare::ErrorMeasure::shimmer;
   return {};
 }
 
@@ -140,10 +157,11 @@ struct Bench {
   std::vector<OptionFamily> families;
   compare::Setting setting;
   compare::TuneOptions options;
+  std::optional<compare::FilmPlan> film{};  ///< where errors are flips
 };
 
 Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
-                           const std::vector<OptionFamily>& families) {
+                           const std::vector<OptionFamily>& families, Console& console) {
   const auto parsed = parse_setting(values_read(command.options.fixed()));
   if (!parsed) return fail(parsed.error());
   auto setting = resolve_setting(*parsed, *loaded.scene, *loaded.world);
@@ -157,6 +175,11 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   auto fitting = fitting_families(families, *loaded.scene, setting->compared);
   if (!fitting) return fail(fitting.error());
   Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
+  if (command.metric.is_filmed()) {
+    auto film = resolve_film(command.metric.film, loaded, console);
+    if (!film) return fail(film.error());
+    bench.film = std::move(*film);
+  }
   bench.options.goal = command.goal;
   bench.options.sizes = *sizes;
   for (const OptionFamily& family : bench.families) bench.options.families.push_back(family.tuned);
@@ -172,6 +195,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   };
   const bool perceptual = with_page || command.goal.measure() == compare::ErrorMeasure::flip;
   compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
+  if (bench.film) engine.film_with(*bench.film);
   const auto result =
       compare::tune(engine, bench.setting, bench.options,
                     [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
@@ -182,7 +206,8 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   const TuneQuestion question{command.scene,           command.camera, command.shader_folder,
-                              command.options.fixed(), command.goal,   shaders->replaced()};
+                              command.options.fixed(), command.goal,   shaders->replaced(),
+                              command.metric};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -201,6 +226,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
 Expected<RunFiles> check_files(const TuneCommand& command) {
   RunFiles files;
   files.reads(command.scene);
+  files.reads(path_file(command.metric.film));
   files.writes("--json", command.json);
   files.writes_folder("-o", command.folder, compare::page_file_names);
   if (!command.folder.empty()) files.writes("-o", command.folder + "/tune.json");
@@ -213,14 +239,15 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads, console);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
-  const auto families = make_families(command.options);
+  if (const auto metric = finish_goal(command); !metric) return fail(metric.error());
+  const auto families = make_families(command.options, command.metric.is_filmed());
   if (!families) return fail(families.error());
   auto files = check_files(command);
   if (!files) return fail(files.error());
-  auto loaded = load(command.scene, *files, console, 0, command.camera);
+  auto loaded = load(command.scene, *files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
-  auto bench = make_bench(command, *loaded, *families);
+  auto bench = make_bench(command, *loaded, *families, console);
   if (!bench) return fail(bench.error());
   return tune_and_answer(command, *bench, *files, total, console);
 }
@@ -237,6 +264,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   app->footer(
       "gnomon tune fence --max-error 0.5%\n"
       "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"
+      "gnomon tune courtyard --max-error shimmer:0.02 --path walk    the cheapest that holds still\n"
       "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
       "gnomon tune fence --technique hard --shader-dir mine --max-error 2%    with a shader of your own\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
@@ -244,7 +272,9 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_scene(*app, command->scene);
   add_camera(*app, command->camera);
   add_threshold(*app, "--max-error", command->goal.max_error,
-                "the largest error that is good enough, of the worst light; this or --max-time", "none");
+                "the largest error that is good enough, of the worst light; this or --max-time", "none",
+                true);
+  add_metric_options(*app, command->metric);
   add_checked(*app, "--max-time", "MS",
               fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",
                           range_text(time_range)),
@@ -267,7 +297,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_runs(*app, command->runs, std::to_string(usual_runs).c_str());
   add_json(*app, command->json, "the answer");
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_tune(*command); }; });
+  bind_run(*app, invocation, command, run_tune);
 }
 
 }  // namespace gnomon::app

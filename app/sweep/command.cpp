@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "app/shell.h"
+#include "scene/files/read_file.h"
+#include "scene/files/sha256.h"
 
 namespace gnomon::app {
 namespace {
@@ -18,6 +20,26 @@ std::string camera_argument(const SweepCommand& command) {
 std::string exposure_argument(const SweepCommand& command) {
   if (!command.exposure) return {};
   return *command.exposure ? fmt::format(" --exposure {}", **command.exposure) : " --exposure auto";
+}
+
+// A film's receivers and frames, and what its file of keys says.
+nlohmann::ordered_json film_configuration(const MetricOptions& metric) {
+  if (!metric.is_filmed()) return nullptr;
+  nlohmann::ordered_json film = nlohmann::ordered_json::object();
+  for (const auto& [option, value] : metric.film.given) film[option.substr(2)] = value;
+  if (const std::string file = path_file(metric.film); !file.empty())
+    if (const auto bytes = read_file(file)) film["sha256"] = sha256_hex(*bytes);
+  return film;
+}
+
+// A file of keys by its whole path: tasks may start elsewhere.
+std::string metric_arguments(const MetricOptions& metric) {
+  if (!metric.is_filmed()) return {};
+  FilmOptions film = metric.film;
+  if (const std::string file = path_file(film); !file.empty())
+    for (auto& [option, value] : film.given)
+      if (option == "--path") value = std::filesystem::absolute(file).string();
+  return " --metric shimmer" + film_arguments(film);
 }
 
 }  // namespace
@@ -33,18 +55,19 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
     shaders.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
   Json exposure = nullptr;
   if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
-  return Json{{"version", GNOMON_VERSION},
-              {"scene", {{"path", command.scene.name}, {"name", scene.name}, {"sha256", scene.sha256}}},
-              {"camera", command.camera},
-              {"axes", axes},
-              {"zip", command.zip},
-              {"options", fixed},
-              {"exposure", exposure},
-              {"shaders", shaders},
-              {"perceptual", command.perceptual},
-              {"runs", command.runs.value_or(1)},
-              {"seed", command.seed}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json json{{"version", GNOMON_VERSION},
+            {"scene", {{"path", command.scene.name}, {"name", scene.name}, {"sha256", scene.sha256}}},
+            {"camera", command.camera},
+            {"axes", axes},
+            {"zip", command.zip},
+            {"options", fixed},
+            {"exposure", exposure},
+            {"shaders", shaders},
+            {"perceptual", command.perceptual},
+            {"runs", command.runs.value_or(1)},
+            {"seed", command.seed}};
+  if (Json film = film_configuration(command.metric); !film.is_null()) json["film"] = std::move(film);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
@@ -62,6 +85,7 @@ std::string task_arguments(const SweepCommand& command) {
   if (fs::path(scene.name).has_extension()) scene.name = fs::absolute(scene.name).string();
   std::string text = fmt::format(" {}", scene.words());
   text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
+  text += metric_arguments(command.metric);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())
     text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());

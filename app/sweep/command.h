@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/run_options.h"
+#include "app/shimmer_options.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/plan.h"
 #include "compare/outputs.h"
@@ -25,6 +26,7 @@ struct SweepCommand : RunOptions {
   compare::Shard shard;
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;
+  MetricOptions metric;
   double report_max_mb = compare::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };

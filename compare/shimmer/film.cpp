@@ -44,13 +44,15 @@ glm::u8vec3 flip_colour(std::size_t label) {
   return label_colour(of[label]);
 }
 
-Expected<Rgb8Image> unshadowed_picture(const Scene& scene, raster::Renderer& renderer,
+Expected<Rgb8Image> unshadowed_picture(Scene& scene, raster::Renderer& renderer,
                                        const ShimmerOptions& options) {
   raster::RasterOptions plain;
   plain.size = options.compare.raster.size;
   plain.runs = 0, plain.analysis = false;
   plain.map.bias = {.constant = 1e30, .unit = raster::BiasUnit::world};  // no gap is larger
+  const Camera given = std::exchange(scene.camera, first_camera(options, scene));
   const auto drawn = renderer.render(plain, {});
+  scene.camera = given;
   if (!drawn) return fail(drawn.error());
   return display_image(drawn->color, scene.exposure ? *scene.exposure : auto_exposure(drawn->color));
 }

@@ -10,8 +10,9 @@ namespace gnomon::compare {
 /// The colour of a flip by its label: that of the still label which stands for the step.
 glm::u8vec3 flip_colour(std::size_t label);
 
-/// What the camera sees with no shadow at all, as films are drawn on.
-Expected<Rgb8Image> unshadowed_picture(const Scene& scene, raster::Renderer& renderer,
+/// What the first frame's camera sees with no shadow at all, as films are drawn on. The scene's camera is moved there
+/// and back.
+Expected<Rgb8Image> unshadowed_picture(Scene& scene, raster::Renderer& renderer,
                                        const ShimmerOptions& options);
 
 /// A pixel of a film: the unshadowed picture, darkened where visibility is less than 1.

@@ -75,7 +75,9 @@ Json light_json(const Shimmer& shimmer, const ShimmerLight& light) {
            {{"technique", technique_name(map.technique)},
             {"size", map.size},
             {"depth_format", depth_format_name(map.depth_format)},
-            {"texel_world", number(light.texel_world)}}},
+            {"texel_world", number(light.texel_world)},
+            {"texel_world_unsnapped",
+             light.texel_world_unsnapped ? number(*light.texel_world_unsnapped) : Json(nullptr)}}},
           {"receivers", light.receivers},
           {"receiver_steps", total.receivers},
           {"flips", total.flips},
@@ -95,6 +97,7 @@ Json path_json(const ShimmerOptions& options) {
   Json json{{"camera", camera_path_name(options.path.camera)},
             {"light", light_path_name(options.path.light)},
             {"speed", number(options.path.speed)}};
+  if (!options.path.keys.name.empty()) json["name"] = options.path.keys.name;
   if (options.path.camera == CameraPath::drift)
     json["drift_texels"] = {number(options.path.drift_texels.x), number(options.path.drift_texels.y)};
   return json;
@@ -103,9 +106,7 @@ Json path_json(const ShimmerOptions& options) {
 }  // namespace
 
 double flips_per_receiver_second(const ShimmerOptions& options, const ShimmerLight& light) {
-  const TemporalSums& total = light.temporal.total();
-  if (total.receivers == 0) return 0.0;
-  return static_cast<double>(total.flips) / static_cast<double>(total.receivers) * options.time.fps;
+  return figures_of(options, light).flips_per_receiver_second;
 }
 
 EdgeSpeed edge_speed(const ShimmerOptions& options, const ShimmerLight& light) {

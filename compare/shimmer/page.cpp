@@ -92,7 +92,7 @@ std::string edges_line(const Shimmer& shimmer, const ShimmerLight& light, std::s
                            plain_number(speed.true_texels_per_frame)));
 }
 
-Expected<std::string> light_part(const Shimmer& shimmer, std::size_t i) {
+Expected<std::string> light_part(const Shimmer& shimmer, std::size_t i, FilmFormat format) {
   const ShimmerLight& light = shimmer.lights[i];
   const auto heat = encode_png(flip_heat_map(light));
   if (!heat) return fail(heat.error());
@@ -104,8 +104,8 @@ Expected<std::string> light_part(const Shimmer& shimmer, std::size_t i) {
 <h2 id="light-{0}-title">Light: {1}</h2>
 <p class="verdict">{2}</p>
 <div class="film" hidden></div>
-<p class="setting">The films themselves lie beside this page, as animated PNG: <code>film-{0}-drawn.png</code>,
-<code>film-{0}-truth.png</code>, <code>film-{0}-flips.png</code>.</p>
+<p class="setting">The films themselves lie beside this page, as {11}: <code>film-{0}-drawn.{12}</code>,
+<code>film-{0}-truth.{12}</code>, <code>film-{0}-flips.{12}</code>.</p>
 <h3>Flips from frame to frame</h3>
 {3}
 {4}<h3>Where it flips</h3>
@@ -117,7 +117,8 @@ Expected<std::string> light_part(const Shimmer& shimmer, std::size_t i) {
       i, escaped(shimmer.world->scene->lights[light.light].name), flowing(shimmer_sentence(shimmer, light)),
       scroll_region(fmt::format("Flips from frame to frame {}", i), flips_chart(shimmer, light, i)),
       edges_line(shimmer, light, i), data_uri("image/png", *heat), size.width, size.height, most,
-      budget_table(light, i), worst_table(shimmer, light, i));
+      budget_table(light, i), worst_table(shimmer, light, i), film_format_words(format),
+      film_extension(format));
 }
 
 std::string head_data(const Shimmer& shimmer) {
@@ -171,7 +172,7 @@ that of V0.</p></section>
 }  // namespace
 
 Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
-                                 std::string_view json, double max_mb) {
+                                 std::string_view json, double max_mb, FilmFormat format) {
   PageShell shell;
   shell.title = "Shimmer of " + shimmer.world->scene->name + " \u2013 Gnomon";
   shell.links = R"(<li><a href="#overview">Overview</a></li>)";
@@ -180,7 +181,7 @@ Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films
   if (!base) return fail(base.error());
   shell.parts.push_back({"base", fmt::format("\"{}\"", data_uri("image/png", *base))});
   for (std::size_t i = 0; i < shimmer.lights.size(); ++i) {
-    auto part = light_part(shimmer, i);
+    auto part = light_part(shimmer, i, format);
     if (!part) return fail(part.error());
     shell.main += *part;
     shell.links += fmt::format(R"(<li><a href="#light-{}">Light: {}</a></li>)", i,

@@ -3,13 +3,14 @@
 
 #include "compare/report/shell.h"
 #include "compare/shimmer/film.h"
+#include "compare/shimmer/film_file.h"
 #include "compare/shimmer/outputs.h"
 
 namespace gnomon::compare {
 
 /// Of more than `max_mb` megabytes the frames are files beside the page. `json`: result.json's text.
 Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
-                                 std::string_view json, double max_mb);
+                                 std::string_view json, double max_mb, FilmFormat format);
 
 /// Flips and true changes from frame to frame, as inline SVG.
 std::string flips_chart(const Shimmer& shimmer, const ShimmerLight& light, std::size_t index);

@@ -28,10 +28,10 @@ std::string ticks(double most, std::size_t steps) {
         "<line class=\"grid\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/><text class=\"end\" "
         "x=\"{3}\" y=\"{4:.1f}\">{5}</text>",
         left, right, y_of(tick, most), left - 8, y_of(tick, most) + 4, plain_number(tick));
-  for (const double tick : nice_ticks(1.0, double(steps), 8)) {
+  for (const double tick : nice_ticks(2.0, double(steps) + 1.0, 8)) {  // frames are counted from one
     if (tick != std::floor(tick)) continue;
     out += fmt::format("<text class=\"middle\" x=\"{:.1f}\" y=\"{}\">{:g}</text>",
-                       x_of(static_cast<std::size_t>(tick) - 1, steps), bottom + 18, tick);
+                       x_of(static_cast<std::size_t>(tick) - 2, steps), bottom + 18, tick);
   }
   return out + fmt::format("<text class=\"middle\" x=\"{}\" y=\"{}\">to frame</text>", 0.5 * (left + right),
                            bottom + 36);
@@ -50,7 +50,7 @@ std::string flips_chart(const Shimmer& shimmer, const ShimmerLight& light, std::
     dots += fmt::format(
         "<circle class=\"dot\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"><title>to frame {}: {} "
         "flips</title></circle>",
-        x, y, i + 1, grouped(steps[i].flips));
+        x, y, i + 2, grouped(steps[i].flips));
   }
   return fmt::format(
       "<svg class=\"chart flips-chart\" viewBox=\"0 0 1000 264\" role=\"img\" aria-label=\"Flips from frame "

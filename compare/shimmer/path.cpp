@@ -17,17 +17,6 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
   return Mat3(glm::rotate(Mat4(1.0), angle, axis)) * v;
 }
 
-// Catmull-Rom on the segment from key i on, as a cubic Hermite curve over the segment's own time.
-Vec3 cubic_at(const KeyedVector& keys, std::size_t i, double s) {
-  const auto slope = [&](std::size_t k) {
-    const std::size_t before = k > 0 ? k - 1 : k, after = std::min(k + 1, keys.times.size() - 1);
-    return (keys.values[after] - keys.values[before]) / (keys.times[after] - keys.times[before]);
-  };
-  const double length = keys.times[i + 1] - keys.times[i], s2 = s * s, s3 = s2 * s;
-  return (2.0 * s3 - 3.0 * s2 + 1.0) * keys.values[i] + (s3 - 2.0 * s2 + s) * length * slope(i) +
-         (3.0 * s2 - 2.0 * s3) * keys.values[i + 1] + (s3 - s2) * length * slope(i + 1);
-}
-
 Camera moved_camera(const ShimmerPath& path, const Camera& first, double seconds) {
   Camera camera = first;
   const Vec3 up = glm::normalize(first.up), ahead = first.target - first.eye;
@@ -50,10 +39,7 @@ Camera moved_camera(const ShimmerPath& path, const Camera& first, double seconds
       break;
     }
     case CameraPath::keys:
-      if (path.keys.eye) camera.eye = path.keys.eye->at(seconds);
-      if (path.keys.target) camera.target = path.keys.target->at(seconds);
-      if (path.keys.up) camera.up = path.keys.up->at(seconds);
-      break;
+      return path.keys.camera_at(first, seconds);
   }
   return camera;
 }
@@ -80,14 +66,6 @@ Light sun_at(Light light, const Camera& camera, double angle_from_noon) {
   return light;
 }
 
-Light keyed_light(Light light, const KeyedPath& keys, double seconds) {
-  const auto found = keys.lights.find(light.name);
-  if (found == keys.lights.end()) return light;
-  if (found->second.position) light.position = found->second.position->at(seconds);
-  if (found->second.direction) light.direction = glm::normalize(found->second.direction->at(seconds));
-  return light;
-}
-
 }  // namespace
 
 std::string_view camera_path_name(CameraPath path) {
@@ -98,23 +76,6 @@ std::string_view camera_path_name(CameraPath path) {
 std::string_view light_path_name(LightPath path) {
   constexpr std::array<std::string_view, 4> names{"still", "orbit", "sun", "keys"};
   return names[static_cast<std::size_t>(path)];
-}
-
-Vec3 KeyedVector::at(double time) const {
-  if (time <= times.front()) return values.front();
-  if (time >= times.back()) return values.back();
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
-  const auto i = static_cast<std::size_t>(after - times.begin()) - 1;
-  const double s = (time - times[i]) / (times[i + 1] - times[i]);
-  switch (interpolation) {
-    case Interpolation::step:
-      return values[i];
-    case Interpolation::linear:
-      return (1.0 - s) * values[i] + s * values[i + 1];
-    case Interpolation::cubic:
-      break;
-  }
-  return cubic_at(*this, i, s);
 }
 
 Expected<void> check_path(const ShimmerPath& path, const Scene& scene) {
@@ -146,7 +107,7 @@ Pose pose_at(const ShimmerPath& path, const FilmTime& time, const Pose& first, c
     if (path.light == LightPath::orbit) light = orbited(light, centre, up, angle);
     if (path.light == LightPath::sun && light.type == LightType::directional)
       light = sun_at(light, first.camera, path.speed * day * (time.share(frame) - 0.5));
-    if (path.light == LightPath::keys) light = keyed_light(light, path.keys, seconds);
+    if (path.light == LightPath::keys) light = path.keys.light_at(light, seconds);
   }
   return pose;
 }

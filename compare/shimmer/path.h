@@ -1,14 +1,12 @@
-// Paths of camera and light over a film's frames (docs/shimmer.md): built-in ones, and keys from a JSON file
-// (schema gnomon/path/1). A pose is a function of the frame alone, so that any frame may be made again.
+// Paths of camera and light over a film's frames (docs/shimmer.md): built-in ones, and keys (scene/keyed_path.h). A
+// pose is a function of the frame alone, so that any frame may be made again.
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/expected.h"
+#include "scene/keyed_path.h"
 #include "scene/world.h"
 
 namespace gnomon::compare {
@@ -31,28 +29,6 @@ enum class LightPath : std::uint8_t {
 std::string_view camera_path_name(CameraPath path);
 std::string_view light_path_name(LightPath path);
 
-enum class Interpolation : std::uint8_t { linear, cubic, step };
-
-/// A vector over time. cubic: Catmull-Rom over the keys' own times (Barry and Goldman 1988), with the ends'
-/// slopes from their one neighbour. Before the first and after the last key it stands still.
-struct KeyedVector {
-  Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times;  ///< seconds, rising
-  std::vector<Vec3> values;   ///< one for each time
-  Vec3 at(double time) const;
-};
-
-/// Keys from a file; what has none stands still.
-struct KeyedPath {
-  std::optional<KeyedVector> eye, target, up;
-  struct OfLight {
-    std::optional<KeyedVector> position, direction;
-  };
-  std::map<std::string, OfLight> lights;  ///< by name
-};
-/// Error (bad input) with line and column.
-Expected<KeyedPath> read_path(const std::string& file);
-
 struct ShimmerPath {
   CameraPath camera = CameraPath::orbit;
   LightPath light = LightPath::still;
@@ -67,6 +43,13 @@ struct FilmTime {
   /// In [0, 1] over the film.
   double share(int frame) const { return double(frame) / (frames - 1); }
   double seconds(int frame) const { return frame / fps; }
+};
+
+/// What a film is besides its scene and its setting.
+struct FilmPlan {
+  ShimmerPath path;
+  FilmTime time;
+  int anchors = 1;  ///< receivers at every so many pixels along both axes, in [1, 64]
 };
 
 /// Error (usage): the path does not suit the scene's lights, or names one that is not there.

@@ -38,23 +38,30 @@ Expected<LightView> first_fit(const World& world, const Light& light, const Came
   return fit_light_view(world, light, camera, aspect, map.size);
 }
 
+Vec3 middle_of(const World& world, const Camera& camera) {
+  return world.finite_bounds.empty() ? camera.target : world.finite_bounds.center();
+}
+
 class Film {
  public:
   Film(const World& world, Scene& scene, raster::Renderer& renderer, std::span<const std::uint32_t> lights,
-       const ShimmerOptions& options)
+       const ShimmerOptions& options, const raytrace::Tracer& tracer, const raytrace::Topology& topology)
       : world_(world),
         scene_(scene),
         renderer_(renderer),
         lights_(lights),
         first_{scene.camera, scene.lights},
+        receivers_of_(first_camera(options, scene)),
         plan_(plan_effects(scene)),
-        tracer_(world, options.compare.accel, options.compare.precision),
-        topology_(world) {
+        tracer_(tracer),
+        topology_(topology) {
     out_.world = &world;
     out_.options = options;
     out_.accel_build_ms = tracer_.stats().build_ms;
+    scene_.camera = receivers_of_;
     ShimmerOptions& o = out_.options;
-    o.compare.raster.runs = 0, o.compare.raster.analysis = o.compare.raster.map_contents = true;
+    o.compare.raster.runs = 0, o.compare.raster.analysis = true;
+    o.compare.raster.map_contents = o.explain;
     o.compare.raster.seed = o.compare.raytrace.seed;
     o.compare.raster.shadow_samples = o.compare.raytrace.shadow_samples;
     o.compare.raytrace.size = o.compare.raster.size;
@@ -62,12 +69,17 @@ class Film {
     o.compare.raytrace.runs = 1;
   }
   ~Film() {
+    scene_.camera = first_.camera;
     scene_.lights = first_.lights;
     raster::set_map_camera(renderer_, std::nullopt);
   }
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
+  /// Where a truth of the lights as they stand is known.
+  void take_truth(const raytrace::RayTracedFrame& truth) {
+    if (receivers_of_ == first_.camera) truth_ = &truth, truth_lights_ = first_.lights;
+  }
   Expected<Shimmer> run(const FrameSink& sink, const Progress& progress);
 
  private:
@@ -75,6 +87,7 @@ class Film {
   raster::MapCamera map_camera(const Pose& pose, int frame) const;
   Expected<void> make_frame(int frame);
   void begin_lights();
+  std::optional<double> unsnapped_texel(const Light& light) const;
   RungFrame climb_light(std::size_t i) const;
   void keep_anchors(Image<Label>& labels) const;
 
@@ -83,12 +96,14 @@ class Film {
   raster::Renderer& renderer_;
   std::span<const std::uint32_t> lights_;
   const Pose first_;
+  const Camera receivers_of_;
   const EffectPlan plan_;
-  const raytrace::Tracer tracer_;
-  const raytrace::Topology topology_;
+  const raytrace::Tracer& tracer_;
+  const raytrace::Topology& topology_;
   Drift drift_;
   raster::RasterFrame drawn_;
-  raytrace::RayTracedFrame truth_;
+  raytrace::RayTracedFrame own_truth_;
+  const raytrace::RayTracedFrame* truth_ = nullptr;
   std::vector<Light> truth_lights_;
   Shimmer out_;
 };
@@ -154,36 +169,56 @@ std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image
   return climb_up(lower, input).rungs;
 }
 
+// V0, and V6 on every other rung.
+std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, const Image<Label>& labels) {
+  std::array<Image<float>, rung_count> rungs;
+  rungs.fill(input.record.visibility);
+  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+    if (is_compared(labels.data[i])) rungs[0].data[i] = true_visibility(input, i);
+  });
+  return rungs;
+}
+
 RungFrame Film::climb_light(std::size_t i) const {
   const raster::LightRecord& record = drawn_.lights[i];
   const LadderInput input{world_, tracer_, topology_, scene_.lights[record.light],
-                          drawn_, record,  truth_,    truth_.lights[i]};
+                          drawn_, record,  *truth_,   truth_->lights[i]};
   Image<Label> labels = sort_pixels(input);
   keep_anchors(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};
   std::transform(labels.data.begin(), labels.data.end(), out.counted.data.begin(),
                  [](Label label) { return static_cast<std::uint8_t>(is_compared(label)); });
-  out.rungs = climb_rungs(input, std::move(labels));
+  out.rungs = out_.options.explain ? climb_rungs(input, std::move(labels)) : ends_of_ladder(input, labels);
   return out;
+}
+
+std::optional<double> Film::unsnapped_texel(const Light& light) const {
+  raster::RasterOptions drawing = out_.options.compare.raster;
+  if (!drawing.map.snap || light.type != LightType::directional) return std::nullopt;
+  drawing.map.snap = false;
+  const auto view = first_fit(world_, light, receivers_of_, drawing);
+  if (!view) return std::nullopt;
+  return raster::texel_world(*view, world_) + 2.0 * drift_.margin / drawing.map.size;
 }
 
 void Film::begin_lights() {
   const ShimmerOptions& o = out_.options;
-  out_.receivers = truth_.receiver;
+  out_.receivers = truth_->receiver;
   out_.first_picture = drawn_.color;
   out_.context = drawn_.context;
-  const ReceiverSpacing spacing = receiver_spacing(truth_.receiver, world_, o.anchors);
-  for (const raster::LightRecord& record : drawn_.lights)
+  const ReceiverSpacing spacing = receiver_spacing(truth_->receiver, world_, o.anchors);
+  for (const raster::LightRecord& record : drawn_.lights) {
     out_.lights.push_back(
         {.light = record.light,
          .temporal = TemporalBudget(o.compare.raster.size, o.time.frames, spacing, o.anchors),
          .texel_world = record.texel_world});
+    out_.lights.back().texel_world_unsnapped = unsnapped_texel(first_.lights[record.light]);
+  }
 }
 
 Expected<void> Film::make_frame(int frame) {
   const ShimmerOptions& o = out_.options;
-  const Vec3 centre = world_.finite_bounds.empty() ? first_.camera.target : world_.finite_bounds.center();
-  const Pose pose = pose_at(o.path, o.time, first_, centre, frame);
+  const Pose pose = pose_at(o.path, o.time, first_, middle_of(world_, first_.camera), frame);
   if (const auto sound = check_pose(pose, frame); !sound) return sound;
   scene_.lights = pose.lights;
   raster::set_map_camera(renderer_, map_camera(pose, frame));
@@ -191,8 +226,8 @@ Expected<void> Film::make_frame(int frame) {
   if (!drawn) return fail(drawn.error());
   drawn_ = std::move(*drawn);
   if (truth_lights_ != pose.lights) {
-    truth_ = raytrace::trace_frame(tracer_, plan_, first_.camera, lights_, o.compare.raytrace);
-    truth_lights_ = pose.lights;
+    own_truth_ = raytrace::trace_frame(tracer_, plan_, receivers_of_, lights_, o.compare.raytrace);
+    truth_ = &own_truth_, truth_lights_ = pose.lights;
   }
   if (frame == 0) begin_lights();
   for (std::size_t i = 0; i < out_.lights.size(); ++i) {
@@ -223,11 +258,44 @@ Expected<Shimmer> Film::run(const FrameSink& sink, const Progress& progress) {
 
 }  // namespace
 
+Camera first_camera(const FilmPlan& plan, const Scene& scene) {
+  return pose_at(plan.path, plan.time, {scene.camera, {}}, Vec3(0.0), 0).camera;
+}
+
 Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Renderer& renderer,
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
                                const FrameSink& sink, const Progress& progress) {
   if (const auto sound = check_path(options.path, scene); !sound) return fail(sound.error());
-  return Film(world, scene, renderer, lights, options).run(sink, progress);
+  const raytrace::Tracer tracer(world, options.compare.accel, options.compare.precision);
+  const raytrace::Topology topology(world);
+  return Film(world, scene, renderer, lights, options, tracer, topology).run(sink, progress);
+}
+
+ShimmerFigures figures_of(const FilmPlan& plan, const ShimmerLight& light) {
+  const TemporalSums& total = light.temporal.total();
+  const double steps = static_cast<double>(std::max<std::uint64_t>(total.receivers, 1));
+  return {.frames = plan.time.frames,
+          .fps = plan.time.fps,
+          .receiver_steps = total.receivers,
+          .flips = total.flips,
+          .flips_per_receiver_second = static_cast<double>(total.flips) / steps * plan.time.fps,
+          .mean_absolute = total.error_absolute_sum / steps};
+}
+
+Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const World& world, Scene& scene,
+                                                  raster::Renderer& renderer,
+                                                  std::span<const std::uint32_t> lights,
+                                                  const ShimmerOptions& options) {
+  if (const auto sound = check_path(options.path, scene); !sound) return fail(sound.error());
+  ShimmerOptions plain = options;
+  plain.explain = false;
+  Film film(world, scene, renderer, lights, plain, tools.tracer, tools.topology);
+  film.take_truth(tools.truth);
+  const auto made = film.run({}, {});
+  if (!made) return fail(made.error());
+  std::vector<ShimmerFigures> out;
+  for (const ShimmerLight& light : made->lights) out.push_back(figures_of(plain, light));
+  return out;
 }
 
 }  // namespace gnomon::compare

@@ -74,6 +74,9 @@ std::string shimmer_table(const Shimmer& shimmer) {
     for (const std::string& line : wrapped(head, 80)) text += line + '\n';
     for (const std::string& line : wrapped(shimmer_sentence(shimmer, light), 78)) text += "  " + line + '\n';
     text += budget_rows(light.temporal.total());
+    if (light.texel_world_unsnapped)
+      text += fmt::format("  texels of {} world units; without --snap {}\n", plain_number(light.texel_world),
+                          plain_number(*light.texel_world_unsnapped));
     const EdgeSpeed speed = edge_speed(o, light);
     text += std::isnan(speed.drawn_world_per_second)
                 ? std::string("  edges: none\n\n")

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
@@ -9,16 +11,18 @@
 namespace gnomon::compare {
 namespace {
 
-Expected<void> write_films(const FilmKeeper& films, const std::string& folder) {
+Expected<void> write_films(const FilmKeeper& films, const std::string& folder, FilmFormat format) {
   for (std::size_t i = 0; i < films.lights().size(); ++i) {
     const FilmOfLight& film = films.lights()[i];
     for (const auto& [name, one] : {std::pair("drawn", &film.drawn), std::pair("truth", &film.truth),
                                     std::pair("flips", &film.flipped)}) {
       const auto bytes = one->file();
       if (!bytes) return fail(bytes.error());
-      if (const auto written = write_file(fmt::format("{}/film-{}-{}.png", folder, i, name), *bytes);
-          !written)
-        return written;
+      const std::string base = fmt::format("{}/film-{}-{}", folder, i, name);
+      if (const auto written = write_file(base + ".png", *bytes); !written) return written;
+      if (format == FilmFormat::apng) continue;
+      if (const auto made = convert_to_mp4(base + ".png", base + ".mp4"); !made) return made;
+      std::filesystem::remove(base + ".png");
     }
   }
   return {};
@@ -29,12 +33,12 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder) {
 Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
                                const std::string& json, const ShimmerFolder& output) {
   const TimedStage stage("page");
-  const auto page = shimmer_page(shimmer, films, command, json, output.report_max_mb);
+  const auto page = shimmer_page(shimmer, films, command, json, output.report_max_mb, output.film);
   if (!page) return fail(page.error());
   auto staged = StagedFolder::open(output.folder);
   if (!staged) return fail(staged.error());
   const std::string& folder = staged->path();
-  if (const auto written = write_films(films, folder); !written) return fail(written.error());
+  if (const auto written = write_films(films, folder, output.film); !written) return fail(written.error());
   for (const PageFile& file : page->files) {
     if (const auto made = make_output_folder(folder + "/" + file.name.substr(0, file.name.rfind('/'))); !made)
       return fail(made.error());

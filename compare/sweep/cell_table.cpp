@@ -35,6 +35,7 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
     out += fmt::format("<td class=\"n\" data-sort=\"{}\">{}{}</td>", escaped(value),
                        escaped(value_words(value)), idle ? " (no effect)" : "");
   }
+  if (cell.is_filmed()) out += number_cell(cell.flips_per_second, plain_number(cell.flips_per_second));
   out += number_cell(cell.wrong_fraction, percent(cell.wrong_fraction));
   out += number_cell(double(cell.false_shadow), grouped(cell.false_shadow));
   out += number_cell(double(cell.missed_shadow), grouped(cell.missed_shadow));
@@ -56,6 +57,7 @@ std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<
   const bool perceptual = std::isfinite(cells.front().flip);
   std::vector<std::string> columns{"cell"};
   for (const auto& [name, value] : cells.front().axes) columns.push_back(axis_words(name));
+  if (cells.front().is_filmed()) columns.emplace_back("flips per receiver and second");
   for (const char* name : {"wrong", "false shadow", "missed shadow", mostly, "mean error", "RMS error"})
     columns.emplace_back(name);
   if (perceptual) columns.emplace_back("FLIP"), columns.emplace_back("SSIM");

@@ -36,19 +36,20 @@ std::string front_names(const LogPlot& plot, const std::vector<CellSummary>& cel
   return out;
 }
 
-// As CellSummary::error().
-double error_of(const RayPoint& tracer) {
+// As CellSummary::error(). Exact shadows do not flip.
+double error_of(const RayPoint& tracer, bool filmed) {
+  if (filmed) return 0.0;
   const double wrong = double(tracer.wrong) / double(std::max<std::uint64_t>(tracer.compared, 1));
   return std::max(wrong, tracer.mean_absolute);
 }
 
 std::string diamond(const LogPlot& plot, const RayPoint& tracer, ChartLabels& labels) {
-  const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer));
+  const double x = plot.x(tracer.times.median()), error = error_of(tracer, !plot.shares), y = plot.y(error);
   return fmt::format(
-             "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} wrong, "
+             "<path class=\"rays\" d=\"M{0:.1f},{1:.1f}l7,7l-7,7l-7,-7z\"><title>{2}: {3} {5}, "
              "{4}</title></path>",
-             x, y - 7, escaped(tracer.name), error_of(tracer) == 0.0 ? "none" : percent(error_of(tracer)),
-             milliseconds(tracer.times.median())) +
+             x, y - 7, escaped(tracer.name), error == 0.0 ? "none" : percent(error),
+             milliseconds(tracer.times.median()), plot.shares ? "wrong" : "flip") +
          labels.place(x, y, tracer.name);
 }
 
@@ -79,10 +80,11 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
       low = std::min(low, cell.raster_ms), high = std::max(high, cell.raster_ms);
   std::vector<double> shares;
   for (const CellSummary& cell : cells) shares.push_back(cell.error());
-  for (const RayPoint& tracer : tracers) shares.push_back(error_of(tracer));
+  for (const RayPoint& tracer : tracers) shares.push_back(error_of(tracer, cells.front().is_filmed()));
   const double least = least_error(shares);
   const LogPlot plot{low / 1.15, high * 1.15, least,
-                     std::max(4.0 * least, 1.3 * *std::max_element(shares.begin(), shares.end()))};
+                     std::max(4.0 * least, 1.3 * *std::max_element(shares.begin(), shares.end())),
+                     !cells.front().is_filmed()};
   std::string out = chart_frame(plot, log_ticks(plot.min_x, plot.max_x), "milliseconds for map and shading");
   std::string line;
   for (const std::size_t i : front)
@@ -95,12 +97,13 @@ std::string pareto_chart(const std::vector<CellSummary>& cells, const std::vecto
     const bool best = std::find(front.begin(), front.end(), i) != front.end();
     out += cell_point(
         cell, best ? "dot best-dot" : "dot", plot.x(cell.raster_ms), plot.y(cell.error()), best ? 5.0 : 3.5,
-        fmt::format("{}: {} wrong, mean error {}, {}", axes_words(cell), percent(cell.wrong_fraction),
+        fmt::format("{}: {}{} wrong, mean error {}, {}", axes_words(cell),
+                    cell.is_filmed() ? error_words(cell) + ", " : std::string(), percent(cell.wrong_fraction),
                     percent(cell.mean_absolute), milliseconds(cell.raster_ms)));
   }
   ChartLabels labels;
   for (const RayPoint& tracer : tracers) {
-    const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer));
+    const double x = plot.x(tracer.times.median()), y = plot.y(error_of(tracer, !plot.shares));
     labels.keep_free(x - 7, y - 7, x + 7, y + 7);
   }
   for (std::size_t k = 0; k < front.size(); ++k) {

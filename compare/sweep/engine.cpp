@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/shimmer/shimmer.h"
 #include "compare/sort_numbers.h"
 #include "compare/sweep/engine_impl.h"
 #include "raster/technique_traits.h"
@@ -272,6 +273,12 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
   for (const raster::LightRecord& light : frame.lights)
     if (light.external) probe.rays += light.external->rays;
   probe.lights = figures(measure);
+  if (film && measure == ErrorMeasure::shimmer) {
+    const auto flips = count_flips(setting);
+    if (!flips) return fail(flips.error());
+    for (std::size_t i = 0; i < flips->size(); ++i)
+      probe.lights[i].flips_per_second = (*flips)[i].flips_per_receiver_second;
+  }
   for (const ErrorFigures& light : probe.lights) probe.compared += light.compared;
   probe.raster_ms = raster_ms(frame);
   probe.map_texels = frame.map_texels;
@@ -282,7 +289,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
   }
   probe.custom_shader = frame.custom_shader.has_value();
   probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
-  if (biases_follow_from_gaps(frame)) probe_best_bias(measure, probe);
+  if (biases_follow_from_gaps(frame) && measure != ErrorMeasure::shimmer) probe_best_bias(measure, probe);
   return probe;
 }
 
@@ -316,8 +323,26 @@ void Engine::expect_biases(std::vector<raster::Bias> biases) {
   impl_->table.clear();
 }
 
+void Engine::film_with(const FilmPlan& plan) {
+  impl_->film = plan;
+}
+
+Expected<std::vector<ShimmerFigures>> Engine::Impl::count_flips(const Setting& setting) const {
+  ShimmerOptions options{*film, {}};
+  options.compare.raster = setting.raster;
+  options.compare.raytrace = setting.raytrace;
+  options.compare.accel = setting.accel, options.compare.precision = setting.precision;
+  return compare::count_flips({*tracer, topology, comparison.raytraced}, world, scene, renderer,
+                              setting.compared, options);
+}
+
 Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
   if (auto compared = impl_->compare(setting, detail); !compared) return fail(compared.error());
+  if (impl_->film) {
+    const auto flips = impl_->count_flips(setting);
+    if (!flips) return fail(flips.error());
+    for (std::size_t i = 0; i < flips->size(); ++i) impl_->comparison.lights[i].shimmer = (*flips)[i];
+  }
   return &impl_->comparison;
 }
 

@@ -8,6 +8,7 @@
 
 #include "compare/bias_curve.h"
 #include "compare/compare.h"
+#include "compare/shimmer/path.h"
 
 namespace gnomon::compare {
 
@@ -63,6 +64,10 @@ class Engine {
   /// together (bias_axis.h). Empty: none.
   void expect_biases(std::vector<raster::Bias> biases);
 
+  /// From now on a film of each setting is made as well, beginning with its picture: LightComparison::shimmer and
+  /// ErrorMeasure::shimmer.
+  void film_with(const FilmPlan& plan);
+
   /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
   /// the caller's to complete (command, seed, machine). A frame that differs from the last drawn one in its
   /// constant bias alone is not drawn: what it would show follows from the gaps. Its times and its picture
@@ -70,7 +75,8 @@ class Engine {
   /// such a frame (visibility, rungs, labels) may be left out.
   Expected<Comparison*> compare(const Setting& setting, Detail detail = Detail::images);
 
-  /// Draws at a setting and measures what `measure` needs (FLIP and edges are left NaN otherwise). A
+  /// Draws at a setting and measures what `measure` needs (FLIP, edges and flips are left NaN otherwise; where it is
+  /// flips, no other bias is looked for). A
   /// comparison that stood before is no longer valid.
   Expected<Probe> probe(const Setting& setting, ErrorMeasure measure = ErrorMeasure::wrong_and_mean);
 

@@ -29,6 +29,7 @@ struct Engine::Impl {
   std::vector<BiasTable> table;     ///< by light; empty: not made yet
   Image<std::uint8_t> right_codes;  ///< class_codes of the table's drawing as if no pixel were wrong
   std::size_t table_place = 0;      ///< of the bias that the comparison's numbers were last taken from it for
+  std::optional<FilmPlan> film;
   EngineWork work;
   bool derived = false;
 
@@ -38,6 +39,8 @@ struct Engine::Impl {
   Expected<void> compare(const Setting& setting, Detail detail);
   Expected<Probe> probe(const Setting& setting, ErrorMeasure measure);
   Expected<double> time_drawing(const Setting& setting);
+  /// Of every light of a setting that was traced.
+  Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
   void make_backdrop();

@@ -15,6 +15,7 @@ HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measu
   ErrorFigures pooled;
   pooled.wrong_fraction = cell.wrong_fraction, pooled.mean_absolute = cell.mean_absolute;
   pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
+  pooled.flips_per_second = cell.flips_per_second;
   std::string figures = figure_words(pooled, measure);
   if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
   if (cell.shadow_ms > 0.0) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadow_ms));
@@ -81,22 +82,23 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   Headline out;
   if (limit) add_limit(cells, *limit, out);
   if (cells.size() < 2) return out;
-  constexpr ErrorMeasure measure = ErrorMeasure::wrong_and_mean;
+  const ErrorMeasure measure = cells.front().measure();
+  const std::string error = measure == ErrorMeasure::shimmer ? "flips" : "error";
   if (front.empty()) {
     const auto least = std::min_element(cells.begin(), cells.end(),
                                         [](const auto& a, const auto& b) { return a.error() < b.error(); });
-    out.items.push_back(item("Least error", *least, measure));
+    out.items.push_back(item("Least " + error, *least, measure));
     return out;
   }
   const std::size_t fastest = front.front(), best = front.back();
   if (fastest == best) {
-    out.items.push_back(item("Best for error and for time", cells[best], measure));
+    out.items.push_back(item("Best for " + error + " and for time", cells[best], measure));
     return out;
   }
-  out.items.push_back(item("Best for error", cells[best], measure));
+  out.items.push_back(item("Best for " + error, cells[best], measure));
   out.items.push_back(item("Best for time", cells[fastest], measure));
-  out.items.push_back(
-      item("Best for both (least product of error and time)", cells[balanced(cells, front)], measure));
+  out.items.push_back(item("Best for both (least product of " + error + " and time)",
+                           cells[balanced(cells, front)], measure));
   return out;
 }
 

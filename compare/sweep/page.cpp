@@ -31,7 +31,7 @@ std::string sentence(const std::vector<CellSummary>& cells, const std::vector<st
     return fmt::format("The one cell leaves {} wrong, with a mean error of {}.",
                        percent(cells[0].wrong_fraction), percent(cells[0].mean_absolute));
   std::string text = fmt::format("The {} cells have errors between {} and {}.", grouped(cells.size()),
-                                 percent(least->error()), percent(most->error()));
+                                 error_words(*least), error_words(*most));
   if (front.size() == 1)
     text += " One of them is worth having (\u2605): none has a smaller error, and none is clearly faster.";
   else if (!front.empty())
@@ -90,8 +90,10 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
       "<section id=\"cost\" aria-labelledby=\"cost-title\"><h2 id=\"cost-title\">What accuracy costs</h2>\n";
   if (const std::string chart = pareto_chart(cells, front, rays); !chart.empty()) {
     out += "<h3>Error against time</h3>\n<figure>" + scroll_region("Error against time", chart) +
-           "<figcaption>Each cell is a point and opens its pictures; the error is the share of wrong pixels "
-           "or the mean error, whichever is more. The line joins those that are faster than every cell with "
+           "<figcaption>Each cell is a point and opens its pictures; the error is " +
+           (cells.front().is_filmed() ? "the flips per receiver and second of its film"
+                                      : "the share of wrong pixels or the mean error, whichever is more") +
+           ". The line joins those that are faster than every cell with "
            "a smaller error, by more than the times' spread. ";
     if (rays.empty())
       out += fmt::format(
@@ -105,9 +107,12 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
   }
   if (const std::string chart = size_chart(cells); !chart.empty())
     out += "<h3>Error against map size</h3>\n<figure>" + scroll_region("Error against map size", chart) +
-           "<figcaption>The best cell of each technique and size. Where the map's sampling is all that is "
-           "wrong, "
-           "the error falls along the dotted line: half of it at twice the size.</figcaption></figure>\n";
+           "<figcaption>The best cell of each technique and size." +
+           (cells.front().is_filmed()
+                ? ""
+                : " Where the map's sampling is all that is wrong, the error falls along the "
+                  "dotted line: half of it at twice the size.") +
+           "</figcaption></figure>\n";
   return out + ray_table(rays) + "</section>\n";
 }
 

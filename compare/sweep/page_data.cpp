@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 // "4.1 % wrong, mean error 4.1 %: false shadow 12, missed shadow 3, mostly acne; 12 ms …"
 std::string cell_line(const CellSummary& cell) {
-  std::string text = percent(cell.wrong_fraction) + " wrong, mean error " + percent(cell.mean_absolute) +
+  std::string text = (cell.is_filmed() ? error_words(cell) + "; " : std::string()) +
+                     percent(cell.wrong_fraction) + " wrong, mean error " + percent(cell.mean_absolute) +
                      ": false shadow " + grouped(cell.false_shadow) + ", missed shadow " +
                      grouped(cell.missed_shadow);
   if (!cell.main_label.empty()) text += ", mostly " + label_words_of(cell.main_label);

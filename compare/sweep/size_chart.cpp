@@ -31,9 +31,8 @@ std::string drawing(const LogPlot& plot, const Line& line, std::string_view stro
   for (const auto& [size, cell] : line) {
     const double x = plot.x(size), y = plot.y(cell->error());
     fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", x, y);
-    dots +=
-        cell_point(*cell, fill, x, y, 4.0,
-                   fmt::format("{}, {:g} texels: error {}", cell->technique, size, percent(cell->error())));
+    dots += cell_point(*cell, fill, x, y, 4.0,
+                       fmt::format("{}, {:g} texels: error {}", cell->technique, size, error_words(*cell)));
   }
   return fmt::format("<polyline class=\"curve {}\" points=\"{}\"/>", stroke, points) + dots;
 }
@@ -64,7 +63,8 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   if (sizes.size() < 3) return {};
   const double least = least_error(shares), most = *std::max_element(shares.begin(), shares.end());
-  const LogPlot plot{sizes.front() / 1.1, sizes.back() * 1.1, least, std::max(4.0 * least, 1.5 * most)};
+  const LogPlot plot{sizes.front() / 1.1, sizes.back() * 1.1, least, std::max(4.0 * least, 1.5 * most),
+                     !cells.front().is_filmed()};
   std::string out = chart_frame(plot, sizes, "texels on a side"), names;
   ChartLabels labels;
   for (const auto& [name, line] : lines) {
@@ -79,7 +79,7 @@ std::string size_chart(const std::vector<CellSummary>& cells) {
   if (lines.size() > 1)
     for (const auto& [name, line] : lines)
       names += labels.place(plot.x(line.rbegin()->first), plot.y(line.rbegin()->second->error()), name);
-  out += sampling_slope(plot, lines, sizes.front(), sizes.back(), labels);
+  if (plot.shares) out += sampling_slope(plot, lines, sizes.front(), sizes.back(), labels);
   std::size_t i = 0;
   for (const auto& [name, line] : lines) {
     const std::string own = fmt::format("line-{}", i++ % styles);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "compare/number_text.h"
+
 namespace gnomon::compare {
 namespace {
 
@@ -37,11 +39,18 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
   sum.flip += weight * number(error.at("flip"));
   sum.ssim += weight * number(error.at("ssim"));
   sum.edge_rms_texels += weight * number(light.at("edges").at("rms_texels"));
+  if (light.contains("shimmer")) {
+    const Json& film = light.at("shimmer");
+    sum.flips += film.at("flips").get<std::uint64_t>();
+    sum.receiver_steps += film.at("receiver_steps").get<std::uint64_t>();
+    sum.flips_per_second = number(film.at("fps"));  // of one flip a step; finish_means() makes it the mean
+  }
   const Json& pixels = light.at("pixels");
-  sum.lights.push_back({number(error.at("wrong_fraction")), number(error.at("mean_absolute")),
-                        number(error.at("flip")), number(light.at("edges").at("rms_texels")), compared,
-                        pixels.at("uncertain").get<std::uint64_t>(),
-                        pixels.at("uncertain_by_samples").get<std::uint64_t>()});
+  sum.lights.push_back(
+      {number(error.at("wrong_fraction")), number(error.at("mean_absolute")), number(error.at("flip")),
+       number(light.at("edges").at("rms_texels")), compared, pixels.at("uncertain").get<std::uint64_t>(),
+       pixels.at("uncertain_by_samples").get<std::uint64_t>(),
+       light.contains("shimmer") ? number(light.at("shimmer").at("flips_per_receiver_second")) : not_known});
   sum.shadow_rays += light.at("shadow_rays").get<std::uint64_t>();
   for (const auto& [name, count] : light.at("classes").items())
     classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
@@ -55,6 +64,8 @@ void finish_means(CellSummary& sum, const Json& classes) {
   sum.flip /= weight;
   sum.ssim /= weight;
   sum.edge_rms_texels /= weight;
+  sum.flips_per_second *=
+      static_cast<double>(sum.flips) / static_cast<double>(std::max<std::uint64_t>(sum.receiver_steps, 1));
   std::uint64_t most = 0;
   for (const auto& [name, count] : classes.items())
     if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), sum.main_label = name;
@@ -89,6 +100,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
   try {
     const Json json = Json::parse(line);
     CellSummary sum;
+    sum.flips_per_second = not_known;
     for (const auto& [name, value] : json.at("axes").items()) sum.axes.emplace_back(name, value_text(value));
     sum.no_effect = json.value("no_effect", std::vector<std::string>{});
     sum.command = json.at("command").get<std::string>();
@@ -118,6 +130,11 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
     cells.push_back(std::move(*cell));
   }
   return cells;
+}
+
+std::string error_words(const CellSummary& cell) {
+  return cell.is_filmed() ? plain_number(cell.flips_per_second) + " flips per receiver and second"
+                          : percent(cell.error());
 }
 
 bool clearly_faster(const CellSummary& a, const CellSummary& b) {

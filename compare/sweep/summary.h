@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,9 +22,11 @@ struct CellSummary {
   std::uint64_t compared = 0, wrong = 0, ties = 0, false_shadow = 0, missed_shadow = 0;
   double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
   double edge_rms_texels = 0.0;
-  std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
-  std::string main_label;            ///< of most wrong pixels; empty when none is wrong
-  double map_size = 0.0;             ///< texels on a side
+  std::uint64_t flips = 0, receiver_steps = 0;  ///< of the films; none where none was made
+  double flips_per_second = 0.0;                ///< per receiver, over all lights; NaN without films
+  std::vector<ErrorFigures> lights;             ///< of each: thresholds are held against the worst
+  std::string main_label;                       ///< of most wrong pixels; empty when none is wrong
+  double map_size = 0.0;                        ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0, shadow_rays = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
@@ -35,9 +38,15 @@ struct CellSummary {
   double spread_ms = 0.0;  ///< largest less smallest sum of runs
   int runs = 0;            ///< of each pass
   bool derived = false;    ///< the times are those of the drawing that it was made from
-  /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal.
-  double error() const { return std::max(wrong_fraction, mean_absolute); }
+  /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal. With films what they
+  /// are about: flips per receiver and second.
+  double error() const { return is_filmed() ? flips_per_second : std::max(wrong_fraction, mean_absolute); }
+  bool is_filmed() const { return std::isfinite(flips_per_second); }
+  ErrorMeasure measure() const { return is_filmed() ? ErrorMeasure::shimmer : ErrorMeasure::wrong_and_mean; }
 };
+
+/// "1.2 %", or of films "0.012 flips per receiver and second".
+std::string error_words(const CellSummary& cell);
 
 /// a takes less time than b by more than both may be off: the spread of their runs, or a quarter of a single
 /// run's time.

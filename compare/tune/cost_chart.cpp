@@ -60,7 +60,8 @@ LogPlot plot_of(const std::vector<Point>& points, const TuneGoal& goal) {
     shares.push_back(goal.max_error->limit), most = std::max(most, goal.max_error->limit);
   const double least = least_error(shares);
   return {low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * most),
-          goal.measure() != ErrorMeasure::edge && goal.measure() != ErrorMeasure::flip};
+          goal.measure() != ErrorMeasure::edge && goal.measure() != ErrorMeasure::flip &&
+              goal.measure() != ErrorMeasure::shimmer};
 }
 
 std::string goal_line(const LogPlot& plot, const TuneGoal& goal) {

@@ -67,6 +67,8 @@ std::string floor_text(double floor, ErrorMeasure measure) {
       return "a mean FLIP of " + plain_number(floor);
     case ErrorMeasure::edge:
       return texels_text(floor) + " of displacement";
+    case ErrorMeasure::shimmer:
+      return plain_number(floor) + " flips per receiver and second";
     case ErrorMeasure::mean:
       return "a mean error of " + percent(floor);
     case ErrorMeasure::wrong:

@@ -57,13 +57,15 @@ std::string proof(const TunePageInput& in) {
 std::string figure_cells(ErrorMeasure measure, const ErrorFigures& f) {
   std::string cells = fmt::format(R"(<td class="n">{}</td><td class="n">{}</td>)", percent(f.wrong_fraction),
                                   percent(f.mean_absolute));
-  if (measure == ErrorMeasure::flip || measure == ErrorMeasure::edge)
+  if (measure == ErrorMeasure::flip || measure == ErrorMeasure::edge || measure == ErrorMeasure::shimmer)
     cells += fmt::format(R"(<td class="n">{}</td>)", plain_number(figure(f, measure)));
   return cells;
 }
 std::string figure_heads(ErrorMeasure measure) {
   std::string heads = R"(<th scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th>)";
   if (measure == ErrorMeasure::flip) heads += R"(<th scope="col" class="n">FLIP</th>)";
+  if (measure == ErrorMeasure::shimmer)
+    heads += R"(<th scope="col" class="n">flips per receiver and second</th>)";
   if (measure == ErrorMeasure::edge) heads += R"(<th scope="col" class="n">edge RMS, texels</th>)";
   return heads;
 }
@@ -112,11 +114,17 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
         "<h2>What accuracy costs</h2>\n<figure>" + scroll_region("Error against time", chart) +
         "<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins "
         "those that no other beats in both, the large point is the answer.</figcaption></figure>\n";
-  out.html += fmt::format(R"(<h2>What was tried</h2>
-<p>{} drawings: each kind of bias was searched over map sizes, and one drawing tells the error of every
-constant bias. The star is the answer; beside each of the others stands why it is not.</p>
+  out.html +=
+      fmt::format(R"(<h2>What was tried</h2>
+<p>{} {}. The star is the answer; beside each of the others stands why it is not.</p>
 {})",
-                          in.result.renders, family_table(in));
+                  in.result.renders,
+                  in.goal.measure() == ErrorMeasure::shimmer
+                      ? "films: each technique was searched over map sizes, with the bias that it has where "
+                        "none is asked for"
+                      : "drawings: each kind of bias was searched over map sizes, and one drawing tells the "
+                        "error of every constant bias",
+                  family_table(in));
   if (const std::string chart = tune_chart(in.result); !chart.empty())
     out.html += "<h3>How the error depends on the bias</h3>\n<figure>" +
                 scroll_region("Wrong pixels against the bias of each kind", chart) +

@@ -15,10 +15,15 @@ struct NamedCamera {
   Camera camera;
 };
 
+struct LoadedPath : KeyedPath {
+  std::vector<NodeChain> cameras{};  ///< of each of the file's; empty where it does not move
+};
+
 struct LoadedFile {
   Scene scene;
   std::vector<NamedCamera> cameras{};  ///< the file's, in its order
   bool has_camera = false;             ///< the scene's camera is one of them
+  std::vector<LoadedPath> paths{};     ///< of a glTF file only where LoadOptions asks for them
   bool is_model = false;  ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
 };
 

@@ -20,6 +20,7 @@
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
 #include "scene/files/gltf_model.h"
+#include "scene/files/gltf_paths.h"
 #include "scene/files/gltf_skins.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
@@ -52,6 +53,8 @@ class SceneBuilder {
         meshes_(meshes),
         file_(file) {}
 
+  const CarriedNodes& carried() const { return carried_; }
+
   Expected<void> run() {
     for (const int root : roots())
       if (const auto visited = visit_from(root); !visited) return visited;
@@ -62,7 +65,10 @@ class SceneBuilder {
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
     if (!gltf_list(root_, "animations").empty())
-      note("Animations are not played: everything is shown in the pose that it is stored in.");
+      note(
+          "Animations are not played: everything is shown in the pose that it is stored in. Of cameras and "
+          "lights "
+          "gnomon shimmer plays them.");
     meshes_.add_notes(scene_);
     const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
     for (std::size_t i = 0; i < loaded_.cameras.size(); ++i) {
@@ -116,8 +122,8 @@ class SceneBuilder {
       const Mat4 world = visit.world_from_parent * local_matrix(model_, index);
       if (node.mesh >= 0)
         if (const auto added = add_mesh(node, visit.node, world); !added) return added;
-      if (node.camera >= 0) add_camera(node, world);
-      add_light(node, world);
+      if (node.camera >= 0) add_camera(node, index, world);
+      add_light(node, index, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         stack.push_back({*child, world});
     }
@@ -185,7 +191,7 @@ class SceneBuilder {
     return {};
   }
 
-  void add_camera(const tinygltf::Node& node, const Mat4& world) {
+  void add_camera(const tinygltf::Node& node, std::size_t index, const Mat4& world) {
     const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
     if (from.type != "perspective") {
       orthographic_ = true;
@@ -205,6 +211,7 @@ class SceneBuilder {
     named.camera.vertical_fov = from.perspective.yfov;
     loaded_.cameras.push_back(std::move(named));
     gltf_cameras_.push_back(static_cast<std::size_t>(node.camera));
+    carried_.cameras.push_back(index);
   }
 
   // Straight ahead, as far away as the middle of the scene is: what a viewer turns around.
@@ -214,7 +221,7 @@ class SceneBuilder {
     if (ahead > 0.0) camera.target = camera.eye + ahead * forward;
   }
 
-  void add_light(const tinygltf::Node& node, const Mat4& world) {
+  void add_light(const tinygltf::Node& node, std::size_t at, const Mat4& world) {
     const auto found = node.extensions.find("KHR_lights_punctual");
     if (found == node.extensions.end() || !found->second.Has("light")) return;
     const auto index = static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
@@ -238,6 +245,7 @@ class SceneBuilder {
     light.name = unique_name(!node.name.empty() ? node.name : !from.name.empty() ? from.name : from.type);
     extras_.read_light(index, light);
     light_names_.insert(light.name);
+    carried_.lights.push_back(at);
     scene_.lights.push_back(std::move(light));
   }
 
@@ -269,6 +277,7 @@ class SceneBuilder {
   std::vector<Mat4> node_transforms_;                                            // once a skin needs them
   std::map<std::tuple<int, int, std::vector<double>>, std::uint32_t> our_mesh_;  // by mesh, skin and weights
   std::vector<std::size_t> gltf_cameras_;                                        // of loaded_.cameras
+  CarriedNodes carried_;
   std::set<std::string> light_names_;
   std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
@@ -288,7 +297,7 @@ std::optional<Error> empty_accessor_defect(const tinygltf::Model& model, const s
 }
 
 Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, CheckedGltf& checked,
-                           const std::string& file) {
+                           const std::string& file, bool with_paths) {
   LoadedFile loaded;
   loaded.is_model = true;
   loaded.scene.notes = std::move(checked.notes);
@@ -301,8 +310,13 @@ Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, Checked
   const auto default_material = static_cast<std::uint32_t>(loaded.scene.materials.size());
   loaded.scene.materials.push_back(model_material("default"));
   GltfMeshReader meshes(model, data, *sets, default_material, file);
-  const auto built = SceneBuilder(loaded, model, data, checked.document.root, extras, meshes, file).run();
-  if (!built) return fail(built.error());
+  SceneBuilder builder(loaded, model, data, checked.document.root, extras, meshes, file);
+  if (const auto built = builder.run(); !built) return fail(built.error());
+  if (with_paths) {
+    auto paths = read_gltf_paths(model, data, checked, builder.carried(), loaded.scene);
+    if (!paths) return fail(paths.error());
+    loaded.paths = std::move(*paths);
+  }
   extras.read_scene(loaded.scene);
   if (errors.first) return fail(std::move(*errors.first));
   if (loaded.scene.instances.empty() && !meshes.skipped_points())
@@ -324,7 +338,7 @@ Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, 
   if (!data) return fail(data.error());
   if (const auto unpacked = unpack_draco(*model, *data, file); !unpacked) return fail(unpacked.error());
   if (auto defect = empty_accessor_defect(*model, file)) return fail(std::move(*defect));
-  return build(*model, *data, *checked, file);
+  return build(*model, *data, *checked, file, options.paths != nullptr);
 } catch (const std::bad_alloc&) {
   throw;                             // load_scene answers for memory
 } catch (const std::exception& e) {  // the libraries' own, on what the checks forget

@@ -6,6 +6,7 @@
 
 #include "scene/files/json_parts.h"
 #include "scene/files/merge.h"
+#include "scene/files/path_keys.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
@@ -145,11 +146,34 @@ NamedCamera read_named_camera(SceneReader& reader, const JsonNode& node,
   return named;
 }
 
+LoadedPath read_named_path(const JsonNode& node, const std::vector<LoadedPath>& before) {
+  const JsonObject object(node, {"name", "camera", "lights"});
+  LoadedPath path;
+  if (const auto name = object.require("name")) path.name = name->as_string();
+  for (const LoadedPath& other : before)
+    if (other.name == path.name)
+      node.error(fmt::format("another path has this name (got \"{}\")", printable(path.name)));
+  read_path_keys(object, path);
+  return path;
+}
+
+void read_paths(SceneReader& reader, const JsonNode& list, std::vector<LoadedPath>& paths) {
+  for (const JsonNode& node : list.as_array()) {
+    if (reader.failed()) return;
+    paths.push_back(read_named_path(node, paths));
+    for (const auto& [name, keys] : paths.back().lights)
+      if (std::none_of(reader.scene.lights.begin(), reader.scene.lights.end(),
+                       [&name = name](const Light& light) { return light.name == name; }))
+        node.error(fmt::format("the scene has no light \"{}\"", printable(name)));
+  }
+}
+
 // The order matters: what is named must be known before it is used.
-std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root) {
-  const JsonObject top(root, {"$schema", "schema", "name", "description", "camera", "cameras", "lights",
-                              "materials", "meshes", "instances", "shapes", "include", "ambient",
-                              "background", "exposure", "max_depth", "glossy", "indirect", "settings"});
+std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root, std::vector<LoadedPath>& paths) {
+  const JsonObject top(
+      root, {"$schema",   "schema",    "name",      "description", "camera",   "cameras", "lights",
+             "materials", "meshes",    "instances", "shapes",      "include",  "ambient", "background",
+             "exposure",  "max_depth", "glossy",    "indirect",    "settings", "paths"});
   check_schema(top);
   read_settings(reader, top);
   if (const auto list = top.find("include"))
@@ -160,6 +184,7 @@ std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root) {
   if (const auto list = top.find("instances")) read_instances(reader, *list);
   if (const auto list = top.find("shapes")) read_shapes(reader, *list);
   if (const auto list = top.find("lights")) read_lights(reader, *list);
+  if (const auto list = top.find("paths")) read_paths(reader, *list, paths);
   note_unused_meshes(reader);
   if (reader.scene.instances.empty() && reader.scene.shapes.empty())
     root.error("the scene shows nothing (needs instances, shapes or include)");
@@ -227,7 +252,7 @@ Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& f
   loaded.scene.name = std::filesystem::path(file).stem().string();
   includes.open.push_back(canonical(file));
   SceneReader reader{errors, loaded.scene, folder, options, includes};
-  loaded.cameras = read_top(reader, JsonNode(errors, document->root, ""));
+  loaded.cameras = read_top(reader, JsonNode(errors, document->root, ""), loaded.paths);
   loaded.has_camera = !loaded.cameras.empty();
   includes.open.pop_back();
   if (errors.first) return fail(std::move(*errors.first));

@@ -48,6 +48,8 @@ Expected<void> choose_camera(LoadedFile& loaded, const std::string& wanted) {
                             suggestion(wanted, names)));
   loaded.scene.camera = cameras[index].camera;
   loaded.has_camera = true;
+  for (LoadedPath& path : loaded.paths)
+    if (index < path.cameras.size()) path.camera = std::move(path.cameras[index]);
   if (cameras.size() > 1)
     loaded.scene.notes.push_back(fmt::format("The camera {} is used; --camera takes {}, or 0 to {}.",
                                              cameras[index].name, fmt::join(names, ", "),
@@ -68,6 +70,11 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path,
   if (auto defect = find_geometry_defect(loaded->scene)) {
     defect->file = path;
     return fail(std::move(*defect));
+  }
+  if (options.paths != nullptr) {
+    std::erase_if(loaded->paths,
+                  [](const LoadedPath& each) { return !each.moves_camera() && each.lights.empty(); });
+    options.paths->assign(loaded->paths.begin(), loaded->paths.end());
   }
   Scene scene = add_defaults(std::move(*loaded));
   scene.path = path;

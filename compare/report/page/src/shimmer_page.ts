@@ -119,8 +119,10 @@ class FilmPlayer {
     this.compose(pictures);
     this.context.putImageData(this.image, 0, 0);
     this.slider.value = String(asked);
-    this.reading.textContent = `frame ${asked} of ${page.frames}`;
-    this.canvas.setAttribute("aria-label", `${this.view}, frame ${asked}`);
+    const said = `frame ${asked + 1} of ${page.frames}`;  // for people, who count from one
+    this.reading.textContent = said;
+    this.slider.setAttribute("aria-valuetext", said);
+    this.canvas.setAttribute("aria-label", `${this.view}, ${said}`);
     for (const button of this.buttons) button.setAttribute("aria-pressed", String(button.dataset.view === this.view));
     const shown = Number(this.section.dataset.shown ?? "0");
     this.section.dataset.shown = String(shown + 1);

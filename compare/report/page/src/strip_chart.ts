@@ -37,11 +37,11 @@ export function stripChart(moments: Moment[], labels: LabelJson[], title: string
     if (moment.flip < 0) return;
     const row = Math.min(moment.flip + 1, names.length - 1), x = left + ((right - left) * i) / moments.length, label = labels[moment.flip]!;
     const mark = svg("circle", { cx: x, cy: top + row * rowHeight + 4 + swing / 2, r: 6, fill: label.colour, class: "strip-flip" });
-    mark.append(svg("title", {}, `to frame ${i}: flip by ${label.name}`));
+    mark.append(svg("title", {}, `to frame ${i + 1}: flip by ${label.name}`));
     chart.append(mark);
   });
   for (let frame = 0; frame < moments.length; frame += Math.max(1, Math.round(moments.length / 12)))
-    chart.append(svg("text", { class: "middle", x: stripX(frame, moments.length), y: height - 8 }, String(frame)));
+    chart.append(svg("text", { class: "middle", x: stripX(frame, moments.length), y: height - 8 }, String(frame + 1)));
   chart.append(svg("line", { class: "now", x1: left, x2: left, y1: top, y2: height - 24 }));
   return chart;
 }

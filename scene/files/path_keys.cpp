@@ -1,13 +1,13 @@
 // {"schema": "gnomon/path/1", "camera": {"eye": KEYS, "target": KEYS, "up": KEYS},
 //  "lights": {NAME: {"position": KEYS, "direction": KEYS}}}
 // KEYS: {"interpolation": "linear" | "cubic" | "step", "times": [seconds], "values": [[x, y, z]]}
+#include "scene/files/path_keys.h"
+
 #include <fmt/format.h>
 
-#include "compare/shimmer/path.h"
-#include "scene/files/json_reader.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::compare {
+namespace gnomon {
 namespace {
 
 constexpr std::string_view schema_name = "gnomon/path/1";
@@ -34,14 +34,14 @@ std::optional<KeyedVector> read_keys(const JsonObject& parent, std::string_view 
   return out;
 }
 
-void read_camera(const JsonNode& node, KeyedPath& path) {
+void read_camera_keys(const JsonNode& node, KeyedPath& path) {
   const JsonObject object(node, {"eye", "target", "up"});
   path.eye = read_keys(object, "eye");
   path.target = read_keys(object, "target");
   path.up = read_keys(object, "up");
 }
 
-void read_lights(const JsonNode& node, KeyedPath& path) {
+void read_light_keys(const JsonNode& node, KeyedPath& path) {
   if (!node.is(JsonValue::Type::object)) {
     node.wrong("wrong type", "an object of lights by name");
     return;
@@ -55,7 +55,7 @@ void read_lights(const JsonNode& node, KeyedPath& path) {
   }
 }
 
-// A camera whose eye meets its target, or a direction of no length, has no picture.
+// A direction of no length has no picture.
 void check_directions(const JsonNode& root, const KeyedPath& path) {
   for (const auto& [name, keys] : path.lights)
     if (keys.direction)
@@ -68,6 +68,12 @@ void check_directions(const JsonNode& root, const KeyedPath& path) {
 
 }  // namespace
 
+void read_path_keys(const JsonObject& object, KeyedPath& path) {
+  if (const auto camera = object.find("camera")) read_camera_keys(*camera, path);
+  if (const auto lights = object.find("lights")) read_light_keys(*lights, path);
+  check_directions(object.node(), path);
+}
+
 Expected<KeyedPath> read_path(const std::string& file) {
   auto text = read_file(file);
   if (!text) return fail(text.error());
@@ -79,11 +85,9 @@ Expected<KeyedPath> read_path(const std::string& file) {
   KeyedPath path;
   if (const auto schema = object.require("schema"))
     if (schema->as_string() != schema_name) schema->wrong("unknown schema", std::string(schema_name));
-  if (const auto camera = object.find("camera")) read_camera(*camera, path);
-  if (const auto lights = object.find("lights")) read_lights(*lights, path);
-  check_directions(root, path);
+  read_path_keys(object, path);
   if (errors.first) return fail(*errors.first);
   return path;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon
