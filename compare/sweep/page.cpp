@@ -132,6 +132,11 @@ std::string provenance(const SweepHeader& header) {
       out += fact(key == std::string_view("path") ? "Scene" : "SHA-256 of the scene file", text);
   for (const auto& [name, value] : json.at("options").items())
     out += fact("--" + name, value.is_string() ? value.get<std::string>() : value.dump());
+  if (json.contains("film")) {
+    out += fact("--metric", "shimmer");
+    for (const auto& [name, value] : json.at("film").items())
+      out += fact(name == "sha256" ? "SHA-256 of the path's file" : "--" + name, value.get<std::string>());
+  }
   for (const char* key : {"runs", "seed", "exposure"})
     if (json.contains(key) && !json.at(key).is_null())
       out += fact(key == std::string_view("runs") ? "Runs of each pass" : key, json.at(key).dump());
