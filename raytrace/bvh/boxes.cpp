@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include "raytrace/bvh/bvh.h"
+#include "raytrace/given_up.h"
 #include "scene/solid.h"
 
 namespace gnomon::raytrace {
@@ -54,6 +55,7 @@ void append_triangles(const World& world, FinitePrimitives& out) {
     }
     kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
   });
+  leave_if_given_up();
   std::size_t size = 0;
   for (std::size_t block = 0; block < kept.size(); size += kept[block++])
     if (size != block * block_size)

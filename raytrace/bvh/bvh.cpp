@@ -246,6 +246,7 @@ Bvh build_flat(const World& world) {
   bvh.primitives.resize(finite.boxes.size()), bvh.ids.resize(finite.boxes.size());
   tbb::parallel_for(std::size_t{0}, finite.boxes.size(),
                     [&](std::size_t i) { set_leaf(world, i, finite.boxes[i].id, bvh); });
+  leave_if_given_up();
   return bvh;
 }
 
