@@ -100,7 +100,6 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
   try {
     const Json json = Json::parse(line);
     CellSummary sum;
-    sum.flips_per_second = not_known;
     for (const auto& [name, value] : json.at("axes").items()) sum.axes.emplace_back(name, value_text(value));
     sum.no_effect = json.value("no_effect", std::vector<std::string>{});
     sum.command = json.at("command").get<std::string>();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,10 +24,11 @@ struct CellSummary {
   double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
   double edge_rms_texels = 0.0;
   std::uint64_t flips = 0, receiver_steps = 0;  ///< of the films; none where none was made
-  double flips_per_second = 0.0;                ///< per receiver, over all lights; NaN without films
-  std::vector<ErrorFigures> lights;             ///< of each: thresholds are held against the worst
-  std::string main_label;                       ///< of most wrong pixels; empty when none is wrong
-  double map_size = 0.0;                        ///< texels on a side
+  /// Per receiver, over all lights; NaN without films.
+  double flips_per_second = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
+  std::string main_label;            ///< of most wrong pixels; empty when none is wrong
+  double map_size = 0.0;             ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0, shadow_rays = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
