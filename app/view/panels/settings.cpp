@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/technique_options.h"
 #include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
 #include "raster/technique_traits.h"
@@ -148,6 +149,7 @@ void choose(raster::MapOptions& map, raster::Technique technique) {
   map.technique = technique;
   if (raster::uses_moments(technique)) map.bias.receiver_plane = map.bias.adaptive = false;
   if (technique == raster::Technique::second_depth) map.cull = raster::Cull::none;
+  if (!technique_reads("snap", map)) map.snap = false;
 }
 
 bool technique(PanelContext& context, raster::MapOptions& map) {
