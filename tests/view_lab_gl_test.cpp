@@ -99,7 +99,7 @@ TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
   const ProcessResult result =
       drive("floating-box",
             "set size 900x700\nset results off\nset bias 0texel\nset slope-bias 0\nwait 4\n"
-            "drag 20 315 150 315\nwait 2\nprint\n");
+            "drag 20 343 150 343\nwait 2\nprint\n");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::size_t at = result.out.find("--bias ");
   ASSERT_NE(at, std::string::npos) << result.out;
@@ -110,8 +110,8 @@ TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
 
 TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
   const ProcessResult result = drive("floating-box",
-                                     "set size 900x700\nset results off\nwait 4\ndrag 150 339 200 "
-                                     "339\nprint\ndrag 700 600 760 600\nprint\n");
+                                     "set size 900x700\nset results off\nwait 4\ndrag 150 367 200 "
+                                     "367\nprint\ndrag 700 600 760 600\nprint\n");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto commands = lines_of(result.out);
   ASSERT_EQ(commands.size(), 2u);
