@@ -20,18 +20,6 @@ void scale(Scene& scene, double factor) {
   scene.camera.eye *= factor, scene.camera.target *= factor;
 }
 
-Scene invariant_scene(LightType type, Random random) {
-  Scene scene = scene_of({quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}), box({-1, 0.5, -1}, {0, 1.5, 0}),
-                          in_floats(soup(30, 1.5, 0.8, random))});
-  Light light = point_light({-1.75, 3.25, 1.5});
-  light.type = type;
-  light.direction = glm::normalize(Vec3(0.5, -1.0, -0.375));
-  light.outer_angle = 0.7;
-  scene.lights = {light};
-  scene.camera.eye = {3.5, 2.5, 4.0}, scene.camera.target = {0.0, 0.5, 0.0};
-  return scene;
-}
-
 raster::RasterOptions options_of(Technique technique) {
   raster::RasterOptions options = drawing({160, 90}, 256, 0.5);
   options.map.bias.unit = raster::BiasUnit::texel;

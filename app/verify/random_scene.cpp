@@ -86,6 +86,20 @@ Scene random_scene(Random& r) {
   return scene;
 }
 
+Scene invariant_scene(LightType type, Random random) {
+  Mesh loose = soup(30, 1.5, 0.8, random);
+  for (Vec3& p : loose.positions) p = glm::round(64.0 * p) / 64.0;
+  Scene scene =
+      scene_of({quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}), box({-1, 0.5, -1}, {0, 1.5, 0}), std::move(loose)});
+  Light light = point_light({-1.75, 3.25, 1.5});
+  light.type = type;
+  light.direction = glm::normalize(Vec3(0.5, -1.0, -0.375));
+  light.outer_angle = 0.7;
+  scene.lights = {light};
+  scene.camera.eye = {3.5, 2.5, 4.0}, scene.camera.target = {0.0, 0.5, 0.0};
+  return scene;
+}
+
 Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn,
                             const raytrace::RayTracedFrame& traced) {
   Agreement out;

@@ -18,6 +18,11 @@ struct Agreement {
   std::uint64_t wrong = 0;  ///< of these, drawn otherwise than the rays say
 };
 
+/// A floor, a box and loose triangles under one light of this type, for what must not change with the numbers that
+/// a scene is given in: coordinates are multiples of 1/64, so that sums with 1e7 and the middles of edges are exact,
+/// in floats, too.
+Scene invariant_scene(LightType type, Random random);
+
 /// The first light's drawn visibility against the ray tracer's verdicts.
 Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn,
                             const raytrace::RayTracedFrame& traced);

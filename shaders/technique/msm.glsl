@@ -2,11 +2,12 @@
 // moments, the one that shadows the receiver least. It sits on the receiver's depth and two more, the roots of a quadratic.
 #include "moment_lookup.glsl"
 
-// Solves the Hankel matrix of (1, b1, b2, b3, b4) times c = (1, x, x^2) by Cholesky's decomposition L D L^T.
+// Solves the Hankel matrix of (1, b1, b2, b3, b4) times c = (1, x, x^2) by Cholesky's decomposition L D L^T. D is not
+// negative; where it is small, on a filter's texels of one depth, rounding alone could make it so, and a pixel lit.
 vec3 solve_hankel(vec4 b, float x) {
-  float d2 = b.y - b.x * b.x;
+  float d2 = max(b.y - b.x * b.x, rounding * b.y);
   float l32 = (b.z - b.x * b.y) / d2;
-  float d3 = b.w - b.y * b.y - l32 * l32 * d2;
+  float d3 = max(b.w - b.y * b.y - l32 * l32 * d2, rounding * b.w);
   float y2 = x - b.x;
   float y3 = x * x - b.y - l32 * y2;
   vec3 c;
