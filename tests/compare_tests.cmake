@@ -17,5 +17,5 @@ gnomon_test(compare_solids_gl_test TIMEOUT 900
   LIBS gnomon::raster gnomon::raytrace)
 target_include_directories(compare_solids_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
-# The same scene in other numbers: the same counts. GNOMON_INVARIANCE=N: N scenes, every technique under every light.
+# The same scene in other numbers: the same labels. GNOMON_INVARIANCE=N: N scenes, every technique under every light.
 gnomon_test(compare_invariance_gl_test SOURCES compare_invariance_gl_test.cpp LIBS gnomon::verify gnomon::compare gnomon::hybrid)
