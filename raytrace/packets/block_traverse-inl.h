@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
 /// Runs of leaves are not divided below this.
-constexpr std::uint32_t run_size = 32;
+constexpr std::uint32_t run_size = 48;
 
 /// run(node, child, leaves) for every run that the frustum touches at a priority of at least limit(). Nearest
 /// first, but several nodes at a time: memory takes longer to bring a node than its test takes.
@@ -42,6 +42,11 @@ void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, 
       const std::size_t base = size;
       for (unsigned mask = frustum.hits(node, limit(), priority); mask != 0; mask &= mask - 1) {
         const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+        if (!node.child[i].is_leaf()) {
+          __builtin_prefetch(&bvh.below[node.child[i].index()]);
+          const char* next = reinterpret_cast<const char*>(&bvh.nodes[node.child[i].index()]);
+          __builtin_prefetch(next), __builtin_prefetch(next + 64);
+        }
         std::size_t at = size++;
         for (; at > base && stack[at - 1].priority > priority[i]; --at) stack[at] = stack[at - 1];
         stack[at] = {&node, i, priority[i]};
@@ -55,8 +60,6 @@ void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, 
           child.is_leaf() ? LeafRange{child.first(), child.count()} : bvh.below[child.index()];
       if (below.count > run_size) {
         nodes[count++] = child.index();
-        const char* node = reinterpret_cast<const char*>(&bvh.nodes[child.index()]);
-        __builtin_prefetch(node), __builtin_prefetch(node + 64);
       } else {
         run(*entry.parent, entry.child, below);
       }

@@ -34,7 +34,6 @@ HWY_INLINE Blocked blocked_by(const PrimitiveEdges& p, const RayTest& test, V u,
   const M known = hn::Gt(reciprocal_depth, all(p.depth_floor));
   const M behind = hn::And(hn::Lt(reciprocal_depth, hn::Sub(far, depth_error)), known);
   const M near = hn::AndNot(behind, hn::And(asked, hn::Ge(edge, hn::Neg(edge_error))));
-  if (hn::AllFalse(f, near)) return {near, near};
   const std::uint32_t not_by = p.edge_error < inf ? p.id & ~never_sure : no_id;
   const M perhaps = hn::AndNot(hn::RebindMask(f, hn::Eq(source, hn::Set(ids, not_by))), near);
   if ((p.id & never_sure) != 0) return {perhaps, hn::Lt(far, far)};

@@ -29,7 +29,7 @@ class BlockShadows {
     for (const PrimitiveEdges& plane : setup_.planes) {
       const RayTest rays{Functions(plane)};
       for (std::size_t t = 0; t < count_; ++t)
-        if (tiles_[t].test<true>(plane, 0, rays, 0xffff)) tiles_[t].update_regions(regions_, t);
+        if (tiles_[t].test_all<true>(plane, 0, rays)) tiles_[t].update_regions(regions_, t);
     }
     update_limit();
     if (far_min_ < inf) {
@@ -67,39 +67,66 @@ class BlockShadows {
   void put(LeafRange run) {
     const char* bytes = reinterpret_cast<const char*>(&s_.bvh.primitives[run.first]);
     for (std::size_t at = 0; at < run.count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
+    __builtin_prefetch(&s_.bvh.ids[run.first]), __builtin_prefetch(&s_.bvh.ids[run.first + run.count - 1]);
     for (std::uint32_t k = 0; k < run.count; ++k) pending_[end_++] = run.first + k;
     while (end_ - begin_ >= run_size) flush();
     end_ = static_cast<std::size_t>(std::copy(pending_ + begin_, pending_ + end_, pending_) - pending_),
     begin_ = 0;
   }
 
-  /// Sets up the longest waiting ones and tries them.
+  /// Sets up the longest waiting ones and tries them: which tiles each may concern, which packets of these, and then
+  /// every pair, in three plain loops, because branches that nobody can foresee would cost more than the tests.
   void flush() {
     const std::size_t count = std::min<std::size_t>(end_ - begin_, batch);
-    const unsigned never = set_up_leaves(s_, pass_, {pending_ + begin_, count}, block_);
-    bool taken = false;
-    for (std::size_t i = 0; i < count; ++i) taken |= test(pending_[begin_ + i], i, (never >> i & 1) != 0);
+    never_ = set_up_leaves(s_, pass_, {pending_ + begin_, count}, block_);
+    PrimitiveBounds bounds[batch];
+    std::size_t tiles = 0, pairs = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      bounds[i] = bounds_of(i);
+      tiles += list_bits(regions_.touched_by(bounds[i]), i, tiles_of_ + tiles);
+    }
+    for (std::size_t k = 0; k < tiles; ++k) {
+      const std::uint32_t at = tiles_of_[k];
+      pairs += list_bits(tiles_[at % 16].packets().touched_by(bounds[at / 16]), at, pairs_ + pairs);
+    }
+    unsigned changed = 0;
+    for (std::size_t k = 0; k < pairs; ++k) changed |= test(pairs_[k]);
+    for (unsigned left = changed; left != 0; left &= left - 1) {
+      const auto t = static_cast<std::size_t>(std::countr_zero(left));
+      tiles_[t].update_regions(regions_, t);
+    }
+    if (changed != 0) update_limit();
     begin_ += count;
-    if (taken) update_limit();
   }
 
-  bool test(std::uint32_t leaf, std::size_t i, bool never) {
-    PrimitiveBounds bounds{block_.u_min()[i], block_.u_max()[i], block_.v_min()[i], block_.v_max()[i],
-                           block_.nearest()[i]};
-    if (bounds.u_min == -inf) bounds = bounds_of_box(leaf);
-    unsigned tiles = regions_.touched_by(bounds);
-    if (tiles == 0) return false;
-    const PrimitiveEdges primitive = edges_of(leaf, i, never);
-    const RayTest rays{Functions(primitive)};
-    bool taken = false;
-    for (; tiles != 0; tiles &= tiles - 1) {
-      const auto t = static_cast<std::size_t>(std::countr_zero(tiles));
-      const unsigned packets = tiles_[t].packets().touched_by(bounds);
-      if (packets == 0 || !tiles_[t].test<false>(primitive, leaf, rays, packets)) continue;
-      tiles_[t].update_regions(regions_, t);
-      taken = true;
+  /// 16 `first` + i for every bit i; returns their number.
+  static std::size_t list_bits(unsigned bits, std::size_t first, std::uint32_t* out) {
+    const auto base = hn::Set(ids, static_cast<std::uint32_t>(16 * first));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const auto numbers = hn::Add(base, hn::Iota(ids, static_cast<std::uint32_t>(i)));
+      const unsigned these = bits >> i & ((1u << lanes()) - 1u);
+      hn::StoreU(hn::Compress(numbers, hn::RebindMask(ids, mask_of(these))), ids, out + count);
+      count += static_cast<std::size_t>(std::popcount(these));
     }
-    return taken;
+    return count;
+  }
+
+  /// `pair`: a pending primitive, a tile and one of its packets. The tile's bit when rays of it were found to be
+  /// shadowed.
+  unsigned test(std::uint32_t pair) {
+    const std::size_t i = pair / 256, tile = pair / 16 % 16, packet = pair % 16;
+    const std::uint32_t leaf = pending_[begin_ + i];
+    const PrimitiveEdges primitive = edges_of(leaf, i);
+    const bool taken =
+        tiles_[tile].template test_packet<false>(primitive, leaf, RayTest{Functions(primitive)}, packet);
+    return static_cast<unsigned>(taken) << tile;
+  }
+
+  PrimitiveBounds bounds_of(std::size_t i) const {
+    const PrimitiveBounds bounds{block_.u_min()[i], block_.u_max()[i], block_.v_min()[i], block_.v_max()[i],
+                                 block_.nearest()[i]};
+    return bounds.u_min == -inf ? bounds_of_box(pending_[begin_ + i]) : bounds;
   }
 
   /// Of what has no bounds of its own: shapes, and triangles seen edge-on.
@@ -120,13 +147,13 @@ class BlockShadows {
     return box;
   }
 
-  PrimitiveEdges edges_of(std::uint32_t leaf, std::size_t i, bool never) const {
+  PrimitiveEdges edges_of(std::uint32_t leaf, std::size_t i) const {
     PrimitiveEdges p;
     const auto& out = block_.rows.out;
     for (std::size_t k = 0; k < 9; ++k) p.edge[k / 3][k % 3] = out[k][i];
     for (std::size_t k = 0; k < 3; ++k) p.reciprocal_depth[k] = out[9 + k][i];
     p.edge_error = out[12][i], p.depth_error = out[13][i], p.depth_floor = out[14][i];
-    p.id = s_.bvh.ids[leaf] | (never ? never_sure : 0u);
+    p.id = s_.bvh.ids[leaf] | ((never_ >> i & 1) != 0 ? never_sure : 0u);
     return p;
   }
 
@@ -147,6 +174,9 @@ class BlockShadows {
   SplitRegions regions_;  ///< of the tiles
   float far_min_ = inf, limit_ = -inf;
   EdgeSetupBlock block_;
+  unsigned never_ = 0;  ///< bit i: the i-th of it is never sure
+  std::uint32_t tiles_of_[batch * most_shadow_tiles + packet_rays];
+  std::uint32_t pairs_[batch * most_shadow_tiles * tile_packets + packet_rays];
   std::uint32_t pending_[2 * run_size];
   std::size_t begin_ = 0, end_ = 0;  ///< of the pending ones
 };

@@ -135,11 +135,33 @@ class TileState {
 
   /// True when rays have been found to be shadowed.
   template <bool plane>
-  bool test(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays, unsigned packets) {
+  bool test_all(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays) {
     bool any = false;
-    for (; packets != 0; packets &= packets - 1)
-      any |= test_packet<plane>(primitive, leaf, rays, static_cast<std::size_t>(std::countr_zero(packets)));
+    for (std::size_t p = 0; p < tile_packets; ++p) any |= test_packet<plane>(primitive, leaf, rays, p);
     return any;
+  }
+  template <bool plane>
+  bool test_packet(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays,
+                   std::size_t packet) {
+    bool taken = false;
+    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
+      const std::size_t at = packet * packet_rays + i;
+      const V far = hn::Load(f, far_ + at);
+      const Blocked blocked =
+          blocked_by<plane>(primitive, rays, hn::Load(f, rays_->u + at), hn::Load(f, rays_->v + at), far,
+                            hn::Load(ids, rays_->source + at), hn::Lt(far, all(inf)));
+      if (hn::AllFalse(f, blocked.perhaps)) continue;
+      const unsigned bits = bits_of(blocked.surely);
+      const unsigned open = bits_of(blocked.perhaps) & ~bits;
+      out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << i);
+      if (!plane) out_->note(leaf, at, open);
+      if (bits == 0) continue;
+      out_->shadowed[packet] |= static_cast<std::uint16_t>(bits << i);
+      hn::Store(hn::IfThenElse(blocked.surely, all(inf), far), f, far_ + at);
+      taken = true;
+    }
+    if (taken) update(packet);
+    return taken;
   }
 
   void finish() {
@@ -211,30 +233,6 @@ class TileState {
     }
     for (std::size_t k = 0; k < 2; ++k)
       packets_.part[k].far_min[p] = hn::GetLane(hn::MinOfLanes(f, least[k]));
-  }
-
-  template <bool plane>
-  bool test_packet(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays,
-                   std::size_t packet) {
-    bool taken = false;
-    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
-      const std::size_t at = packet * packet_rays + i;
-      const V far = hn::Load(f, far_ + at);
-      const Blocked blocked =
-          blocked_by<plane>(primitive, rays, hn::Load(f, rays_->u + at), hn::Load(f, rays_->v + at), far,
-                            hn::Load(ids, rays_->source + at), hn::Lt(far, all(inf)));
-      if (hn::AllFalse(f, blocked.perhaps)) continue;
-      const unsigned bits = bits_of(blocked.surely);
-      const unsigned open = bits_of(blocked.perhaps) & ~bits;
-      out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << i);
-      if (!plane) out_->note(leaf, at, open);
-      if (bits == 0) continue;
-      out_->shadowed[packet] |= static_cast<std::uint16_t>(bits << i);
-      hn::Store(hn::IfThenElse(blocked.surely, all(inf), far), f, far_ + at);
-      taken = true;
-    }
-    if (taken) update(packet);
-    return taken;
   }
 
   const TileRays* rays_ = nullptr;
