@@ -127,42 +127,23 @@ struct IntersectedChildren<false> {
     }
   }
 
-  HWY_INLINE void push(const WideNode& node, const SpreadRay&, Stack& stack, std::size_t& size) const {
-    Child nearest;
-    if (take(node, stack, size, nearest)) put(nearest, stack, size++);
-  }
-  HWY_INLINE bool take(const WideNode& node, const SpreadRay&, Stack& stack, std::size_t& size,
-                       std::uint32_t& next) const {
-    Child nearest;
-    if (!take(node, stack, size, nearest)) return false;
-    next = nearest.child;
-    return true;
-  }
-
- private:
-  struct Child {
-    std::uint32_t child;
-    float near;
-  };
-  static HWY_INLINE void put(const Child& c, Stack& stack, std::size_t at) {
-    stack.child[at] = c.child, stack.near[at] = c.near;
-  }
-  HWY_INLINE bool take(const WideNode& node, Stack& stack, std::size_t& size, Child& nearest) const {
-    if (bits == 0) return false;
-    const auto child = [&](unsigned hit) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(hit));
-      return Child{node.child[lane], near[lane]};
-    };
-    nearest = child(bits);
-    const std::size_t base = size;
-    for (unsigned hit = bits & (bits - 1); hit != 0; hit &= hit - 1) {
-      Child other = child(hit);
-      if (other.near < nearest.near) std::swap(other, nearest);
-      std::size_t at = size++;  // the farthest at the bottom
-      for (; at > base && stack.near[at - 1] < other.near; --at)
-        put({stack.child[at - 1], stack.near[at - 1]}, stack, at);
-      put(other, stack, at);
+  HWY_INLINE void push(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size) const {
+    if (bits == 0) return;
+    for (std::size_t i = 0; i < node_lanes; ++i) {
+      const std::uint32_t lane = node.order[i] >> ray.octant_shift & (node_lanes - 1);
+      stack.child[size] = node.child[lane], stack.near[size] = near[lane];
+      size += bits >> lane & 1u;
     }
+  }
+  HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
+                       std::uint32_t& next) const {
+    if (bits == 0) return false;
+    if ((bits & (bits - 1)) == 0) {
+      next = node.child[std::countr_zero(bits)];
+      return true;
+    }
+    push(node, ray, stack, size);
+    next = stack.child[--size];
     return true;
   }
 };
