@@ -13,12 +13,19 @@
 
 namespace gnomon::app {
 
+namespace {
+
+constexpr std::size_t many_lights = 64;  // more take seconds, and a user may not know how many there are
+
+}  // namespace
+
 void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output) {
   add_scene(app, command.scene);
   add_output(app, "-o,--output", command.image, "IMAGE", output);
   add_size(app, size);
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
+  add_max_lights(app, command.max_lights);
 }
 
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json) {
@@ -49,7 +56,13 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files,
                                  const BytesPerPixel& bytes, Console& console) {
   if (const auto fits = check_memory(size, command.wants_records() ? bytes.exr : bytes.png); !fits)
     return fail(fits.error());
-  return load(command.scene, files, console, command.tessellate, command.camera);
+  auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
+  if (!loaded) return loaded;
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.light), console);
+  if (const std::size_t lights = loaded->scene->lights.size(); lights > many_lights)
+    console.note(fmt::format(
+        "all {} lights are drawn, each with its shadows; --max-lights N keeps the strongest alone", lights));
+  return loaded;
 }
 
 Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,

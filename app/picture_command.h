@@ -12,6 +12,7 @@
 #include "app/pose_options.h"
 #include "app/render_json.h"
 #include "app/session.h"
+#include "app/strongest_lights.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -22,14 +23,15 @@ struct PictureCommand {
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   int threads = 0;
-  int tessellate = 0;  ///< sectors; 0: shapes stay exact
+  int tessellate = 0;                ///< sectors; 0: shapes stay exact
+  int max_lights = most_max_lights;  ///< a picture has all
   bool quiet = false;
   std::vector<std::string> given;  ///< options
 
   bool wants_records() const { return image.ends_with(".exr"); }
 };
 
-/// The scene, --output, --size, --tessellate.
+/// The scene, --output, --size, --tessellate, --camera, --max-lights.
 void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output);
 /// --threads, --exposure, --json, --quiet.
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json);

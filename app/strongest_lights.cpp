@@ -45,8 +45,12 @@ bool is_light(const Scene& scene, const std::string& name) {
 void add_max_lights(CLI::App& command, int& max_lights) {
   add_integer(
       command, "--max-lights", max_lights, 1, most_max_lights, "lights",
-      "of a scene with more lights only those are drawn and compared that would light most of what the "
-      "camera sees, shadows left out, and those that --light names");
+      "of a scene with more lights only those are kept that would light most of what the camera sees, "
+      "shadows left out, and those that --light names");
+}
+
+std::string max_lights_argument(int max_lights) {
+  return max_lights == usual_max_lights ? std::string() : fmt::format(" --max-lights {}", max_lights);
 }
 
 std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, std::size_t count) {
@@ -82,9 +86,8 @@ void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vecto
   scene.lights.resize(kept);
   loaded.plan = plan_effects(scene);
   std::string note = fmt::format(
-      "the scene has {} lights: the {} that would light most of what the camera sees are drawn and "
-      "compared{}; all "
-      "others are left out of everything (--light NAME takes another one in, compare --max-lights N more)",
+      "the scene has {} lights: the {} that would light most of what the camera sees are kept{}; all "
+      "others are left out of everything (--light NAME takes another one in, --max-lights N more)",
       all, most, named.empty() ? "" : ", and those named");
   console.note(note);
   scene.notes.push_back(std::move(note));  // for the page and the JSON

@@ -1,5 +1,5 @@
 // Scenes of very many lights: a comparison is made for the few that would light most of what the camera sees, so that
-// it ends in seconds and its page can be read.
+// it ends in seconds and its page can be read. A single picture has all, unless it is asked for fewer.
 #pragma once
 
 #include <string>
@@ -16,8 +16,10 @@ namespace gnomon::app {
 inline constexpr int usual_max_lights = 8;
 inline constexpr int most_max_lights = 100000;
 
-/// --max-lights.
+/// --max-lights; the field holds the default.
 void add_max_lights(CLI::App& command, int& max_lights);
+/// " --max-lights N" for a command that makes the same again; nothing of the usual number.
+std::string max_lights_argument(int max_lights);
 
 /// Indices in Scene::lights, ascending, of the `count` lights that would give the camera's picture the most light:
 /// the luminance of their irradiance, shadows left out, summed over a grid of receivers. The earlier one of two alike.

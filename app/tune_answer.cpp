@@ -140,7 +140,7 @@ std::string TuneAnswer::line(std::size_t family) const {
          setting_arguments(
              answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
          (filmed ? film_arguments(question.metric.film) : std::string()) +
-         option("--shader-dir", question.shader_folder);
+         option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights);
 }
 
 std::vector<std::size_t> TuneAnswer::others() const {

@@ -7,6 +7,7 @@
 
 #include "app/run_files.h"
 #include "app/shimmer_options.h"
+#include "app/strongest_lights.h"
 #include "app/tune_families.h"
 #include "compare/tune/tune.h"
 #include "raster/frame.h"
@@ -21,6 +22,7 @@ struct TuneQuestion {
   compare::TuneGoal goal;
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
   MetricOptions metric{};
+  int max_lights = usual_max_lights;
 };
 
 /// Of a family what meets the goal, or what comes nearest to it.

@@ -59,6 +59,44 @@ TEST(ManyLights, TheStrongestAreCompared) {
                   "and 384 more");
 }
 
+TEST(ManyLights, APictureHasAllUnlessAskedForFewer) {
+  const TemporaryFolder folder;
+  write_text(folder / "lamps.json", lamps(70));
+  const Words picture{"lamps.json", "--json", "-", "-o", "p.exr", "--size", "32x18"};
+  for (const Words& command : {Words{"raster", "--map-size", "16"}, Words{"raytrace"}}) {
+    const auto lights = [&](const Words& more, const std::string& note) {
+      const ProcessResult result = run_gnomon(command + picture + more, {.folder = folder.path()});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
+      const Json json = Json::parse(result.out, nullptr, false);
+      return json.is_object() ? json["lights"].size() : 0;
+    };
+    EXPECT_EQ(lights({}, "all 70 lights are drawn"), 70u) << command.front();
+    EXPECT_EQ(lights({"--max-lights", "2"}, "70 lights: the 2 that would light most"), 2u) << command.front();
+  }
+}
+
+TEST(ManyLights, CommandsThatAreMadeAgainRepeatTheirNumber) {
+  const TemporaryFolder folder;
+  write_text(folder / "lamps.json", lamps(12));
+  const auto out = [&](const Words& words) {
+    const ProcessResult result =
+        run_gnomon(words + Words{"--max-lights", "1", "--size", "48x27"}, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("12 lights: the 1 that would light most"), std::string::npos) << result.err;
+    return result.out;
+  };
+  EXPECT_NE(out({"tune", "lamps.json", "--max-error", "90%", "--technique", "hard", "--map-size", "64"})
+                .find("--max-lights 1"),
+            std::string::npos);
+  out({"sweep", "lamps.json", "--map-size", "32", "-o", "s"});
+  EXPECT_NE(read_file(folder / "s/sweep.jsonl").find("--max-lights 1"), std::string::npos);
+  const Json film = Json::parse(
+      out({"shimmer", "lamps.json", "--frames", "2", "--map-size", "32", "--json", "-"}), nullptr, false);
+  ASSERT_TRUE(film.is_object());
+  EXPECT_EQ(film["lights"].size(), 1u);
+}
+
 TEST(ManyLights, OfFewNoneIsLeftOut) {
   const TemporaryFolder folder;
   write_text(folder / "lamps.json", lamps(8));

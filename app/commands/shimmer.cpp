@@ -34,6 +34,7 @@ struct ShimmerCommand {
   std::uint64_t seed = 0;
   int threads = 0;
   int tessellate = 0;
+  int max_lights = usual_max_lights;
   bool quiet = false;
   std::string command_line;
   std::vector<std::string> given;  ///< options
@@ -127,7 +128,7 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, command.tessellate, command.camera, true);
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, usual_max_lights, named_lights(command.setting.light), console);
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
   const auto posed =
       apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
   if (!posed) return fail(posed.error());
@@ -159,6 +160,7 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
   add_choice(app, "--film", command.film_format, film_formats, "FORMAT",
              "of the film files; mp4 needs ffmpeg to be installed");
   add_setting_options(app, command.setting);
+  add_max_lights(app, command.max_lights);
   add_backend(app, command.backend);
   add_shader_dir(app, command.shader_folder);
   add_threads(app, command.threads, "threads of the ray tracer and of Mesa's software rasterizer");

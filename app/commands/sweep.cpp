@@ -174,7 +174,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
+  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), console);
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
     if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());
@@ -225,6 +225,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
              "there goes on "
              "[default out/NAME-sweep]");
   command.options.add_to(app);
+  add_max_lights(app, command.max_lights);
   app.add_flag("--zip", command.zip,
                "take the first values of all lists, then the second ones, … instead of all combinations "
                "[default off]");

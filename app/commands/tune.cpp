@@ -38,6 +38,7 @@ constexpr int usual_runs = 5;
 struct TuneCommand {
   SceneArgument scene;
   std::string camera, json, folder, shader_folder;
+  int max_lights = usual_max_lights;
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
@@ -205,9 +206,9 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (!result) return fail(result.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
-  const TuneQuestion question{command.scene,           command.camera, command.shader_folder,
-                              command.options.fixed(), command.goal,   shaders->replaced(),
-                              command.metric};
+  const TuneQuestion question{command.scene,           command.camera,    command.shader_folder,
+                              command.options.fixed(), command.goal,      shaders->replaced(),
+                              command.metric,          command.max_lights};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -246,7 +247,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, usual_max_lights, command.options.values_given("light"), console);
+  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), console);
   auto bench = make_bench(command, *loaded, *families, console);
   if (!bench) return fail(bench.error());
   return tune_and_answer(command, *bench, *files, total, console);
@@ -285,6 +286,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                 return {};
               });
   command->options.add_to(*app);
+  add_max_lights(*app, command->max_lights);
   command->options.mean_techniques(tuned_techniques());
   add_output(
       *app, "-o,--output", command->folder, "DIR",

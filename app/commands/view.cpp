@@ -7,6 +7,7 @@
 #include "app/invocation.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
+#include "app/strongest_lights.h"
 #include "app/technique_options.h"
 
 namespace gnomon::app {
@@ -49,6 +50,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_map_options(*app, options->compare.raster.map);
   app->add_option("--light", options->light, "begin with this light [a light's name; default the first]")
       ->type_name("NAME");
+  add_max_lights(*app, options->max_lights);
   add_shader_dir(*app, options->shader_folder);
   add_pose_options(*app, options->poses);
   add_tracer_options(*app, options->compare.accel, options->compare.precision);

@@ -66,6 +66,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
             {"perceptual", command.perceptual},
             {"runs", command.runs.value_or(1)},
             {"seed", command.seed}};
+  if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
   if (Json film = film_configuration(command.metric); !film.is_null()) json["film"] = std::move(film);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -73,7 +74,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
   std::string text = "gnomon compare " + command.scene.words() + camera_argument(command) +
                      command.options.cell_arguments(plan.grid, cell);
-  text += exposure_argument(command);
+  text += exposure_argument(command) + max_lights_argument(command.max_lights);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   return text;
@@ -85,7 +86,7 @@ std::string task_arguments(const SweepCommand& command) {
   if (fs::path(scene.name).has_extension()) scene.name = fs::absolute(scene.name).string();
   std::string text = fmt::format(" {}", scene.words());
   text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
-  text += metric_arguments(command.metric);
+  text += metric_arguments(command.metric) + max_lights_argument(command.max_lights);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())
     text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());

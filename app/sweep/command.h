@@ -8,6 +8,7 @@
 
 #include "app/run_options.h"
 #include "app/shimmer_options.h"
+#include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/plan.h"
 #include "compare/outputs.h"
@@ -23,6 +24,7 @@ struct SweepCommand : RunOptions {
   std::string shader_folder;
   std::vector<raster::ReplacedShader> replaced_shaders;  ///< what differs in it
   std::optional<int> runs;
+  int max_lights = usual_max_lights;
   compare::Shard shard;
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;

@@ -2,6 +2,7 @@
 // nudged by 0 ... 4 representable numbers.
 #pragma once
 
+#include "app/verify/rational.h"
 #include "app/verify/small_world.h"
 
 namespace gnomon::verify {
@@ -14,6 +15,10 @@ struct AimedTriangle {
 AimedTriangle aimed_triangle(Random& random);
 /// Whether the tracer's own test of a single triangle says that the ray meets it.
 bool kernel_meets(raytrace::Precision precision, const AimedTriangle& aimed);
+/// By how many roundings of its coordinates (doubles) the line passes the edge in doubt.
+double roundings_from_edge(const AimedTriangle& aimed, const RationalTriangle& truth);
+/// What `robust` may take for either side of an edge: it promises closed meshes, not exact triangles.
+inline constexpr double roundings_of_an_edge = 64.0;
 
 /// A closed mesh over a floor, lit from a corner; shadow rays from the floor through corners and edges.
 class AdversarialShadows {

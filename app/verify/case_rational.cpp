@@ -49,9 +49,6 @@ bool kernel_meets(Precision precision, const AimedTriangle& t) {
   return meets<raytrace::RobustArithmetic>(s, *frame);
 }
 
-namespace {
-
-/// By how many roundings of its coordinates the line passes the edge in doubt.
 double roundings_from_edge(const AimedTriangle& t, const RationalTriangle& truth) {
   double reach = 0.0, size = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,12 +59,10 @@ double roundings_from_edge(const AimedTriangle& t, const RationalTriangle& truth
   return std::abs(truth.inside) * std::abs(truth.slope) / (largest * size * reach * raytrace::unit_roundoff);
 }
 
-}  // namespace
-
 void triangles_by_rationals(Run& run) {
   // Rounding is no error of the robust test, which promises closed meshes, not exact triangles.
   const bool exact = run.precision() == Precision::exact;
-  const double bound = exact ? 0.0 : 64.0;
+  const double bound = exact ? 0.0 : roundings_of_an_edge;
   run.sample(
       "triangles against rationals", std::max(run.rays(0.1, 10'000'000), std::uint64_t{100'000}),
       [&](Random& r, Tally& tally) {

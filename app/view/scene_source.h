@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/session.h"
+#include "app/strongest_lights.h"
 #include "compare/compare.h"
 
 namespace gnomon::app {
@@ -18,6 +19,7 @@ struct StudioOptions {
   std::string shader_folder;  ///< replacements of shaders/ files; empty: none
   std::optional<std::optional<double>> exposure;
   int tessellate = 0;
+  int max_lights = usual_max_lights;
 };
 
 struct SceneSource {

@@ -158,6 +158,7 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
          std::string(raytrace::precision_name(state.setup.precision)));
   add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
          "--min-contribution", number_text(options.compare.raytrace.min_contribution));
+  add_if(words, options.max_lights != usual_max_lights, "--max-lights", std::to_string(options.max_lights));
   add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
   if (options.exposure)
     add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");

@@ -7,6 +7,7 @@
 #include "app/invocation.h"
 #include "app/pose_options.h"
 #include "app/run_files.h"
+#include "app/strongest_lights.h"
 #include "app/view/look.h"
 #include "compare/compare.h"
 
@@ -27,6 +28,7 @@ struct ViewOptions {
   bool no_panels = false;   ///< the pictures alone
   int threads = 0;          ///< 0: all cores
   int tessellate = 0;       ///< sectors; 0: shapes stay exact
+  int max_lights = usual_max_lights;
   bool quiet = false;
 };
 

@@ -37,7 +37,8 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, Scene
   auto interface = Interface::open(*viewer->window_);
   if (!interface) return fail(interface.error());
   viewer->interface_ = std::move(*interface);
-  StudioOptions studio{options.compare, options.shader_folder, options.exposure, options.tessellate};
+  StudioOptions studio{options.compare, options.shader_folder, options.exposure, options.tessellate,
+                       options.max_lights};
   studio.compare.perceptual = false;  // no view shows it
   viewer->thread_ =
       std::make_unique<RenderThread>([w = viewer->window_.get()] { return w->hidden_context(); },
