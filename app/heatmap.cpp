@@ -74,7 +74,8 @@ Image<raytrace::WorkCounts> primary_ray_work(const raytrace::Tracer& tracer, con
   const View view = make_view(camera, size);
   Image<raytrace::WorkCounts> work(size);
   tbb::parallel_for(0, size.height, [&](int y) {
-    for (int x = 0; x < size.width; ++x) tracer.closest_hit(pixel_ray(view, x + 0.5, y + 0.5), work.at(x, y));
+    for (int x = 0; x < size.width; ++x)
+      tracer.closest_seen(pixel_ray(view, x + 0.5, y + 0.5), work.at(x, y));
   });
   return work;
 }

@@ -195,6 +195,7 @@ Expected<const Program*> IzbPass::program(Stage stage, LightType light, std::uin
   add(!text.empty(), text);
   add(features.alpha_mask, "ALPHA_MASK");
   add(features.alpha_mask && features.textures, "TEXTURES");
+  add(features.alpha_mask && features.vertex_colors, "VERTEX_COLORS");
   const std::string_view vertex = insert                      ? "fullscreen.vert"
                                   : stage == Stage::triangles ? "izb/triangle.vert"
                                                               : "impostor.vert";

@@ -44,6 +44,9 @@ SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
   features.alpha_mask = plan.simulates(Effect::alpha_mask);
   features.specular = plan.simulates(Effect::specular);
   features.emission = plan.simulates(Effect::emission);
+  features.vertex_colors = plan.simulates(Effect::vertex_colors);
+  features.unlit = plan.simulates(Effect::unlit);
+  features.single_sided = plan.simulates(Effect::single_sided);
   features.smooth_normals = std::any_of(world.normals.begin(), world.normals.end(),
                                         [](const Vec3f& n) { return n != Vec3f(0.0f); });
   for (const Shape& shape : world.shapes) {
@@ -59,6 +62,7 @@ Expected<TriangleProgram> TriangleProgram::link(const Gl& gl, const Permutation&
                            .add(p.primitive_ids, "PRIMITIVE_IDS")
                            .add(p.alpha_mask, "ALPHA_MASK")
                            .add(p.textures && p.alpha_mask, "TEXTURES")
+                           .add(p.vertex_colors && p.alpha_mask, "VERTEX_COLORS")
                            .add(p.peel, "PEEL")
                            .add(p.reversed, "REVERSED");
   const bool has_fragments = p.primitive_ids || p.alpha_mask || p.peel;
@@ -156,6 +160,8 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                      .add(features.alpha_mask, "ALPHA_MASK")
                      .add(features.specular, "SPECULAR")
                      .add(features.emission, "EMISSION")
+                     .add(features.vertex_colors, "VERTEX_COLORS")
+                     .add(features.unlit, "UNLIT")
                      .add(features.smooth_normals, "SMOOTH_NORMALS")
                      .add(features.solids(), "SOLIDS")
                      .add(features.quadrics, "QUADRIC")
@@ -185,6 +191,7 @@ Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, boo
 
 Expected<const TriangleProgram*> ProgramCache::triangles(TriangleProgram::Permutation key) {
   key.textures = features_.textures;
+  key.vertex_colors = features_.vertex_colors;
   return find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
 }
 

@@ -24,6 +24,7 @@ std::string functions_define(const FunctionTable& table, std::size_t first, std:
 /// The effects that change shader text.
 struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
+  bool vertex_colors = false, unlit = false, single_sided = false;
   bool quadrics = false, tori = false;
   FunctionTable functions{};  ///< of the implicit surfaces
   bool solids() const { return quadrics || tori || !functions.functions.empty(); }
@@ -37,6 +38,7 @@ class TriangleProgram : public Program {
     bool primitive_ids = false;
     bool alpha_mask = false;
     bool textures = false;                ///< of the alpha mask
+    bool vertex_colors = false;           ///< of the alpha mask
     bool peel = false, reversed = false;  ///< only what lies behind a map's first layer
     auto operator<=>(const Permutation&) const = default;
   };

@@ -119,7 +119,8 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   const float clear_depth = shaders::camera_clear_depth;
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-  world.draw_triangles(**opaque, **masked, clip_from_relative(view, world.world(), world.reference()));
+  world.draw_triangles(**opaque, **masked, clip_from_relative(view, world.world(), world.reference()),
+                       programs_->features().single_sided);
   return draw_shapes(world, view);
 }
 

@@ -17,19 +17,25 @@ namespace {
 /// it is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
 constexpr float matte_grey = 0.5f;
 
-MaterialData material_data(const Material& m) {
-  const float local = std::max(0.0f, 1.0f - m.mirror - m.transmission);  // as in raytrace/shading/shade.h
-  const TextureTransform& t = m.texture_transform;
+/// Columns of rotation times scale.
+Vec4f uv_matrix(const TextureTransform& t) {
   const double c = std::cos(t.rotation);
   const double s = std::sin(t.rotation);
+  return Vec4f(glm::dvec4(c * t.scale.x, -s * t.scale.x, s * t.scale.y, c * t.scale.y));
+}
+
+MaterialData material_data(const Material& m) {
+  const float local = std::max(0.0f, 1.0f - m.mirror - m.transmission);  // as in raytrace/shading/shade.h
   MaterialData out{};
   out.diffuse_and_alpha = Vec4f(local * m.diffuse, m.alpha);
   out.specular_and_shininess = Vec4f(local * m.specular, m.shininess);
   out.emission_and_matte = Vec4f(m.emission, (1.0f - local) * matte_grey);
-  out.uv_matrix = Vec4f(glm::dvec4(c * t.scale.x, -s * t.scale.x, s * t.scale.y, c * t.scale.y));
-  out.uv_offset_and_cutoff =
-      Vec4f(Vec2f(t.offset), m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0f, 0.0f);
-  out.diffuse_texture = m.diffuse_texture;
+  out.uv_matrix = uv_matrix(m.texture_transform);
+  out.uv_offset_and_cutoff = Vec4f(Vec2f(m.texture_transform.offset),
+                                   m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0f, 0.0f);
+  out.emission_uv_matrix = uv_matrix(m.emission_transform);
+  out.emission_uv_offset_and_unlit = Vec4f(Vec2f(m.emission_transform.offset), m.unlit ? 1.0f : 0.0f, 0.0f);
+  out.diffuse_texture = m.diffuse_texture, out.emission_texture = m.emission_texture;
   return out;
 }
 
@@ -138,6 +144,7 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       positions_(gl),
       normals_(gl),
       uvs_(gl),
+      colors_(gl),
       indices_(gl),
       triangles_(gl),
       planes_(gl),
@@ -146,6 +153,7 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       position_texels_(gl),
       normal_texels_(gl),
       uv_texels_(gl),
+      color_texels_(gl),
       triangle_texels_(gl),
       plane_texels_(gl) {}
 
@@ -153,7 +161,7 @@ Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const Sc
   if (const auto fits = check_size(gl, world); !fits) return fail(fits.error());
   WorldBuffers out(gl, world);
   out.upload_fixed(features);
-  out.make_runs(features.alpha_mask);
+  out.make_runs(features);
   if (features.textures) {
     auto texels = TexelPages::upload(gl, world.scene->textures);
     if (!texels) return fail(texels.error());
@@ -178,24 +186,31 @@ void WorldBuffers::upload_fixed(const SceneFeatures& features) {
   materials_.write(std::span<const MaterialData>(materials));
   if (features.smooth_normals) normals_.write(std::span<const Vec3f>(world.normals));
   if (features.textures || features.alpha_mask) uvs_.write(std::span<const Vec2f>(world.uvs));
+  if (features.vertex_colors) colors_.write(std::span<const Vec4f>(world.colors));
   vertex_array_.set_indices(indices_);
   vertex_array_.set_floats(shaders::position_attribute, positions_, 3);
-  if (features.alpha_mask) vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
+  if (!features.alpha_mask) return;
+  vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
+  if (features.vertex_colors) vertex_array_.set_floats(shaders::color_attribute, colors_, 4);
 }
 
 void WorldBuffers::attach_textures() {
   position_texels_.attach(positions_, GL_RGB32F);
   normal_texels_.attach(normals_, GL_RGB32F);
   uv_texels_.attach(uvs_, GL_RG32F);
+  color_texels_.attach(colors_, GL_RGBA32F);
   triangle_texels_.attach(triangles_, GL_RGBA32UI);
   plane_texels_.attach(planes_, GL_RGBA32F);
 }
 
-void WorldBuffers::make_runs(bool alpha_mask) {
+void WorldBuffers::make_runs(const SceneFeatures& features) {
   const auto& materials = world_->scene->materials;
   for (std::uint32_t i = 0; i < world_->triangle_count(); ++i) {
-    const bool masked = alpha_mask && materials[world_->triangle_material[i]].alpha_mode == AlphaMode::mask;
-    if (runs_.empty() || runs_.back().masked != masked) runs_.push_back({i, 0, masked});
+    const Material& material = materials[world_->triangle_material[i]];
+    const bool masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
+    const bool single = features.single_sided && !shows_back(material);
+    if (runs_.empty() || runs_.back().masked != masked || runs_.back().single_sided != single)
+      runs_.push_back({i, 0, masked, single});
     ++runs_.back().count;
   }
 }
@@ -225,6 +240,7 @@ void WorldBuffers::bind() const {
   position_texels_.bind(shaders::positions_unit);
   normal_texels_.bind(shaders::normals_unit);
   uv_texels_.bind(shaders::uvs_unit);
+  color_texels_.bind(shaders::colors_unit);
   triangle_texels_.bind(shaders::triangles_unit);
   plane_texels_.bind(shaders::planes_unit);
   shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::shapes_buffer);
@@ -233,7 +249,8 @@ void WorldBuffers::bind() const {
 }
 
 void WorldBuffers::draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
-                                  const Mat4& clip_from_relative) const {
+                                  const Mat4& clip_from_relative, bool culls) const {
+  if (culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram& program = with_mask ? masked : opaque;
     bool ready = false;
@@ -241,11 +258,13 @@ void WorldBuffers::draw_triangles(const TriangleProgram& opaque, const TriangleP
       if (run.masked != with_mask) continue;
       if (!ready) program.use(), program.set_clip_from_relative(clip_from_relative), ready = true;
       program.set_first_primitive(run.first);
+      if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
       const auto offset = static_cast<std::uintptr_t>(run.first) * 3 * sizeof(std::uint32_t);
       (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset));
     }
   }
+  if (culls) (*gl_)->Disable(GL_CULL_FACE);
 }
 
 }  // namespace gnomon::raster

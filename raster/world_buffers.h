@@ -27,14 +27,16 @@ struct ShapeData {
 };
 
 struct MaterialData {
-  Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_matte, uv_matrix, uv_offset_and_cutoff;
-  std::uint32_t diffuse_texture, unused0, unused1, unused2;
+  Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_matte, uv_matrix, uv_offset_and_cutoff,
+      emission_uv_matrix, emission_uv_offset_and_unlit;
+  std::uint32_t diffuse_texture, emission_texture, unused0, unused1;
 };
 
 /// A run of triangles that share one program.
 struct TriangleRun {
   std::uint32_t first = 0, count = 0;
   bool masked = false;
+  bool single_sided = false;
 };
 
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
@@ -55,23 +57,24 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
-  /// Draws every run with the program of its kind; both get the matrix.
+  /// Draws every run with the program of its kind; both get the matrix. `culls`: single-sided triangles are not drawn
+  /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all.
   void draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
-                      const Mat4& clip_from_relative) const;
+                      const Mat4& clip_from_relative, bool culls = false) const;
 
  private:
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
-  void make_runs(bool alpha_mask);
+  void make_runs(const SceneFeatures& features);
 
   const Gl* gl_;
   const World* world_;
   std::optional<Vec3> reference_;
   std::vector<TriangleRun> runs_;
   VertexArray vertex_array_;
-  Buffer positions_, normals_, uvs_, indices_, triangles_, planes_, shapes_, materials_;
-  BufferTexture position_texels_, normal_texels_, uv_texels_, triangle_texels_, plane_texels_;
+  Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
+  BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_;
   std::optional<TexelPages> texels_;
 };
 

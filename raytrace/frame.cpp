@@ -65,7 +65,7 @@ void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const
     }
     for_each_pixel({options.size, options.stop}, [&](int x, int y, std::size_t) {
       const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-      const std::optional<Hit> hit = tracer.closest_hit(ray);
+      const std::optional<Hit> hit = tracer.closest_seen(ray);
       frame.receiver.at(x, y) = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
     });
   });

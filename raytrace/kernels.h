@@ -6,6 +6,7 @@
 #include "raytrace/accel/structure.h"
 #include "raytrace/bvh/traverse.h"
 #include "raytrace/bvh/wide_tree.h"
+#include "raytrace/precision/facing.h"
 #include "raytrace/shapes/solid.h"
 #include "raytrace/shapes/surface_uv.h"
 #include "raytrace/tracer.h"
@@ -27,7 +28,8 @@ struct Structures {
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
-  bool has_shapes = false;  ///< spheres or solids among the leaves
+  bool hides_backs = false;  ///< some triangle's back is not seen
+  bool has_shapes = false;   ///< spheres or solids among the leaves
 };
 
 struct CountWork {
@@ -114,6 +116,14 @@ inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   return !is_masked_out(world, material, hit.primitive, hit.barycentric, position());
 }
 
+/// Whether what sees goes through: a triangle's back that is not seen.
+inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint32_t primitive) {
+  const World& world = *s.world;
+  return s.hides_backs && world.is_triangle(primitive) &&
+         !shows_back(world.scene->materials[world.triangle_material[primitive]]) &&
+         is_back(world, direction, primitive);
+}
+
 inline bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
@@ -127,13 +137,14 @@ inline double next_above(double t) {
 
 /// Among the planes and the leaves that report(ray, visit) reports to visit(leaf). `ray` is shortened on the
 /// way; visit returns whether it was. The primitive `skip` (no_id: none) is left out. The result's t is the
-/// ray's own.
+/// ray's own. `masks`: some hits are none; with `seen`, those are so, too, of backs that are not seen.
 template <bool masks, class Arithmetic = RobustArithmetic, class Report>
 std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, std::uint32_t skip,
-                                    const Report& report_leaves) {
+                                    const Report& report_leaves, bool seen = false) {
   const Arithmetic arithmetic(s, frame);
   Hit best{.t = infinity};
   RayFrame ray = frame;
+  [[maybe_unused]] const Vec3 direction(frame.direction[0], frame.direction[1], frame.direction[2]);
   // A later hit at the same t may have the lower id, so the interval is closed while the traversal shortens
   // it.
   const auto report = [&](const Hit& hit) {
@@ -143,8 +154,10 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
     return true;
   };
   const auto keep = [&](Hit& hit) {
-    if constexpr (masks)
+    if constexpr (masks) {
+      if (seen && is_hidden_back(s, direction, hit.primitive)) return false;
       if (!passes_alpha_test(s, ray, hit)) return false;
+    }
     return report(hit);
   };
   Hit hit;
@@ -161,14 +174,16 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
 
 /// Among all primitives.
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
-std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats) {
-  return closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& ray, const auto& visit) {
+std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats,
+                           bool seen = false) {
+  const auto report = [&](const RayFrame& ray, const auto& visit) {
     BoxRay boxes(ray, s.bvh.center);
     traverse(s, boxes, stats, [&](std::uint32_t i) {
       if (visit(i)) boxes.t_max = float_above(ray.t.max);
       return false;
     });
-  });
+  };
+  return closest_reported<masks, Arithmetic>(s, frame, skip, report, seen);
 }
 
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>

@@ -1,5 +1,7 @@
 #include "raytrace/tracer.h"
 
+#include <algorithm>
+
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/kernels.h"
 #include "raytrace/precision/exact.h"
@@ -40,6 +42,8 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   const auto& materials = world.scene->materials;
   for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
     s.has_masks = materials[world.material_of(id)].alpha_mode == AlphaMode::mask;
+  s.hides_backs = std::any_of(world.triangle_material.begin(), world.triangle_material.end(),
+                              [&](std::uint32_t m) { return !shows_back(materials[m]); });
   return s;
 }
 
@@ -90,6 +94,16 @@ std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t
   if (!frame) return std::nullopt;
   return specialise(
       s, [&]<bool masks, class Arithmetic>() { return closest<masks, Arithmetic>(s, *frame, skip, stats); });
+}
+
+/// Few hits are backs that are not seen, so the search that knows of them comes second.
+template <class Stats>
+std::optional<Hit> seen_of(const Structures& s, const Ray& ray, Stats stats) {
+  const std::optional<Hit> hit = closest_of(s, ray, no_id, stats);
+  if (!hit || !is_hidden_back(s, ray.direction, hit->primitive)) return hit;
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  return specialise(
+      s, [&]<bool, class Arithmetic>() { return closest<true, Arithmetic>(s, *frame, no_id, stats, true); });
 }
 
 template <class Stats>
@@ -175,6 +189,12 @@ std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {
 bool Tracer::occluded(const Ray& ray) const {
   return any_of(impl_->structures, ray, NoStats{});
 }
+std::optional<Hit> Tracer::closest_seen(const Ray& ray) const {
+  return seen_of(impl_->structures, ray, NoStats{});
+}
+std::optional<Hit> Tracer::closest_seen(const Ray& ray, WorkCounts& work) const {
+  return seen_of(impl_->structures, ray, CountWork{work});
+}
 std::optional<Hit> Tracer::closest_hit(const Ray& ray, WorkCounts& work) const {
   return closest_of(impl_->structures, ray, no_id, CountWork{work});
 }
@@ -240,14 +260,16 @@ Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) cons
   return verdict(impl_->structures, from, ray);
 }
 
-std::optional<Hit> Tracer::closest_hit_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {
+std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   if (!frame) return std::nullopt;
   const Structures& s = impl_->structures;
+  const auto report = [&](const RayFrame&, const auto& visit) {
+    for (const std::uint32_t leaf : leaves) visit(leaf);
+  };
   return specialise(s, [&]<bool masks, class Arithmetic>() {
-    return closest_reported<masks, Arithmetic>(s, *frame, no_id, [&](const RayFrame&, const auto& visit) {
-      for (const std::uint32_t leaf : leaves) visit(leaf);
-    });
+    return s.hides_backs ? closest_reported<true, Arithmetic>(s, *frame, no_id, report, true)
+                         : closest_reported<masks, Arithmetic>(s, *frame, no_id, report);
   });
 }
 

@@ -81,8 +81,12 @@ class Tracer {
 
   std::optional<Hit> closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+  /// What the eye, or a mirrored, refracted or gathered ray sees: the closest hit, but for backs of single-sided
+  /// materials (scene/scene.h, shows_back), which hide nothing. Shadows are cast from both sides: occluded().
+  std::optional<Hit> closest_seen(const Ray& ray) const;
   /// The same, adding what they cost to `work`.
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounts& work) const;
+  std::optional<Hit> closest_seen(const Ray& ray, WorkCounts& work) const;
   bool occluded(const Ray& ray, WorkCounts& work) const;
 
   /// The surface point of a hit of this ray, with its error bound.
@@ -107,7 +111,7 @@ class Tracer {
   Verdict light_verdict(const SurfacePoint& from, const Light& light) const;
   /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
   /// leaf order (Structures::bvh); not for Precision::fast.
-  std::optional<Hit> closest_hit_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
+  std::optional<Hit> closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
   Verdict light_verdict_among(const SurfacePoint& from, const Light& light,
                               std::span<const std::uint32_t> leaves) const;
 

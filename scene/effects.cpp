@@ -46,6 +46,13 @@ EffectEntry sampled(Effect effect, int samples, int off, std::string reason, std
   return {effect, false, false, std::string(reason_off)};
 }
 
+EffectEntry vertex_colors(const Scene& scene) {
+  for (const MeshInstance& instance : scene.instances)
+    if (const Mesh& mesh = scene.meshes[instance.mesh]; !mesh.colors.empty())
+      return {Effect::vertex_colors, true, true, fmt::format("mesh '{}' has colours", mesh.name)};
+  return {Effect::vertex_colors, false, false, "no mesh has colours"};
+}
+
 // The lights that have a size, or those that have none; the first one is the reason.
 EffectEntry shadow(const Scene& scene, bool soft) {
   const Effect effect = soft ? Effect::soft_shadow : Effect::hard_shadow;
@@ -68,8 +75,9 @@ EffectEntry shadow(const Scene& scene, bool soft) {
 
 std::string_view effect_name(Effect effect) {
   static constexpr std::array<std::string_view, effect_count> names{
-      "hard_shadow",    "soft_shadow", "reflection", "refraction", "absorption", "glossy",
-      "indirect_light", "textures",    "alpha_mask", "emission",   "specular",   "antialiasing"};
+      "hard_shadow", "soft_shadow",    "reflection",    "refraction", "absorption",
+      "glossy",      "indirect_light", "textures",      "alpha_mask", "emission",
+      "specular",    "antialiasing",   "vertex_colors", "unlit",      "single_sided"};
   return names[static_cast<std::size_t>(effect)];
 }
 
@@ -98,7 +106,8 @@ EffectPlan plan_effects(const Scene& scene) {
               fmt::format("the scene asks for {} samples per point; only the ray tracer's picture shows it",
                           scene.indirect_samples),
               "the scene does not ask for it"),
-      material(Effect::textures, simulated, "a texture", [](M m) { return m.diffuse_texture != no_id; }),
+      material(Effect::textures, simulated, "a texture",
+               [](M m) { return m.diffuse_texture != no_id || m.emission_texture != no_id; }),
       material(Effect::alpha_mask, simulated, "an alpha mask",
                [](M m) { return m.alpha_mode == AlphaMode::mask; }),
       material(Effect::emission, simulated, "emission > 0", [&](M m) { return any(m.emission); }),
@@ -109,6 +118,11 @@ EffectPlan plan_effects(const Scene& scene) {
                       "stays at pixel centres",
                       per_pixel),
           "the camera asks for one sample per pixel"),
+      vertex_colors(scene),
+      material(Effect::unlit, simulated, "a colour that no light changes", [](M m) { return m.unlit; }),
+      material(Effect::single_sided,
+               Remark{true, "; the eye looks through its back, and both sides cast shadows"}, "a single side",
+               [](M m) { return !shows_back(m); }),
   }};
 }
 

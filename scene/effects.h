@@ -23,9 +23,12 @@ enum class Effect : std::uint8_t {
   alpha_mask,
   emission,
   specular,
-  antialiasing
+  antialiasing,
+  vertex_colors,
+  unlit,
+  single_sided
 };
-inline constexpr std::size_t effect_count = 12;
+inline constexpr std::size_t effect_count = 15;
 
 std::string_view effect_name(Effect effect);
 

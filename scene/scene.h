@@ -46,7 +46,7 @@ struct Material {
   Vec3f diffuse{0.8f};      ///< albedo in [0, 1]; times the diffuse texture
   Vec3f specular{0.0f};     ///< Blinn-Phong specular colour in [0, 1]
   float shininess = 32.0f;  ///< Blinn-Phong exponent, > 0
-  Vec3f emission{0.0f};     ///< radiance
+  Vec3f emission{0.0f};     ///< radiance; times the emission texture
   float mirror = 0.0f;
   float transmission = 0.0f;
   float ior = 1.5f;        ///< > 0
@@ -56,17 +56,30 @@ struct Material {
   bool thin = false;  ///< transmission through a sheet without inside: straight on, or blurred by roughness
   std::uint32_t diffuse_texture = no_id;
   TextureTransform texture_transform{};
+  std::uint32_t emission_texture = no_id;
+  TextureTransform emission_transform{};
+  bool unlit = false;  ///< its local shading is its diffuse colour; no light changes it, and it casts shadows
+  bool double_sided = true;  ///< false: its back does not stop what sees (see shows_back)
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha = 1.0f;         ///< times the texture's alpha
+  float alpha = 1.0f;         ///< times the texture's alpha and the vertex colour's
   float alpha_cutoff = 0.5f;  ///< mask: a hit with alpha < cutoff is no hit, in both renderers' shadows too
 };
 
-/// A triangle mesh in object space. normals and uvs are empty or have one entry per position.
+/// Whether a triangle's back is seen by the eye, and by mirrored, refracted and gathered rays: they go through that of
+/// a single-sided material. Its front is the side from which its corners run counter-clockwise, in the mesh's own
+/// space (glTF 2.0, section 3.7.4). Both sides cast shadows. A body of glass is always seen from inside, too; shapes
+/// have one surface and are seen from both sides.
+inline bool shows_back(const Material& m) {
+  return m.double_sided || (m.transmission > 0.0f && !m.thin);
+}
+
+/// A triangle mesh in object space. normals, uvs and colors are empty or have one entry per position.
 struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
+  std::vector<Vec4f> colors;  ///< linear, with alpha: times the material's diffuse colour and alpha
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> triangle_materials;  ///< one per triangle, or empty: the instance's material
 };

@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
+
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -23,6 +25,15 @@ void put_vertex(World& world, const Mesh& mesh, const Mat4& world_from_object, c
   }
   world.normals[base + i] = normal;
   world.uvs[base + i] = mesh.uvs.empty() ? Vec2f(0.0f) : mesh.uvs[i];
+  if (!mesh.colors.empty()) world.colors[base + i] = mesh.colors[i];
+}
+
+// All of its triangles, or none: neighbours stay of one orientation.
+bool is_turned_round(const Scene& scene, const Mesh& mesh, const MeshInstance& instance) {
+  if (!(glm::determinant(Mat3(instance.world_from_object)) < 0.0)) return false;
+  if (mesh.triangle_materials.empty()) return !shows_back(scene.materials[instance.material]);
+  return std::any_of(mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
+                     [&](std::uint32_t m) { return !shows_back(scene.materials[m]); });
 }
 
 struct Place {
@@ -40,6 +51,7 @@ void put_instance(World& world, const Mesh& mesh, const MeshInstance& instance, 
       put_vertex(world, mesh, instance.world_from_object, normal_from_object, base.vertex, i);
   });
   const auto first = static_cast<std::uint32_t>(base.vertex);
+  const bool turned = is_turned_round(*world.scene, mesh, instance);
   // The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
   world.finite_bounds.grow(tbb::parallel_reduce(
       Range(0, mesh.triangles.size(), at_a_time), Aabb{},
@@ -47,7 +59,7 @@ void put_instance(World& world, const Mesh& mesh, const MeshInstance& instance, 
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
           const auto& t = mesh.triangles[i];
           const std::size_t at = base.triangle + i;
-          world.triangles[at] = {first + t[0], first + t[1], first + t[2]};
+          world.triangles[at] = {first + t[0], first + t[turned ? 2 : 1], first + t[turned ? 1 : 2]};
           world.triangle_material[at] =
               mesh.triangle_materials.empty() ? instance.material : mesh.triangle_materials[i];
           world.triangle_object[at] = object;
@@ -63,11 +75,14 @@ void put_instance(World& world, const Mesh& mesh, const MeshInstance& instance, 
 
 void put_instances(World& world, const Scene& scene) {
   Place end;
+  bool has_colors = false;
   for (const MeshInstance& instance : scene.instances) {
+    has_colors = has_colors || !scene.meshes[instance.mesh].colors.empty();
     end.vertex += scene.meshes[instance.mesh].positions.size();
     end.triangle += scene.meshes[instance.mesh].triangles.size();
   }
   world.positions.resize(end.vertex), world.normals.resize(end.vertex), world.uvs.resize(end.vertex);
+  if (has_colors) world.colors.resize(end.vertex, Vec4f(1.0f));
   world.triangles.resize(end.triangle), world.triangle_material.resize(end.triangle);
   world.triangle_object.resize(end.triangle);
   Place base;

@@ -19,7 +19,9 @@ struct World {
   std::vector<Vec3> positions;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
-  // Triangles
+  std::vector<Vec4f> colors;  ///< as long as positions, white where a mesh has none; empty where none has any
+  // Triangles. Where a mirrored instance has single-sided materials, its corners' order is turned round, so that their
+  // front is again the side from which they run counter-clockwise.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> triangle_material;
   std::vector<std::uint32_t> triangle_object;

@@ -1,4 +1,5 @@
-// Materials, with permutations TEXTURES (some material has one) and ALPHA_MASK (some surface has holes).
+// Materials, with permutations TEXTURES (some material has one), ALPHA_MASK (some surface has holes) and UNLIT (some
+// material shows its colour without light).
 // Twin of raster/world_buffers.h.
 
 const uint no_texture = 0xffffffffu;
@@ -9,8 +10,10 @@ struct MaterialData {
   vec4 emission_and_matte;   // w: the grey that stands for what mirrors or transmits
   vec4 uv_matrix;            // columns of R * scale
   vec4 uv_offset_and_cutoff; // z: alpha below this is no hit; negative for opaque materials
-  uint diffuse_texture;
-  uint unused0, unused1, unused2;
+  vec4 emission_uv_matrix;
+  vec4 emission_uv_offset_and_unlit; // z: not 0 for a colour that no light changes
+  uint diffuse_texture, emission_texture;
+  uint unused0, unused1;
 };
 
 layout(std430, binding = materials_buffer) readonly buffer Materials { MaterialData materials[]; };
@@ -31,8 +34,21 @@ vec4 surface_albedo(MaterialData material, vec2 uv) {
   return albedo;
 }
 
-#ifdef ALPHA_MASK
-bool is_hole(MaterialData material, vec2 uv) {
-  return material.uv_offset_and_cutoff.z >= 0.0 && surface_albedo(material, uv).a < material.uv_offset_and_cutoff.z;
+vec3 surface_emission(MaterialData material, vec2 uv) {
+  vec3 emission = material.emission_and_matte.rgb;
+#ifdef TEXTURES
+  if (material.emission_texture != no_texture) {
+    mat2 linear = mat2(material.emission_uv_matrix.xy, material.emission_uv_matrix.zw);
+    emission *= sample_texture(material.emission_texture, material.emission_uv_offset_and_unlit.xy + linear * uv).rgb;
+  }
+#endif
+  return emission;
 }
+
+#ifdef ALPHA_MASK
+bool is_hole(MaterialData material, vec2 uv, float vertex_alpha) {
+  return material.uv_offset_and_cutoff.z >= 0.0 &&
+         surface_albedo(material, uv).a * vertex_alpha < material.uv_offset_and_cutoff.z;
+}
+bool is_hole(MaterialData material, vec2 uv) { return is_hole(material, uv, 1.0); }
 #endif

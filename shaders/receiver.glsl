@@ -1,6 +1,7 @@
 // The surface point of a pixel, from the primitive that the rasterizer found visible there: the exact meeting of
 // the pixel's ray with the primitive's plane or sphere, rather than an interpolated position (Burns and Hunt 2013, "The Visibility
-// Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals), TEXTURES and ALPHA_MASK.
+// Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals), VERTEX_COLORS (some mesh has them), TEXTURES and
+// ALPHA_MASK.
 
 #include "camera.glsl"
 #include "world.glsl"
@@ -17,6 +18,9 @@ struct Receiver {
   vec3 shading;    // shading normal, on the geometric normal's side
   vec3 to_eye;     // unit
   vec2 uv;
+#ifdef VERTEX_COLORS
+  vec4 color;
+#endif
   uint material;
 };
 
@@ -34,7 +38,7 @@ vec3 meet_plane(vec3 direction, vec3 n, float d, float t_min, float t_max) {
 }
 
 void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
-#if defined(SMOOTH_NORMALS) || defined(TEXTURES)
+#if defined(SMOOTH_NORMALS) || defined(TEXTURES) || defined(VERTEX_COLORS)
   vec3 n = cross(b - a, c - a);
   float area = dot(n, n);
   float wb = clamp(dot(cross(r.position - a, c - a), n) / area, 0.0, 1.0);
@@ -49,6 +53,9 @@ void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
 #endif
 #ifdef TEXTURES
   r.uv = wa * uv_of(t.a) + wb * uv_of(t.b) + wc * uv_of(t.c);
+#endif
+#ifdef VERTEX_COLORS
+  r.color = wa * color_of(t.a) + wb * color_of(t.b) + wc * color_of(t.c);
 #endif
 #endif
 }
@@ -111,6 +118,9 @@ Receiver shape_receiver(ShapeData shape, vec3 direction) {
   r.uv = shape_uv(shape, r.position);
 #else
   r.uv = vec2(0.0);
+#endif
+#ifdef VERTEX_COLORS
+  r.color = vec4(1.0);
 #endif
   r.material = shape.material;
   return r;

@@ -40,11 +40,23 @@ void main() {
   }
   Receiver r = receiver_at(primitive, gl_FragCoord.xy);
   MaterialData material = materials[r.material];
-  vec3 diffuse = surface_albedo(material, r.uv).rgb + material.emission_and_matte.w;
+  vec3 albedo = surface_albedo(material, r.uv).rgb;
+#ifdef VERTEX_COLORS
+  albedo *= r.color.rgb;
+#endif
+#ifdef UNLIT
+  if (material.emission_uv_offset_and_unlit.z != 0.0) {
+#ifdef FIRST_LIGHT
+    radiance.rgb += albedo;
+#endif
+    albedo = vec3(0.0);
+  }
+#endif
+  vec3 diffuse = albedo + material.emission_and_matte.w;
 #ifdef FIRST_LIGHT
   radiance.rgb += camera.ambient.rgb * diffuse;
 #ifdef EMISSION
-  radiance.rgb += material.emission_and_matte.rgb;
+  radiance.rgb += surface_emission(material, r.uv);
 #endif
 #endif
 #ifndef NO_LIGHT

@@ -51,6 +51,7 @@ const int present_unit = 3;
 const int moments_unit = 4;
 const int external_visibility_unit = 15;
 const int solid_distance_unit = 5;
+const int colors_unit = 6;
 const int first_layer_unit = 8;  // midpoint maps
 const int second_layer_unit = 9;
 const int positions_unit = 10;  // buffer textures
@@ -62,6 +63,7 @@ const int planes_unit = 14;
 // Vertex attributes
 const int position_attribute = 0;
 const int uv_attribute = 1;
+const int color_attribute = 2;
 
 // Fragment outputs of the camera's pass
 const int primitive_output = 0;

@@ -14,6 +14,11 @@ layout(location = 0) out uint primitive_id;
 #include "material.glsl"
 #include "triangles.glsl"
 in vec2 vertex_uv;
+#ifdef VERTEX_COLORS
+in float vertex_alpha;
+#else
+const float vertex_alpha = 1.0;
+#endif
 #endif
 
 void main() {
@@ -22,7 +27,7 @@ void main() {
 #endif
   uint primitive = first_primitive + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-  if (is_hole(materials[triangle_at(primitive).material], vertex_uv)) discard;
+  if (is_hole(materials[triangle_at(primitive).material], vertex_uv, vertex_alpha)) discard;
 #endif
 #ifdef PRIMITIVE_IDS
   primitive_id = primitive;

@@ -13,7 +13,7 @@ gnomon_test(compare_models_gl_test TIMEOUT 1200
   LIBS gnomon::compare embree TBB::tbb nlohmann_json::nlohmann_json)
 target_include_directories(compare_models_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 gnomon_test(compare_solids_gl_test TIMEOUT 900
-  SOURCES compare_solids_gl_test.cpp
+  SOURCES compare_solids_gl_test.cpp compare_surfaces_gl_test.cpp
   LIBS gnomon::raster gnomon::raytrace)
 target_include_directories(compare_solids_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 

@@ -47,7 +47,7 @@ Reference reference_of(const Tracer& tracer, const Scene& scene, ImageSize size)
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-      const auto hit = tracer.closest_hit(ray);
+      const auto hit = tracer.closest_seen(ray);
       r.receivers.push_back(hit ? tracer.surface_point(ray, *hit) : SurfacePoint{});
       for (std::size_t i = 0; i < scene.lights.size(); ++i)
         r.verdicts[i].push_back(verdict_of(tracer, scene.lights[i], r.receivers.back()));
@@ -146,6 +146,33 @@ TEST(Packets, RandomTriangles) {
       scene.lights = lights_around(Vec3(0.0), 2.0);
       check(scene, {101, 67});
     }
+  }
+}
+
+// Backs that are not seen, among such as are: from afar, from within, and with eyes in triangles' planes.
+TEST(Packets, SingleSidedTriangles) {
+  for (const double size : {0.05, 1.5}) {
+    Mesh mesh = test::triangle_soup(2000, 1.0, size, 5);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangle_materials.push_back(i % 3 / 2);
+    Scene scene = test::scene_of({mesh, test::quad({-2, -1, -2}, {0, 0, 4}, {4, 0, 0})});
+    scene.materials.resize(2);
+    scene.materials[0].double_sided = false;
+    scene.instances[1].material = 1;
+    scene.lights = lights_around(Vec3(0.0), 2.0);
+    for (const Vec3& eye :
+         {Vec3(0.3, 0.4, 3.0), Vec3(0.01, 0.02, -0.03), mesh.positions[4] + Vec3(0, 0, 0.5)}) {
+      look(scene, eye, {0, 0, 0});
+      check(scene, {101, 67});
+    }
+  }
+  Scene inside_out =
+      test::scene_of({test::box({-1, 0, -1}, {1, 1, 1}), test::box({-0.5, 1, -0.5}, {0.5, 2, 0.5})});
+  inside_out.materials[0].double_sided = false;
+  inside_out.lights = lights_around(Vec3(0.0), 2.0);
+  for (const Vec3& eye : {Vec3(4, 1, 5), Vec3(0.2, 0.5, 0.1), Vec3(1, 0.5, 4), Vec3(-3, 1, 0)}) {
+    look(inside_out, eye, {0, 1, 0});
+    inside_out.camera.up = {0, 1, 0};
+    check(inside_out, {120, 90});
   }
 }
 

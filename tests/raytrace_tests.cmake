@@ -24,7 +24,7 @@ gnomon_test(raytrace_cells_test
   LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_accel_test
-  SOURCES raytrace_accel_test.cpp
+  SOURCES raytrace_accel_test.cpp raytrace_sides_test.cpp
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_two_level_test
@@ -43,13 +43,14 @@ target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_pla
   fmt::fmt nlohmann_json::nlohmann_json)
 add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
 
-# Whole processes against POV-Ray 3.7, where it is installed (it is no part of the set-up).
-add_executable(povray_bench bench/povray_bench.cpp bench/bench_scenes.cpp)
-target_link_libraries(povray_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support CLI11::CLI11 fmt::fmt
+# Whole processes against POV-Ray 3.7 and Blender's Cycles, where they are installed (they are no part of the set-up).
+add_executable(programs_bench bench/programs_bench.cpp bench/bench_scenes.cpp)
+target_compile_definitions(programs_bench PRIVATE GNOMON_BENCH_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}/bench")
+target_link_libraries(programs_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support CLI11::CLI11 fmt::fmt
   nlohmann_json::nlohmann_json)
 find_program(GNOMON_POVRAY povray)
 mark_as_advanced(GNOMON_POVRAY)
 if(GNOMON_POVRAY)
-  add_test(NAME povray_bench_pictures_alike COMMAND povray_bench --gnomon $<TARGET_FILE:gnomon_program> --scene teapot --runs 1
-    --width 320 --height 180 --out ${CMAKE_CURRENT_BINARY_DIR}/povray)
+  add_test(NAME povray_bench_pictures_alike COMMAND programs_bench --gnomon $<TARGET_FILE:gnomon_program> --scene teapot --runs 1
+    --peer povray --width 320 --height 180 --out ${CMAKE_CURRENT_BINARY_DIR}/povray)
 endif()

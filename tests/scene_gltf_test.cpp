@@ -230,9 +230,68 @@ TEST_F(Gltf, UnlitMaterialsShowTheirColour) {
   b.json["meshes"][0]["primitives"][0]["material"] = 0;
   b.json["extensionsRequired"] = {"KHR_materials_unlit"};
   const Material m = material_of(loaded(b));
-  EXPECT_EQ(m.emission, Vec3f(0.5f, 0.25f, 1.0f));
-  EXPECT_EQ(m.diffuse, Vec3f(0.0f));
+  EXPECT_TRUE(m.unlit);
+  EXPECT_EQ(m.diffuse, Vec3f(0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(m.emission, Vec3f(0.0f));
   EXPECT_EQ(m.specular, Vec3f(0.0f));
+}
+
+// Bytes of three components and floats of four, a primitive without any, a value that is not finite.
+TEST_F(Gltf, VertexColours) {
+  Builder b = simple();
+  Json& primitives = b.json["meshes"][0]["primitives"];
+  const int bytes =
+      b.accessor(std::vector<std::uint8_t>{255, 51, 0, 0, 0, 0, 255, 255, 255, 102, 0, 255}, 5121, "VEC3", 3);
+  b.json["accessors"][static_cast<std::size_t>(bytes)]["normalized"] = true;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const int floats = b.accessor(
+      std::vector<float>{0.5f, 2.0f, 0.0f, 0.25f, nan, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 0}, 5126, "VEC4", 4);
+  const Json plain = primitives[0];
+  primitives.push_back(plain), primitives.push_back(plain);
+  primitives[0]["attributes"]["COLOR_0"] = bytes;
+  primitives[1]["attributes"]["COLOR_0"] = floats;
+  const Scene s = loaded(b);
+  const std::vector<Vec4f>& colors = s.meshes[0].colors;
+  ASSERT_EQ(colors.size(), 12u);
+  EXPECT_EQ(colors[0], Vec4f(1.0f, 0.2f, 0.0f, 1.0f));
+  EXPECT_EQ(colors[3], Vec4f(0.4f, 0.0f, 1.0f, 1.0f));
+  EXPECT_EQ(colors[4], Vec4f(0.5f, 1.0f, 0.0f, 0.25f)) << "kept within [0, 1]";
+  EXPECT_EQ(colors[5], Vec4f(1.0f)) << "not finite";
+  EXPECT_EQ(colors[8], Vec4f(1.0f)) << "a primitive without colours";
+  EXPECT_TRUE(has_note(s, "1 normals, texture coordinates or colours are not finite"));
+  EXPECT_EQ(make_world(s).colors, colors);
+  EXPECT_TRUE(make_world(loaded(simple())).colors.empty());
+  primitives[0]["attributes"]["COLOR_0"] = 0;
+  EXPECT_EQ(loaded(b).meshes[0].colors.size(), 12u) << "positions serve as colours: VEC3 of floats";
+}
+
+TEST_F(Gltf, EmissiveTextures) {
+  const auto png = encode_png(Rgb8Image({2, 2}));
+  ASSERT_TRUE(png);
+  Builder b = simple();
+  b.json["images"] = Json::array({{{"uri", "data:image/png;base64," + base64(*png)}}});
+  b.json["textures"] = Json::array({{{"source", 0}}, {{"source", 0}}});
+  const Json transform{{"KHR_texture_transform", {{"offset", {0.5, 0.25}}}}};
+  b.json["materials"] =
+      Json::array({{{"name", "screen"},
+                    {"emissiveFactor", {1, 0.5, 0}},
+                    {"emissiveTexture", {{"index", 1}, {"texCoord", 1}, {"extensions", transform}}},
+                    {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}}});
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const int uvs = b.accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, 5126, "VEC2", 2);
+  b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = uvs;
+  const Scene s = loaded(b);
+  const Material m = material_of(s);
+  EXPECT_EQ(m.emission, Vec3f(4, 2, 0));
+  ASSERT_LT(m.emission_texture, s.textures.size());
+  EXPECT_EQ(m.emission_transform.offset, Vec2(0.5, 0.25));
+  EXPECT_EQ(s.meshes[0].uvs[3], Vec2f(1.0f)) << "the second set is the only one in use";
+  b.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  const Scene two_sets = loaded(b);
+  EXPECT_EQ(material_of(two_sets).emission, Vec3f(0.0f));
+  EXPECT_TRUE(has_note(two_sets, "Emissive textures with other texture coordinates than the base colour's"));
+  b.json["materials"][0]["emissiveTexture"].erase("texCoord");
+  EXPECT_EQ(material_of(loaded(b)).emission, Vec3f(4, 2, 0));
 }
 
 TEST_F(Gltf, SpecularGlossiness) {
@@ -279,13 +338,16 @@ TEST_F(Gltf, CamerasAreChosenByNameOrNumber) {
             "\"wide\"?");
 }
 
-TEST_F(Gltf, SingleSidedMaterialsAreSaidToBeTwoSided) {
+TEST_F(Gltf, SingleSidedMaterialsAreSaid) {
   Builder b = simple();
   b.json["materials"] =
       Json::array({{{"name", "a"}}, {{"name", "b"}, {"doubleSided", true}}, {{"name", "c"}}});
-  EXPECT_TRUE(has_note(loaded(b),
-                       "Single-sided materials are taken as two-sided, seen and casting shadows from "
-                       "behind too: 2 of 3."));
+  const Scene s = loaded(b);
+  EXPECT_TRUE(has_note(s,
+                       "Single-sided materials (2 of 3): the eye looks through their backs; both sides cast "
+                       "shadows."));
+  EXPECT_FALSE(shows_back(s.materials[0]));
+  EXPECT_TRUE(shows_back(s.materials[1]));
   for (Json& material : b.json["materials"]) material["doubleSided"] = true;
   EXPECT_FALSE(has_note(loaded(b), "Single-sided"));
 }

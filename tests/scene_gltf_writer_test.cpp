@@ -78,6 +78,10 @@ void expect_same_material(const Material& a, const Material& b) {
   EXPECT_EQ(a.texture_transform.offset, b.texture_transform.offset) << a.name;
   EXPECT_EQ(a.texture_transform.scale, b.texture_transform.scale) << a.name;
   EXPECT_EQ(a.texture_transform.rotation, b.texture_transform.rotation) << a.name;
+  EXPECT_EQ(a.emission_texture == no_id, b.emission_texture == no_id) << a.name;
+  EXPECT_EQ(a.emission_transform.offset, b.emission_transform.offset) << a.name;
+  EXPECT_EQ(a.unlit, b.unlit) << a.name;
+  EXPECT_EQ(a.double_sided, b.double_sided) << a.name;
   EXPECT_EQ(a.alpha_mode, b.alpha_mode) << a.name;
   EXPECT_EQ(a.alpha, b.alpha) << a.name;
   EXPECT_EQ(a.alpha_cutoff, b.alpha_cutoff) << a.name;
@@ -276,6 +280,26 @@ TEST(GltfWriter, ExtrasOfOthersAreNotRead) {
   EXPECT_EQ(wrong.error().field, "materials[0].shininess");
   json["asset"]["generator"] = "another program";
   EXPECT_TRUE(std::holds_alternative<std::monostate>(read().lights[0].extent));
+}
+
+TEST(GltfWriter, SidesColoursAndWhatGlowsComeBack) {
+  Scene scene = small();
+  scene.meshes[0].uvs = {{0, 0}, {1, 0}, {0, 1}};
+  scene.meshes[0].colors = {{1, 0, 0.25f, 1}, {0.5f, 1, 0, 0.5f}, {0, 0, 1, 1}};
+  scene.textures.push_back({"lamp", {2, 1}, {{255, 0, 10, 255}, {1, 2, 3, 255}}, true, true, false, true});
+  scene.materials[0].double_sided = false;
+  scene.materials[0].emission = Vec3f(2.0f, 1.0f, 0.5f);
+  scene.materials[0].emission_texture = 0;
+  scene.materials[0].emission_transform = {{0.1, 0.2}, {3.0, 0.7}, 0.4};
+  Material flat;
+  flat.name = "flat", flat.unlit = true;
+  flat.diffuse = Vec3f(0.5f);
+  scene.materials.push_back(flat);
+  for (const bool binary : {false, true}) {
+    const Scene again = reread(scene, binary);
+    expect_same_but_geometry(scene, again);
+    EXPECT_EQ(again.meshes[0].colors, scene.meshes[0].colors);
+  }
 }
 
 TEST(GltfWriter, ATextureWithAlphaComesBack) {

@@ -22,12 +22,13 @@ constexpr std::string_view whole_scene = R"({
     { "name": "spot", "type": "spot", "position": [0, 4, 0], "target": [0, 0, 0], "inner_angle_degrees": 10, "outer_angle_degrees": 30 }
   ],
   "materials": [
-    { "name": "red", "diffuse": [0.8, 0.1, 0.1], "specular": 0.5, "shininess": 64, "emission": 0.25, "alpha": 0.75, "alpha_mode": "mask", "alpha_cutoff": 0.25 },
+    { "name": "red", "diffuse": [0.8, 0.1, 0.1], "specular": 0.5, "shininess": 64, "emission": 0.25, "alpha": 0.75, "alpha_mode": "mask", "alpha_cutoff": 0.25, "double_sided": false },
     { "name": "glass", "transmission": 0.7, "mirror": 0.3, "ior": 1.33, "absorption": [0.1, 0.2, 0.3], "roughness": 0.125 }
   ],
   "meshes": [
     { "name": "quad", "vertices": [[0,0,0], [1,0,0], [1,1,0], [0,1,0]], "triangles": [[0,1,2], [0,2,3]],
-      "normals": [[0,0,1],[0,0,1],[0,0,1],[0,0,1]], "uvs": [[0,1],[1,1],[1,0],[0,0]] }
+      "normals": [[0,0,1],[0,0,1],[0,0,1],[0,0,1]], "uvs": [[0,1],[1,1],[1,0],[0,0]],
+      "colors": ["#ff0000", [0, 0.5, 1], 0, 1] }
   ],
   "instances": [
     { "name": "moved", "mesh": "quad", "material": "red", "translate": [10, 0, 0], "rotate": { "axis": [0, 0, 2], "degrees": 90 }, "scale": [2, 3, 4] },
@@ -92,6 +93,9 @@ TEST(JsonScene, Materials) {
   EXPECT_EQ(red.specular, Vec3f(0.5f));
   EXPECT_EQ(red.shininess, 64.0f);
   EXPECT_EQ(red.emission, Vec3f(0.25f));
+  EXPECT_FALSE(red.double_sided || red.unlit);
+  EXPECT_EQ(s.meshes[0].colors,
+            (std::vector<Vec4f>{{1, 0, 0, 1}, {0, 0.5f, 1, 1}, {0, 0, 0, 1}, Vec4f(1.0f)}));
   EXPECT_EQ(red.alpha_mode, AlphaMode::mask);
   EXPECT_EQ(red.alpha, 0.75f);
   EXPECT_EQ(red.alpha_cutoff, 0.25f);
@@ -260,7 +264,7 @@ TEST(JsonScene, TexturesOfFilesAndGenerators) {
   const std::string path =
       folder.put("s.json", R"({"schema": "gnomon/scene/1", "materials": [{"name": "m", "texture":
     {"file": "t.png", "filter": "nearest", "wrap": "clamp", "offset": [0.5, 0.25], "scale": 2, "rotation_degrees": 90, "srgb": false}},
-    {"name": "g", "texture": {"generate": {"kind": "checker"}}}],
+    {"name": "g", "unlit": true, "emission_texture": {"generate": {"kind": "checker"}, "scale": 3}}],
     "shapes": [{"sphere": {"center": [0,0,0], "radius": 2}, "material": "m"}, {"sphere": {"center": [5,0,0], "radius": 2}, "material": "g"}]})");
   const auto scene = load_scene(path);
   ASSERT_TRUE(scene) << scene.error().message();
@@ -273,6 +277,9 @@ TEST(JsonScene, TexturesOfFilesAndGenerators) {
   EXPECT_EQ(transform.offset, Vec2(0.5, 0.25));
   EXPECT_EQ(transform.scale, Vec2(2.0));
   EXPECT_NEAR(transform.rotation, 0.5 * pi, tolerance);
+  EXPECT_EQ(scene->materials[1].emission_texture, 1u);
+  EXPECT_EQ(scene->materials[1].emission_transform.scale, Vec2(3.0));
+  EXPECT_TRUE(scene->materials[1].unlit);
 }
 
 TEST(JsonScene, EveryBuiltinSceneLoads) {

@@ -107,7 +107,24 @@ TEST(Obj, WhatIsSkippedIsNoted) {
   EXPECT_TRUE(has_note(*scene, "none.mtl cannot be used (no such file)"));
   EXPECT_TRUE(has_note(*scene, "1 face(s) with fewer than three corners were skipped (the first in line 7)"));
   EXPECT_TRUE(has_note(*scene, "1 point(s) and 1 line(s) were skipped"));
-  EXPECT_TRUE(has_note(*scene, "Vertex colours are not used"));
+}
+
+// As three.js and Blender write them: behind the position, sRGB-encoded; a vertex without is white.
+TEST(Obj, VertexColours) {
+  const TemporaryFolder folder;
+  const auto scene =
+      load_text(folder, "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 2 0 -1\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  const Mesh& mesh = scene->meshes[0];
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  EXPECT_NEAR(mesh.colors[0].g, 0.21404f, 1e-5f);  // IEC 61966-2-1
+  EXPECT_EQ(mesh.colors[1], Vec4f(1.0f));
+  EXPECT_EQ(mesh.colors[2], Vec4f(1.0f, 0.0f, 0.0f, 1.0f)) << "kept within [0, 1]";
+  EXPECT_EQ(mesh.colors[3], Vec4f(1.0f));
+  EXPECT_EQ(scene->materials[0].diffuse, Vec3f(1.0f)) << "white: the colours are what is seen";
+  const auto plain = load_text(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_TRUE(plain);
+  EXPECT_TRUE(plain->meshes[0].colors.empty());
 }
 
 TEST(Obj, MaterialsAreMapped) {

@@ -65,7 +65,31 @@ TEST(Ply, TheThreeEncodingsAgree) {
     EXPECT_EQ(mesh.normals[3], Vec3f(0, 0, 1));
     EXPECT_EQ(mesh.uvs[1], Vec2f(0.25f, 0.25f));
     EXPECT_EQ(mesh.triangles.size(), 3u);
-    EXPECT_EQ(scene->notes[0], "Vertex colours are not used.");
+    EXPECT_TRUE(mesh.colors.empty()) << "red alone is no colour";
+  }
+}
+
+// sRGB-encoded bytes, 16 bits or floats from 0 to 1; alpha as it is.
+TEST(Ply, VertexColours) {
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& type, const std::string& full, const std::string& half) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    for (const char* name : {"red", "green", "blue", "alpha"}) text += "property " + type + " " + name + "\n";
+    text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const char* place : {"0 0 0 ", "1 0 0 ", "0 1 0 "})
+      text += place + full + " 0 " + half + " " + half + "\n";
+    return load_scene(folder.put("c.ply", text + "3 0 1 2\n"));
+  };
+  for (const auto& scene :
+       {load("uchar", "255", "51"), load("ushort", "65535", "13107"), load("float", "1", "0.2")}) {
+    ASSERT_TRUE(scene) << scene.error().message();
+    ASSERT_EQ(scene->meshes[0].colors.size(), 3u);
+    const Vec4f c = scene->meshes[0].colors[2];
+    EXPECT_EQ(Vec2f(c), Vec2f(1.0f, 0.0f));
+    EXPECT_NEAR(c.b, 0.033105f, 1e-6f);  // ((0.2 + 0.055) / 1.055)^2.4
+    EXPECT_NEAR(c.a, 0.2f, 1e-7f);
+    EXPECT_EQ(scene->materials[0].diffuse, Vec3f(1.0f));
   }
 }
 

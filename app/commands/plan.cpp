@@ -53,6 +53,9 @@ std::uint64_t rays_of(Effect effect, const raytrace::RayCounts& rays) {
     case Effect::alpha_mask:
     case Effect::emission:
     case Effect::specular:
+    case Effect::vertex_colors:
+    case Effect::unlit:
+    case Effect::single_sided:
       break;
   }
   return 0;

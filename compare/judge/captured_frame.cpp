@@ -116,7 +116,7 @@ StoredSurface surface_of(const raytrace::Tracer& tracer, const raster::ShadowMap
   double nearest = infinity;
   constexpr int most_hits = 16;
   for (int k = 0; k < most_hits; ++k) {
-    const auto hit = tracer.closest_hit(ray);
+    const auto hit = tracer.closest_seen(ray);
     if (!hit) break;
     const double off = std::abs(glm::dot(ray.at(hit->t) - map.view.origin, forward) - wanted);
     if (off >= nearest) break;

@@ -97,7 +97,7 @@ Gatherer::Shown Gatherer::look(std::uint32_t pixel) const {
   const auto [sx, sy] = flipped(!all && suspect_.flip_x, !all && suspect_.flip_y, sight_.view.size, cx, cy);
   out.shadow = static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) + static_cast<std::size_t>(sx);
   out.ray = pixel_ray(sight_.view, out.x + 0.5 + sight_.shift.x, out.y + 0.5 + sight_.shift.y);
-  if (const auto hit = in_.tracer.closest_hit(out.ray)) out.point = in_.tracer.surface_point(out.ray, *hit);
+  if (const auto hit = in_.tracer.closest_seen(out.ray)) out.point = in_.tracer.surface_point(out.ray, *hit);
   return out;
 }
 

@@ -26,7 +26,7 @@ struct Retracer {
 
   void receiver_at(int x, int y) const {
     const Ray ray = sight_ray(sight, pictures, x, y);
-    const auto hit = tracer.closest_hit(ray);
+    const auto hit = tracer.closest_seen(ray);
     frame.receiver.at(x, y) = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
   }
 

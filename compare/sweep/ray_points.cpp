@@ -113,7 +113,7 @@ class Measurer {
     std::uint64_t rays = 0;
     for (std::size_t p = 0; p < pixels; p += 1 + pixels / counted_pixels) {
       const std::size_t x = p % width, y = p / width;
-      (void)tracer.closest_hit(pixel_ray(view, double(x) + 0.5, double(y) + 0.5), work);
+      (void)tracer.closest_seen(pixel_ray(view, double(x) + 0.5, double(y) + 0.5), work);
       ++rays;
       const raytrace::SurfacePoint& receiver = frame.receiver.data[p];
       if (receiver.primitive == no_id) continue;

@@ -41,7 +41,7 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
     if (id == no_id) return;
     const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
     std::optional<Hit> hit = hit_at(s, ray, leaf_of[id]);
-    if (!hit) ++missed, hit = tracer.closest_hit(ray);
+    if (!hit) ++missed, hit = tracer.closest_seen(ray);
     if (!hit) return;
     out = tracer.surface_point(ray, *hit);
     quantised.put(lane, out, draft);

@@ -32,7 +32,7 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, s
   // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
   std::optional<Hit> hit = leaf == ambiguous_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
   if (!hit)
-    hit = candidates.known ? tracer.closest_hit_among(ray, candidates.leaves) : tracer.closest_hit(ray);
+    hit = candidates.known ? tracer.closest_seen_among(ray, candidates.leaves) : tracer.closest_seen(ray);
   return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
 }
 

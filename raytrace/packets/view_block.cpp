@@ -9,6 +9,7 @@
 #include "raytrace/packets/edge_setup_rows.h"
 #include "raytrace/packets/packet_grid.h"
 #include "raytrace/packets/view_block.h"
+#include "raytrace/precision/facing.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -136,7 +137,7 @@ class BlockClosest {
     const std::size_t count = std::min<std::size_t>(pending_count_, batch);
     alignas(64) float nearest[batch + packet_rays] = {};
     alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
-    unsigned never[batch / 8];
+    unsigned never[batch / 8], backs[batch / 8] = {};
     for (std::size_t first = 0; first < count; first += 8) {
       EdgeSetupBlock& block = blocks_[first / 8];
       never[first / 8] =
@@ -146,12 +147,14 @@ class BlockClosest {
       place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), block.v_min(), block.v_max(),
                   v_[first / 8]);
       std::copy_n(block.nearest(), 8, nearest + first);
+      if (s_.hides_backs) backs[first / 8] = leave_out_backs(first, count, never[first / 8]);
     }
     rank_falling(nearest, count, rank);
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = i;
     bool taken = false;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t b = order[k] / 8, i = order[k] % 8;
+      if ((backs[b] >> i & 1) != 0) continue;
       const std::uint32_t leaf = pending_[order[k]];
       const PacketSpans &u = u_[b], &v = v_[b];
       PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
@@ -166,6 +169,22 @@ class BlockClosest {
     pending_count_ -= count;
     std::copy_n(pending_ + count, pending_count_, pending_);
     if (taken) update_limit();
+  }
+
+  /// Bits of those of eight waiting triangles whose back alone the eye could meet, and does not see; which of them it
+  /// meets in doubt is left to the double kernels.
+  unsigned leave_out_backs(std::size_t first, std::size_t count, unsigned& never) const {
+    unsigned backs = 0;
+    for (std::size_t i = 0; i < 8 && first + i < count; ++i) {
+      const std::uint32_t leaf = pending_[first + i], id = s_.bvh.ids[leaf];
+      if (!s_.world->is_triangle(id) ||
+          shows_back(s_.world->scene->materials[s_.world->triangle_material[id]]))
+        continue;
+      const Facing facing = facing_of(s_.bvh.primitives[leaf].v.data(), setup_.origin);
+      if (facing == Facing::back) backs |= 1u << i;
+      if (facing == Facing::doubtful) never |= 1u << i;
+    }
+    return backs;
   }
 
   bool test_packets(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, float nearest,

@@ -108,7 +108,7 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
       const Vec2 place = square[static_cast<std::uint32_t>(s)];
       const Ray ray = pixel_ray(input.view, x + place.x, y + place.y);
       if (s > 0 || traced_centres) ++rays.antialiasing;
-      const std::optional<Hit> hit = tracer.closest_hit(ray);
+      const std::optional<Hit> hit = tracer.closest_seen(ray);
       if (!hit) {
         sum += Vec3(tracer.world().scene->background);
         continue;

@@ -42,12 +42,14 @@ struct ShadedEffects {
         soft(plan.simulates(Effect::soft_shadow)),
         glossy(plan.simulates(Effect::glossy)),
         absorbs(plan.simulates(Effect::absorption)),
-        indirect(plan.simulates(Effect::indirect_light)) {}
+        indirect(plan.simulates(Effect::indirect_light)),
+        vertex_colors(plan.simulates(Effect::vertex_colors)) {}
   bool textures, specular;
   bool soft;      ///< some light has a size
   bool glossy;    ///< some mirror or glass is rough
   bool absorbs;   ///< some glass takes light on the way through it
   bool indirect;  ///< the scene asks for it
+  bool vertex_colors;
 };
 
 /// Interpolated and normalised, on the side of the point's geometric normal; the geometric normal where the
@@ -107,7 +109,7 @@ class Shader {
     const Vec3 normal = shading_normal(world_, point);
     const float local_share =
         Kind::reflects ? std::max(0.0f, 1.0f - material.mirror - material.transmission) : 1.0f;
-    Vec3f radiance = material.emission;
+    Vec3f radiance = emitted(point, material);
     if (local_share > 0.0f) radiance += local_share * local(point, path, material, normal, shadow);
     if constexpr (Kind::reflects) radiance += secondary(point, path, material, normal);
     return radiance;
@@ -121,7 +123,7 @@ class Shader {
         if (passed == max_glass_surfaces) return Vec3f(0.0f);
         ++count;
         const Ray ray = tracer_.spawn_ray(point, path.direction);
-        const std::optional<Hit> hit = tracer_.closest_hit(ray);
+        const std::optional<Hit> hit = tracer_.closest_seen(ray);
         if (!hit) return scene_.background;
         length += hit->t;
         point = tracer_.surface_point(ray, *hit);
@@ -185,15 +187,25 @@ class Shader {
     return sum / static_cast<float>(count);
   }
 
+  Vec3f texture_at(const SurfacePoint& point, std::uint32_t texture,
+                   const TextureTransform& transform) const {
+    const Vec2 uv = surface_uv(world_, point.primitive, point.barycentric, point.position);
+    return Vec3f(sample_texture(scene_.textures[texture], transform_uv(transform, uv)));
+  }
+
+  Vec3f emitted(const SurfacePoint& point, const Material& material) const {
+    if (!on_.textures || material.emission_texture == no_id) return material.emission;
+    return material.emission * texture_at(point, material.emission_texture, material.emission_transform);
+  }
+
   template <class Shadow>
   Vec3f local(const SurfacePoint& point, const Path& path, const Material& material, const Vec3& normal,
               const Shadow& shadow) {
     Vec3f diffuse = material.diffuse;
-    if (on_.textures && material.diffuse_texture != no_id) {
-      const Vec2 uv = surface_uv(world_, point.primitive, point.barycentric, point.position);
-      diffuse *= Vec3f(sample_texture(scene_.textures[material.diffuse_texture],
-                                      transform_uv(material.texture_transform, uv)));
-    }
+    if (on_.textures && material.diffuse_texture != no_id)
+      diffuse *= texture_at(point, material.diffuse_texture, material.texture_transform);
+    if (on_.vertex_colors) diffuse *= Vec3f(surface_color(world_, point.primitive, point.barycentric));
+    if (material.unlit) return diffuse;
     Vec3f radiance = scene_.ambient * diffuse;
     for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
       const Light& light = scene_.lights[i];
@@ -303,7 +315,7 @@ class Shader {
   Vec3f along(const SurfacePoint& from, const Path& path, std::uint64_t& count) {
     ++count;
     const Ray ray = tracer_.spawn_ray(from, path.direction);
-    const std::optional<Hit> hit = tracer_.closest_hit(ray);
+    const std::optional<Hit> hit = tracer_.closest_seen(ray);
     if (!hit) return scene_.background;
     return arriving(tracer_.surface_point(ray, *hit), hit->t, path, count);
   }

@@ -24,10 +24,18 @@ Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycen
   return {glm::dot(tangent, position - plane.point), glm::dot(bitangent, position - plane.point)};
 }
 
+Vec4f surface_color(const World& world, std::uint32_t primitive, const Vec2& barycentric) {
+  if (world.colors.empty() || !world.is_triangle(primitive)) return Vec4f(1.0f);
+  const auto& t = world.triangles[primitive];
+  const double b0 = 1.0 - barycentric.x - barycentric.y;
+  return Vec4f(b0 * Vec4(world.colors[t[0]]) + barycentric.x * Vec4(world.colors[t[1]]) +
+               barycentric.y * Vec4(world.colors[t[2]]));
+}
+
 bool is_masked_out(const World& world, const Material& material, std::uint32_t primitive,
                    const Vec2& barycentric, const Vec3& position) {
   if (material.alpha_mode != AlphaMode::mask) return false;
-  float alpha = material.alpha;
+  float alpha = material.alpha * surface_color(world, primitive, barycentric).a;
   if (material.diffuse_texture != no_id) {
     const Vec2 uv =
         transform_uv(material.texture_transform, surface_uv(world, primitive, barycentric, position));

@@ -10,6 +10,9 @@ namespace gnomon::raytrace {
 /// Before the material's transform. `barycentric` as in Hit; `position` is used by shapes only.
 Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycentric, const Vec3& position);
 
+/// What the mesh's colours say there: linear, with alpha; white where there are none, and of shapes.
+Vec4f surface_color(const World& world, std::uint32_t primitive, const Vec2& barycentric);
+
 /// Whether a hit on a masked material is a hole: alpha < cutoff.
 bool is_masked_out(const World& world, const Material& material, std::uint32_t primitive,
                    const Vec2& barycentric, const Vec3& position);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "scene/closed_mesh.h"
+#include "scene/files/image_io.h"
 #include "scene/files/interior.h"
 #include "scene/solid.h"
 
@@ -274,11 +275,16 @@ Scene add_defaults(LoadedFile loaded) {
   return std::move(scene);
 }
 
-Material model_material(std::string name) {
+Material model_material(std::string name, bool has_colors) {
   Material material;
   material.name = std::move(name);
-  material.diffuse = Vec3f(0.7f);
+  material.diffuse = Vec3f(has_colors ? 1.0f : 0.7f);
   return material;
+}
+
+Vec4f linear_color(const Vec3f& srgb, float alpha) {
+  const auto linear = [](float v) { return linear_from_srgb(std::clamp(v, 0.0f, 1.0f)); };
+  return {linear(srgb.x), linear(srgb.y), linear(srgb.z), std::clamp(alpha, 0.0f, 1.0f)};
 }
 
 }  // namespace gnomon

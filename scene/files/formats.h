@@ -54,7 +54,11 @@ std::string_view known_extensions();
 Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
                                 const LoadOptions& options);
 
-/// The material of model files that give none: neutral grey.
-Material model_material(std::string name);
+/// A vertex colour as OBJ and PLY have it: RGB is sRGB-encoded, as MeshLab, Blender and three.js write and read it;
+/// kept within [0, 1].
+Vec4f linear_color(const Vec3f& srgb, float alpha);
+
+/// The material of model files that give none: neutral grey; white where vertices have colours.
+Material model_material(std::string name, bool has_colors = false);
 
 }  // namespace gnomon

@@ -95,7 +95,8 @@ nlohmann::ordered_json material_extras(const Material& m) {
                   {"absorption", shortest(m.absorption)},
                   {"roughness", shortest(m.roughness)},
                   {"priority", m.priority},
-                  {"thin", m.thin}});
+                  {"thin", m.thin},
+                  {"double_sided", m.double_sided}});
 }
 
 GltfExtras::GltfExtras(JsonErrors& errors, const JsonValue& root) : root_(errors, root, "") {
@@ -157,7 +158,7 @@ void GltfExtras::read_material(std::size_t index, Material& material) const {
   const auto node = of_item(materials_, index);
   if (!node) return;
   const JsonObject object(*node, {"diffuse", "specular", "shininess", "emission", "mirror", "transmission",
-                                  "ior", "absorption", "roughness", "priority", "thin"});
+                                  "ior", "absorption", "roughness", "priority", "thin", "double_sided"});
   const auto number = [&](std::string_view key, float& field) {
     field = static_cast<float>(object.number(key, static_cast<double>(field)));
   };
@@ -172,6 +173,7 @@ void GltfExtras::read_material(std::size_t index, Material& material) const {
   number("roughness", material.roughness);
   material.priority = whole(object, "priority", material.priority, {-1000.0, 1000.0});
   material.thin = object.boolean("thin", material.thin);
+  material.double_sided = object.boolean("double_sided", material.double_sided);
 }
 
 }  // namespace gnomon

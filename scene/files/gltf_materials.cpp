@@ -43,18 +43,14 @@ class MaterialReader {
   }
 
  private:
-  // Both renderers see surfaces from both sides, and so do the lights. A body of glass is seen from inside
-  // whatever its file says.
   void note_single_sided() {
+    const auto& all = scene_.materials;
     const auto count =
-        std::count_if(model_.materials.begin(), model_.materials.end(), [](const tinygltf::Material& m) {
-          return !m.doubleSided && !m.extensions.contains("KHR_materials_volume");
-        });
+        std::count_if(all.begin(), all.end(), [](const Material& m) { return !shows_back(m); });
     if (count > 0)
-      scene_.notes.push_back(
-          fmt::format("Single-sided materials are taken as two-sided, seen and casting shadows from behind "
-                      "too: {} of {}.",
-                      count, model_.materials.size()));
+      scene_.notes.push_back(fmt::format(
+          "Single-sided materials ({} of {}): the eye looks through their backs; both sides cast shadows.",
+          count, all.size()));
   }
 
   Expected<Material> read(std::size_t index) {
@@ -80,11 +76,12 @@ class MaterialReader {
       map_surface(m, factor, base.mean, dielectric_specular(from), rough->x, rough->y);
       roughness = rough->y;
     }
-    map_emission(from, m);
+    if (const auto read = map_emission(from, m); !read) return fail(read.error());
     map_transmission(from, m);
     map_alpha(from, m, base.has_alpha);
     m.roughness = m.mirror > 0.0f || m.transmission > 0.0f ? fraction(roughness) : 0.0f;
     if (from.extensions.contains("KHR_materials_unlit")) make_unlit(from, m);
+    m.double_sided = from.doubleSided;
     note_unused(from, m.name);
     return m;
   }
@@ -105,14 +102,12 @@ class MaterialReader {
     if (has(&gloss, "specularGlossinessTexture")) unused_["Specular-glossiness textures are"].insert(m.name);
   }
 
-  // KHR_materials_unlit: the base colour as it is, and no light. Emission has no texture: with one, it is lit.
+  // KHR_materials_unlit: the base colour as it is, and no light.
   void make_unlit(const tinygltf::Material& from, Material& m) {
-    if (m.diffuse_texture != no_id) {
-      unused_["KHR_materials_unlit of textured materials (they are lit like the others) is"].insert(m.name);
-      return;
-    }
-    m.emission = glm::clamp(color(from.pbrMetallicRoughness.baseColorFactor), 0.0f, 1.0f);
-    m.diffuse = m.specular = m.absorption = Vec3f(0.0f);
+    m.unlit = true;
+    m.diffuse = glm::clamp(color(from.pbrMetallicRoughness.baseColorFactor), 0.0f, 1.0f);
+    m.specular = m.emission = m.absorption = Vec3f(0.0f);
+    m.emission_texture = no_id;
     m.mirror = m.roughness = 0.0f;
     if (!m.thin) m.transmission = 0.0f;
   }
@@ -140,14 +135,23 @@ class MaterialReader {
           .insert(m.name);
   }
 
-  void map_emission(const tinygltf::Material& from, Material& m) {
+  Expected<void> map_emission(const tinygltf::Material& from, Material& m) {
     const double strength =
         number(extension(from.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
     m.emission = color(from.emissiveFactor) * static_cast<float>(strength);
-    if (from.emissiveTexture.index >= 0) {  // the texture says where it glows; everywhere would be wrong
+    const GltfTextureUse use = texture_use(from.emissiveTexture);
+    if (use.index < 0 || m.emission == Vec3f(0.0f)) return {};
+    if (m.diffuse_texture == no_id && use.set >= 0 && use.set <= 1) sets_.back() = use.set;
+    if (use.set != sets_.back()) {  // the texture says where it glows; everywhere would be wrong
+      unused_["Emissive textures with other texture coordinates than the base colour's are"].insert(m.name);
       m.emission = Vec3f(0.0f);
-      unused_["Emissive textures are"].insert(m.name);
+      return {};
     }
+    const auto texture = textures_.add(use.index, m.name);
+    if (!texture) return fail(texture.error());
+    m.emission_texture = *texture;
+    m.emission_transform = use.transform;
+    return {};
   }
 
   void make_thin_sheet(Material& m, float transmission, double ior) {

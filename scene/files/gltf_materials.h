@@ -10,12 +10,13 @@
 //                -ln(attenuationColor) / attenuationDistance; without one it is a thin sheet: index 1, and
 //                the share
 //                ((ior - 1) / (ior + 1))^2 is mirror
-//   emission     emissiveFactor times KHR_materials_emissive_strength; of an unlit material without a texture its
-//                base colour, and nothing else
+//   emission     emissiveFactor times KHR_materials_emissive_strength, times the emissive texture
+//   unlit        KHR_materials_unlit: the base colour, and nothing else
+//   double_sided doubleSided
 //   alpha        MASK as it is. BLEND: a material of one alpha becomes a thin sheet with transmission 1 -
 //   alpha; one
 //                with alpha in its texture becomes a mask at 0.5
-// What else the file gives (normal, occlusion and emissive textures ...) is noted as not used.
+// What else the file gives (normal and occlusion textures ...) is noted as not used.
 #pragma once
 
 #include <string>

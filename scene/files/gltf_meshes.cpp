@@ -62,6 +62,8 @@ void drop_empty(Mesh& mesh) {
   const auto is_zero = [](const auto& v) { return v == std::decay_t<decltype(v)>(0.0f); };
   if (std::all_of(mesh.normals.begin(), mesh.normals.end(), is_zero)) mesh.normals.clear();
   if (std::all_of(mesh.uvs.begin(), mesh.uvs.end(), is_zero)) mesh.uvs.clear();
+  if (std::all_of(mesh.colors.begin(), mesh.colors.end(), [](const Vec4f& c) { return c == Vec4f(1.0f); }))
+    mesh.colors.clear();
 }
 
 /// A vertex's joints blended: the sum of its weights times their matrices, and that of the weights alone.
@@ -105,12 +107,12 @@ Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const tinygltf::Primiti
     ++without_position_;
     return {};
   }
-  if (attribute(primitive, "COLOR_0") >= 0) has_colors_ = true;
   const Part part{primitive, std::move(path), mesh.positions.size(),
                   model_.accessors[static_cast<std::size_t>(position)].count};
   if (const auto added = add_positions(mesh, part); !added) return added;
   add_normals(mesh, part);
   add_uvs(mesh, part);
+  add_colors(mesh, part);
   apply_targets(mesh, part, pose.weights);
   apply_skin(mesh, part, pose.joints);
   if (const auto sound = check_positions(mesh, part); !sound) return sound;
@@ -166,6 +168,24 @@ void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
     if (i >= part.count) return;
     if (std::isfinite(uv.x) && std::isfinite(uv.y))
       mesh.uvs[part.first + i] = uv;
+    else
+      ++bad;
+  });
+  bad_attributes_ += bad;
+}
+
+// glTF 2.0, section 3.7.2.1: linear, of three or four components in [0, 1]. What is missing or not finite is white.
+void GltfMeshReader::add_colors(Mesh& mesh, const Part& part) {
+  mesh.colors.resize(part.first + part.count, Vec4f(1.0f));
+  const int index = attribute(part.primitive, "COLOR_0");
+  if (index < 0) return;
+  const GltfAccessor from = accessor(index);
+  std::atomic<std::size_t> bad = 0;
+  from.for_each([&](std::size_t i, const double* v) {
+    const Vec4f color(Vec4(vec3(v), from.components() > 3 ? v[3] : 1.0));
+    if (i >= part.count) return;
+    if (std::isfinite(glm::dot(color, color)))
+      mesh.colors[part.first + i] = glm::clamp(color, 0.0f, 1.0f);
     else
       ++bad;
   });
@@ -272,14 +292,13 @@ void GltfMeshReader::add_notes(Scene& scene) const {
   if (without_position_ > 0)
     note(fmt::format("{} primitive(s) without POSITION were skipped.", without_position_));
   if (bad_attributes_ > 0)
-    note(fmt::format("{} normals or texture coordinates are not finite and count as missing.",
+    note(fmt::format("{} normals, texture coordinates or colours are not finite and count as missing.",
                      bad_attributes_));
   if (lost_vertices_ > 0)
     note(fmt::format("{} vertices at the ends of triangle lists do not make a triangle.", lost_vertices_));
   if (unbound_ > 0)
     note(fmt::format("{} vertices of skinned meshes have no joint: they stay where they are stored.",
                      unbound_));
-  if (has_colors_) note("Vertex colours are not used.");
 }
 
 }  // namespace gnomon

@@ -51,6 +51,7 @@ class GltfMeshReader {
   Expected<void> check_positions(const Mesh& mesh, const Part& part) const;
   void add_normals(Mesh& mesh, const Part& part);
   void add_uvs(Mesh& mesh, const Part& part);
+  void add_colors(Mesh& mesh, const Part& part);
   void apply_targets(Mesh& mesh, const Part& part, const std::vector<double>& weights) const;
   void apply_skin(Mesh& mesh, const Part& part, const std::vector<Mat4>& joints);
   Expected<void> add_triangles(Mesh& mesh, const Part& part, int mode);
@@ -61,7 +62,6 @@ class GltfMeshReader {
   std::uint32_t default_material_;
   const std::string& file_;
   std::size_t skipped_ = 0, without_position_ = 0, bad_attributes_ = 0, lost_vertices_ = 0, unbound_ = 0;
-  bool has_colors_ = false;
 };
 
 }  // namespace gnomon

@@ -47,6 +47,7 @@ std::vector<int> sources(const tinygltf::Texture& texture) {
 }  // namespace
 
 GltfTextureUse texture_use(const tinygltf::TextureInfo& info) {
+  if (info.index < 0) return {};
   return use_of(info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
 }
 

@@ -41,9 +41,8 @@ Expected<void> add_texture(File& file, const Texture& texture) {
   return {};
 }
 
-Json texture_info(File& file, const Material& m) {
-  Json info{{"index", m.diffuse_texture}};
-  const TextureTransform& t = m.texture_transform;
+Json texture_info(File& file, std::uint32_t texture, const TextureTransform& t) {
+  Json info{{"index", texture}};
   if (t.offset == Vec2(0.0) && t.scale == Vec2(1.0) && t.rotation == 0.0) return info;
   file.extensions.insert("KHR_texture_transform");
   info["extensions"]["KHR_texture_transform"] = {
@@ -65,7 +64,8 @@ Json base_of(File& file, const Material& m) {
   Json out{{"baseColorFactor", std::move(factor)},
            {"metallicFactor", m.transmission > 0.0f ? 0.0 : shortest(m.mirror)},
            {"roughnessFactor", roughness_of(m)}};
-  if (m.diffuse_texture != no_id) out["baseColorTexture"] = texture_info(file, m);
+  if (m.diffuse_texture != no_id)
+    out["baseColorTexture"] = texture_info(file, m.diffuse_texture, m.texture_transform);
   return out;
 }
 
@@ -100,6 +100,8 @@ void add_emission(File& file, Json& material, Json& extensions, const Material& 
   if (m.emission == Vec3f(0.0f)) return;
   const float strength = std::max(1.0f, largest(m.emission));
   material["emissiveFactor"] = shortest(m.emission / strength);
+  if (m.emission_texture != no_id)
+    material["emissiveTexture"] = texture_info(file, m.emission_texture, m.emission_transform);
   if (strength == 1.0f) return;
   file.extensions.insert("KHR_materials_emissive_strength");
   extensions["KHR_materials_emissive_strength"] = {{"emissiveStrength", shortest(strength)}};
@@ -113,7 +115,12 @@ void add_material(File& file, const Material& m) {
     material["alphaMode"] = "MASK";
     material["alphaCutoff"] = shortest(m.alpha_cutoff);
   }
-  material["doubleSided"] = m.transmission <= 0.0f || m.thin;  // the surface of a body has one outside
+  // The surface of a body of glass has one outside.
+  material["doubleSided"] = m.double_sided && (m.transmission <= 0.0f || m.thin);
+  if (m.unlit) {
+    file.extensions.insert("KHR_materials_unlit");
+    extensions["KHR_materials_unlit"] = Json::object();
+  }
   add_emission(file, material, extensions, m);
   add_specular(file, extensions, m);
   add_transmission(file, extensions, m);

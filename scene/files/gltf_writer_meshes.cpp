@@ -96,6 +96,7 @@ Primitive add_group(File& file, const Mesh& mesh, const Group& group, const Vec3
   std::vector<std::uint32_t> place(mesh.positions.size(), no_id), indices;
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
+  std::vector<Vec4f> colors;
   for (const std::uint32_t v : vertices) {
     place[v] = static_cast<std::uint32_t>(positions.size());
     positions.emplace_back(mesh.positions[v] - offset);
@@ -105,6 +106,7 @@ Primitive add_group(File& file, const Mesh& mesh, const Group& group, const Vec3
       normals.push_back(unit_normal(n));
     }
     if (!mesh.uvs.empty()) uvs.push_back(mesh.uvs[v]);
+    if (!mesh.colors.empty()) colors.push_back(mesh.colors[v]);
   }
   for (const auto& t : group.triangles)
     for (const std::uint32_t v : t) indices.push_back(place[v]);
@@ -115,6 +117,9 @@ Primitive add_group(File& file, const Mesh& mesh, const Group& group, const Vec3
   if (!uvs.empty())
     attributes["TEXCOORD_0"] =
         add_accessor(file, file.add_view(bytes_of(uvs), vertex_target), type_float, uvs.size(), "VEC2");
+  if (!colors.empty())
+    attributes["COLOR_0"] =
+        add_accessor(file, file.add_view(bytes_of(colors), vertex_target), type_float, colors.size(), "VEC4");
   return {{{"attributes", std::move(attributes)}, {"indices", add_indices(file, indices, positions.size())}},
           group.material};
 }

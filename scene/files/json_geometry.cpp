@@ -58,6 +58,11 @@ Mesh read_listed_mesh(const JsonObject& object) {
     for (const JsonNode& node : uvs->as_array()) mesh.uvs.emplace_back(node.as_vec2());
     check_count(*uvs, mesh.uvs.size(), mesh.positions.size());
   }
+  if (const auto colors = object.find("colors")) {
+    for (const JsonNode& node : colors->as_array())
+      mesh.colors.emplace_back(node.as_color(unit_interval), 1.0f);
+    check_count(*colors, mesh.colors.size(), mesh.positions.size());
+  }
   return mesh;
 }
 
@@ -109,7 +114,7 @@ NamedMesh read_mesh(SceneReader& reader, const JsonObject& object, const std::st
   const std::string_view source = object.exactly_one({"file", "vertices", "generate"});
   if (source.empty()) return {};
   if (source != "vertices")
-    for (const std::string_view key : {"triangles", "normals", "uvs"})
+    for (const std::string_view key : {"triangles", "normals", "uvs", "colors"})
       object.forbid(key, fmt::format("cannot stand beside {}", source));
   if (reader.failed()) return {};
   if (source == "file") return read_mesh_file(reader, *object.find("file"));
@@ -330,7 +335,8 @@ Shape read_shape(SceneReader& reader, const JsonNode& node) {
 
 void read_meshes(SceneReader& reader, const JsonNode& list) {
   for (const JsonNode& node : list.as_array()) {
-    const JsonObject object(node, {"name", "file", "vertices", "triangles", "normals", "uvs", "generate"});
+    const JsonObject object(
+        node, {"name", "file", "vertices", "triangles", "normals", "uvs", "colors", "generate"});
     const auto name = object.require("name");
     if (!name || reader.failed()) return;
     const std::string text = name->as_string();

@@ -44,21 +44,22 @@ std::uint32_t texture_index(SceneReader& reader, const JsonObject& object) {
   return next;
 }
 
-void read_texture_of(SceneReader& reader, const JsonNode& node, Material& material) {
+void read_texture_of(SceneReader& reader, const JsonNode& node, std::uint32_t& texture,
+                     TextureTransform& transform) {
   const JsonObject object(
       node, {"file", "generate", "srgb", "filter", "wrap", "offset", "scale", "rotation_degrees"});
   if (reader.failed()) return;
-  material.diffuse_texture = texture_index(reader, object);
-  TextureTransform& transform = material.texture_transform;
+  texture = texture_index(reader, object);
   if (const auto offset = object.find("offset")) transform.offset = offset->as_vec2();
   if (const auto scale = object.find("scale")) transform.scale = scale->as_scale2();
   transform.rotation = object.number("rotation_degrees", 0.0, coordinate_range) * pi / 180.0;
 }
 
 Material read_material(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(node, {"name", "diffuse", "specular", "shininess", "emission", "mirror",
-                                 "transmission", "ior", "absorption", "roughness", "priority", "thin",
-                                 "texture", "alpha", "alpha_mode", "alpha_cutoff"});
+  const JsonObject object(
+      node, {"name", "diffuse", "specular", "shininess", "emission", "mirror", "transmission", "ior",
+             "absorption", "roughness", "priority", "thin", "texture", "alpha", "alpha_mode", "alpha_cutoff",
+             "emission_texture", "unlit", "double_sided"});
   const auto number = [&](std::string_view key, float otherwise, const NumberRange& range) {
     return static_cast<float>(object.number(key, static_cast<double>(otherwise), range));
   };
@@ -83,7 +84,12 @@ Material read_material(SceneReader& reader, const JsonNode& node) {
   if (transmission && m.mirror + m.transmission > 1.0f)  // mirror alone has its own range
     transmission->error(
         fmt::format("mirror + transmission (got {:g} + {:g}, allowed up to 1)", m.mirror, m.transmission));
-  if (const auto texture = object.find("texture")) read_texture_of(reader, *texture, m);
+  m.unlit = object.boolean("unlit", m.unlit);
+  m.double_sided = object.boolean("double_sided", m.double_sided);
+  if (const auto texture = object.find("texture"))
+    read_texture_of(reader, *texture, m.diffuse_texture, m.texture_transform);
+  if (const auto texture = object.find("emission_texture"))
+    read_texture_of(reader, *texture, m.emission_texture, m.emission_transform);
   return m;
 }
 

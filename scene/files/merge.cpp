@@ -17,7 +17,8 @@ MergeOffsets merge_scene(Scene& into, Scene&& from, bool placed) {
                              static_cast<std::uint32_t>(into.textures.size()),
                              static_cast<std::uint32_t>(into.meshes.size())};
   for (Material& material : from.materials)
-    if (material.diffuse_texture != no_id) material.diffuse_texture += offsets.texture;
+    for (std::uint32_t* texture : {&material.diffuse_texture, &material.emission_texture})
+      if (*texture != no_id) *texture += offsets.texture;
   for (Mesh& mesh : from.meshes)
     for (std::uint32_t& material : mesh.triangle_materials) material += offsets.material;
   append(into.materials, std::move(from.materials));

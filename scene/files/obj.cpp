@@ -131,6 +131,7 @@ class MeshGatherer {
     const auto at = [](const auto& all, int index) { return all[static_cast<std::size_t>(index)]; };
     mesh_.positions.push_back(at(from_.positions, corner.position));
     mesh_.normals.push_back(corner.normal < 0 ? Vec3f(0.0f) : at(from_.normals, corner.normal));
+    if (!from_.colors.empty()) mesh_.colors.push_back(linear_color(at(from_.colors, corner.position), 1.0f));
     const auto uv = corner.texcoord < 0 ? glm::dvec2(0.0, 1.0) : at(from_.texcoords, corner.texcoord);
     mesh_.uvs.emplace_back(uv.x, 1.0 - uv.y);
     has_normals_ |= corner.normal >= 0, has_uvs_ |= corner.texcoord >= 0;
@@ -152,7 +153,6 @@ void note_skipped(Scene& scene, const ObjText& text) {
   if (text.points + text.lines > 0)
     scene.notes.push_back(fmt::format("{} point(s) and {} line(s) were skipped: only triangles are drawn.",
                                       text.points, text.lines));
-  if (text.has_vertex_colors) scene.notes.push_back("Vertex colours are not used.");
 }
 
 // Undefined materials and the like.
@@ -198,7 +198,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
     return fail(std::move(error));
   }
   const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
-  scene.materials.push_back(model_material("default"));
+  scene.materials.push_back(model_material("default", !parsed->colors.empty()));
   std::size_t triangles = 0;
   for (const ObjShape& shape : parsed->shapes) {
     Mesh mesh = MeshGatherer(*parsed).gather(shape, default_material);

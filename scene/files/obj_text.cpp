@@ -89,6 +89,7 @@ class ObjReader {
     out_.normals.reserve(total_[normal]);
     for_each_line([&](std::string_view line) { read(line); });
     if (error_) return fail(std::move(*error_));
+    if (!out_.colors.empty()) out_.colors.resize(out_.positions.size(), Vec3f(1.0f));
     end_shape();
     return std::move(out_);
   }
@@ -140,11 +141,11 @@ class ObjReader {
 
   void read_numbers(std::string_view whole, std::string_view line, Kind kind) {
     static constexpr std::array<std::size_t, 3> needed{3, 1, 3};
-    std::array<double, 3> numbers{};
+    std::array<double, 6> numbers{};
     std::size_t count = 0;
     for (std::string_view word = next_word(line); !word.empty() && !error_; word = next_word(line)) {
       const double value = number(word, kind);
-      if (count < 3) numbers[count] = value;
+      if (count < numbers.size()) numbers[count] = value;
       ++count;
     }
     if (count < needed[kind])
@@ -153,7 +154,9 @@ class ObjReader {
     if (kind == vertex) out_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
     if (kind == texcoord) out_.texcoords.emplace_back(numbers[0], numbers[1]);
     if (kind == normal) out_.normals.emplace_back(Vec3(numbers[0], numbers[1], numbers[2]));
-    if (kind == vertex && count >= 6) out_.has_vertex_colors = true;
+    if (kind != vertex || count < 6) return;
+    out_.colors.resize(out_.positions.size(), Vec3f(1.0f));
+    out_.colors.back() = Vec3f(Vec3(numbers[3], numbers[4], numbers[5]));
   }
 
   double number(std::string_view word, Kind kind) {

@@ -32,6 +32,8 @@ struct ObjShape {
 
 struct ObjText {
   std::vector<Vec3> positions;
+  std::vector<Vec3f>
+      colors;  ///< behind the positions, as they stand: white without; empty where no vertex has one
   std::vector<glm::dvec2> texcoords;
   std::vector<Vec3f> normals;
   std::vector<ObjCorner> corners;
@@ -42,7 +44,6 @@ struct ObjText {
   std::size_t small_faces = 0;  ///< faces with fewer than three corners
   int first_small_face_line = 0;
   std::size_t points = 0, lines = 0;
-  bool has_vertex_colors = false;
 };
 
 struct MaterialLibraries {

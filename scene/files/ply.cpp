@@ -1,5 +1,5 @@
 // PLY models (Turk 1994), text and both binary encodings: vertices with positions, and normals and texture
-// coordinates where they have them (v is turned over), and faces of any number of corners.
+// coordinates where they have them (v is turned over), colours, and faces of any number of corners.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -77,8 +77,17 @@ VertexSlot slot_of(std::string_view name) {
   if (name == "nz") return VertexSlot::nz;
   if (name == "u" || name == "s" || name == "texture_u") return VertexSlot::u;
   if (name == "v" || name == "t" || name == "texture_v") return VertexSlot::v;
-  if (name == "red" || name == "diffuse_red") return VertexSlot::color;
+  if (name == "red" || name == "diffuse_red") return VertexSlot::red;
+  if (name == "green" || name == "diffuse_green") return VertexSlot::green;
+  if (name == "blue" || name == "diffuse_blue") return VertexSlot::blue;
+  if (name == "alpha") return VertexSlot::alpha;
   return VertexSlot::other;
+}
+
+/// What full strength is stored as: 1 of floats; of whole numbers 255, but for those of 16 bits.
+double full_strength(PlyType type) {
+  if (type == PlyType::float32 || type == PlyType::float64) return 1.0;
+  return type == PlyType::uint16 || type == PlyType::int16 ? 65535.0 : 255.0;
 }
 
 class PlyReader {
@@ -133,7 +142,12 @@ class PlyReader {
                         1, "vertex"});
     layout.has_normals = has(VertexSlot::nx) && has(VertexSlot::ny) && has(VertexSlot::nz);
     layout.has_uvs = has(VertexSlot::u) && has(VertexSlot::v);
-    if (has(VertexSlot::color)) loaded_.scene.notes.push_back("Vertex colours are not used.");
+    layout.has_colors = has(VertexSlot::red) && has(VertexSlot::green) && has(VertexSlot::blue);
+    if (!has(VertexSlot::alpha)) layout.color_scale[3] = 0.0;
+    for (std::size_t p = 0; p < layout.slots.size(); ++p)
+      if (layout.slots[p] >= VertexSlot::red && layout.slots[p] <= VertexSlot::alpha)
+        layout.color_scale[static_cast<std::size_t>(layout.slots[p]) - 8] =
+            full_strength(element.properties[p].type);
     if (const std::size_t read =
             read_regular_vertices(numbers_.rest(), element, header_.encoding, layout, mesh_);
         read > 0) {
@@ -285,7 +299,7 @@ class PlyReader {
           fmt::format("{} face(s) with fewer than three corners were skipped.", small_faces_));
     loaded_.is_model = true;
     mesh_.name = std::filesystem::path(file_).stem().string();
-    scene.materials.push_back(model_material("default"));
+    scene.materials.push_back(model_material("default", !mesh_.colors.empty()));
     scene.instances.push_back({mesh_.name, 0, Mat4(1.0), 0});
     scene.meshes.push_back(std::move(mesh_));
     return std::move(loaded_);

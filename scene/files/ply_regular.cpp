@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/files/formats.h"
 #include "scene/files/validate.h"
 
 namespace gnomon {
@@ -80,12 +81,18 @@ void size_vertices(Mesh& mesh, const VertexLayout& layout, std::size_t count) {
   mesh.positions.resize(count);
   if (layout.has_normals) mesh.normals.resize(count);
   if (layout.has_uvs) mesh.uvs.resize(count);
+  if (layout.has_colors) mesh.colors.resize(count);
 }
 
 void put_vertex(Mesh& mesh, const VertexLayout& layout, std::size_t index, const VertexNumbers& n) {
   mesh.positions[index] = {n[0], n[1], n[2]};
   if (layout.has_normals) mesh.normals[index] = Vec3f(Vec3(n[3], n[4], n[5]));
   if (layout.has_uvs) mesh.uvs[index] = Vec2f(Vec2(n[6], 1.0 - n[7]));
+  if (!layout.has_colors) return;
+  const auto& scale = layout.color_scale;
+  const double alpha = scale[3] > 0.0 ? n[11] / scale[3] : 1.0;
+  mesh.colors[index] = linear_color(Vec3f(Vec3(n[8], n[9], n[10]) / Vec3(scale[0], scale[1], scale[2])),
+                                    static_cast<float>(alpha));
 }
 
 std::size_t read_regular_vertices(std::string_view data, const PlyElement& element, PlyEncoding encoding,

@@ -14,12 +14,13 @@
 namespace gnomon {
 
 /// Which number of a vertex goes where.
-enum class VertexSlot : std::uint8_t { x, y, z, nx, ny, nz, u, v, color, other };
-inline constexpr std::size_t vertex_slots = 10;
+enum class VertexSlot : std::uint8_t { x, y, z, nx, ny, nz, u, v, red, green, blue, alpha, other };
+inline constexpr std::size_t vertex_slots = 13;
 
 struct VertexLayout {
   std::vector<VertexSlot> slots;  ///< one for each property
-  bool has_normals = false, has_uvs = false;
+  bool has_normals = false, has_uvs = false, has_colors = false;
+  std::array<double, 4> color_scale{1.0, 1.0, 1.0, 1.0};  ///< what 1 is stored as; alpha: 0 for none
 };
 
 /// A number in binary data; `reversed`: its bytes are in the other order than the machine's.

@@ -51,6 +51,12 @@ Defect mesh_defect(const Mesh& mesh, const std::string& path, std::size_t materi
   if (!mesh.uvs.empty() && mesh.uvs.size() != count)
     return defect(path + ".uvs",
                   fmt::format("one per vertex is needed (got {}, allowed {})", mesh.uvs.size(), count));
+  if (!mesh.colors.empty() && mesh.colors.size() != count)
+    return defect(path + ".colors",
+                  fmt::format("one per vertex is needed (got {}, allowed {})", mesh.colors.size(), count));
+  for (std::size_t i = 0; i < mesh.colors.size(); ++i)
+    if (!radiance(Vec3f(mesh.colors[i])) || !fraction(mesh.colors[i].a))
+      return defect(fmt::format("{}.colors[{}]", path, i), "is not finite and >= 0 with an alpha of 0 to 1");
   for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     if (!finite(mesh.normals[i])) return defect(fmt::format("{}.normals[{}]", path, i), "is not finite");
   for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
@@ -84,11 +90,15 @@ Defect material_defect(const Material& m, const std::string& path, std::size_t t
   if (!fraction(m.roughness)) return bad("roughness", "0 to 1");
   if (!fraction(m.alpha)) return bad("alpha", "0 to 1");
   if (!(m.alpha_cutoff >= 0.0f)) return bad("alpha_cutoff", ">= 0");
-  if (m.diffuse_texture != no_id && m.diffuse_texture >= textures)
-    return bad("texture", "an existing texture");
-  const TextureTransform& t = m.texture_transform;
-  for (const double v : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation})
-    if (!std::isfinite(v)) return bad("texture", "a finite transform");
+  const auto sound = [&](std::uint32_t texture, const TextureTransform& t) {
+    return (texture == no_id || texture < textures) && std::isfinite(t.offset.x) &&
+           std::isfinite(t.offset.y) && std::isfinite(t.scale.x) && std::isfinite(t.scale.y) &&
+           std::isfinite(t.rotation);
+  };
+  if (!sound(m.diffuse_texture, m.texture_transform))
+    return bad("texture", "an existing texture with a finite transform");
+  if (!sound(m.emission_texture, m.emission_transform))
+    return bad("emission_texture", "an existing texture with a finite transform");
   return std::nullopt;
 }
 

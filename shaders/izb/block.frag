@@ -69,8 +69,13 @@ flat in uint primitive;
 
 bool triangle_is_hole(TriangleData t, dvec2 weights) {
 #ifdef ALPHA_MASK
-  dvec2 uv = (1.0LF - weights.x - weights.y) * dvec2(uv_of(t.a)) + weights.x * dvec2(uv_of(t.b)) + weights.y * dvec2(uv_of(t.c));
-  return masked_hole(t.material, vec2(uv));
+  double first = 1.0LF - weights.x - weights.y;
+  dvec2 uv = first * dvec2(uv_of(t.a)) + weights.x * dvec2(uv_of(t.b)) + weights.y * dvec2(uv_of(t.c));
+  double alpha = 1.0LF;
+#ifdef VERTEX_COLORS
+  alpha = first * double(color_of(t.a).a) + weights.x * double(color_of(t.b).a) + weights.y * double(color_of(t.c).a);
+#endif
+  return masked_hole(t.material, vec2(uv), float(alpha));
 #else
   return false;
 #endif

@@ -1,7 +1,7 @@
-// Gnomon's ray tracer against POV-Ray 3.7, whole processes from the command line to the written picture: the
-// same triangles, camera, sun and materials, one ray per pixel, all cores. Each program reads its own format:
-// a POV-Ray scene with a mesh2, a JSON scene with a binary PLY. The pictures are compared and put side by
-// side. Not part of the mandatory set-up: without povray on the PATH it says so and does nothing.
+// Gnomon's ray tracer against POV-Ray 3.7 and Blender's Cycles, whole processes from the command line to the written
+// picture: the same triangles, camera, sun and materials, one ray per pixel, all cores. POV-Ray reads a scene of its
+// own with a mesh2, Gnomon and Cycles (cycles_peer.py) a JSON scene with a binary PLY. The pictures are compared and
+// put side by side. Not part of the mandatory set-up: what is not on the PATH is said and left out.
 #include <fmt/format.h>
 #include <fmt/os.h>
 #include <fmt/ranges.h>
@@ -23,17 +23,24 @@ namespace gnomon::bench {
 namespace {
 
 struct Settings {
-  std::string gnomon = "gnomon", folder = "out/povray", json;
+  std::string gnomon = "gnomon", folder = "out/programs", json;
   ImageSize size{1280, 720};
   int runs = 3;
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, peers{"povray", "cycles"};
 };
 
 constexpr double grey = 0.8;
 constexpr std::array<double, 3> sky{0.2, 0.3, 0.45};
-/// The goal of whole-process wall clock, and what the pictures may differ by: POV-Ray's own arithmetic
-/// decides pixels on outlines and shadow edges.
-constexpr double goal = 10.0, most_different = 0.02;
+/// What the pictures may differ by: each program's own arithmetic decides pixels on outlines and shadow edges.
+constexpr double most_different = 0.02;
+
+/// Another program.
+struct Peer {
+  std::string name, program, title;
+  double goal;  ///< of whole-process wall clock, its over ours
+};
+const std::array<Peer, 2> known_peers{
+    {{"povray", "povray", "POV-Ray 3.7", 10.0}, {"cycles", "blender", "Cycles (Blender)", 1.0}}};
 
 std::string vector_text(const Vec3& v) {
   return fmt::format("<{},{},{}>", v.x, v.y, v.z);
@@ -131,56 +138,105 @@ std::optional<Difference> compare(const std::string& ours, const std::string& th
   return difference;
 }
 
-bool run_scene(const BenchScene& bench, const Settings& settings, nlohmann::json& rows) {
+/// From the start to the picture; BASE-NAME.png.
+std::string command_of(const Peer& peer, const std::string& base, const Settings& settings) {
+  const ImageSize size = settings.size;
+  if (peer.name == "povray")
+    return fmt::format(
+        "povray '+I{0}.pov' '+O{0}-povray.png' +W{1} +H{2} +FN8 -D -A -GA File_Gamma=sRGB >/dev/null 2>&1",
+        base, size.width, size.height);
+  return fmt::format(
+      "blender --background --factory-startup --python-exit-code 1 --python '{0}/cycles_peer.py' -- "
+      "'{1}.json' "
+      "{2} {3} '{1}-cycles.png' >'{1}-cycles.txt' 2>&1",
+      GNOMON_BENCH_FOLDER, base, size.width, size.height);
+}
+
+/// What Cycles says its last render alone took, milliseconds.
+std::optional<double> render_alone(const std::string& base) {
+  std::ifstream said(base + "-cycles.txt");
+  for (std::string line; std::getline(said, line);)
+    if (line.starts_with("render_ms ")) return std::stod(line.substr(10));
+  return std::nullopt;
+}
+
+void add_row(nlohmann::json& rows, const std::string& name, const BenchScene& bench, double ours,
+             const std::string& peer, double theirs, double goal, const Difference& difference) {
+  const double ratio = theirs / ours;
+  rows.push_back({{"name", name},
+                  {"scene", bench.name},
+                  {"threads", 0},
+                  {"value", ours},
+                  {"unit", "ms"},
+                  {"peer", peer},
+                  {"peer_value", theirs},
+                  {"ratio", ratio},
+                  {"goal", goal},
+                  {"met", ratio >= goal},
+                  {"different_pixels", difference.share}});
+  fmt::print("{:<10}{:<28}{:>10.0f}{:>10.0f}{:>8.1f}  {:<8}{:>8.3f}{:>9.3f} %  {}\n", bench.name, peer, ours,
+             theirs, ratio, ratio >= goal ? "met" : "NOT MET", difference.mean, 100.0 * difference.share,
+             difference.share <= most_different ? "alike" : "NOT ALIKE");
+}
+
+bool run_peer(const Peer& peer, const BenchScene& bench, const std::string& base, double ours,
+              const Settings& settings, nlohmann::json& rows) {
+  const auto theirs = run_command(command_of(peer, base, settings), settings.runs);
+  const auto difference = compare(base + "-gnomon.png", fmt::format("{}-{}.png", base, peer.name),
+                                  fmt::format("{}-{}-side-by-side.png", base, peer.name));
+  if (!theirs || !difference) {
+    fmt::print("{}: {} failed\n", bench.name, peer.title);
+    return false;
+  }
+  add_row(rows, "whole_process", bench, ours, peer.title, *theirs, peer.goal, *difference);
+  const auto alone = peer.name == "cycles" ? render_alone(base) : std::nullopt;
+  if (alone)
+    add_row(rows, "whole_process_against_render", bench, ours, peer.title + ", render alone", *alone,
+            peer.goal, *difference);
+  return difference->share <= most_different;
+}
+
+bool run_scene(const BenchScene& bench, const std::vector<Peer>& peers, const Settings& settings,
+               nlohmann::json& rows) {
   const World world = make_world(bench.scene);
   const Light& sun = bench.scene.lights[1];
   const std::string base = settings.folder + "/" + bench.name;
   write_pov(base + ".pov", world, make_view(bench.scene.camera, settings.size), sun);
   write_ply(base + ".ply", world);
   write_json(base + ".json", bench.name + ".ply", bench.scene, sun);
-  const auto gnomon =
+  const auto ours =
       run_command(fmt::format("'{}' raytrace '{}.json' --size {}x{} -o '{}-gnomon.png' --quiet",
                               settings.gnomon, base, settings.size.width, settings.size.height, base),
                   settings.runs);
-  const auto povray = run_command(
-      fmt::format(
-          "povray '+I{0}.pov' '+O{0}-povray.png' +W{1} +H{2} +FN8 -D -A -GA File_Gamma=sRGB >/dev/null 2>&1",
-          base, settings.size.width, settings.size.height),
-      settings.runs);
-  const auto difference = compare(base + "-gnomon.png", base + "-povray.png", base + "-side-by-side.png");
-  if (!gnomon || !povray || !difference) {
-    fmt::print("{}: one of the programs failed\n", bench.name);
+  if (!ours) {
+    fmt::print("{}: gnomon failed\n", bench.name);
     return false;
   }
-  const double ratio = *povray / *gnomon;
-  const bool alike = difference->share <= most_different;
-  fmt::print("{:<10}{:>10}{:>12.0f}{:>12.0f}{:>8.1f}  {:<8}{:>8.3f}{:>9.3f} %  {}\n", bench.name,
-             world.triangle_count(), *gnomon, *povray, ratio, ratio >= goal ? "met" : "NOT MET",
-             difference->mean, 100.0 * difference->share, alike ? "alike" : "NOT ALIKE");
-  rows.push_back({{"name", "whole_process"},
-                  {"scene", bench.name},
-                  {"threads", 0},
-                  {"value", *gnomon},
-                  {"unit", "ms"},
-                  {"peer", "POV-Ray 3.7"},
-                  {"peer_value", *povray},
-                  {"ratio", ratio},
-                  {"goal", goal},
-                  {"met", ratio >= goal},
-                  {"different_pixels", difference->share}});
+  bool alike = true;
+  for (const Peer& peer : peers) alike = run_peer(peer, bench, base, *ours, settings, rows) && alike;
   return alike;
 }
 
-int run(const Settings& settings) {
-  if (std::system("command -v povray >/dev/null 2>&1") != 0) {
-    fmt::print("povray is not installed: nothing is compared (Debian's package: povray)\n");
-    return 0;
+std::vector<Peer> peers_here(const Settings& settings) {
+  std::vector<Peer> here;
+  for (const Peer& peer : known_peers) {
+    if (std::find(settings.peers.begin(), settings.peers.end(), peer.name) == settings.peers.end()) continue;
+    if (std::system(fmt::format("command -v {} >/dev/null 2>&1", peer.program).c_str()) == 0)
+      here.push_back(peer);
+    else
+      fmt::print("{0} is not installed: {1} is left out (Debian's package: {0})\n", peer.program, peer.title);
   }
+  return here;
+}
+
+int run(const Settings& settings) {
+  const std::vector<Peer> peers = peers_here(settings);
+  if (peers.empty()) return 0;
   std::filesystem::create_directories(settings.folder);
   fmt::print("{}x{}, whole processes, median of {}; pictures in {}\n", settings.size.width,
              settings.size.height, settings.runs, settings.folder);
-  fmt::print("{:<10}{:>10}{:>12}{:>12}{:>8}  {:<8}{:>8}{:>11}\n", "scene", "triangles", "gnomon ms",
-             "povray ms", "ratio", "goal 10", "mean", "> 8/255");
+  fmt::print("{:<10}{:<28}{:>10}{:>10}{:>8}  {:<8}{:>8}{:>11}\n", "scene", "peer", "gnomon ms", "peer ms",
+             "ratio", "goal", "mean", "> 8/255");
   std::vector<BenchScene> scenes{teapot_scene()};
   if (auto bunny = bunny_scene()) scenes.push_back(std::move(*bunny));
   scenes.push_back(million_scene());
@@ -189,7 +245,7 @@ int run(const Settings& settings) {
   for (const BenchScene& scene : scenes) {
     const auto& wanted = settings.scenes;
     if (wanted.empty() || std::find(wanted.begin(), wanted.end(), scene.name) != wanted.end())
-      alike = run_scene(scene, settings, rows) && alike;
+      alike = run_scene(scene, peers, settings, rows) && alike;
   }
   if (!settings.json.empty())
     std::ofstream(settings.json) << nlohmann::json{{"schema", "gnomon/bench/1"}, {"rows", rows}}.dump(2)
@@ -201,14 +257,15 @@ int run(const Settings& settings) {
 }  // namespace gnomon::bench
 
 int main(int argc, char** argv) {
-  CLI::App app("Gnomon's ray tracer against POV-Ray 3.7: whole processes.");
+  CLI::App app("Gnomon's ray tracer against POV-Ray 3.7 and Blender's Cycles: whole processes.");
   gnomon::bench::Settings settings;
   app.add_option("--gnomon", settings.gnomon, "the program [default gnomon, from the PATH]");
-  app.add_option("--out", settings.folder, "folder for scenes and pictures [default out/povray]");
+  app.add_option("--out", settings.folder, "folder for scenes and pictures [default out/programs]");
   app.add_option("--width", settings.size.width, "pixels [default 1280]");
   app.add_option("--height", settings.size.height, "pixels [default 720]");
   app.add_option("--runs", settings.runs, "the median counts [default 3]");
   app.add_option("--scene", settings.scenes, "teapot, bunny, million [default all]");
+  app.add_option("--peer", settings.peers, "povray, cycles [default both, where they are installed]");
   app.add_option("--json", settings.json, "write the rows as gnomon/bench/1 [default off]");
   CLI11_PARSE(app, argc, argv);
   return gnomon::bench::run(settings);
