@@ -66,7 +66,8 @@ CameraPose camera_pose(const Camera& camera) {
 
 Camera posed_camera(const Camera& given, const CameraPose& pose) {
   Camera camera = given;
-  const LocalFrame local = local_frame(frame_about(given.up), pose.azimuth_degrees, pose.elevation_degrees);
+  camera.up = pose.up.value_or(given.up);
+  const LocalFrame local = local_frame(frame_about(camera.up), pose.azimuth_degrees, pose.elevation_degrees);
   camera.target = pose.target.value_or(given.target);
   camera.eye = camera.target + pose.distance * local.outwards;
   return camera;
@@ -82,8 +83,32 @@ LightPose light_pose(const Light& light, const Vec3& centre) {
   return {degrees(s.azimuth), degrees(s.elevation)};
 }
 
-Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose) {
+double light_size(const Light& light) {
+  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) return degrees(sun->angular_diameter);
+  if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) return sphere->radius;
+  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) return disc->radius;
+  if (const auto* sides = std::get_if<RectangleLight>(&light.extent))
+    return glm::length(sides->half_width + sides->half_height);
+  return 0.0;
+}
+
+Light resized_light(const Light& given, double size) {
   Light light = given;
+  if (light.type == LightType::directional) {
+    light.extent = SunDisc{radians(size)};
+  } else if (auto* disc = std::get_if<DiscLight>(&light.extent)) {
+    disc->radius = size;
+  } else if (auto* sides = std::get_if<RectangleLight>(&light.extent); sides && light_size(given) > 0.0) {
+    const double factor = size / light_size(given);
+    sides->half_width *= factor, sides->half_height *= factor;
+  } else {
+    light.extent = SphereLight{size};
+  }
+  return light;
+}
+
+Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose) {
+  Light light = pose.size ? resized_light(given, *pose.size) : given;
   const PoleFrame frame = frame_about(y_axis);
   const LocalFrame to = local_frame(frame, pose.azimuth_degrees, pose.elevation_degrees);
   if (given.type == LightType::directional) {

@@ -14,6 +14,7 @@ namespace gnomon::app {
 struct CameraPose {
   double azimuth_degrees = 0.0, elevation_degrees = 0.0, distance = 1.0;
   std::optional<Vec3> target{};  ///< none: the camera's own
+  std::optional<Vec3> up{};      ///< what azimuth and elevation are counted about; none: the camera's own
   bool operator==(const CameraPose&) const = default;
 };
 
@@ -21,6 +22,7 @@ struct CameraPose {
 struct LightPose {
   double azimuth_degrees = 0.0, elevation_degrees = 0.0;
   std::optional<double> distance{};  ///< of a lamp from the centre, world units; none: its own
+  std::optional<double> size{};      ///< as light_size() has it; none: its own
   bool operator==(const LightPose&) const = default;
 };
 
@@ -29,14 +31,21 @@ inline constexpr double max_camera_elevation_degrees = 89.0;
 inline constexpr double max_light_elevation_degrees = 90.0;
 
 CameraPose camera_pose(const Camera& camera);
-/// `given` with its eye and, where the pose has one, its target moved; its up vector and angle stay.
+/// `given` with its eye and, where the pose has them, its target and its up vector moved; its angle stays.
 Camera posed_camera(const Camera& given, const CameraPose& pose);
 
 /// What lamps turn about: the middle of all that is finite.
 Vec3 scene_centre(const World& world);
 
 LightPose light_pose(const Light& light, const Vec3& centre);
-/// `given` turned about `centre` at its own distance or the pose's; a spot keeps its aim relative to the line to the centre.
+/// Of a sun the angular diameter of its disc, in degrees, at most most_sun_degrees; of a lamp the radius of its sphere
+/// or disc, or half a rectangle's diagonal, in world units. 0: a hard light.
+double light_size(const Light& light);
+inline constexpr double most_sun_degrees = 90.0;
+/// The light in another size: shapes keep theirs, and a lamp without one becomes a sphere.
+Light resized_light(const Light& light, double size);
+/// `given` turned about `centre` at its own distance or the pose's and in the pose's size; a spot keeps its aim relative
+/// to the line to the centre.
 Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose);
 
 /// The same angle in (-180, 180].

@@ -17,6 +17,7 @@ constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_
 constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
 constexpr NumberRange distance_range{0.0, 1e12, true};
 constexpr NumberRange coordinate_range{-1e12, 1e12};
+constexpr NumberRange size_range{0.0, 1e12};
 
 Expected<Vec2> parse_orbit(const std::string& text) {
   const std::size_t comma = text.find(',');
@@ -29,8 +30,8 @@ Expected<Vec2> parse_orbit(const std::string& text) {
   return Vec2{*azimuth, *elevation};
 }
 
-Expected<Vec3> parse_target(const std::string& text) {
-  Vec3 target{0.0};
+Expected<Vec3> parse_vector(const std::string& text) {
+  Vec3 vector{0.0};
   std::size_t start = 0;
   for (int i = 0; i < 3; ++i) {
     const std::size_t comma = i < 2 ? text.find(',', start) : text.size();
@@ -38,10 +39,16 @@ Expected<Vec3> parse_target(const std::string& text) {
       return fail(ErrorKind::usage, fmt::format("not of the form X,Y,Z (got {})", text));
     const Expected<double> value = parse_number(text.substr(start, comma - start), coordinate_range);
     if (!value) return fail(value.error());
-    target[i] = *value;
+    vector[i] = *value;
     start = comma + 1;
   }
-  return target;
+  return vector;
+}
+
+Expected<Vec3> parse_up(const std::string& text) {
+  auto up = parse_vector(text);
+  if (up && *up == Vec3(0.0)) return fail(ErrorKind::usage, fmt::format("has no direction (got {})", text));
+  return up;
 }
 
 template <class Value, class Parse>
@@ -68,10 +75,11 @@ void add_number(CLI::App& command, const std::string& name, const char* type, st
 /// The light that is to be turned.
 Expected<std::uint32_t> chosen_light(const std::string& name, const Scene& scene) {
   if (name.empty() && scene.lights.size() > 1) {
-    return fail(ErrorKind::usage,
-                fmt::format("--light-azimuth, --light-elevation, --light-distance: the scene has {} lights; "
-                            "--light NAME says which one to turn",
-                            scene.lights.size()));
+    return fail(
+        ErrorKind::usage,
+        fmt::format("--light-azimuth, --light-elevation, --light-distance, --light-size: the scene has {} "
+                    "lights; --light NAME says which one is meant",
+                    scene.lights.size()));
   }
   const auto lights = choose_lights(scene, name);
   if (!lights) return fail(lights.error());
@@ -93,7 +101,11 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
   add_value(
       command, "--camera-target", "X,Y,Z", poses.camera_target,
       fmt::format("what the camera looks at and turns about [world units, {}", range_text(coordinate_range)),
-      parse_target);
+      parse_vector);
+  add_value(command, "--camera-up", "X,Y,Z", poses.camera_up,
+            fmt::format("the camera's up vector, about which --camera-orbit turns [{}, not 0,0,0",
+                        range_text(coordinate_range)),
+            parse_up);
   add_number(
       command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
       "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",
@@ -104,21 +116,30 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
       "degrees");
   add_number(command, "--light-distance", "D", poses.light_distance, distance_range,
              "distance of a lamp from the scene's centre; a sun has none", "world units");
+  add_number(command, "--light-size", "S", poses.light_size, size_range,
+             "how large the light is: of a sun the angular diameter of its disc, at most 90 degrees; of a "
+             "lamp the radius "
+             "of its sphere or disc, or half a rectangle's diagonal; 0 is a hard light",
+             "degrees or world units");
 }
 
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light,
                                       const World& world) {
   const Scene& scene = *world.scene;
   ResolvedPoses resolved;
-  if (poses.camera_orbit || poses.camera_distance || poses.camera_target) {
-    CameraPose pose = camera_pose(scene.camera);
+  if (poses.camera_orbit || poses.camera_distance || poses.camera_target || poses.camera_up) {
+    Camera camera = scene.camera;
+    camera.up = poses.camera_up.value_or(camera.up);
+    CameraPose pose = camera_pose(camera);
     if (poses.camera_orbit)
       pose.azimuth_degrees = poses.camera_orbit->x, pose.elevation_degrees = poses.camera_orbit->y;
     pose.distance = poses.camera_distance.value_or(pose.distance);
     pose.target = poses.camera_target;
+    pose.up = poses.camera_up;
     resolved.camera = pose;
   }
-  if (!poses.light_azimuth && !poses.light_elevation && !poses.light_distance) return resolved;
+  if (!poses.light_azimuth && !poses.light_elevation && !poses.light_distance && !poses.light_size)
+    return resolved;
   const Expected<std::uint32_t> chosen = chosen_light(light, scene);
   if (!chosen) return fail(chosen.error());
   LightPose pose = light_pose(scene.lights[*chosen], scene_centre(world));
@@ -128,7 +149,13 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
     return fail(ErrorKind::usage,
                 fmt::format("--light-distance: {} is a directional light, which has no place",
                             scene.lights[*chosen].name));
+  if (poses.light_size && scene.lights[*chosen].type == LightType::directional &&
+      *poses.light_size > most_sun_degrees)
+    return fail(ErrorKind::usage,
+                fmt::format("--light-size: too large for a sun (got {}, allowed 0 to {} degrees)",
+                            *poses.light_size, most_sun_degrees));
   pose.distance = poses.light_distance;
+  pose.size = poses.light_size;
   resolved.light_pose = pose;
   resolved.light = *chosen;
   return resolved;
@@ -143,6 +170,12 @@ Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, S
   Light& turned = scene.lights[resolved->light];
   turned = posed_light(turned, scene_centre(world), *resolved->light_pose);
   return {};
+}
+
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, LoadedScene& loaded) {
+  const auto applied = apply_poses(poses, light, *loaded.scene, *loaded.world);
+  if (applied) loaded.plan = plan_effects(*loaded.scene);
+  return applied;
 }
 
 }  // namespace gnomon::app

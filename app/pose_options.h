@@ -1,5 +1,5 @@
-// --camera-orbit, --camera-distance, --camera-target, --light-azimuth, --light-elevation, --light-distance:
-// another camera and another light than the scene's own, for every command that draws.
+// --camera-orbit, --camera-distance, --camera-target, --camera-up, --light-azimuth, --light-elevation, --light-distance,
+// --light-size: another camera and another light than the scene's own, for every command that draws.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,16 @@ class App;
 
 namespace gnomon::app {
 
+struct LoadedScene;
+
 struct PoseOptions {
   std::optional<Vec2> camera_orbit;                      ///< azimuth, elevation: degrees
   std::optional<double> camera_distance;                 ///< world units
   std::optional<Vec3> camera_target;                     ///< world
+  std::optional<Vec3> camera_up;                         ///< not zero
   std::optional<double> light_azimuth, light_elevation;  ///< degrees
   std::optional<double> light_distance;                  ///< world units, of a lamp
+  std::optional<double> light_size;                      ///< light_size()
 };
 
 void add_pose_options(CLI::App& command, PoseOptions& poses);
@@ -38,5 +42,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
 /// Moves the scene's camera and turns its light.
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
                            const World& world);
+/// The same of a scene that is loaded, whose effects are planned anew: a light may have another size.
+Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, LoadedScene& loaded);
 
 }  // namespace gnomon::app

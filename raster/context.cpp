@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
 #include "raster/context_backends.h"
+#include "raster/renderer_name.h"
 
 namespace gnomon::raster {
 namespace {
@@ -23,6 +26,12 @@ std::optional<std::pair<const char*, EglDevices>> egl_alone(Backend backend) {
 }
 
 }  // namespace
+
+bool draws_in_software(std::string_view renderer) {
+  constexpr std::array<std::string_view, 4> software{"llvmpipe", "softpipe", "swrast", "SwiftShader"};
+  return std::any_of(software.begin(), software.end(),
+                     [&](std::string_view word) { return renderer.find(word) != std::string_view::npos; });
+}
 
 Expected<std::unique_ptr<Context>> create_context(Backend backend) {
   if (const auto egl = egl_alone(backend)) {

@@ -11,6 +11,7 @@
 
 #include "raster/context_backends.h"
 #include "raster/dynamic_library.h"
+#include "raster/renderer_name.h"
 
 namespace gnomon::raster {
 namespace {
@@ -123,15 +124,12 @@ bool is_software(const Functions& egl, Handle device) {
 }
 
 /// By the name of what draws, which holds for Mesa's surfaceless platform too. The context is current.
-bool draws_in_software(const Functions& egl) {
+bool is_in_software(const Functions& egl) {
   constexpr unsigned gl_renderer = 0x1F01;
   const auto get_string =
       reinterpret_cast<const unsigned char* (*)(unsigned)>(egl.get_procedure("glGetString"));
   const unsigned char* text = get_string == nullptr ? nullptr : get_string(gl_renderer);
-  const std::string_view name = text == nullptr ? "" : reinterpret_cast<const char*>(text);
-  constexpr std::array<std::string_view, 4> software{"llvmpipe", "softpipe", "swrast", "SwiftShader"};
-  return std::any_of(software.begin(), software.end(),
-                     [&](std::string_view word) { return name.find(word) != std::string_view::npos; });
+  return draws_in_software(text == nullptr ? "" : reinterpret_cast<const char*>(text));
 }
 
 std::vector<Candidate> candidates(const Functions& egl) {
@@ -197,7 +195,7 @@ Expected<std::unique_ptr<Context>> create_egl_context(EglDevices devices) {
       note(candidate, context.error().reason);
       continue;
     }
-    const bool hardware = !draws_in_software(egl);
+    const bool hardware = !is_in_software(egl);
     const bool fits = devices == EglDevices::hardware_first || hardware == (devices == EglDevices::hardware);
     if (fits) return std::make_unique<EglContext>(std::move(*library), egl, *display, *context, hardware);
     egl.make_current(*display, nullptr, nullptr, nullptr);

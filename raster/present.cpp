@@ -19,6 +19,8 @@ class GlPresenter final : public Presenter {
   GlPresenter(std::unique_ptr<Gl> gl, Program program)
       : gl_(std::move(gl)), program_(std::move(program)), vertex_array_(*gl_) {}
 
+  std::string renderer() const override { return gl_->text(GL_RENDERER); }
+
   void clear(const glm::u8vec3& colour) override {
     Gl& gl = *gl_;
     const Vec3f share = Vec3f(colour) / 255.0f;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "raster/context.h"
 #include "scene/expected.h"
@@ -21,6 +22,9 @@ class Presenter {
   /// The context must outlive the presenter and be current whenever it is used or destroyed.
   static Expected<std::unique_ptr<Presenter>> create(Context& context);
   virtual ~Presenter() = default;
+
+  /// GL_RENDERER of the window's context.
+  virtual std::string renderer() const = 0;
 
   /// Fills the whole default framebuffer.
   virtual void clear(const glm::u8vec3& colour) = 0;

@@ -119,6 +119,62 @@ TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
   EXPECT_NE(commands[1].find("--camera-orbit"), std::string::npos) << commands[1];
 }
 
+TEST_F(ViewLab, TheLightsHandleFollowsThePointer) {
+  for (const char* scene : {"floating-box", "whitted"}) {
+    const ProcessResult result =
+        drive(scene,
+              "set size 900x700\nset results off\nset camera-distance 40\nwait 4\nprint\n"
+              "drag light 700 250\nprint\ndrag light 500 200\nprint\n");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto commands = lines_of(result.out);
+    ASSERT_EQ(commands.size(), 3u);
+    EXPECT_EQ(commands[0].find("--light-azimuth"), std::string::npos) << commands[0];
+    EXPECT_EQ(commands[1].find(commands[0] + " --light-azimuth"), 0u)
+        << commands[1];                   // and nothing else moved
+    EXPECT_NE(commands[2], commands[1]);  // it was taken again where it had been left
+  }
+}
+
+TEST_F(ViewLab, WhatIsCopiedIsWhatIsPrinted) {
+  const ProcessResult result = drive("floating-box", "set map-size 64\nkey C\nprint clipboard\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto said = lines_of(result.out);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(said[0], said[1]);
+  EXPECT_NE(said[1].find("gnomon compare floating-box"), std::string::npos) << said[1];
+}
+
+TEST_F(ViewLab, AFileLetFallOnTheWindowIsOpened) {
+  ASSERT_EQ(drive("floating-box", "save-scene mine.json\n").exit_code, 0);
+  const ProcessResult result = drive("fence", "drop mine.json\nprint\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.find("gnomon compare mine.json"), 0u) << result.out;
+}
+
+TEST_F(ViewLab, AMomentOfAFilmIsThePrintedCommands) {
+  const ProcessResult result =
+      drive("floating-box",
+            "set panels off\nset size 96x64\nset view labels\nset film sun\nset film-time 4\n"
+            "set light-size 3\nwait done\nscreenshot film.png\nprint\n"
+            "set film camera-orbit\nset film-play on\nwait 30\nset film-play off\nprint\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto commands = lines_of(result.out);
+  ASSERT_EQ(commands.size(), 2u);
+  const Words more{"-o", "film", "--runs", "1", "--no-report", "--quiet"};
+  ASSERT_EQ(run(words_of(commands[0]) + more).exit_code, 0) << commands[0];
+  EXPECT_EQ(texels("film.png"), texels("film/labels.png")) << commands[0];
+  EXPECT_NE(commands[1].find("--camera-orbit"), std::string::npos) << commands[1];
+  EXPECT_EQ(drive("floating-box", "set film no-such\n").exit_code, 3);
+}
+
+TEST_F(ViewLab, ThePicturesCanComeFromAnotherBackend) {
+  write_text(folder_ / "script.txt", "set panels off\nset size 96x64\nwait done\nprint\n");
+  const ProcessResult result =
+      run({"view", "floating-box", "--backend", "egl-software", "--script", "script.txt"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("--backend egl-software"), std::string::npos) << result.out;
+}
+
 TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {
   std::string script = "set size 800x600\nset probe 100 100\nshow acne\nwait done\n";
   for (const char* view : {"raster", "raytrace", "difference", "labels", "truth", "gap", "texels", "depth"})

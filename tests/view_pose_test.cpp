@@ -79,6 +79,35 @@ TEST(Pose, SpotKeepsDistanceAndAim) {
               glm::dot(spot.direction, glm::normalize(centre - spot.position)), 10.0 * tolerance);
 }
 
+TEST(Pose, ALightTakesAnotherSizeAndKeepsItsShape) {
+  const Light sun = posed_light(sun_towards({1.0, 2.0, 3.0}), Vec3(0.0), {10.0, 20.0, {}, 1.5});
+  EXPECT_NEAR(std::get<SunDisc>(sun.extent).angular_diameter, 1.5 * pi / 180.0, tolerance);
+  EXPECT_NEAR(light_size(sun), 1.5, degree_tolerance);
+  Light lamp;
+  lamp.type = LightType::point;
+  lamp.position = {0.0, 3.0, 0.0};
+  EXPECT_EQ(std::get<SphereLight>(resized_light(lamp, 0.25).extent).radius, 0.25);
+  lamp.extent = RectangleLight{{3.0, 0.0, 0.0}, {0.0, 0.0, 4.0}};
+  EXPECT_EQ(light_size(lamp), 5.0);
+  expect_near(std::get<RectangleLight>(resized_light(lamp, 10.0).extent).half_height, {0.0, 0.0, 8.0});
+  lamp.extent = DiscLight{1.0, {0.0, -1.0, 0.0}};
+  expect_near(std::get<DiscLight>(resized_light(lamp, 0.5).extent).normal, {0.0, -1.0, 0.0});
+  EXPECT_EQ(light_size(resized_light(lamp, 0.5)), 0.5);
+}
+
+TEST(Pose, AnotherUpVectorIsWhatTheCameraTurnsAbout) {
+  Camera camera;
+  camera.eye = {0.0, 0.0, 5.0};
+  Camera meant = camera;
+  meant.eye = {0.0, 5.0, 0.0};
+  meant.up = {1.0, 0.0, 0.0};
+  CameraPose pose = camera_pose(meant);
+  pose.up = meant.up;
+  const Camera posed = posed_camera(camera, pose);
+  expect_near(posed.eye, meant.eye, 10.0 * tolerance);
+  EXPECT_EQ(posed.up, meant.up);
+}
+
 TEST(Pose, DegreesWrapIntoOneTurn) {
   EXPECT_EQ(wrapped_degrees(180.0), 180.0);
   EXPECT_EQ(wrapped_degrees(-180.0), 180.0);

@@ -55,6 +55,9 @@ TEST(ViewScript, EveryKeySets) {
   EXPECT_EQ(only_change<OrbitTo>("set camera-orbit 30 -20").elevation, -20.0);
   EXPECT_EQ(only_change<DistanceTo>("set camera-distance 7.5").distance, 7.5);
   EXPECT_EQ(only_change<LightDistanceTo>("set light-distance 3").distance, 3.0);
+  EXPECT_EQ(only_change<LightSizeTo>("set light-size 0.5").size, 0.5);
+  EXPECT_EQ(only_change<FilmTo>("set film-time 2.5").seconds, 2.5);
+  EXPECT_TRUE(only_change<PlayFilm>("set film-play on").on);
   EXPECT_EQ(only_change<TargetTo>("set camera-target 1 -2 3.5").target, Vec3(1.0, -2.0, 3.5));
   EXPECT_EQ(only_change<SunHour>("set time-of-day 9.5").hours, 9.5);
   EXPECT_EQ(only_change<SetPrecision>("set precision exact").precision, raytrace::Precision::exact);
@@ -74,7 +77,7 @@ TEST(ViewScript, EveryKeySets) {
 TEST(ViewScript, StepsBesideSet) {
   const auto steps = parse_script(
       "drag 1 2 30 40 right\nclick 5 6\nshow leak\nsave-scene a.json\nprint\nopen fence\n"
-      "set light sun\n",
+      "set light sun\ndrag light 7 8\ndrop acne\nprint clipboard\nset film camera-walk\n",
       "s.txt", lights());
   ASSERT_TRUE(steps) << steps.error().message();
   const auto& drag = std::get<DragPointer>((*steps)[0].what);
@@ -85,6 +88,11 @@ TEST(ViewScript, StepsBesideSet) {
   EXPECT_EQ(std::get<SaveScene>((*steps)[3].what).path, "a.json");
   EXPECT_TRUE(std::holds_alternative<PrintCommand>((*steps)[4].what));
   EXPECT_EQ(std::get<OpenScene>((*steps)[5].what).name, "fence");
+  EXPECT_TRUE(std::get<DragPointer>((*steps)[7].what).light);
+  EXPECT_EQ(std::get<DragPointer>((*steps)[7].what).to, Vec2(7.0, 8.0));
+  EXPECT_EQ(std::get<DropFile>((*steps)[8].what).path, "acne");
+  EXPECT_TRUE(std::holds_alternative<PrintClipboard>((*steps)[9].what));
+  EXPECT_EQ(std::get<NameFilm>((*steps)[10].what).name, "camera-walk");
 }
 
 TEST(ViewScript, LightsAreThoseOfTheSceneOpenedLast) {

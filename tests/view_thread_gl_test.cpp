@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "app/view/map_rows.h"
+#include "app/view/pixel_story.h"
 #include "app/view/save_scene.h"
 #include "raster/shader_folder.h"
 #include "scene/load.h"
@@ -31,10 +33,7 @@ class Lab {
       ADD_FAILURE() << source.error().message();
       return;
     }
-    const auto context = [] {
-      auto made = raster::create_context(raster::Backend::automatic);
-      return made ? std::move(*made) : nullptr;
-    };
+    const auto context = [] { return raster::create_context(raster::Backend::automatic); };
     thread_ = std::make_unique<RenderThread>(context, std::move(*source), options_, [this] {
       {
         const std::lock_guard lock(mutex_);
@@ -170,6 +169,30 @@ TEST(RenderThread, LabelsAreThoseOfCompareInTwentyRandomStates) {
   }
 }
 
+// A light that gets a size calls for soft shadows, which the scene itself has none of.
+TEST(RenderThread, ALightThatGetsASizeCastsSoftShadows) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  const auto penumbra = [&] {
+    lab.thread().post(1, {state.revision, state.setup});
+    const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+    const Image<float>& truth = done->outcome->comparison.lights.front().rungs.front();
+    return std::count_if(truth.data.begin(), truth.data.end(), [](float v) { return v > 0.0f && v < 1.0f; });
+  };
+  EXPECT_EQ(penumbra(), 0);
+  carry_out(state, LightSizeTo{8.0});
+  EXPECT_GT(penumbra(), 20);
+  const auto source = read_source({"floating-box", false}, {}, {});
+  ASSERT_TRUE(source);
+  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
+  ASSERT_TRUE(renderer);
+  const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,
+            compared_labels(state, *source->loaded, **renderer).data);
+  carry_out(state, LightSizeTo{0.0});
+  EXPECT_EQ(penumbra(), 0);
+}
+
 TEST(RenderThread, WhatCannotBeDrawnLeavesThePictureThatWasThere) {
   Lab lab("floating-box", {});
   ViewState state = lab.state(*lab.until(is_open));
@@ -235,6 +258,34 @@ TEST(RenderThread, AnotherSceneBringsItsOwnSettings) {
   EXPECT_TRUE(lab.until([](const Snapshot& now) { return now.unreadable.has_value(); })->scene->number == 2);
 }
 
+// Of every technique every pixel has a story, whose phrases are all there and filled in.
+TEST(PixelStory, IsToldOfEveryPixel) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  std::set<std::string> told;
+  for (const char* technique : {"hard", "pcf", "vsm", "hybrid", "izb"}) {
+    carry_out(state, SetMapOption{"technique", technique});
+    lab.thread().post(1, {state.revision, state.setup});
+    const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+    for (int y = 0; y < size.height; y += 2)
+      for (int x = 0; x < size.width; x += 2) {
+        const PixelStory story = tell_story(*done->outcome, {x, y}, size);
+        ASSERT_FALSE(story.words.empty());
+        ASSERT_EQ(story.words.find_first_of("{}"), std::string::npos) << story.words;
+        ASSERT_EQ(story.deciding > 0, compare::is_wrong(story.label));
+        told.insert(story.words);
+      }
+  }
+  const auto any = [&](std::string_view part) {
+    return std::any_of(told.begin(), told.end(),
+                       [&](const std::string& text) { return text.find(part) != text.npos; });
+  };
+  for (const char* part :
+       {"Not compared: ", "The exact ray says: lit. So it is right.", "It went wrong on the step",
+        "pcf reads more of the map", "surely lit, no ray was cast", "izb tests this very point"})
+    EXPECT_TRUE(any(part)) << part;
+}
+
 TEST(SaveScene, SaysWhatIsShown) {
   const app_test::TemporaryFolder folder;
   for (const char* name : {"floating-box", "shapes", "whitted", "penumbra", "acne"}) {
@@ -261,6 +312,28 @@ TEST(SaveScene, SaysWhatIsShown) {
     EXPECT_EQ(map->bias.constant, 0.5) << name;
     EXPECT_EQ(map->size, 128) << name;
   }
+}
+
+// The light is in a file that the scene includes; the new file has it where it is now, and only once.
+TEST(SaveScene, TakesOverTheLightsOfIncludedFiles) {
+  const app_test::TemporaryFolder folder;
+  write(folder / "plain.json", scene_with_radius("0.5"));
+  write(folder / "outer.json", R"({"schema": "gnomon/scene/1", "include": ["plain.json"],
+    "camera": {"eye": [0, 3, 5], "target": [0, 0, 0]}})");
+  Lab lab(folder / "outer.json", {});
+  const auto shown = lab.until(is_open);
+  ViewState state = lab.state(*shown);
+  carry_out(state, TurnLightBy{20.0, -3.0});
+  carry_out(state, LightSizeTo{2.0});
+  const std::string path = folder / "saved.json";
+  const auto written = write_scene(path, shown->scene->argument, state);
+  ASSERT_TRUE(written) << written.error().message();
+  const auto scene = load_scene(path, {.confine_paths = true});
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_LT(glm::length(scene->lights[0].direction - posed_light(state).direction), 1e-12);
+  EXPECT_NEAR(light_size(scene->lights[0]), 2.0, 1e-12);
+  EXPECT_EQ(scene->shapes.size(), 2u);
 }
 
 }  // namespace

@@ -106,8 +106,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
-  const auto posed =
-      apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
+  const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   auto comparison = render_and_compare(command, *loaded, console);
   if (!comparison) return fail(comparison.error());

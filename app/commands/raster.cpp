@@ -30,14 +30,14 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command, "raster");
   if (!files) return fail(files.error());
-  const auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
+  auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
+  const auto posed = apply_poses(command.poses, command.light, *loaded);
+  if (!posed) return fail(posed.error());
   for (const std::string& note : idle_options(command.given, command.options.map, *loaded->scene, *lights))
     console.note(note);
-  const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
-  if (!posed) return fail(posed.error());
   const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);

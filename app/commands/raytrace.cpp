@@ -53,14 +53,13 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
-  loaded->plan = plan_effects(*loaded->scene);
+  const auto lights = choose_lights(*loaded->scene, command.light);
+  if (!lights) return fail(lights.error());
+  const auto posed = apply_poses(command.poses, command.light, *loaded);
+  if (!posed) return fail(posed.error());
   for (const std::string& note : idle_options(command.given, loaded->plan)) console.note(note);
   command.options.records = command.wants_records();
   command.options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
-  const auto lights = choose_lights(*loaded->scene, command.light);
-  if (!lights) return fail(lights.error());
-  const auto posed = apply_poses(command.poses, command.light, *loaded->scene, *loaded->world);
-  if (!posed) return fail(posed.error());
   console.progress("ray tracing", 0.2);
   const raytrace::Tracer tracer(*loaded->world, command.accel, command.precision);
   const Camera& camera = loaded->scene->camera;

@@ -129,8 +129,7 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   auto loaded = load(command.scene, *files, console, command.tessellate, command.camera, true);
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
-  const auto posed =
-      apply_poses(command.setting.poses, command.setting.light, *loaded->scene, *loaded->world);
+  const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   const auto film = make_film(command, *loaded, console);
   if (!film) return fail(film.error());

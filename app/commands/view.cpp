@@ -58,6 +58,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_exposure(*app, options->exposure);
   add_look(*app, *options);
   app->add_option("--script", options->script, script_help)->type_name("FILE");
+  add_backend(*app, options->backend);
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);
   app->callback([options, &invocation, app] {

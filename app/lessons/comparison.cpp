@@ -73,7 +73,7 @@ Expected<SmallComparison> compare_small(const std::string& scene, const Settings
   RunFiles files;
   auto loaded = load(words.scene, files, console);
   if (!loaded) return fail(loaded.error());
-  const auto posed = apply_poses(words.setting.poses, words.setting.light, *loaded->scene, *loaded->world);
+  const auto posed = apply_poses(words.setting.poses, words.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   const auto comparison = compared(words, *loaded);
   if (!comparison) return fail(comparison.error());

@@ -125,6 +125,8 @@ std::optional<Change> look_change(int key, bool shift) {
       return ToggleFlag{&Look::help};
     case GLFW_KEY_X:
       return ProbePixel{};
+    case GLFW_KEY_SPACE:
+      return TogglePlay{};
     default:
       return std::nullopt;
   }
@@ -202,7 +204,7 @@ std::optional<Key> key_of_name(std::string_view name) {
       {"up", GLFW_KEY_UP},          {"down", GLFW_KEY_DOWN},
       {"pageup", GLFW_KEY_PAGE_UP}, {"pagedown", GLFW_KEY_PAGE_DOWN},
       {"F10", GLFW_KEY_F10},        {"F11", GLFW_KEY_F11},
-      {"F12", GLFW_KEY_F12}};
+      {"F12", GLFW_KEY_F12},        {"space", GLFW_KEY_SPACE}};
   for (const auto& [text, code] : named)
     if (text == name) key.code = code;
   if (name.size() == 2 && name[0] == 'F' && name[1] >= '1' && name[1] <= '9')
@@ -271,7 +273,8 @@ constexpr KeyHelp move_keys[] = {{"left drag, arrows", "turn the camera (shift: 
                                  {"wheel, page up/down", "come nearer, go away"},
                                  {"ctrl+wheel, ctrl+drag", "enlarge and move the pictures"},
                                  {"right drag, [ ] ; '", "turn the light (shift: finer)"},
-                                 {"L", "next light"}};
+                                 {"L", "next light"},
+                                 {"space", "play the film, or stop it"}};
 constexpr KeyHelp map_keys[] = {{"-  =", "bias"},
                                 {"9  0", "slope bias"},
                                 {"7  8", "normal offset (shift: coarser)"},

@@ -65,8 +65,7 @@ Interface::~Interface() {
   ImGui::DestroyContext();
 }
 
-void Interface::begin_frame(const Look& look, const TypeSize& type,
-                            const std::optional<ScriptPointer>& pointer) {
+void Interface::use_type(const Look& look, const TypeSize& type) {
   if (font_scale_ != type.scale) {
     const bool again = font_scale_ != 0.0;
     if (again) ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -78,6 +77,9 @@ void Interface::begin_frame(const Look& look, const TypeSize& type,
     apply_style(look.theme, type);
     styled_ = std::pair{look.theme, type.scale};
   }
+}
+
+void Interface::begin_frame(const std::optional<ScriptPointer>& pointer) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   if (pointer) move_pointer(*pointer);

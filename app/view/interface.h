@@ -26,8 +26,10 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
+  /// Between two frames: colours and sizes.
+  void use_type(const Look& look, const TypeSize& type);
   /// Before anything is drawn with Dear ImGui.
-  void begin_frame(const Look& look, const TypeSize& type, const std::optional<ScriptPointer>& pointer);
+  void begin_frame(const std::optional<ScriptPointer>& pointer);
   /// Draws it all.
   void end_frame();
 

@@ -8,6 +8,12 @@
 
 namespace gnomon::app {
 
+namespace {
+
+constexpr double goal_ms = 50.0;  // the window is never blocked for longer
+
+}  // namespace
+
 void Meter::Answer::arrived(double elapsed_ms) {
   if (waiting) ms.push_back(elapsed_ms);
   waiting = false;
@@ -22,9 +28,10 @@ std::string Meter::Answer::words(const char* what) const {
                      sorted.size());
 }
 
-void Meter::frame(double ms) {
+void Meter::frame(const FrameWatch& watch) {
   ++frames_;
-  longest_ms_ = std::max(longest_ms_, ms);
+  if (watch.sum().wall_ms > goal_ms) ++long_frames_;
+  if (watch.sum().wall_ms > longest_.sum().wall_ms) longest_ = watch;
 }
 
 void Meter::posted(std::uint64_t revision) {
@@ -43,8 +50,9 @@ void Meter::shown(const Snapshot& snapshot) {
 }
 
 std::string Meter::words() const {
-  return fmt::format("{} changes, {} frames, the longest {}", posts_, frames_,
-                     compare::milliseconds(longest_ms_)) +
+  return fmt::format("{} changes, {} frames, {} of them over {}, the longest {}: {}", posts_, frames_,
+                     long_frames_, compare::milliseconds(goal_ms),
+                     compare::milliseconds(longest_.sum().wall_ms), longest_.words()) +
          picture_.words("picture") + preview_.words("labels") + full_.words("labels in full");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/frame_watch.h"
 #include "app/view/render_thread.h"
 #include "scene/timing.h"
 
@@ -13,12 +14,13 @@ namespace gnomon::app {
 
 class Meter {
  public:
-  void frame(double ms);
+  /// One is over.
+  void frame(const FrameWatch& watch);
   /// An order was posted.
   void posted(std::uint64_t revision);
   /// A frame with this snapshot has reached the screen.
   void shown(const Snapshot& snapshot);
-  /// "812 frames, the longest 21 ms; ..."
+  /// "812 frames, the longest 21 ms (swap 14 ms (3 ms), ...), 0 over 50 ms; ..."
   std::string words() const;
 
  private:
@@ -30,7 +32,8 @@ class Meter {
   };
   Stopwatch since_post_;
   std::uint64_t revision_ = 0, frames_ = 0, posts_ = 0;
-  double longest_ms_ = 0.0;
+  FrameWatch longest_;
+  std::uint64_t long_frames_ = 0;
   Answer picture_, preview_, full_;
 };
 

@@ -1,13 +1,10 @@
 #include "app/view/pixel_story.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "compare/number_text.h"
 #include "compare/report/explanations.h"
-#include "raster/technique_traits.h"
+#include "compare/report/pixel_words.h"
 #include "scene/light_view.h"
 
 namespace gnomon::app {
@@ -19,60 +16,6 @@ using compare::Label;
 PixelPlace scaled(PixelPlace place, ImageSize from, ImageSize to) {
   return {std::clamp(static_cast<int>((place.x + 0.5) * to.width / from.width), 0, to.width - 1),
           std::clamp(static_cast<int>((place.y + 0.5) * to.height / from.height), 0, to.height - 1)};
-}
-
-/// The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to.
-int deciding_step(const PixelStory& story) {
-  if (!compare::is_wrong(story.label)) return 0;
-  if (story.label == Label::precision) return 4;
-  const auto& v = story.rungs;
-  const auto wrong = [&](std::size_t k) { return std::abs(v[k] - v[0]) > 0.5; };
-  int first = 0, last = 0;
-  for (std::size_t k = 1; k < v.size(); ++k) {
-    if (!wrong(k) || wrong(k - 1)) continue;
-    if (first == 0) first = static_cast<int>(k);
-    last = static_cast<int>(k);
-  }
-  if (v[6] < v[0]) return last;
-  return wrong(5) ? first : 6;
-}
-
-std::string test_words(const PixelStory& story, const raster::LightRecord& record, const raster::Bias& own) {
-  const bool bias_is_constant =
-      own.slope == 0.0 && own.normal_offset_texels == 0.0 && !own.receiver_plane && !own.adaptive;
-  const int size = record.map.view.size;
-  if (!std::isfinite(story.gap)) {
-    const bool outside = story.u < 0.0 || story.v < 0.0 || story.u >= size || story.v >= size;
-    return outside ? "The pixel lies outside the map, so the test lets it be lit."
-                   : "The map stores nothing where this pixel looks, so the test lets it be lit.";
-  }
-  const std::string texel = fmt::format("Texel {}, {}", int(std::floor(story.u)), int(std::floor(story.v)));
-  const std::string distance = fmt::format("{:.3g}", std::abs(story.gap));
-  const std::string bias = fmt::format("the constant bias of {:.3g}", story.bias_world);
-  const bool dark = story.gap > story.bias_world;
-  if (story.gap <= 0.0 && bias_is_constant)
-    return fmt::format("{} stores a depth {} behind this point: the test draws the pixel {}.", texel,
-                       distance, dark ? "dark" : "lit");
-  if (story.gap <= 0.0)
-    return fmt::format(
-        "{} stores nothing that is nearer to the light than the other parts of the bias allow for; "
-        "the test draws the pixel {}.",
-        texel, dark ? "dark" : "lit");
-  return fmt::format(
-      "{} stores something {} ({}) nearer to the light. That is {} than {}: the test draws the pixel {}.",
-      texel, distance, compare::texels_text(story.texel_world > 0.0 ? story.gap / story.texel_world : 0.0),
-      dark ? "more" : "no more", bias, dark ? "dark" : "lit");
-}
-
-std::string why_words(const PixelStory& story) {
-  const compare::LabelText& words = compare::label_text(story.label);
-  if (!compare::is_compared(story.label)) return fmt::format("Not compared: {}.", words.what);
-  if (story.deciding == 0)
-    return story.rungs[6] == story.rungs[0] ? "Right: both renderers agree."
-                                            : "Right to within one half: the filter blurs an edge here.";
-  const compare::StepText& step = compare::step_text(static_cast<compare::Cause>(story.deciding - 1));
-  return fmt::format("Wrong because {}: it was right at V{} and went wrong at V{}, {}.", words.what,
-                     story.deciding - 1, story.deciding, step.what);
 }
 
 /// Distance along the light ray through (u, v) at which it meets the plane; NaN where it does not.
@@ -130,10 +73,12 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   const Vec2f uv = record.texel_uv.at(x, y);
   story.u = static_cast<double>(uv.x), story.v = static_cast<double>(uv.y);
   story.face = record.face.at(x, y);
-  story.deciding = deciding_step(story);
-  story.why = why_words(story);
-  if (story.seen && raster::compares_depths(outcome.comparison.raster.options.map.technique))
-    story.test = test_words(story, record, outcome.comparison.raster.options.map.bias);
+  compare::PixelFacts facts{
+      story.label, story.rungs, story.gap, story.u, story.v, outcome.adds_more.at(x, y) != 0, {}};
+  if (record.external && !record.external->decision.data.empty())
+    facts.decision = record.external->decision.at(x, y);
+  story.deciding = compare::deciding_rung(facts);
+  story.words = compare::pixel_words(outcome.comparison, light, facts);
   if (story.deciding > 0) story.cure = compare::label_text(story.label).cure;
   return story;
 }

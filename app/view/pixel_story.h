@@ -19,8 +19,7 @@ struct PixelStory {
   double u = 0.0, v = 0.0;  ///< where it looks the map up, texels
   int face = 0;
   bool seen = false;  ///< a surface is there
-  std::string test;   ///< what the map's test says
-  std::string why;    ///< the sentence
+  std::string words;  ///< the story: what the map's test says, and why it is wrong
   std::string cure;   ///< what helps; empty where nothing is wrong
 };
 

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <exception>
 
+#include "app/view/priority.h"
+
 namespace gnomon::app {
 
 namespace {
@@ -13,8 +15,8 @@ constexpr std::chrono::milliseconds file_interval{500};  // between looks at the
 
 }  // namespace
 
-RenderThread::RenderThread(std::function<std::unique_ptr<raster::Context>()> context, SceneSource first,
-                           StudioOptions options, std::function<void()> wake)
+RenderThread::RenderThread(MakeContext context, SceneSource first, StudioOptions options,
+                           std::function<void()> wake)
     : context_(std::move(context)),
       options_(std::move(options)),
       wake_(std::move(wake)),
@@ -52,6 +54,14 @@ std::shared_ptr<const Snapshot> RenderThread::snapshot() const {
   return published_;
 }
 
+void RenderThread::give_back(std::shared_ptr<const Snapshot> snapshot) {
+  {
+    const std::lock_guard lock(mutex_);
+    given_back_.push_back(std::move(snapshot));
+  }
+  changed_.notify_one();
+}
+
 /// A comparison has finished: from the worker's thread.
 void RenderThread::wake_thread() {
   {
@@ -75,9 +85,12 @@ void RenderThread::publish() {
 }
 
 RenderThread::Task RenderThread::next_task() {
+  std::vector<std::shared_ptr<const Snapshot>> given_back;  // freed last, without the lock
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, file_interval,
-                    [this] { return quit_ || asked_scene_ || asked_order_ || finished_; });
+  changed_.wait_for(lock, file_interval, [this] {
+    return quit_ || asked_scene_ || asked_order_ || finished_ || !given_back_.empty();
+  });
+  given_back.swap(given_back_);
   Task task;
   task.quit = quit_;
   task.open = std::exchange(asked_scene_, std::nullopt);
@@ -89,6 +102,7 @@ RenderThread::Task RenderThread::next_task() {
 }
 
 void RenderThread::run() {
+  give_way(drawing_gives_way);  // and so do the threads of its OpenGL in software
   try {
     install(std::move(*first_), false);
     for (;;) {
@@ -122,7 +136,9 @@ void RenderThread::read_scene(const SceneArgument& argument, const std::string& 
 
 /// What was shown of a scene that is read again must be drawable with it, too: a shader may fail only then.
 Expected<std::unique_ptr<Studio>> RenderThread::make_studio(const SceneSource& source, bool& again) {
-  auto studio = Studio::create(context_(), source.loaded, options_.compare, options_.shader_folder,
+  auto context = context_();
+  if (!context) return fail(context.error());
+  auto studio = Studio::create(std::move(*context), source.loaded, options_.compare, options_.shader_folder,
                                [this] { wake_thread(); });
   if (!studio) return studio;
   again = again && last_order_ && (*studio)->given().lights.size() == last_order_->setup.lights.size();

@@ -54,9 +54,9 @@ struct Snapshot {
 
 class RenderThread {
  public:
-  /// `wake` is called from the thread whenever there is a new snapshot.
-  RenderThread(std::function<std::unique_ptr<raster::Context>()> context, SceneSource first,
-               StudioOptions options, std::function<void()> wake);
+  using MakeContext = std::function<Expected<std::unique_ptr<raster::Context>>()>;
+  /// `context` is called on the thread, for each scene; `wake` from it whenever there is a new snapshot.
+  RenderThread(MakeContext context, SceneSource first, StudioOptions options, std::function<void()> wake);
   ~RenderThread();
 
   /// Draws and compares this next. Orders for another scene than `scene` (OpenedScene::number) are dropped.
@@ -64,6 +64,8 @@ class RenderThread {
   /// Reads another scene; until it is there the one before stays.
   void open(SceneArgument scene);
   std::shared_ptr<const Snapshot> snapshot() const;
+  /// One that is not needed any longer, to be freed on this thread: giving memory back takes time.
+  void give_back(std::shared_ptr<const Snapshot> snapshot);
 
  private:
   struct Task {
@@ -81,7 +83,7 @@ class RenderThread {
   void publish();
   void wake_thread();
 
-  std::function<std::unique_ptr<raster::Context>()> context_;
+  MakeContext context_;
   StudioOptions options_;
   std::function<void()> wake_;
   std::optional<SceneSource> first_;
@@ -100,6 +102,7 @@ class RenderThread {
   bool finished_ = false;  ///< a comparison has finished
   bool quit_ = false;
   std::shared_ptr<const Snapshot> published_;
+  std::vector<std::shared_ptr<const Snapshot>> given_back_;
   std::thread thread_;  ///< last
 };
 

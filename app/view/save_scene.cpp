@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -105,10 +106,11 @@ Expected<void> check(const std::string& path, const Scene& meant) {
     const Light &a = scene->lights[i], &b = meant.lights[i];
     const bool aims = b.type != LightType::point;  // a point light's direction means nothing
     same = a.name == b.name && a.type == b.type && (!aims || glm::length(a.direction - b.direction) < 1e-9) &&
-           glm::length(a.position - b.position) <= 1e-9 * (1.0 + glm::length(b.position));
+           glm::length(a.position - b.position) <= 1e-9 * (1.0 + glm::length(b.position)) &&
+           std::abs(light_size(a) - light_size(b)) <= 1e-9 * light_size(b);
   }
   if (same) return {};
-  return fail(ErrorKind::usage, "the scene includes lights that a file of its own cannot move");
+  return fail(ErrorKind::internal, path + ": read again, the lights of the scene are others");
 }
 
 }  // namespace
@@ -129,6 +131,7 @@ Expected<void> write_scene(const std::string& path, const SceneArgument& opened,
   json->erase("cameras");
   (*json)["camera"] = camera_json(meant.camera);
   (*json)["lights"] = Json::array();
+  if (json->contains("include")) (*json)["include_lights"] = false;  // they stand here as they are now
   for (const Light& light : meant.lights) (*json)["lights"].push_back(light_json(light));
   (*json)["settings"] = Json::object();
   for (const auto& [option, value] : map_settings(state.setup.map)) (*json)["settings"][option] = value;

@@ -14,7 +14,7 @@ Expected<SceneSource> read_source(const SceneArgument& argument, const std::stri
   Console quiet(true);
   RunFiles files;
   files.reads(argument);
-  auto loaded = load(argument, files, quiet, options.tessellate, camera);
+  auto loaded = load(argument, files, quiet, options.tessellate, camera, true);
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, options.max_lights, {}, quiet);
   if (options.exposure) loaded->scene->exposure = *options.exposure;

@@ -24,8 +24,8 @@ using Step = decltype(ScriptStep::what);
 
 constexpr std::int64_t max_wait_frames = 1'000'000;
 constexpr NumberRange pixel_range{-1e6, 1e6};
-constexpr std::array<std::string_view, 11> verbs{"set",  "key",        "open",       "show",  "drag", "click",
-                                                 "wait", "screenshot", "save-scene", "print", "quit"};
+constexpr std::array<std::string_view, 12> verbs{"set",  "key",  "open",       "show",       "drag",  "click",
+                                                 "drop", "wait", "screenshot", "save-scene", "print", "quit"};
 constexpr std::array<std::string_view, 4> preset_names{"acne", "peter-panning", "aliasing", "leak"};
 
 Words words_of(const std::string& line) {
@@ -70,6 +70,11 @@ Expected<Change> unknown_key(const std::string& key) {
 Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
   if (words.size() < 2) return wrong("nothing to set (got set alone, allowed set KEY VALUE)");
   const std::string& key = words[1];
+  if (key == "film") {
+    if (const auto complete = expect_count(words, 3, "set film NAME|off"); !complete)
+      return fail(complete.error());
+    return Step{NameFilm{words[2]}};
+  }
   const ScriptKey* own = find_script_key(key);
   const bool light = key == "light";
   if (own == nullptr && !light && !is_map_option(key)) return fail(unknown_key(key).error());
@@ -103,7 +108,16 @@ Expected<Step> parse_key(const Words& words) {
   return Step{PressKey{*key}};
 }
 
+Expected<Step> parse_light_drag(const Words& words) {
+  if (const auto complete = expect_count(words, 4, "drag light X Y"); !complete)
+    return fail(complete.error());
+  const Expected<double> x = parse_number(words[2], pixel_range), y = parse_number(words[3], pixel_range);
+  if (!x || !y) return fail(x ? y.error() : x.error());
+  return Step{DragPointer{Vec2(0.0), {*x, *y}, 0, true}};
+}
+
 Expected<Step> parse_drag(const Words& words) {
+  if (words.size() > 1 && words[1] == "light") return parse_light_drag(words);
   const bool click = words[0] == "click";
   const std::size_t numbers = click ? 2 : 4;
   const bool has_button = !click && words.size() == 6;
@@ -117,7 +131,7 @@ Expected<Step> parse_drag(const Words& words) {
     if (!value) return fail(value.error());
     at[i] = *value;
   }
-  DragPointer drag{{at[0], at[1]}, click ? Vec2{at[0], at[1]} : Vec2{at[2], at[3]}, 0};
+  DragPointer drag{{at[0], at[1]}, click ? Vec2{at[0], at[1]} : Vec2{at[2], at[3]}, 0, false};
   if (!has_button) return Step{drag};
   constexpr std::array<std::string_view, 3> buttons{"left", "right", "middle"};
   const auto found = std::find(buttons.begin(), buttons.end(), words.back());
@@ -159,9 +173,11 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
   if (std::find(verbs.begin(), verbs.end(), verb) == verbs.end())
     return wrong(fmt::format("no such step (got {}, allowed {}){}", verb, fmt::join(verbs, ", "),
                              did_you_mean(verb, verbs)));
-  const bool open = verb == "open";
-  if (const auto complete = expect_count(words, open ? 2 : 1, open ? "open SCENE" : verb); !complete)
+  if (verb == "print" && words.size() == 2 && words[1] == "clipboard") return Step{PrintClipboard{}};
+  const bool open = verb == "open" || verb == "drop";
+  if (const auto complete = expect_count(words, open ? 2 : 1, open ? verb + " SCENE" : verb); !complete)
     return fail(complete.error());
+  if (verb == "drop") return Step{DropFile{words[1]}};
   if (open) return Step{OpenScene{words[1]}};
   return verb == "print" ? Step{PrintCommand{}} : Step{Quit{}};
 }
@@ -179,7 +195,7 @@ Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std:
     const Words words = words_of(line);
     if (words.empty()) continue;
     Expected<Step> step = parse_step(words, known);
-    if (step && std::holds_alternative<OpenScene>(*step)) {
+    if (step && (std::holds_alternative<OpenScene>(*step) || std::holds_alternative<DropFile>(*step))) {
       // Its lights' names are needed from here on.
       const auto scene = load_scene(scene_of_lesson(words[1]), {.confine_paths = true});
       if (scene) known = scene->lights;

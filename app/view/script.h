@@ -5,16 +5,18 @@
 //   open SCENE            a file, a built-in scene or a lesson
 //   show PRESET           acne, peter-panning, aliasing or leak
 //   drag X Y X Y [left|right|middle], click X Y      the pointer, in pixels of the window
+//   drag light X Y        the light's handle, to there
+//   drop FILE             a file let fall on the window
 //   key NAME              a key of docs/lab.md: F6, tab, ctrl+B
 //   wait N | wait done    N frames, or until the comparison of what is set is finished and shown, and a search or
 //                         a report that was begun is done
 //   screenshot FILE.png   what the window shows, once all that is set before has been drawn
 //   save-scene FILE.json  the scene as it is set
-//   print                 the compare command, on stdout
+//   print                 the compare command, on stdout; print clipboard: what was copied last
 //   quit                  ends the program; so does the end of the script
 //
 // Keys: view NAME, size WxH (of the window), light NAME, light-azimuth DEG, light-elevation DEG, light-distance
-// D, time-of-day HOURS, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-target X Y Z, precision NAME;
+// D, light-size S, time-of-day HOURS, film NAME|off, film-time S, film-play on|off, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-target X Y Z, precision NAME;
 // layout NAME, pane N VIEW, swipe SHARE, zoom FACTOR, probe X Y, theme NAME, ui-scale FACTOR, and on or off for
 // panels, settings, results, help and large-type. A script is read and checked as a whole before the window opens.
 #pragma once
@@ -40,6 +42,16 @@ struct Screenshot {
 };
 struct Quit {};
 struct PrintCommand {};
+/// What the clipboard holds, on stdout.
+struct PrintClipboard {};
+/// A file let fall on the window.
+struct DropFile {
+  std::string path;
+};
+/// A film by its name; which there are is known when the scene is open.
+struct NameFilm {
+  std::string name;  ///< or off
+};
 struct PressKey {
   Key key;  ///< one that does something
 };
@@ -49,12 +61,13 @@ struct SaveScene {
 struct DragPointer {
   Vec2 from{0.0}, to{0.0};  ///< pixels of the window
   int button = 0;           ///< GLFW's
+  bool light = false;       ///< from where the light's handle is
 };
 
 struct ScriptStep {
   int line = 0;  ///< from 1
   std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PressKey,
-               OpenScene, UsePreset>
+               OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm>
       what;
 };
 

@@ -16,8 +16,10 @@ constexpr NumberRange azimuth_range{-360.0, 360.0};
 constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
 constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
 constexpr NumberRange distance_range{0.0, 1e12, true};
+constexpr NumberRange size_range{0.0, 1e12};
 constexpr NumberRange coordinate_range{-1e12, 1e12};
 constexpr NumberRange hour_range{0.0, 24.0};
+constexpr NumberRange film_range{0.0, 1e6};
 constexpr NumberRange share_range{0.0, 1.0};
 constexpr NumberRange zoom_range{1.0, max_picture_zoom};
 constexpr NumberRange scale_range{least_ui_scale, most_ui_scale};
@@ -41,6 +43,12 @@ Expected<Change> on_or_off(const Values& values) {
   if (values[0] != "on" && values[0] != "off")
     return fail(ErrorKind::usage, fmt::format("neither (got {}, allowed on, off)", values[0]));
   return Change{SetFlag{flag, values[0] == "on"}};
+}
+
+Expected<Change> play(const Values& values) {
+  if (values[0] != "on" && values[0] != "off")
+    return fail(ErrorKind::usage, fmt::format("neither (got {}, allowed on, off)", values[0]));
+  return Change{PlayFilm{values[0] == "on"}};
 }
 
 Expected<Change> orbit(const Values& values) {
@@ -93,6 +101,9 @@ constexpr ScriptKey keys[] = {
     {"light-azimuth", 1, "set light-azimuth DEG", number<LightAzimuthTo, azimuth_range>},
     {"light-elevation", 1, "set light-elevation DEG", number<LightElevationTo, light_elevation_range>},
     {"light-distance", 1, "set light-distance D", number<LightDistanceTo, distance_range>},
+    {"light-size", 1, "set light-size S", number<LightSizeTo, size_range>},
+    {"film-time", 1, "set film-time SECONDS", number<FilmTo, film_range>},
+    {"film-play", 1, "set film-play on|off", play},
     {"time-of-day", 1, "set time-of-day HOURS", number<SunHour, hour_range>},
     {"camera-orbit", 2, "set camera-orbit AZIMUTH ELEVATION", orbit},
     {"camera-distance", 1, "set camera-distance D", number<DistanceTo, distance_range>},
@@ -125,7 +136,7 @@ const ScriptKey* find_script_key(std::string_view name) {
 }
 
 std::vector<std::string> script_key_names() {
-  std::vector<std::string> names{"light"};
+  std::vector<std::string> names{"light", "film"};
   for (const ScriptKey& key : keys) names.emplace_back(key.name);
   return names;
 }

@@ -21,6 +21,24 @@ double tidy(double value) {
   return value;
 }
 
+Vec3 tidy(const Vec3& v) {
+  return {tidy(v.x), tidy(v.y), tidy(v.z)};
+}
+
+CameraPose tidy(CameraPose pose) {
+  for (double* number : {&pose.azimuth_degrees, &pose.elevation_degrees, &pose.distance})
+    *number = tidy(*number);
+  if (pose.target) pose.target = tidy(*pose.target);
+  if (pose.up) pose.up = tidy(*pose.up);
+  return pose;
+}
+
+LightPose tidy(LightPose pose) {
+  for (double* number : {&pose.azimuth_degrees, &pose.elevation_degrees}) *number = tidy(*number);
+  if (pose.distance) pose.distance = tidy(*pose.distance);
+  return pose;
+}
+
 double clamped(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
@@ -122,6 +140,7 @@ struct SetupChange {
     const ImageSize size = s.setup.size;
     s.setup = s.initial;
     s.setup.size = size;
+    s.film = {};
   }
   void operator()(const SetMap& c) const { s.setup.map = c.map; }
   void operator()(const SetPrecision& c) const { s.setup.precision = c.precision; }
@@ -144,14 +163,42 @@ struct SetupChange {
     pose.distance = c.distance;
     s.setup.lights[s.setup.light] = pose;
   }
+  void operator()(const LightSizeTo& c) const {
+    const bool sun = s.given.lights[s.setup.light].type == LightType::directional;
+    LightPose pose = current_light(s);
+    pose.size = sun ? std::min(c.size, most_sun_degrees) : c.size;
+    s.setup.lights[s.setup.light] = pose;
+  }
   void operator()(const PlaceLamp& c) const {
     Light light = s.given.lights[s.setup.light];
     const double distance = glm::length(c.position - s.given.centre);
     if (light.type == LightType::directional || !(distance > 0.0)) return;
     light.position = c.position;
     const LightPose pose = light_pose(light, s.given.centre);
-    s.setup.lights[s.setup.light] =
-        LightPose{tidy(pose.azimuth_degrees), tidy(pose.elevation_degrees), tidy(distance)};
+    s.setup.lights[s.setup.light] = LightPose{tidy(pose.azimuth_degrees), tidy(pose.elevation_degrees),
+                                              tidy(distance), current_light(s).size};
+  }
+  void operator()(const PickFilm& c) const {
+    s.film = {c.film, 0.0, s.film.plays && c.film};
+    if (c.film) (*this)(FilmTo{0.0});
+  }
+  void operator()(const FilmTo& c) const {
+    if (!s.film.film) return;
+    const LabFilm& film = s.given.films[*s.film.film];
+    s.film.seconds = std::clamp(c.seconds, 0.0, film.seconds);
+    const FilmMoment moment =
+        moment_of(film, {s.given.camera, s.given.lights}, s.given.centre, s.film.seconds);
+    if (moment.camera) s.setup.camera = tidy(*moment.camera);
+    for (std::size_t i = 0; i < moment.lights.size(); ++i) {
+      if (!moment.lights[i]) continue;
+      const std::optional<LightPose> before = s.setup.lights[i];
+      s.setup.lights[i] = tidy(*moment.lights[i]);
+      if (before) s.setup.lights[i]->size = before->size;
+    }
+  }
+  void operator()(const FilmGoesOn& c) const {
+    if (s.film.film)
+      (*this)(FilmTo{std::fmod(s.film.seconds + c.seconds, s.given.films[*s.film.film].seconds)});
   }
   void operator()(const SunHour& c) const {
     if (s.given.lights[s.setup.light].type != LightType::directional) return;
@@ -175,6 +222,11 @@ struct LookChange {
     s.picture = c.picture;
   }
   void operator()(const ShowPrevious&) const { (*this)(Show{s.previous}); }
+  void operator()(const PlayFilm& c) const {
+    s.film.plays = c.on && !s.given.films.empty();
+    if (s.film.plays && !s.film.film) s.film.film = 0;
+  }
+  void operator()(const TogglePlay&) const { (*this)(PlayFilm{!s.film.plays}); }
   void operator()(const SetLayout& c) const { s.look.layout = c.layout; }
   void operator()(const NextLayout&) const {
     s.look.layout = static_cast<PaneLayout>((static_cast<int>(s.look.layout) + 1) % 3);
@@ -248,8 +300,9 @@ double sun_hour(const LightPose& pose) {
   return 12.0 + angle * 12.0 / pi;
 }
 
-GivenScene given_scene(const Scene& scene, const World& world) {
-  return {scene.camera, scene.lights, scene_centre(world)};
+GivenScene given_scene(const Scene& scene, const World& world, const std::vector<KeyedPath>& paths) {
+  const Vec3 centre = scene_centre(world);
+  return {scene.camera, scene.lights, centre, films_of({scene.camera, scene.lights}, centre, paths)};
 }
 
 void place(const GivenScene& given, const Setup& setup, Scene& scene) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/pose.h"
+#include "app/view/film.h"
 #include "app/view/look.h"
 #include "raster/options.h"
 #include "raytrace/tracer.h"
@@ -24,8 +25,10 @@ struct GivenScene {
   Camera camera;
   std::vector<Light> lights;
   Vec3 centre{0.0};  ///< what a lamp turns about
+  std::vector<LabFilm> films{};
 };
-GivenScene given_scene(const Scene& scene, const World& world);
+/// `paths`: the scene's own.
+GivenScene given_scene(const Scene& scene, const World& world, const std::vector<KeyedPath>& paths);
 
 /// Everything that the pictures depend on.
 struct Setup {
@@ -40,9 +43,17 @@ struct Setup {
 /// Gives the scene the camera and the lights that the setup says.
 void place(const GivenScene& given, const Setup& setup, Scene& scene);
 
+/// The film that moves the camera or the lights, and where it stands.
+struct FilmState {
+  std::optional<std::size_t> film;  ///< of GivenScene::films; none: nothing is filmed
+  double seconds = 0.0;
+  bool plays = false;
+};
+
 struct ViewState {
   GivenScene given;
   Setup setup, initial;  ///< initial: what Reset goes back to (but for the size, which is the window's)
+  FilmState film;
   Look look;
   Picture picture = Picture::raster;
   Picture previous = Picture::raytrace;
@@ -124,6 +135,20 @@ struct LightDistanceTo {
 struct PlaceLamp {
   Vec3 position;
 };
+struct LightSizeTo {
+  double size;
+};  ///< light_size()
+/// Begins a film, or ends it where it stands.
+struct PickFilm {
+  std::optional<std::size_t> film;
+};
+struct FilmTo {
+  double seconds;
+};  ///< clamped to the film; without one nothing
+/// It goes on by so much, and from its end to its beginning.
+struct FilmGoesOn {
+  double seconds;
+};
 /// Local solar time, from 0 to 24: the sun of an equinox at 45 degrees north; +z is south, +x is east. Lamps
 /// stay.
 struct SunHour {
@@ -131,6 +156,10 @@ struct SunHour {
 };
 
 // Of the look; these ask for no new pictures.
+struct PlayFilm {
+  bool on;
+};  ///< the first one, where none is picked
+struct TogglePlay {};
 struct SetLayout {
   PaneLayout layout;
 };
@@ -181,9 +210,10 @@ using Change =
     std::variant<Show, ShowPrevious, OrbitBy, OrbitTo, ZoomBy, DistanceTo, TurnLightBy, LightAzimuthTo,
                  LightElevationTo, NextLight, PickLight, StepBias, StepSlopeBias, StepNormalOffset, DoubleMap,
                  HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap, SetPrecision, Resize, Reset,
-                 PanBy, TargetTo, LightDistanceTo, PlaceLamp, SunHour, SetLayout, NextLayout, SetTheme,
-                 NextTheme, SetUiScale, ScaleUi, SetFlag, ToggleFlag, SwipeTo, SetPane, ZoomPicture,
-                 ZoomPictureTo, MovePicture, ProbePixel>;
+                 PanBy, TargetTo, LightDistanceTo, PlaceLamp, LightSizeTo, PickFilm, FilmTo, FilmGoesOn,
+                 SunHour, PlayFilm, TogglePlay, SetLayout, NextLayout, SetTheme, NextTheme, SetUiScale,
+                 ScaleUi, SetFlag, ToggleFlag, SwipeTo, SetPane, ZoomPicture, ZoomPictureTo, MovePicture,
+                 ProbePixel>;
 
 void carry_out(ViewState& state, const Change& change);
 

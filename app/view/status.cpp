@@ -91,14 +91,19 @@ void add_poses(Words& words, const Setup& setup) {
     add_if(words, true, "--camera-orbit",
            fmt::format("{},{}", number_text(pose.azimuth_degrees), number_text(pose.elevation_degrees)));
     add_if(words, true, "--camera-distance", number_text(pose.distance));
-    if (const auto& target = pose.target)
-      add_if(words, true, "--camera-target",
-             fmt::format("{},{},{}", number_text(target->x), number_text(target->y), number_text(target->z)));
+    const auto vector = [&](std::string_view key, const std::optional<Vec3>& v) {
+      if (v)
+        add_if(words, true, key,
+               fmt::format("{},{},{}", number_text(v->x), number_text(v->y), number_text(v->z)));
+    };
+    vector("--camera-target", pose.target);
+    vector("--camera-up", pose.up);
   }
   if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
     add_if(words, true, "--light-azimuth", number_text(pose->azimuth_degrees));
     add_if(words, true, "--light-elevation", number_text(pose->elevation_degrees));
     if (pose->distance) add_if(words, true, "--light-distance", number_text(*pose->distance));
+    if (pose->size) add_if(words, true, "--light-size", number_text(*pose->size));
   }
 }
 
@@ -137,6 +142,13 @@ std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapO
   return settings;
 }
 
+std::vector<std::string> backend_words(raster::Backend backend) {
+  Words words;
+  std::istringstream text(backend_argument(backend));
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
 std::vector<std::string> pose_words(const ViewState& state) {
   Words words;
   add_if(words, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
@@ -159,6 +171,7 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
   add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
          "--min-contribution", number_text(options.compare.raytrace.min_contribution));
   add_if(words, options.max_lights != usual_max_lights, "--max-lights", std::to_string(options.max_lights));
+  for (std::string& word : backend_words(options.backend)) words.push_back(std::move(word));
   add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
   if (options.exposure)
     add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");

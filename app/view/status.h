@@ -36,6 +36,8 @@ std::string compare_command(const ViewState& state, const ViewOptions& options, 
 /// The same without "gnomon compare SCENE", each word by itself and not quoted.
 std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options);
 
+/// "--backend", "egl-software"; nothing for auto.
+std::vector<std::string> backend_words(raster::Backend backend);
 /// Its part about the camera and the light.
 std::vector<std::string> pose_words(const ViewState& state);
 /// The shadow map's part of it: options without dashes; the value of a flag is "true".

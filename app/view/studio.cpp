@@ -1,5 +1,7 @@
 #include "app/view/studio.h"
 
+#include <algorithm>
+
 #include "compare/outputs.h"
 #include "scene/exposure.h"
 #include "scene/files/image_io.h"
@@ -32,10 +34,10 @@ Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const
                const compare::CompareOptions& options, std::function<void()> on_finished)
     : loaded_(std::move(loaded)),
       options_(options),
-      given_(given_scene(*loaded_->scene, *loaded_->world)),
+      given_(given_scene(*loaded_->scene, *loaded_->world, loaded_->paths)),
       renderer_(std::move(renderer)),
       exposure_(loaded_->scene->exposure),
-      worker_(*loaded_->scene, *loaded_->world, loaded_->plan, options, std::move(on_finished)) {}
+      worker_(*loaded_->scene, *loaded_->world, options, std::move(on_finished)) {}
 
 Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size, bool analysis, int runs) {
   raster::RasterOptions options = options_.raster;
@@ -65,6 +67,13 @@ Expected<void> Studio::draw(const DrawOrder& order) {
   if (!exposure_) exposure_ = auto_exposure(live_color_);
   encode_live();
   return {};
+}
+
+/// A light's size is what can call for another effect than the scene's own.
+EffectPlan Studio::plan_of(const Setup& setup) const {
+  const bool resized = std::any_of(setup.lights.begin(), setup.lights.end(),
+                                   [](const std::optional<LightPose>& pose) { return pose && pose->size; });
+  return resized ? plan_effects(*loaded_->scene) : loaded_->plan;
 }
 
 /// The picture as `compare` would write it, with the factor that the newest comparison chose.
@@ -102,7 +111,7 @@ Expected<void> Studio::start_next(const DrawOrder& order) {
   started_full_ = !preview;
   auto drawn = render(order.setup, preview ? small : order.setup.size, true, preview ? 0 : 1);
   if (!drawn) return fail(drawn.error());
-  worker_.start({order.revision, preview, order.setup.precision, loaded_->scene->camera,
+  worker_.start({order.revision, preview, order.setup.precision, plan_of(order.setup), loaded_->scene->camera,
                  loaded_->scene->lights, std::move(*drawn)});
   return {};
 }

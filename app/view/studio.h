@@ -60,6 +60,7 @@ class Studio {
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
   Expected<void> take_outcome();
   Expected<void> start_next(const DrawOrder& order);
+  EffectPlan plan_of(const Setup& setup) const;
   void encode_live();
 
   std::shared_ptr<const LoadedScene> loaded_;

@@ -30,6 +30,7 @@ void darker_panels() {
   colours[ImGuiCol_SliderGrab] = {0.16f, 0.45f, 0.66f, 1.0f};  // white numbers are read on it
   colours[ImGuiCol_SliderGrabActive] = {0.20f, 0.55f, 0.80f, 1.0f};
   colours[ImGuiCol_CheckMark] = {0.34f, 0.71f, 0.91f, 1.0f};
+  colours[ImGuiCol_Button] = {0.18f, 0.30f, 0.47f, 1.0f};  // some stand on a picture
   colours[ImGuiCol_TextDisabled] = {0.66f, 0.68f, 0.72f, 1.0f};
 }
 
@@ -41,6 +42,7 @@ void lighter_panels() {
   colours[ImGuiCol_SliderGrab] = {0.42f, 0.68f, 0.88f, 1.0f};  // black numbers are read on it
   colours[ImGuiCol_SliderGrabActive] = {0.30f, 0.60f, 0.84f, 1.0f};
   colours[ImGuiCol_CheckMark] = {0.0f, 0.40f, 0.66f, 1.0f};
+  colours[ImGuiCol_Button] = {0.68f, 0.82f, 0.97f, 1.0f};  // some stand on a picture
   colours[ImGuiCol_TextDisabled] = {0.36f, 0.37f, 0.40f, 1.0f};
 }
 

@@ -48,7 +48,7 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
   const auto lights = choose_lights(*loaded.scene, options.light);
   if (!lights) return fail(lights.error());
   ViewState state;
-  state.given = given_scene(*loaded.scene, *loaded.world);
+  state.given = given_scene(*loaded.scene, *loaded.world, loaded.paths);
   state.setup.lights.resize(state.given.lights.size());
   state.setup.light = lights->front();
   state.setup.map = options.compare.raster.map;
@@ -74,7 +74,7 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   RunFiles files;
   files.reads(options.scene);
   files.reads(options.script);
-  auto loaded = load(options.scene, files, console, options.tessellate, options.camera);
+  auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), console);
   if (options.exposure) loaded->scene->exposure = *options.exposure;

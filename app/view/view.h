@@ -18,7 +18,9 @@ struct ViewOptions {
   std::string camera;               ///< of the scene's cameras; empty: the first
   std::string light;                ///< name of the light to compare first; empty: the first
   compare::CompareOptions compare;  ///< raster.size is the window's first size
-  std::string shader_folder;        ///< replacements of shaders/ files; empty: none
+  raster::Backend backend =
+      raster::Backend::automatic;  ///< of the pictures; the window has the display's own
+  std::string shader_folder;       ///< replacements of shaders/ files; empty: none
   PoseOptions poses;
   std::optional<std::optional<double>> exposure;  ///< none: the scene's own
   std::string script;  ///< a file of steps that drives the window (script.h); empty: none

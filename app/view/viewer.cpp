@@ -5,6 +5,7 @@
 #include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
+#include "raster/renderer_name.h"
 
 namespace gnomon::app {
 
@@ -40,11 +41,23 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, Scene
   StudioOptions studio{options.compare, options.shader_folder, options.exposure, options.tessellate,
                        options.max_lights};
   studio.compare.perceptual = false;  // no view shows it
-  viewer->thread_ =
-      std::make_unique<RenderThread>([w = viewer->window_.get()] { return w->hidden_context(); },
-                                     std::move(source), std::move(studio), [] { Window::wake(); });
+  auto context = viewer->choose_context();
+  if (!context) return fail(context.error());
+  viewer->thread_ = std::make_unique<RenderThread>(std::move(*context), std::move(source), std::move(studio),
+                                                   [] { Window::wake(); });
   viewer->shown_ = viewer->thread_->snapshot();
   return viewer;
+}
+
+/// A graphics card's own context where the window has one and nothing else is asked for. In software a context of
+/// another kind than the window's: those of one kind share threads, and the window would wait for every picture.
+Expected<RenderThread::MakeContext> Viewer::choose_context() {
+  using Made = Expected<std::unique_ptr<raster::Context>>;
+  if (options_.backend != raster::Backend::automatic || raster::draws_in_software(presenter_->renderer()))
+    return [backend = options_.backend] { return raster::create_context(backend); };
+  if (const auto added = window_->add_hidden_context(); !added) return fail(added.error());
+  options_.backend = raster::Backend::egl_hardware;  // what the commands need to draw the same
+  return [w = window_.get()]() -> Made { return w->hidden_context(); };
 }
 
 Viewer::Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console)
@@ -120,18 +133,24 @@ void Viewer::carry_out_command(Command command) {
 
 Expected<void> Viewer::run() {
   while (!quit_ && !window_->should_close()) {
-    const Stopwatch frame;
+    watch_ = FrameWatch();
     window_->poll();
     follow_layout();
+    watch_.end(FramePart::events);
     if (auto ok = take_snapshot(); !ok) return ok;
+    watch_.end(FramePart::snapshot);
     if (auto ok = advance_script(); !ok) return ok;
     if (quit_) break;
     follow_layout();
+    watch_.end(FramePart::events);
+    play_film();
     post_changes();
     look_after_job();
+    watch_.end(FramePart::snapshot);
     if (auto ok = draw_frame(); !ok) return ok;
     window_->show_frame();
-    meter_.frame(frame.elapsed_ms() - std::exchange(writing_ms_, 0.0));
+    watch_.end(FramePart::swap);
+    meter_.frame(watch_);
     meter_.shown(*shown_);
     sleep();
   }
@@ -152,7 +171,7 @@ Expected<void> Viewer::take_snapshot() {
   auto snapshot = thread_->snapshot();
   if (snapshot == shown_) return {};
   const bool told = shown_->unreadable.has_value();
-  shown_ = std::move(snapshot);
+  thread_->give_back(std::exchange(shown_, std::move(snapshot)));
   busy_frames_ = 3;
   if (!shown_->scene)
     return shown_->unreadable ? Expected<void>(fail(*shown_->unreadable)) : Expected<void>();
@@ -189,6 +208,7 @@ void Viewer::show_scene(const OpenedScene& scene) {
   state_.setup.size = size;
   state_.initial = state_.setup;
   state_.look.probe.reset();
+  state_.film = {};
   drawable_.reset();
   ++state_.revision;
 }
@@ -198,6 +218,17 @@ void Viewer::take_back() {
   state_.setup = *drawable_;
   state_.setup.size = size;
   ++state_.revision;
+}
+
+/// A film goes on by the clock, from a moment that is on the screen to the next: where pictures take long, by larger
+/// steps.
+void Viewer::play_film() {
+  if (!state_.film.plays || scene_ == 0) return film_watch_.reset();
+  if (!shown_->is_drawn(state_)) return;
+  const double seconds = film_watch_ ? film_watch_->elapsed_ms() / 1000.0 : 0.0;
+  film_watch_.emplace();
+  busy_frames_ = std::max(busy_frames_, 1);
+  app::carry_out(state_, FilmGoesOn{seconds});
 }
 
 void Viewer::post_changes() {
@@ -257,7 +288,9 @@ Expected<void> Viewer::draw_pictures() {
 }
 
 void Viewer::draw_panels() {
-  interface_->begin_frame(state_.look, type(), script_pointer_);
+  interface_->use_type(state_.look, type());
+  watch_.end(FramePart::font);
+  interface_->begin_frame(script_pointer_);
   if (state_.look.panels && shown_->scene) {
     const JobStatus job = job_ ? job_->status() : JobStatus{};
     asked_.clear();
@@ -269,14 +302,18 @@ void Viewer::draw_panels() {
     status_bar(context);
     help_window(context);
   }
+  watch_.end(FramePart::panels);
   interface_->end_frame();
+  watch_.end(FramePart::drawing);
   for (const Action& action : std::exchange(asked_, {})) act(action);
 }
 
 Expected<void> Viewer::draw_frame() {
   if (auto ok = draw_pictures(); !ok) return ok;
+  watch_.end(FramePart::pictures);
   draw_panels();
   set_title();
+  watch_.end(FramePart::panels);
   if (shot_after_frame_) {
     const std::string path = *std::exchange(shot_after_frame_, std::nullopt);
     if (auto ok = save_screenshot(path); !ok) return ok;
@@ -296,10 +333,9 @@ void Viewer::set_title() {
 }
 
 void Viewer::sleep() {
-  if (busy_frames_ > 0) {
-    --busy_frames_;
-    return;
-  }
+  if (busy_frames_ > 0) --busy_frames_;
+  if (state_.film.plays && !shown_->is_drawn(state_)) return window_->wait(idle_wait_seconds / 100.0);
+  if (busy_frames_ > 0) return;
   if (!has_script()) return window_->wait(job_ || saving_.valid() ? busy_wait_seconds : idle_wait_seconds);
   const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
   if (waits || resizing_ || opening_after_ || job_) window_->wait(idle_wait_seconds / 100.0);

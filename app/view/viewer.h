@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/frame_watch.h"
 #include "app/view/input.h"
 #include "app/view/interface.h"
 #include "app/view/job.h"
@@ -44,6 +45,7 @@ class Viewer {
 
  private:
   Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console);
+  Expected<RenderThread::MakeContext> choose_context();
   void listen();
   void press(int button, bool down, const Modifiers& held);
   void move(double x, double y);
@@ -54,6 +56,7 @@ class Viewer {
   Expected<void> take_snapshot();
   void show_scene(const OpenedScene& scene);
   void take_back();
+  void play_film();
   void post_changes();
   Expected<void> draw_frame();
   Expected<void> draw_pictures();
@@ -63,6 +66,8 @@ class Viewer {
   void sleep();
   TypeSize type() const;
   const Rgb8Image* picture(Picture view) const;
+  /// Where the light's handle is on the window; nothing where no pane shows it.
+  std::optional<Vec2> shown_handle() const;
   Readings readings() const;
 
   // Files and runs beside the window (viewer_files.cpp).
@@ -90,12 +95,13 @@ class Viewer {
   /// Whether the step is over; called once before each frame.
   Expected<bool> pass(const ScriptStep& step);
   Expected<bool> pass_resize(const Resize& resize);
-  Expected<bool> pass_open(const OpenScene& open);
-  bool pass_drag(const DragPointer& drag);
+  Expected<bool> pass_open(const std::function<void()>& ask);
+  Expected<bool> pass_film(const NameFilm& wanted);
+  Expected<bool> pass_drag(DragPointer drag);
   /// With the script's line, where there is one and the error does not name a place of its own.
   Error located(Error error, int line) const;
 
-  const ViewOptions& options_;
+  ViewOptions options_;  ///< backend: the one that was taken
   Console& console_;
   ViewState state_;
   std::optional<Setup> drawable_;  ///< the last one that could be drawn
@@ -114,7 +120,9 @@ class Viewer {
   std::optional<std::uint64_t> opening_after_;   ///< the scene that was there when the script opened another
   std::optional<std::string> shot_after_frame_;  ///< the script's, to be taken when this frame is drawn
   std::optional<ScriptPointer> script_pointer_;
+  std::optional<Vec2> dragged_from_;  ///< the light's handle, by a script
   Meter meter_;
+  std::optional<Stopwatch> film_watch_;  ///< since the film's last moment
 
   std::unique_ptr<Window> window_;  ///< outlives all below
   std::unique_ptr<raster::Context> context_;
@@ -126,7 +134,7 @@ class Viewer {
   bool job_tunes_ = false;
   std::future<Expected<void>> saving_;  ///< a file that is written beside the window
   std::string saving_path_;
-  double writing_ms_ = 0.0;  ///< of this frame, spent on a script's screenshot
+  FrameWatch watch_;  ///< of this frame
   LabLayout layout_;
   Pointer pointer_;
   bool holds_swipe_ = false;                ///< the line of a swipe

@@ -49,12 +49,11 @@ void Viewer::note(const Error& error) {
 
 /// A script's: written before the next step.
 Expected<void> Viewer::save_screenshot(const std::string& path) {
-  const Stopwatch watch;
   const auto picture = screenshot();
   if (!picture) return fail(picture.error());
   if (auto written = save_image(*picture, path); !written) return written;
   console_.message("screenshot: " + path);
-  writing_ms_ += watch.elapsed_ms();
+  watch_.leave_out();
   return {};
 }
 
@@ -137,9 +136,15 @@ void Viewer::write_report() {
 void Viewer::find_best() {
   if (job_) return note("something runs already; Esc stops it");
   const std::string& light = state_.given.lights[state_.setup.light].name;
-  auto job = Job::start("searching the cheapest setting with at most 1 % wrong",
-                        {"tune", shown_->scene->argument.name, "--max-error", tuned_error, "--size",
-                         tuned_size, "--light", light, "--runs", "1", "--json", "-", "--quiet"});
+  std::vector<std::string> words{"tune",        shown_->scene->argument.name,
+                                 "--max-error", tuned_error,
+                                 "--size",      tuned_size,
+                                 "--light",     light,
+                                 "--runs",      "1",
+                                 "--json",      "-",
+                                 "--quiet"};
+  for (std::string& word : backend_words(options_.backend)) words.push_back(std::move(word));
+  auto job = Job::start("searching the cheapest setting with at most 1 % wrong", words);
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = true;

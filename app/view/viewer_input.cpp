@@ -30,19 +30,34 @@ std::optional<Under> under(const LabLayout& layout, const ViewState& state, Vec2
 constexpr double grip_pixels = 8.0;     // how near the line of a swipe one has to be
 constexpr double handle_pixels = 12.0;  // how near the light's handle
 
+bool shows_handle(Picture view) {
+  return view == Picture::raster || view == Picture::raytrace || view == Picture::texels;
+}
+
 /// The camera of the pane under the pointer, where its handle of the light is shown and lies there.
 std::optional<ScreenCamera> handle_under(const LabLayout& layout, const ViewState& state, Vec2 at,
                                          double reach) {
   const auto hit = under(layout, state, at);
   if (!hit || !state.look.panels) return std::nullopt;
   const Picture view = layout.panes.size() == 4 ? state.look.quad[hit->pane] : state.picture;
-  if (view != Picture::raster && view != Picture::raytrace && view != Picture::texels) return std::nullopt;
+  if (!shows_handle(view)) return std::nullopt;
   const ScreenCamera camera{posed_camera(state), hit->place};
   const auto place = camera.project(light_handle(state).place);
   return place && glm::length(*place - at) < reach ? std::optional(camera) : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<Vec2> Viewer::shown_handle() const {
+  for (std::size_t i = 0; state_.look.panels && i < layout_.panes.size(); ++i) {
+    const Box& pane = layout_.panes[i];
+    if (!shows_handle(layout_.panes.size() == 4 ? state_.look.quad[i] : state_.picture)) continue;
+    const ScreenCamera camera{posed_camera(state_), placed(layout_.picture, pane, state_.look)};
+    const auto place = camera.project(light_handle(state_).place);
+    if (place && pane.holds(place->x, place->y)) return place;
+  }
+  return std::nullopt;
+}
 
 void Viewer::press(int button, bool down, const Modifiers& held) {
   busy_frames_ = 3;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/console.h"
 #include "app/view/viewer.h"
 
 namespace gnomon::app {
@@ -37,6 +38,8 @@ Expected<void> Viewer::advance_script() {
 Expected<bool> Viewer::pass(const ScriptStep& step) {
   if (std::holds_alternative<Quit>(step.what)) return quit_ = true;
   if (!shown_->scene) return false;
+  if (std::holds_alternative<WaitDone>(step.what) && state_.film.plays)
+    return fail(ErrorKind::bad_input, "a film that plays is never done (set film-play off before)");
   if (needs_time(step, *shown_, state_) || busy_frames_ > 0) {
     const bool waits =
         std::holds_alternative<WaitDone>(step.what) || std::holds_alternative<Screenshot>(step.what);
@@ -52,8 +55,15 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     print_command();
     return true;
   }
+  if (std::holds_alternative<PrintClipboard>(step.what)) {
+    print_data(window_->clipboard() + "\n");
+    return true;
+  }
   if (const auto* drag = std::get_if<DragPointer>(&step.what)) return pass_drag(*drag);
-  if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open(*open);
+  if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open([this, open] { act(*open); });
+  if (const auto* drop = std::get_if<DropFile>(&step.what))
+    return pass_open([this, drop] { window_->drop(drop->path); });
+  if (const auto* film = std::get_if<NameFilm>(&step.what)) return pass_film(*film);
   changed_line_ = step.line;
   if (const auto* press = std::get_if<PressKey>(&step.what)) {
     act(*action_for_key(press->key));
@@ -75,10 +85,10 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
 }
 
 /// The scene that was there stays until the other has been read.
-Expected<bool> Viewer::pass_open(const OpenScene& open) {
+Expected<bool> Viewer::pass_open(const std::function<void()>& ask) {
   if (!opening_after_) {
     opening_after_ = scene_;
-    act(open);
+    ask();
     return false;
   }
   if (shown_->unreadable) return fail(*shown_->unreadable);
@@ -87,8 +97,32 @@ Expected<bool> Viewer::pass_open(const OpenScene& open) {
   return true;
 }
 
+Expected<bool> Viewer::pass_film(const NameFilm& wanted) {
+  if (wanted.name == "off") {
+    app::carry_out(state_, PickFilm{});
+    return true;
+  }
+  std::string names;
+  for (std::size_t i = 0; i < state_.given.films.size(); ++i) {
+    const std::string& name = state_.given.films[i].name;
+    if (name == wanted.name) {
+      app::carry_out(state_, PickFilm{i});
+      return true;
+    }
+    names += ", " + name;
+  }
+  return fail(ErrorKind::bad_input,
+              fmt::format("film: the scene has no such film (got {}, allowed off{})", wanted.name, names));
+}
+
 /// A press, a move in steps and a release, each in a frame of its own, for the panels and the pictures alike.
-bool Viewer::pass_drag(const DragPointer& drag) {
+Expected<bool> Viewer::pass_drag(DragPointer drag) {
+  if (drag.light) {
+    const auto handle = frames_waited_ == 0 ? shown_handle() : dragged_from_;
+    if (!handle) return fail(ErrorKind::bad_input, "the light's handle is not to be seen");
+    dragged_from_ = handle;
+    drag.from = *handle;
+  }
   const std::int64_t frame = frames_waited_++;
   if (!script_pointer_) script_pointer_.emplace();
   ScriptPointer& pointer = *script_pointer_;

@@ -64,9 +64,6 @@ Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSi
   ask_for_core_context();
   window->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window->window_ == nullptr) return cannot_open("OpenGL 4.5 core: " + library_reason());
-  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  window->hidden_ = glfwCreateWindow(1, 1, title.c_str(), nullptr, nullptr);
-  if (window->hidden_ == nullptr) return cannot_open("a second OpenGL 4.5 core context: " + library_reason());
   glfwMakeContextCurrent(window->window_);
   glfwSwapInterval(1);
   window->connect();
@@ -109,6 +106,13 @@ std::unique_ptr<raster::Context> Window::context() const {
   return std::make_unique<WindowContext>(window_);
 }
 
+Expected<void> Window::add_hidden_context() {
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  hidden_ = glfwCreateWindow(1, 1, "gnomon", nullptr, nullptr);
+  if (hidden_ == nullptr) return cannot_open("a second OpenGL 4.5 core context: " + library_reason());
+  return {};
+}
+
 std::unique_ptr<raster::Context> Window::hidden_context() const {
   return std::make_unique<WindowContext>(hidden_);
 }
@@ -125,6 +129,15 @@ void Window::set_title(const std::string& title) {
 
 void Window::copy(const std::string& text) {
   glfwSetClipboardString(window_, text.c_str());
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_);
+  return text == nullptr ? "" : text;
+}
+
+void Window::drop(const std::string& path) const {
+  if (events_.drop) events_.drop(path);
 }
 
 void Window::ask_for_size(ImageSize size) {

@@ -34,8 +34,9 @@ class Window {
 
   /// The window's context as the rasterizer wants it. The window must outlive it.
   std::unique_ptr<raster::Context> context() const;
-  /// A second one of the same driver for another thread. The window must outlive it, and the thread that uses
-  /// it.
+  /// Makes room for a second one of the same driver, for another thread. Error (graphics).
+  Expected<void> add_hidden_context();
+  /// The second one. The window must outlive it, and the thread that uses it.
   std::unique_ptr<raster::Context> hidden_context() const;
   GLFWwindow* handle() const { return window_; }
   /// What the display enlarges everything by: 1, 1.5, 2 ...
@@ -44,6 +45,9 @@ class Window {
   void listen(WindowEvents events) { events_ = std::move(events); }
   void set_title(const std::string& title);
   void copy(const std::string& text);  ///< to the clipboard
+  std::string clipboard() const;       ///< its text
+  /// As if the file were let fall on the window.
+  void drop(const std::string& path) const;
   /// Asks for a size; the display may grant it later, or another.
   void ask_for_size(ImageSize size);
   /// Pixels of the framebuffer now; 0x0 while iconified.

@@ -6,7 +6,9 @@
 #include <stop_token>
 
 #include "app/view/map_pictures.h"
+#include "app/view/priority.h"
 #include "compare/outputs.h"
+#include "compare/report/shown_materials.h"
 #include "scene/exposure.h"
 
 namespace gnomon::app {
@@ -60,11 +62,10 @@ void draw_pictures(ComparisonOutcome& outcome) {
 
 }  // namespace
 
-CompareWorker::CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan,
-                             const compare::CompareOptions& options, std::function<void()> on_finished)
+CompareWorker::CompareWorker(const Scene& scene, const World& world, const compare::CompareOptions& options,
+                             std::function<void()> on_finished)
     : scene_(copy_without_meshes(scene)),
       world_(copy_of(world, *scene_)),
-      plan_(plan),
       options_(options),
       on_finished_(std::move(on_finished)),
       thread_([this] { run(); }) {}
@@ -104,6 +105,8 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::take() {
 }
 
 void CompareWorker::run() {
+  give_way(comparing_gives_way);
+  const HelpersGiveWay helpers(comparing_gives_way);
   for (;;) {
     std::shared_ptr<Job> job;
     ComparisonRequest request;
@@ -151,7 +154,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.camera = request.camera;
   compare::Comparison& comparison = outcome.comparison;
   comparison.world = world_.get();
-  comparison.plan = plan_;
+  comparison.plan = request.plan;
   comparison.precision = request.precision;
   comparison.raster = std::move(request.drawn);
   comparison.accel_build_ms = tracer_->stats().build_ms;
@@ -163,7 +166,8 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.light = scene_->lights[lights.front()];
   options.precision = request.precision;
   options.raytrace.stop = job.given_up.get_token();
-  comparison.raytraced = raytrace::trace_frame(*tracer_, plan_, scene_->camera, lights, options.raytrace);
+  comparison.raytraced =
+      raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options.raytrace);
   if (job.given_up.stop_requested()) return std::nullopt;
 
   auto compared =
@@ -176,6 +180,10 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
+  outcome.adds_more = Image<std::uint8_t>(comparison.raytraced.receiver.size);
+  const compare::ShownMaterials shown(*world_);
+  for (std::size_t i = 0; i < outcome.adds_more.data.size(); ++i)
+    outcome.adds_more.data[i] = shown.of(comparison.raytraced.receiver.data[i].primitive) != 0 ? 1 : 0;
   comparison.raytraced.receiver = {};
   return Expected<ComparisonOutcome>(std::move(outcome));
 }

@@ -23,6 +23,7 @@ struct ComparisonRequest {
   std::uint64_t revision = 0;  ///< of the window's state
   bool preview = false;        ///< drawn smaller than the window
   raytrace::Precision precision = raytrace::Precision::robust;
+  EffectPlan plan;  ///< of these lights
   Camera camera;
   std::vector<Light> lights;
   raster::RasterFrame drawn;  ///< with the records of the one light to compare
@@ -36,6 +37,7 @@ struct ComparisonOutcome {
   Light light;                     ///< the one compared
   compare::Comparison comparison;  ///< without the receivers, by far its largest part
   Image<Vec3f> normals;            ///< of the receivers: geometric, on the viewer's side
+  Image<std::uint8_t> adds_more;   ///< 1 where the surface mirrors or transmits
   std::string verdict;             ///< compare's sentence
   Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
 };
@@ -43,8 +45,8 @@ struct ComparisonOutcome {
 class CompareWorker {
  public:
   /// Builds the tracer on the worker's thread. `on_finished` is called there whenever an outcome is ready.
-  CompareWorker(const Scene& scene, const World& world, const EffectPlan& plan,
-                const compare::CompareOptions& options, std::function<void()> on_finished);
+  CompareWorker(const Scene& scene, const World& world, const compare::CompareOptions& options,
+                std::function<void()> on_finished);
   /// Gives up what is under way and waits for the thread.
   ~CompareWorker();
 
@@ -65,7 +67,6 @@ class CompareWorker {
 
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<World> world_;
-  EffectPlan plan_;
   compare::CompareOptions options_;
   std::function<void()> on_finished_;
   std::unique_ptr<raytrace::Tracer> tracer_;  ///< the thread's own

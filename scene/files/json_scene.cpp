@@ -83,7 +83,7 @@ void note_unused_settings(const Scene& included, bool has_camera, const std::str
                                 name.ends_with("samples") ? "are" : "is"));
 }
 
-void read_include(SceneReader& reader, const JsonNode& node) {
+void read_include(SceneReader& reader, const JsonNode& node, bool with_lights) {
   const std::string path = reader.resolve(node);
   if (reader.failed()) return;
   check_cycle(reader, node, path);
@@ -93,6 +93,7 @@ void read_include(SceneReader& reader, const JsonNode& node) {
   auto loaded = read_by_extension(*bytes, path, reader.options, reader.includes);
   if (!loaded) return reader.adopt(node, loaded.error());
   note_unused_settings(loaded->scene, loaded->has_camera, path, reader.scene.notes);
+  if (!with_lights) loaded->scene.lights.clear();
   const bool named = !loaded->is_model;  // the names inside a model are its own affair
   const MergeOffsets offsets = merge_scene(reader.scene, std::move(loaded->scene), true);
   if (!named) return;
@@ -171,14 +172,15 @@ void read_paths(SceneReader& reader, const JsonNode& list, std::vector<LoadedPat
 // The order matters: what is named must be known before it is used.
 std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root, std::vector<LoadedPath>& paths) {
   const JsonObject top(
-      root, {"$schema",   "schema",    "name",      "description", "camera",   "cameras", "lights",
-             "materials", "meshes",    "instances", "shapes",      "include",  "ambient", "background",
-             "exposure",  "max_depth", "glossy",    "indirect",    "settings", "paths"});
+      root, {"$schema",    "schema",   "name",      "description", "camera",   "cameras",        "lights",
+             "materials",  "meshes",   "instances", "shapes",      "include",  "include_lights", "ambient",
+             "background", "exposure", "max_depth", "glossy",      "indirect", "settings",       "paths"});
   check_schema(top);
   read_settings(reader, top);
+  const bool with_lights = top.boolean("include_lights", true);
   if (const auto list = top.find("include"))
     for (const JsonNode& node : list->as_array())
-      if (!reader.failed()) read_include(reader, node);
+      if (!reader.failed()) read_include(reader, node, with_lights);
   if (const auto list = top.find("materials")) read_materials(reader, *list);
   if (const auto list = top.find("meshes")) read_meshes(reader, *list);
   if (const auto list = top.find("instances")) read_instances(reader, *list);

@@ -107,8 +107,11 @@ void pane_choice(PanelContext& context, std::size_t pane, const Box& box) {
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBackground |
                        ImGuiWindowFlags_NoBringToFrontOnFocus)) {
     const Picture now = context.state.look.quad[pane];
-    ImGui::SetNextItemWidth(std::min(14.0f * em, static_cast<float>(box.width) - em));
-    if (ImGui::BeginCombo("##view", std::string(picture_title(now)).c_str())) {
+    const float free = static_cast<float>(box.width) - 0.6f * em;
+    const bool narrow = free < 14.0f * em;  // the longest title has no room beside an arrow
+    ImGui::SetNextItemWidth(narrow ? free : 14.0f * em);
+    if (ImGui::BeginCombo("##view", std::string(picture_title(now)).c_str(),
+                          narrow ? ImGuiComboFlags_NoArrowButton : ImGuiComboFlags_None)) {
       for (std::size_t i = 0; i < picture_count; ++i) {
         const auto picture = static_cast<Picture>(i);
         if (ImGui::Selectable(std::string(picture_title(picture)).c_str(), picture == now))

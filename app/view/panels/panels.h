@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/view/input.h"
@@ -47,8 +48,8 @@ void results_panel(PanelContext& context);
 void probe_panel(PanelContext& context);
 void curve_panel(PanelContext& context);
 
-/// Text that wraps at the panel's edge.
-void wrapped(const std::string& text);
+/// Text that wraps at the panel's edge, or at a width of its own.
+void wrapped(std::string_view text, float width = 0.0f);
 void faint(const std::string& text);
 
 }  // namespace gnomon::app

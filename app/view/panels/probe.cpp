@@ -133,22 +133,22 @@ void probe_panel(PanelContext& context) {
   const compare::LabelText& words = compare::label_text(story.label);
   const float size = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 0.8f * size, at.y + size},
-                                            colour(compare::label_colour(story.label)));
+  const ImVec2 corner{at.x + 0.8f * size, at.y + size};
+  ImGui::GetWindowDrawList()->AddRectFilled(at, corner, colour(compare::label_colour(story.label)));
+  ImGui::GetWindowDrawList()->AddRect(at, corner, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   ImGui::Dummy({0.9f * size, size});
   ImGui::SameLine();
   ImGui::TextUnformatted(
       fmt::format("{}, {}: {}", context.state.look.probe->x, context.state.look.probe->y, words.name)
           .c_str());
-  wrapped(story.why);
-  if (!story.test.empty()) faint(story.test);
+  wrapped(story.words);
   if (!story.cure.empty()) wrapped("What helps: " + story.cure);
   if (!story.seen) return;
-  ladder(context, story);
+  if (compare::is_compared(story.label)) ladder(context, story);
   static constexpr int texels = 4;
   if (const auto cut = cut_through(outcome, story, picture, texels)) drawing(context, *cut, story);
-  faint(fmt::format("gap {:.4g}, distance {:.5g}, texel {:.2f}, {:.2f}{}", story.gap, story.distance, story.u,
-                    story.v,
+  const std::string gap = std::isfinite(story.gap) ? fmt::format("gap {:.4g}", story.gap) : "nothing stored";
+  faint(fmt::format("{}, distance {:.5g}, texel {:.2f}, {:.2f}{}", gap, story.distance, story.u, story.v,
                     outcome.comparison.raster.lights.front().map.view.face_count > 1
                         ? fmt::format(", face {}", story.face + 1)
                         : ""));

@@ -38,8 +38,9 @@ void right_aligned(const std::string& text) {
 void swatch(ImU32 fill) {
   const float size = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.15f * size},
-                                            {at.x + 0.7f * size, at.y + 0.85f * size}, fill);
+  const ImVec2 low{at.x, at.y + 0.15f * size}, high{at.x + 0.7f * size, at.y + 0.85f * size};
+  ImGui::GetWindowDrawList()->AddRectFilled(low, high, fill);
+  ImGui::GetWindowDrawList()->AddRect(low, high, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   ImGui::Dummy({0.8f * size, size});
   ImGui::SameLine();
 }
@@ -83,10 +84,8 @@ void labels(const LightComparison& light) {
     ImGui::Text("%s  %s", std::string(words.letter).c_str(), std::string(words.name).c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-      ImGui::TextUnformatted(fmt::format("{}: {}", words.what, words.cause).c_str());
-      ImGui::TextUnformatted(fmt::format("Cure: {}", words.cure).c_str());
-      ImGui::PopTextWrapPos();
+      wrapped(fmt::format("{}: {}", words.what, words.cause), 26.0f * ImGui::GetFontSize());
+      wrapped(fmt::format("Cure: {}", words.cure), 26.0f * ImGui::GetFontSize());
       ImGui::EndTooltip();
     }
     right_aligned(compare::grouped(light.classes[i]));

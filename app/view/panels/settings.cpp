@@ -7,6 +7,7 @@
 #include "app/technique_options.h"
 #include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
+#include "app/view/text_wrap.h"
 #include "raster/technique_traits.h"
 
 namespace gnomon::app {
@@ -16,13 +17,12 @@ namespace {
 void tooltip(const MapRow& row) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
-  ImGui::TextUnformatted(row.what.data(), row.what.data() + row.what.size());
+  const float width = ImGui::GetFontSize() * 26.0f;
+  wrapped(row.what, width);
   ImGui::Spacing();
-  ImGui::Text("Acne: %.*s", static_cast<int>(row.acne.size()), row.acne.data());
-  ImGui::Text("Peter-panning: %.*s", static_cast<int>(row.peter_panning.size()), row.peter_panning.data());
+  wrapped(fmt::format("Acne: {}", row.acne), width);
+  wrapped(fmt::format("Peter-panning: {}", row.peter_panning), width);
   ImGui::TextDisabled("--%.*s", static_cast<int>(row.option.size()), row.option.data());
-  ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
 
@@ -32,7 +32,7 @@ void title_of(const MapRow& row, std::string_view unit) {
   tooltip(row);
   if (unit.empty()) return;
   const float width = ImGui::CalcTextSize(unit.data(), unit.data() + unit.size()).x;
-  ImGui::SameLine(std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
+  ImGui::SameLine(std::max(0.0f, ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width));
   ImGui::TextDisabled("%.*s", static_cast<int>(unit.size()), unit.data());
 }
 
@@ -171,6 +171,62 @@ bool technique(PanelContext& context, raster::MapOptions& map) {
   return changed;
 }
 
+/// Of the light: a number on a slider below its name.
+bool light_number(const char* title, const char* id, double& value, double from, double to,
+                  const char* format) {
+  ImGui::TextUnformatted(title);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, format);
+}
+
+/// A sun's up to twenty times the real one's; a lamp's up to a quarter of the way to the middle of the scene.
+void light_extent(PanelContext& context, const Light& given) {
+  constexpr double largest_sun = 10.0, largest_lamp = 0.25;
+  const bool sun = given.type == LightType::directional;
+  const double own = glm::length(given.position - context.state.given.centre);
+  const double most = sun ? largest_sun : largest_lamp * (own > 0.0 ? own : 1.0);
+  double size = light_size(posed_light(context.state));
+  if (light_number("Size", "##size", size, 0.0, std::max(most, light_size(given)),
+                   sun ? "%.2f degrees across" : "radius %.3g"))
+    context.ask(Change{LightSizeTo{size}});
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  const float width = ImGui::GetFontSize() * 26.0f;
+  wrapped(
+      "A light with a size casts soft shadows; at 0 it is a point, and its shadows are sharp. Of the "
+      "techniques only "
+      "pcss follows it: what the others miss is charged to the light's size.",
+      width);
+  ImGui::Spacing();
+  wrapped("Acne: none; pcss reads a wider part of the map, which needs more bias.", width);
+  wrapped("Peter-panning: none.", width);
+  ImGui::TextDisabled("--light-size");
+  ImGui::EndTooltip();
+}
+
+void film(PanelContext& context) {
+  const ViewState& state = context.state;
+  if (!ImGui::CollapsingHeader("Film", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  const std::vector<LabFilm>& films = state.given.films;
+  const LabFilm* now = state.film.film ? &films[*state.film.film] : nullptr;
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::BeginCombo("##film", now == nullptr ? "none" : now->title.c_str())) {
+    if (ImGui::Selectable("none", now == nullptr)) context.ask(Change{PickFilm{}});
+    for (std::size_t i = 0; i < films.size(); ++i)
+      if (ImGui::Selectable(films[i].title.c_str(), now == &films[i])) context.ask(Change{PickFilm{i}});
+    ImGui::EndCombo();
+  }
+  if (now == nullptr) return;
+  if (ImGui::Button(state.film.plays ? "Stop" : "Play")) context.ask(Change{TogglePlay{}});
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  double seconds = state.film.seconds;
+  const double from = 0.0, to = now->seconds;
+  if (!ImGui::SliderScalar("##seconds", ImGuiDataType_Double, &seconds, &from, &to, "%.2f s")) return;
+  context.ask(Change{PlayFilm{false}});
+  context.ask(Change{FilmTo{seconds}});
+}
+
 void lights(PanelContext& context) {
   const ViewState& state = context.state;
   if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
@@ -185,28 +241,23 @@ void lights(PanelContext& context) {
   }
   const Light& light = state.given.lights[state.setup.light];
   const LightPose pose = current_light(state);
-  const auto number = [](const char* title, const char* id, double& value, double from, double to,
-                         const char* format) {
-    ImGui::TextUnformatted(title);
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, format);
-  };
   double azimuth = pose.azimuth_degrees, elevation = pose.elevation_degrees;
-  if (number("Comes from", "##azimuth", azimuth, -180.0, 180.0, "%.1f degrees"))
+  if (light_number("Comes from", "##azimuth", azimuth, -180.0, 180.0, "%.1f degrees"))
     context.ask(Change{LightAzimuthTo{azimuth}});
-  if (number("Height", "##elevation", elevation, -90.0, 90.0, "%.1f degrees"))
+  if (light_number("Height", "##elevation", elevation, -90.0, 90.0, "%.1f degrees"))
     context.ask(Change{LightElevationTo{elevation}});
   if (light.type != LightType::directional) {
     const double own = glm::length(light.position - state.given.centre);
     double distance = pose.distance.value_or(own);
-    if (own > 0.0 && number("Distance", "##distance", distance, 0.1 * own, 5.0 * own, "%.3g"))
+    if (own > 0.0 && light_number("Distance", "##distance", distance, 0.1 * own, 5.0 * own, "%.3g"))
       context.ask(Change{LightDistanceTo{distance}});
-    return;
+    return light_extent(context, light);
   }
   double hours = sun_hour(pose);
-  if (number("Time of day", "##hour", hours, 6.0, 18.0,
-             fmt::format("{:02}:{:02}", int(hours), int(60.0 * (hours - int(hours)))).c_str()))
+  if (light_number("Time of day", "##hour", hours, 6.0, 18.0,
+                   fmt::format("{:02}:{:02}", int(hours), int(60.0 * (hours - int(hours)))).c_str()))
     context.ask(Change{SunHour{hours}});
+  light_extent(context, light);
 }
 
 void precision(PanelContext& context) {
@@ -221,10 +272,12 @@ void precision(PanelContext& context) {
 
 }  // namespace
 
-void wrapped(const std::string& text) {
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
-  ImGui::PopTextWrapPos();
+void wrapped(std::string_view text, float width) {
+  const float wide = width > 0.0f ? width : ImGui::GetContentRegionAvail().x;
+  const std::string lines = broken_at_blanks(text, static_cast<double>(wide), [](std::string_view part) {
+    return static_cast<double>(ImGui::CalcTextSize(part.data(), part.data() + part.size()).x);
+  });
+  ImGui::TextUnformatted(lines.c_str(), lines.c_str() + lines.size());
 }
 
 void faint(const std::string& text) {
@@ -242,6 +295,7 @@ void settings_panel(PanelContext& context) {
   changed |= group(context, map, RowGroup::cascades, "Cascades");
   if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
   lights(context);
+  film(context);
   precision(context);
 }
 

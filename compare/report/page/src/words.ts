@@ -1,5 +1,7 @@
-// One pixel's story in words: what the map stores, what the test makes of it, and which step made it wrong.
+// One pixel's story in words: what the map stores, what the test makes of it, and which step made it wrong. The program
+// tells the same story (twin: ../../pixel_words.cpp), from the same phrases.
 import { page, wordsOf, type Light, type LightJson, type Pixel, type ShownMaterial } from "./data";
+import phrases from "../../phrases.json";
 import { number, texelsText } from "./svg";
 
 const precision = 2, precisionStep = 4, filterStep = 6;  // a label's value; rungs
@@ -14,69 +16,71 @@ export function decidingStep({ label, rungs }: Pixel): number {
   return wrong(5) ? rises[0] ?? 0 : filterStep;
 }
 
+/** A phrase with its places filled in. */
+const say = (name: keyof typeof phrases, places: Record<string, string | number> = {}): string =>
+  phrases[name].replace(/\{(\w+)\}/g, (_, place: string) => String(places[place]));
+
 function wentWrong(pixel: Pixel): string {
-  const words = wordsOf(pixel.label), step = decidingStep(pixel);
-  if (pixel.label === precision) return `With the exact depth in place of the stored one it would be right: ${words.what}.`;
-  return `It went wrong on the step from V${step - 1} to V${step}, ${page.rungs[step]!.step ?? ""}: ${words.what}.`;
+  const what = wordsOf(pixel.label).what, step = decidingStep(pixel);
+  if (pixel.label === precision) return say("went_wrong_by_precision", { what });
+  return say("went_wrong", { before: step - 1, step, change: page.rungs[step]!.step ?? "", what });
 }
 
 // Of what mirrors or transmits only the surface's own light and shadow are compared; the picture shows more.
 const brightness = (pixel: Pixel, v: number): string =>
-  pixel.material ? (v > 0.5 ? "the light reaches the surface" : "the light does not reach the surface")
-                 : v > 0.5 ? "lit" : "in shadow";
+  pixel.material ? say(v > 0.5 ? "light_reaches" : "light_does_not_reach") : say(v > 0.5 ? "lit" : "in_shadow");
 const testGives = (pixel: Pixel, dark: boolean): string =>
-  pixel.material ? `gives the surface ${dark ? "no light" : "the light"}` : `draws it ${dark ? "in shadow" : "lit"}`;
+  pixel.material ? say(dark ? "gives_no_light" : "gives_light") : say(dark ? "draws_in_shadow" : "draws_lit");
 
-/** What a bias is made of besides its constant, in words; empty where there is nothing. */
-export function otherParts({ slope, normal_offset: offset, receiver_plane: plane, adaptive }: LightJson["bias"]): string {
-  const parts = [slope !== 0 ? "the slope bias" : "", offset !== 0 ? "the normal offset" : "", plane ? "the receiver's plane" : "", adaptive !== null ? "the adaptive bias" : ""];
-  return parts.filter((part) => part !== "").join(" and ");
+/** What a bias is made of besides its constant; none where there is nothing. */
+function partsOf({ slope, normal_offset: offset, receiver_plane: plane, adaptive }: LightJson["bias"]): string[] {
+  return [slope !== 0 ? say("slope_bias") : "", offset !== 0 ? say("normal_offset") : "", plane ? say("receiver_plane") : "",
+    adaptive !== null ? say("adaptive_bias") : ""].filter((part) => part !== "");
 }
+/** The same in words. */
+export const otherParts = (bias: LightJson["bias"]): string => partsOf(bias).join(say("and"));
 
 function mapTest(light: Light, pixel: Pixel, bias: number): string {
   const outside = [pixel.at.u, pixel.at.v].some((t) => t < 0 || t >= light.json.view.size);
-  if (pixel.gap === -Infinity)
-    return outside ? "The pixel lies outside the map, so the test lets it be lit." : "The map stores nothing where this pixel looks, so the test lets it be lit.";
-  const texel = `Texel ${Math.floor(pixel.at.u)}, ${Math.floor(pixel.at.v)}`, dark = pixel.gap > Math.fround(bias);
+  if (pixel.gap === -Infinity) return say(outside ? "outside" : "nothing_stored");
+  const dark = pixel.gap > Math.fround(bias), parts = partsOf(light.json.bias);
   // The gap is what the other parts of the bias leave for its constant to cover.
-  const parts = otherParts(light.json.bias), allowed = `than ${parts} allow${/ and /.test(parts) ? "" : "s"} for`;
-  const constant = `the ${parts === "" ? "" : "constant "}bias of ${number(bias, 3)}`, distance = number(Math.abs(pixel.gap), 3);
-  if (pixel.gap <= 0)
-    return (parts === "" ? `${texel} stores a depth ${distance} behind this point` : `${texel} stores nothing nearer the light ${allowed}`) +
-      `, so the test ${testGives(pixel, dark)} at ${constant}.`;
-  return `${texel} stores something ${distance} (${texelsText(pixel.gap / light.json.texel_world)}) nearer the light${parts === "" ? "" : ` ${allowed}`}. ` +
-    `That is ${dark ? "more" : "no more"} than ${constant}: the test ${testGives(pixel, dark)}.`;
+  const allowed = say(parts.length === 1 ? "allowed_by_one" : "allowed_by_several", { parts: otherParts(light.json.bias) });
+  const places = {
+    texel: say("texel", { u: Math.floor(pixel.at.u), v: Math.floor(pixel.at.v) }),
+    constant: say(parts.length === 0 ? "the_bias" : "the_constant_bias", { bias: number(bias, 3) }),
+    distance: number(Math.abs(pixel.gap), 3), texels: texelsText(pixel.gap / light.json.texel_world),
+    gives: testGives(pixel, dark), more: say(dark ? "more" : "no_more"), allowed,
+  };
+  if (pixel.gap <= 0) return say(parts.length === 0 ? "stores_behind" : "stores_nothing_nearer", places);
+  return say(parts.length === 0 ? "stores_nearer" : "stores_nearer_than_allowed", places);
 }
 
-const decisions = [
-  "In this texel another surface without an edge lies wholly before the pixel's own: surely in shadow, no ray was cast.",
-  "In this texel nothing lies before the pixel's own surface, which has no edge there: surely lit, no ray was cast.",
-  "The texel is not sure here, because of an edge or of surfaces that overlap in depth: a ray was cast.",
-];
+const decisions = ["surely_in_shadow", "surely_lit", "not_sure"] as const;
 
 /** Techniques that decide exactly: how, and beside it what a hard test of a map of this size would make of the pixel. */
 function exactly(light: Light, pixel: Pixel, bias: number): string {
-  const [truth, drawn] = [pixel.rungs[0]!, pixel.rungs[6]!];
-  const how = light.decision ? decisions[light.decision[pixel.index]!] ?? ""
-                             : `${light.json.technique} tests this very point against all that the texel's list holds.`;
-  const said = drawn === truth ? `Drawn ${number(drawn, 3)}, as the exact rays say.` : `Drawn ${number(drawn, 3)}; the exact rays give ${number(truth, 3)}.`;
-  return `${how} ${said} A hard test without bias, for comparison: ${mapTest(light, pixel, bias)}`;
+  const truth = number(pixel.rungs[0]!, 3), drawn = number(pixel.rungs[6]!, 3);
+  const decided = light.decision ? decisions[light.decision[pixel.index]!] : undefined;
+  const how = decided ? say(decided) : light.decision ? "" : say("tests_its_list", { technique: light.json.technique });
+  const said = say(pixel.rungs[6] === pixel.rungs[0] ? "drawn_as_rays" : "drawn_not_as_rays", { drawn, truth });
+  return `${how} ${said} ${say("for_comparison", { test: mapTest(light, pixel, bias) })}`;
 }
 
 /** Where more than the one texel decides: the single test (V5) first, then what the technique makes of it (V6). */
 function filtered(light: Light, pixel: Pixel, bias: number): string {
   const [truth, single, drawn] = [pixel.rungs[0]!, pixel.rungs[5]!, pixel.rungs[6]!];
-  const looked = isFinite(pixel.gap) ? `${mapTest(light, pixel, bias)} ` : "";
-  const test = `${looked}A single test at this bias gives ${number(single, 3)}; ` +
-    (drawn === single ? `${light.json.technique} changes nothing here: drawn ${number(drawn, 3)}.` : `${light.json.technique} reads more of the map than that and draws ${number(drawn, 3)}.`) +
-    ` The exact rays give ${number(truth, 3)}.`;
-  return `${test} ${pixel.label === 0 ? "So it is right to within one half." : wentWrong(pixel)}`;
+  const looked = isFinite(pixel.gap) ? `${mapTest(light, pixel, bias)} ` : "", technique = light.json.technique;
+  const test = `${looked}${say("single_test", { single: number(single, 3) })} ` +
+    `${say(drawn === single ? "changes_nothing" : "reads_more", { technique, drawn: number(drawn, 3) })} ` +
+    say("rays_give", { truth: number(truth, 3) });
+  return `${test} ${pixel.label === 0 ? say("right_within_half") : wentWrong(pixel)}`;
 }
 
 /** Of a picture whose map is not known. */
 function comparedAlone(pixel: Pixel): string {
-  return `Drawn ${number(pixel.rungs[6]!, 3)}; the exact rays give ${number(pixel.rungs[0]!, 3)}. ` +
-    (pixel.label === 0 ? "So it is right to within one half." : `${wordsOf(pixel.label).what}.`);
+  return `${say("drawn_not_as_rays", { drawn: number(pixel.rungs[6]!, 3), truth: number(pixel.rungs[0]!, 3) })} ` +
+    (pixel.label === 0 ? say("right_within_half") : say("label_alone", { what: wordsOf(pixel.label).what }));
 }
 
 function compared(light: Light, pixel: Pixel, bias: number): string {
@@ -84,13 +88,13 @@ function compared(light: Light, pixel: Pixel, bias: number): string {
   if (!light.json.compares_depths) return exactly(light, pixel, bias);
   if (!light.json.gaps_decide) return filtered(light, pixel, bias);
   const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
-  const test = `${mapTest(light, pixel, bias)} The exact ray says: ${brightness(pixel, pixel.rungs[0]!)}.`;
-  if (bias !== light.json.bias.constant) return `${test} With this bias it is drawn ${lit === drawn ? "right" : "wrong"}.`;
-  return `${test} ${pixel.label === 0 ? "So it is right." : wentWrong(pixel)}`;
+  const test = `${mapTest(light, pixel, bias)} ${say("ray_says", { brightness: brightness(pixel, pixel.rungs[0]!) })}`;
+  if (bias !== light.json.bias.constant) return `${test} ${say(lit === drawn ? "with_this_bias_right" : "with_this_bias_wrong")}`;
+  return `${test} ${pixel.label === 0 ? say("right") : wentWrong(pixel)}`;
 }
 
 export function story(light: Light, pixel: Pixel, bias: number): string {
-  return pixel.label < 0 ? `Not compared: ${wordsOf(pixel.label).what}.` : compared(light, pixel, bias);
+  return pixel.label < 0 ? say("not_compared", { what: wordsOf(pixel.label).what }) : compared(light, pixel, bias);
 }
 
 const named = ({ name }: ShownMaterial, kind: string): string => (name === "" ? kind : `${kind} (material “${name}”)`);

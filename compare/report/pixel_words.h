@@ -1,0 +1,30 @@
+// One pixel's story in words: what the map stores there, what the test makes of it, and which step made it wrong. The
+// report page's script tells the same story (twin: page/src/words.ts), from the same phrases (phrases.json).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "compare/comparison.h"
+
+namespace gnomon::compare {
+
+struct PixelFacts {
+  Label label = Label::background;
+  std::array<double, rung_count> rungs{};  ///< V0 ... V6; 1 lit, 0 in shadow
+  double gap = 0.0;         ///< world units along the light ray; minus infinity: nothing is stored
+  double u = 0.0, v = 0.0;  ///< where it looks the map up, texels
+  bool adds_more = false;   ///< it mirrors or transmits, so that the picture shows more than its own light
+  std::optional<std::uint8_t> decision;  ///< of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced
+};
+
+/// The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to, 1 to 6; 0: it is right, or
+/// not compared.
+int deciding_rung(const PixelFacts& pixel);
+
+/// At the bias that was drawn.
+std::string pixel_words(const Comparison& comparison, const LightComparison& light, const PixelFacts& pixel);
+
+}  // namespace gnomon::compare
