@@ -7,7 +7,7 @@
 # FOLDER (default: one below TMPDIR that is removed at the end) keeps the root for a look or for a second run, which
 # then begins with the build that is there. Needs root, mmdebstrap (Debian package) and a network; MIRROR names another
 # mirror than Debian's own. CCACHE names a folder of compiler results that the root shares, with ccache installed there:
-# the minutes printed are then not those of a newcomer.
+# the minutes printed are then not those of a newcomer. GNOMON_STRICT=1: warnings are errors, as in .ci/run.
 set -euo pipefail
 
 die() { printf 'debian.sh: %s\n' "$*" >&2; exit 2; }
@@ -58,7 +58,7 @@ mount_kernel() {
 }
 
 inside() {
-  chroot "$root" /usr/bin/env -C /gnomon HOME=/root LC_ALL=C.UTF-8 ${CCACHE:+CCACHE_DIR=/ccache} "$@"
+  chroot "$root" /usr/bin/env -C /gnomon -u LC_ALL HOME=/root LANG=C.UTF-8 ${CCACHE:+CCACHE_DIR=/ccache} "$@"
 }
 
 # timed NAME COMMAND...: its time in minutes, on stdout; its output into FOLDER/NAME.log.
