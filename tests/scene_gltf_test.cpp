@@ -348,6 +348,7 @@ TEST_F(Gltf, SingleSidedMaterialsAreSaid) {
                        "shadows."));
   EXPECT_FALSE(shows_back(s.materials[0]));
   EXPECT_TRUE(shows_back(s.materials[1]));
+  EXPECT_FALSE(shows_back(s.materials[3])) << "nor has what has no material (glTF 2.0, section 3.9.6)";
   for (Json& material : b.json["materials"]) material["doubleSided"] = true;
   EXPECT_FALSE(has_note(loaded(b), "Single-sided"));
 }

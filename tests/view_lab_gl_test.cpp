@@ -160,6 +160,8 @@ TEST_F(ViewLab, AMomentOfAFilmIsThePrintedCommands) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto commands = lines_of(result.out);
   ASSERT_EQ(commands.size(), 2u);
+  for (const char* word : {"--light-azimuth", "--light-size 3"})
+    EXPECT_NE(commands[0].find(word), std::string::npos) << commands[0];
   const Words more{"-o", "film", "--runs", "1", "--no-report", "--quiet"};
   ASSERT_EQ(run(words_of(commands[0]) + more).exit_code, 0) << commands[0];
   EXPECT_EQ(texels("film.png"), texels("film/labels.png")) << commands[0];
@@ -173,6 +175,11 @@ TEST_F(ViewLab, ThePicturesCanComeFromAnotherBackend) {
       run({"view", "floating-box", "--backend", "egl-software", "--script", "script.txt"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("--backend egl-software"), std::string::npos) << result.out;
+  // Where there is no graphics card, both say so; where there is one, both draw.
+  const Words hardware{"--backend", "egl-hardware"};
+  EXPECT_EQ(
+      run(Words{"view", "floating-box", "--script", "script.txt"} + hardware).exit_code,
+      run(Words{"raster", "floating-box", "--size", "16x16", "-o", "card.png", "-q"} + hardware).exit_code);
 }
 
 TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {

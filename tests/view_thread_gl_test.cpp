@@ -258,6 +258,29 @@ TEST(RenderThread, AnotherSceneBringsItsOwnSettings) {
   EXPECT_TRUE(lab.until([](const Snapshot& now) { return now.unreadable.has_value(); })->scene->number == 2);
 }
 
+// A hard test without any bias but the constant one shadows a pixel at its texel's centre as the drawing from the light
+// says, up to the slope within the texel: so the own texel of most wrong and right pixels agrees with V5.
+TEST(PixelStory, ItsLightSpaceAgreesWithTheTest) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  carry_out(state, SetMapOption{"bias", "4texel"});
+  carry_out(state, SetMapOption{"slope-bias", "0"});
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  int seen = 0, same = 0, dark = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const PixelStory story = tell_story(*done->outcome, {x, y}, size);
+      const auto space = light_space(*done->outcome, story, 2);
+      if (!compare::is_compared(story.label) || !space) continue;
+      ASSERT_EQ(space->nearer.size(), 25u);
+      const bool shadows = space->nearer[12] > space->bias;
+      ++seen, dark += shadows, same += shadows == (story.rungs[5] < 0.5);
+    }
+  EXPECT_GT(dark, 20);
+  EXPECT_GT(same, 0.99 * seen) << same << " of " << seen;
+}
+
 // Of every technique every pixel has a story, whose phrases are all there and filled in.
 TEST(PixelStory, IsToldOfEveryPixel) {
   Lab lab("floating-box", {});

@@ -54,6 +54,12 @@ void add_neighbours(const raster::LightRecord& record, PixelPlace pixel, LightCu
     }
 }
 
+/// A surface is there, and a map that holds its place.
+bool looks_up(const raster::LightRecord& record, const PixelStory& story) {
+  return story.seen && !record.map.depth.empty() && story.distance != 0.0 &&
+         record.outside_map.at(story.pixel.x, story.pixel.y) == 0;
+}
+
 }  // namespace
 
 PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageSize picture) {
@@ -87,9 +93,7 @@ std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const Pixe
                                     int texels) {
   const raster::LightRecord& record = outcome.comparison.raster.lights.front();
   const LightView& view = record.map.view;
-  if (!story.seen || record.map.depth.empty() || story.distance == 0.0 ||
-      record.outside_map.at(story.pixel.x, story.pixel.y) != 0)
-    return std::nullopt;
+  if (!looks_up(record, story)) return std::nullopt;
   LightCut cut;
   cut.distance = story.distance;
   cut.bias = story.bias_world;
@@ -117,6 +121,36 @@ std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const Pixe
   }
   add_neighbours(record, story.pixel, cut, texels);
   return cut;
+}
+
+std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const PixelStory& story, int texels) {
+  constexpr int reach = 80;  // pixels
+  const raster::LightRecord& record = outcome.comparison.raster.lights.front();
+  const LightView& view = record.map.view;
+  if (!looks_up(record, story)) return std::nullopt;
+  LightSpace space;
+  space.u = story.u, space.v = story.v, space.bias = story.bias_world;
+  space.side = 2 * texels + 1;
+  space.first_u = static_cast<int>(std::floor(story.u)) - texels;
+  space.first_v = static_cast<int>(std::floor(story.v)) - texels;
+  const Ray ray = texel_ray(view, story.face, story.u, story.v);
+  const Vec3 point = ray.origin + story.distance * ray.direction;
+  const Vec3 normal(outcome.normals.at(story.pixel.x, story.pixel.y));
+  for (int row = space.first_v; row < space.first_v + space.side; ++row)
+    for (int column = space.first_u; column < space.first_u + space.side; ++column)
+      space.nearer.push_back(plane_distance(view, story.face, column + 0.5, row + 0.5, point, normal) -
+                             stored_distance(record.map, story.face, column, row));
+  const auto inside = [&](const Vec2f& uv) {
+    return uv.x >= float(space.first_u) && uv.y >= float(space.first_v) &&
+           uv.x < float(space.first_u + space.side) && uv.y < float(space.first_v + space.side);
+  };
+  const ImageSize size = record.gap.size;
+  for (int y = std::max(0, story.pixel.y - reach); y < std::min(size.height, story.pixel.y + reach); ++y)
+    for (int x = std::max(0, story.pixel.x - reach); x < std::min(size.width, story.pixel.x + reach); ++x)
+      if (record.face.at(x, y) == story.face && record.distance.at(x, y) != 0.0f &&
+          inside(record.texel_uv.at(x, y)))
+        space.neighbours.emplace_back(record.texel_uv.at(x, y));
+  return space;
 }
 
 }  // namespace gnomon::app

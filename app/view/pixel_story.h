@@ -41,4 +41,19 @@ struct LightCut {
 std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story,
                                     ImageSize picture, int texels);
 
+/// The texels around the pixel's own as the light sees them: u grows to the right, v upwards.
+struct LightSpace {
+  int first_u = 0, first_v = 0;  ///< the lower left texel
+  int side = 0;                  ///< texels
+  /// How much nearer to the light than the receiver's plane each stores its depth, along the ray through its centre,
+  /// world units: row by row from below. Minus infinity: nothing is stored; not a number: beyond the map.
+  std::vector<double> nearer;
+  double bias =
+      0.0;  ///< the constant one: a texel shadows the plane at its centre where it is nearer by more
+  double u = 0.0, v = 0.0;       ///< the pixel
+  std::vector<Vec2> neighbours;  ///< pixels beside it
+};
+/// Empty as above.
+std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const PixelStory& story, int texels);
+
 }  // namespace gnomon::app

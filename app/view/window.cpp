@@ -77,6 +77,10 @@ Window::~Window() {
 
 void Window::connect() {
   glfwSetWindowUserPointer(window_, this);
+  glfwGetFramebufferSize(window_, &size_.width, &size_.height);
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
+    window_of(w).size_ = {width, height};
+  });
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
     const auto& told = window_of(w).events_.key;
     if (told && action != GLFW_RELEASE) told({key, held_of(mods)});
@@ -142,12 +146,6 @@ void Window::drop(const std::string& path) const {
 
 void Window::ask_for_size(ImageSize size) {
   glfwSetWindowSize(window_, size.width, size.height);
-}
-
-ImageSize Window::framebuffer_size() const {
-  ImageSize size;
-  glfwGetFramebufferSize(window_, &size.width, &size.height);
-  return size;
 }
 
 bool Window::should_close() const {

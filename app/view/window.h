@@ -50,8 +50,9 @@ class Window {
   void drop(const std::string& path) const;
   /// Asks for a size; the display may grant it later, or another.
   void ask_for_size(ImageSize size);
-  /// Pixels of the framebuffer now; 0x0 while iconified.
-  ImageSize framebuffer_size() const;
+  /// Pixels of the framebuffer, as the last event told: to ask the display every time would mean to wait for it. 0x0
+  /// where it is iconified and the display says so.
+  ImageSize framebuffer_size() const { return size_; }
   bool should_close() const;
   void show_frame();  ///< swaps the buffers
 
@@ -74,6 +75,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   GLFWwindow* hidden_ = nullptr;
   WindowEvents events_;
+  ImageSize size_{};
 };
 
 }  // namespace gnomon::app

@@ -309,6 +309,7 @@ Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, Checked
     extras.read_material(i, loaded.scene.materials[i]);
   const auto default_material = static_cast<std::uint32_t>(loaded.scene.materials.size());
   loaded.scene.materials.push_back(model_material("default"));
+  loaded.scene.materials.back().double_sided = false;  // glTF 2.0, section 3.9.6
   GltfMeshReader meshes(model, data, *sets, default_material, file);
   SceneBuilder builder(loaded, model, data, checked.document.root, extras, meshes, file);
   if (const auto built = builder.run(); !built) return fail(built.error());

@@ -16,6 +16,10 @@ namespace {
 // One triangle: three float3 positions and three 16-bit indices, padded to 44 bytes.
 constexpr const char* buffer_base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
 
+// A picture of one pixel.
+constexpr const char* pixel_base64 =
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+
 std::string scene_text(const std::string& buffer) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],)"
          R"("nodes":[{"mesh":0,"rotation":[0,0,0,1],"scale":[1,2,1],"children":[2]},)"
@@ -24,10 +28,19 @@ std::string scene_text(const std::string& buffer) {
          R"("extensionsUsed":["KHR_lights_punctual"],)"
          R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,)"
          R"("spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},)"
-         R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.6,0.7,1],"roughnessFactor":0.4}}],)"
-         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
+         R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.6,0.7,1],"roughnessFactor":0.4}},)"
+         R"({"doubleSided":true,"emissiveFactor":[1,0.5,0],"emissiveTexture":{"index":0,"texCoord":1,)"
+         R"("extensions":{"KHR_texture_transform":{"offset":[0.5,1],"scale":[2,3],"rotation":0.5}}},)"
+         R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}},)"
+         R"({"alphaMode":"MASK","extensions":{"KHR_materials_unlit":{}}}],)"
+         R"("textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,)" +
+         std::string(pixel_base64) + R"("}],)" +
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0},)"
+         R"({"attributes":{"POSITION":0,"COLOR_0":0},"material":1},)"
+         R"({"attributes":{"POSITION":0,"COLOR_0":2},"material":2}]}],)"
          R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
-         R"("min":[0,0,0],"max":[1,1,0]},{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],)"
+         R"("min":[0,0,0],"max":[1,1,0]},{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},)"
+         R"({"bufferView":0,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"}],)"
          R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
          R"({"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[)" +
          buffer + "]}";

@@ -30,5 +30,9 @@ std::vector<std::string> gnomon::fuzz::seeds() {
       "property double z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
       "property list uchar uint vertex_indices\nend_header\n"
       "0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty ushort green\nproperty float blue\nproperty uchar alpha\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 0 1 9\n1 0 0 1 65535 0.5 0\n0 1 0 7 8 -1 255\n3 0 1 2\n",
       binary(false), binary(true)};
 }

@@ -4,7 +4,7 @@
 usage: lab_endurance.py GNOMON SCENE [CHANGES [SIZE]]      10000 changes at 640x360 unless said otherwise
 
 Needs a display (Xvfb will do). Prints the program's own figures (frames, the longest, how quickly it answered) and
-its resident memory after each tenth of the run. Exit code 1 when the program fails or says anything of OpenGL.
+its resident memory after each of ten rounds of the same changes. Exit code 1 when the program fails or says anything of OpenGL.
 """
 import os
 import random
@@ -12,7 +12,9 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
+
+
+rounds = 10
 
 
 def change(rng):
@@ -39,12 +41,15 @@ def change(rng):
 
 
 def script(changes, size, seed=1):
-    rng = random.Random(seed)
+    """Ten rounds of the same changes: after each the window shows the same, and what it holds more than before is lost."""
     lines = [f"set size {size}", "wait done"]
-    for i in range(changes):
-        lines += [change(rng), f"wait {rng.randrange(1, 4)}"]
-        if i % 100 == 99:
-            lines.append("wait done")
+    for _ in range(rounds):
+        rng = random.Random(seed)
+        for i in range(changes // rounds):
+            lines += [change(rng), f"wait {rng.randrange(1, 4)}"]
+            if i % 100 == 99:
+                lines.append("wait done")
+        lines += ["wait done", "print"]
     return "\n".join(lines + ["quit"]) + "\n"
 
 
@@ -61,20 +66,22 @@ def main():
         path = os.path.join(folder, "changes.txt")
         with open(path, "w", encoding="ascii") as file:
             file.write(script(changes, size))
-        program = subprocess.Popen([gnomon, "view", scene, "--script", path], stderr=subprocess.PIPE, text=True)
-        samples = []
-        while program.poll() is None:
-            try:
-                samples.append(resident_mb(program.pid))
-            except (OSError, AttributeError):
-                break
-            time.sleep(0.25)
-        said = program.stderr.read()
-        code = program.wait()
-    tenths = [samples[min(len(samples) - 1, len(samples) * k // 10)] for k in range(1, 11)] if samples else []
-    print("resident memory, MB, after each tenth:", " ".join(f"{mb:.0f}" for mb in tenths))
+        with open(os.path.join(folder, "stderr.txt"), "w+", encoding="utf-8") as stderr:
+            program = subprocess.Popen([gnomon, "view", scene, "--script", path], stdout=subprocess.PIPE, stderr=stderr,
+                                       text=True)
+            after = []
+            for _ in program.stdout:  # a command is printed after each round
+                try:
+                    after.append(resident_mb(program.pid))
+                except (OSError, AttributeError):
+                    break
+                print(f"{after[-1]:.0f}", end=" ", flush=True)
+            code = program.wait()
+            stderr.seek(0)
+            said = stderr.read()
+    print("MB resident after each round")
     print(said.strip())
-    return 0 if code == 0 and "OpenGL" not in said and "GL_" not in said else 1
+    return 0 if code == 0 and len(after) == rounds and "OpenGL" not in said and "GL_" not in said else 1
 
 
 if __name__ == "__main__":

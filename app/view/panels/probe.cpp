@@ -122,6 +122,42 @@ void drawing(const PanelContext& context, const LightCut& cut, const PixelStory&
       cut.stored.size(), cut.along_v ? "v" : "u"));
 }
 
+/// The map around the pixel, as the light sees it.
+void light_space_drawing(const PanelContext& context, const LightSpace& space, const PixelStory& story) {
+  const float em = ImGui::GetFontSize();
+  const float side = std::min(ImGui::GetContentRegionAvail().x, 13.0f * em);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float texel = side / static_cast<float>(space.side);
+  const auto at = [&](double u, double v) {
+    return ImVec2{corner.x + static_cast<float>(u - space.first_u) * texel,
+                  corner.y + side - static_cast<float>(v - space.first_v) * texel};
+  };
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(corner, {corner.x + side, corner.y + side}, true);
+  for (int i = 0; i < space.side * space.side; ++i) {
+    const int column = space.first_u + i % space.side, row = space.first_v + i / space.side;
+    const double nearer = space.nearer[static_cast<std::size_t>(i)];
+    const ImU32 fill = std::isnan(nearer)    ? context.ink.paper
+                       : nearer > space.bias ? IM_COL32(70, 74, 84, 255)
+                       : nearer > 0.0        ? IM_COL32(150, 154, 162, 255)
+                                             : IM_COL32(236, 234, 226, 255);
+    const ImVec2 low = at(column, row), high = at(column + 1, row + 1);
+    draw.AddRectFilled({low.x, high.y}, {high.x, low.y}, fill);
+    draw.AddRect({low.x, high.y}, {high.x, low.y}, IM_COL32(110, 114, 122, 255));
+  }
+  for (const Vec2& p : space.neighbours)
+    draw.AddCircleFilled(at(p.x, p.y), 0.09f * em, IM_COL32(0, 114, 178, 255), 6);
+  const ImVec2 own = at(space.u, space.v);
+  draw.AddCircleFilled(own, 0.3f * em, colour(compare::label_colour(story.label)));
+  draw.AddCircle(own, 0.3f * em, IM_COL32(0, 0, 0, 255), 0, 0.1f * em);
+  draw.PopClipRect();
+  ImGui::Dummy({side, side});
+  faint(
+      "The same from the light: dark texels shadow the receiver's plane at their centre, grey ones would "
+      "without the "
+      "constant bias, bright ones do not; dots: pixels beside it.");
+}
+
 }  // namespace
 
 void probe_panel(PanelContext& context) {
@@ -147,6 +183,7 @@ void probe_panel(PanelContext& context) {
   if (compare::is_compared(story.label)) ladder(context, story);
   static constexpr int texels = 4;
   if (const auto cut = cut_through(outcome, story, picture, texels)) drawing(context, *cut, story);
+  if (const auto space = light_space(outcome, story, texels)) light_space_drawing(context, *space, story);
   const std::string gap = std::isfinite(story.gap) ? fmt::format("gap {:.4g}", story.gap) : "nothing stored";
   faint(fmt::format("{}, distance {:.5g}, texel {:.2f}, {:.2f}{}", gap, story.distance, story.u, story.v,
                     outcome.comparison.raster.lights.front().map.view.face_count > 1

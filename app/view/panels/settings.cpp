@@ -152,9 +152,26 @@ void choose(raster::MapOptions& map, raster::Technique technique) {
   if (!technique_reads("snap", map)) map.snap = false;
 }
 
+void note_on(std::string_view what, std::string_view acne, std::string_view peter_panning,
+             const char* option) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  const float width = ImGui::GetFontSize() * 26.0f;
+  wrapped(what, width);
+  ImGui::Spacing();
+  wrapped(fmt::format("Acne: {}", acne), width);
+  wrapped(fmt::format("Peter-panning: {}", peter_panning), width);
+  ImGui::TextDisabled("%s", option);
+  ImGui::EndTooltip();
+}
+
 bool technique(PanelContext& context, raster::MapOptions& map) {
   const LightType type = context.state.given.lights[context.state.setup.light].type;
   ImGui::TextUnformatted("Technique");
+  note_on("What the map stores and how it is looked up.",
+          "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid and izb "
+          "have none.",
+          "As much as the bias; hybrid and izb have none.", "--technique");
   ImGui::SetNextItemWidth(-FLT_MIN);
   bool changed = false;
   if (!ImGui::BeginCombo("##technique", std::string(raster::technique_name(map.technique)).c_str()))
@@ -189,19 +206,11 @@ void light_extent(PanelContext& context, const Light& given) {
   if (light_number("Size", "##size", size, 0.0, std::max(most, light_size(given)),
                    sun ? "%.2f degrees across" : "radius %.3g"))
     context.ask(Change{LightSizeTo{size}});
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  const float width = ImGui::GetFontSize() * 26.0f;
-  wrapped(
+  note_on(
       "A light with a size casts soft shadows; at 0 it is a point, and its shadows are sharp. Of the "
       "techniques only "
       "pcss follows it: what the others miss is charged to the light's size.",
-      width);
-  ImGui::Spacing();
-  wrapped("Acne: none; pcss reads a wider part of the map, which needs more bias.", width);
-  wrapped("Peter-panning: none.", width);
-  ImGui::TextDisabled("--light-size");
-  ImGui::EndTooltip();
+      "None; pcss reads a wider part of the map, which needs more bias.", "None.", "--light-size");
 }
 
 void film(PanelContext& context) {
@@ -227,6 +236,13 @@ void film(PanelContext& context) {
   context.ask(Change{FilmTo{seconds}});
 }
 
+void note_on_place(const char* option) {
+  note_on(
+      "Where the light is.",
+      "The more the light grazes a surface, the more depth lies within a texel, and the more bias it needs.",
+      "Under grazing light the same bias moves a shadow farther along the surface.", option);
+}
+
 void lights(PanelContext& context) {
   const ViewState& state = context.state;
   if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
@@ -244,19 +260,23 @@ void lights(PanelContext& context) {
   double azimuth = pose.azimuth_degrees, elevation = pose.elevation_degrees;
   if (light_number("Comes from", "##azimuth", azimuth, -180.0, 180.0, "%.1f degrees"))
     context.ask(Change{LightAzimuthTo{azimuth}});
+  note_on_place("--light-azimuth");
   if (light_number("Height", "##elevation", elevation, -90.0, 90.0, "%.1f degrees"))
     context.ask(Change{LightElevationTo{elevation}});
+  note_on_place("--light-elevation");
   if (light.type != LightType::directional) {
     const double own = glm::length(light.position - state.given.centre);
     double distance = pose.distance.value_or(own);
     if (own > 0.0 && light_number("Distance", "##distance", distance, 0.1 * own, 5.0 * own, "%.3g"))
       context.ask(Change{LightDistanceTo{distance}});
+    note_on_place("--light-distance");
     return light_extent(context, light);
   }
   double hours = sun_hour(pose);
   if (light_number("Time of day", "##hour", hours, 6.0, 18.0,
                    fmt::format("{:02}:{:02}", int(hours), int(60.0 * (hours - int(hours)))).c_str()))
     context.ask(Change{SunHour{hours}});
+  note_on_place("--light-azimuth, --light-elevation");
   light_extent(context, light);
 }
 
@@ -265,6 +285,12 @@ void precision(PanelContext& context) {
   constexpr const char* names[] = {"fast", "robust", "exact"};
   int now = static_cast<int>(context.state.setup.precision);
   ImGui::TextUnformatted("Arithmetic of the rays");
+  note_on(
+      "What the truth is computed with: fast is float, robust has error bounds, exact has no rounding at "
+      "all.",
+      "None: it is the map's. Rays that round start on the wrong side of their own surface, which is acne of "
+      "the truth.",
+      "None.", "--precision");
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::Combo("##precision", &now, names, 3))
     context.ask(Change{SetPrecision{static_cast<raytrace::Precision>(now)}});
