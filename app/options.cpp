@@ -99,6 +99,14 @@ void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
 void add_scene(CLI::App& command, SceneArgument& scene) {
   command.add_flag("--allow-outside", scene.allow_outside,
                    "let the scene name files outside its own folder [default off]");
+  static constexpr std::pair<std::string_view, InstanceChoice> choices[] = {
+      {"auto", InstanceChoice::automatic},
+      {"keep", InstanceChoice::keep},
+      {"flatten", InstanceChoice::flatten}};
+  add_choice(
+      command, "--instances", scene.instances, choices, "NAME",
+      "what becomes of meshes that stand many times: one copy of each is kept, or all are written out, which "
+      "is faster and takes more memory; the results are the same. auto takes what gnomon plan says");
   command
       .add_option("SCENE", scene.name,
                   "a scene file (.json .gltf .glb .obj .ply), or the name of a built-in scene or lesson "

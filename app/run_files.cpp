@@ -12,7 +12,10 @@
 namespace gnomon::app {
 
 std::string SceneArgument::words() const {
-  return shell_quoted(name) + (allow_outside ? " --allow-outside" : "");
+  std::string words = shell_quoted(name) + (allow_outside ? " --allow-outside" : "");
+  if (instances != InstanceChoice::automatic)
+    words += instances == InstanceChoice::keep ? " --instances keep" : " --instances flatten";
+  return words;
 }
 
 void RunFiles::reads(const std::string& path) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/expected.h"
+#include "scene/world.h"
 
 namespace gnomon::app {
 
@@ -16,6 +17,7 @@ namespace gnomon::app {
 struct SceneArgument {
   std::string name;            ///< a file, a built-in scene or a lesson
   bool allow_outside = false;  ///< files that it names may lie outside its folder
+  InstanceChoice instances = InstanceChoice::automatic;
 
   /// For a command line that loads the same.
   std::string words() const;

@@ -22,6 +22,16 @@
 #include "scene/timing.h"
 
 namespace gnomon::app {
+namespace {
+
+/// Of the world that the scene makes.
+std::uint64_t primitives_of(const Scene& scene) {
+  std::uint64_t count = scene.shapes.size();
+  for (const MeshInstance& instance : scene.instances) count += scene.meshes[instance.mesh].triangles.size();
+  return count;
+}
+
+}  // namespace
 
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console, int tessellate,
                            const std::string& camera, bool with_paths) {
@@ -39,11 +49,10 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());
   if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
-  loaded.world = std::make_unique<World>(make_world(*loaded.scene));
-  if (loaded.world->primitive_count() > raytrace::most_primitives)
-    return fail(ErrorKind::bad_input,
-                fmt::format("{}: too many triangles and shapes (got {}, allowed {})", argument.name,
-                            loaded.world->primitive_count(), raytrace::most_primitives));
+  if (const std::uint64_t count = primitives_of(*loaded.scene); count > raytrace::most_primitives)
+    return fail(ErrorKind::bad_input, fmt::format("{}: too many triangles and shapes (got {}, allowed {})",
+                                                  argument.name, count, raytrace::most_primitives));
+  loaded.world = std::make_unique<World>(make_world(*loaded.scene, argument.instances));
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
   if (const std::string note = lesson_note(argument.name); !note.empty()) console.note(note);

@@ -19,9 +19,9 @@ void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) 
 }  // namespace
 
 void Surfaces::connect() const {
-  parent_.resize(world_.positions.size());
+  parent_.resize(world_.vertex_count());
   std::iota(parent_.begin(), parent_.end(), 0u);
-  for (std::uint32_t t = 0; t < world_.triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < world_.triangle_count(); ++t) {
     join(parent_, topology_.welded(t, 0), topology_.welded(t, 1));
     join(parent_, topology_.welded(t, 0), topology_.welded(t, 2));
   }

@@ -13,10 +13,10 @@ constexpr std::uint64_t parts_per_tile = std::uint64_t{tile_texels} * tile_texel
 
 std::vector<ProjectedPoint> project(const World& world, const SheetGrid& grid, int face) {
   constexpr std::size_t grain = 4096;  // vertices per task
-  std::vector<ProjectedPoint> points(world.positions.size());
+  std::vector<ProjectedPoint> points(world.vertex_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
-      points[i] = grid.point(face, world.positions[i]);
+      points[i] = grid.point(face, world.position(static_cast<std::uint32_t>(i)));
   });
   return points;
 }
@@ -136,9 +136,10 @@ std::uint32_t LightSheets::find_lone_plane() const {
     if (!is_on_map) return no_id;
   }
   if (plane == no_id) return no_id;
-  for (const auto& triangle : world.triangles)
-    for (const std::uint32_t v : triangle)
-      if (!on_map(world.positions[v], 0.0, 0.0)) return no_id;
+  for (const WorldPart& part : world.parts)
+    for (std::uint32_t t = 0; t < part.triangle_count(); ++t)
+      for (const Vec3& corner : part.corners(t))
+        if (!on_map(corner, 0.0, 0.0)) return no_id;
   return plane;
 }
 

@@ -46,7 +46,7 @@ SoftEdges::SoftEdges(const World& world, const raytrace::Topology& topology, con
   tbb::parallel_for(std::uint32_t{0}, world.triangle_count(), [&](std::uint32_t t) {
     const auto corners = world.corners(t);
     side[t] = static_cast<std::int8_t>(side_of_light(corners, hull, position_error));
-    const Material& material = world.scene->materials[world.triangle_material[t]];
+    const Material& material = world.scene->materials[world.material_of(t)];
     whole[t] =
         material.alpha_mode == AlphaMode::mask || (side[t] == 0 && may_touch_light(corners, hull)) ? 1 : 0;
   });

@@ -53,7 +53,7 @@ TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<
   constexpr std::size_t most_chunks = 64, counter_budget = std::size_t{1} << 22;
   const auto tile_count = static_cast<std::size_t>(grid.tiles) * static_cast<std::size_t>(grid.tiles);
   const std::size_t chunks = std::clamp<std::size_t>(counter_budget / tile_count, 1, most_chunks);
-  const std::size_t triangles = world.triangles.size(), chunk = (triangles + chunks - 1) / chunks;
+  const std::size_t triangles = world.triangle_count(), chunk = (triangles + chunks - 1) / chunks;
   std::vector<TileRange> rects(triangles);
   std::vector<std::uint64_t> next(chunks * tile_count);  // chunk by chunk, a counter for every tile
   const auto each = [&](std::size_t c, const auto& body) {
@@ -61,7 +61,7 @@ TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<
   };
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     each(c, [&](std::size_t t) {
-      const auto& v = world.triangles[t];
+      const auto v = world.triangle(static_cast<std::uint32_t>(t));
       rects[t] = rect_of(grid, {points[v[0]], points[v[1]], points[v[2]]});
       for_each_tile(rects[t], grid.tiles, [&](std::size_t tile) { ++next[c * tile_count + tile]; });
     });

@@ -114,7 +114,7 @@ void TileBuilder::collect(int tile_x, int tile_y, std::span<const std::uint32_t>
   const TileFrame frame(grid_, face_, tile_x, tile_y);
   TileTriangle triangle;
   for (const std::uint32_t id : triangles) {
-    const auto& v = world_.triangles[id];
+    const auto v = world_.triangle(id);
     if (!frame.set_up({points_[v[0]], points_[v[1]], points_[v[2]]}, facing_[id], triangle)) continue;
     triangle.id = id;
     if (TileFrame::covers_tile(triangle)) {
@@ -214,7 +214,8 @@ bool TileBuilder::apart(std::uint32_t a, std::uint32_t b) const {
 }
 
 bool TileBuilder::lies_beside(std::uint32_t a, std::uint32_t b) const {
-  const auto &va = world_.triangles[a], &vb = world_.triangles[b];
+  const auto va = world_.triangle(a), vb = world_.triangle(b);
+  const auto first = world_.corners(a), second = world_.corners(b);
   std::array<Vec2, 3> p, q;
   double error = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -229,8 +230,7 @@ bool TileBuilder::lies_beside(std::uint32_t a, std::uint32_t b) const {
     const Vec2 edge = p[end] - p[k];
     bool beside = true;
     for (std::size_t c = 0; c < 3 && beside; ++c) {
-      const Vec3& corner = world_.positions[vb[c]];
-      if (corner == world_.positions[va[k]] || corner == world_.positions[va[end]]) continue;
+      if (second[c] == first[k] || second[c] == first[end]) continue;
       const Vec2 to = q[c] - p[k];
       const double value = edge.x * to.y - edge.y * to.x;
       const double sizes = std::abs(edge.x) + std::abs(edge.y) + std::abs(to.x) + std::abs(to.y);

@@ -93,16 +93,9 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
                                   const DepthMapPass* first) {
   const Gl& gl = *gl_;
   const Drawing drawing{view, cull, with_ids, first != nullptr};
-  const auto program = [&](bool alpha_mask) {
-    return programs_->triangles({.primitive_ids = with_ids,
-                                 .alpha_mask = alpha_mask,
-                                 .peel = drawing.peel,
-                                 .reversed = drawing.peel && view.reversed});
-  };
-  const auto opaque = program(false);
-  if (!opaque) return fail(opaque.error());
-  const auto masked = programs_->features().alpha_mask ? program(true) : opaque;
-  if (!masked) return fail(masked.error());
+  const auto programs = programs_->triangles(
+      {.primitive_ids = with_ids, .peel = drawing.peel, .reversed = drawing.peel && view.reversed});
+  if (!programs) return fail(programs.error());
   world.bind();
   set_state(view, cull);
   std::array<GLint, 4> viewport{};
@@ -112,14 +105,14 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
                                                  viewport[2], viewport[3], view.size));
   if (first != nullptr) first->bind(shaders::first_layer_unit);
   for (int face = 0; face < view.face_count; ++face) {
-    if (first != nullptr) (*opaque)->set_peel(face, format_step()), (*masked)->set_peel(face, format_step());
+    if (first != nullptr) programs->set_peel(face, format_step());
     const Face& target = faces_[static_cast<std::size_t>(face)];
     const Framebuffer& framebuffer = with_ids ? target.depth_and_ids : target.depth;
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
     gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
     if (with_ids) gl->ClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &no_id);
-    world.draw_triangles(**opaque, **masked, light_clip_from_relative(view, face, world.reference()));
+    world.draw_triangles(*programs, light_clip_from_relative(view, face, world.reference()));
     gl->Disable(GL_CULL_FACE);
     if (auto ok = draw_shapes(world, drawing, face); !ok) return ok;
     if (cull != Cull::none) gl->Enable(GL_CULL_FACE);

@@ -77,16 +77,23 @@ IzbPass::IzbPass(Gl& gl, ProgramCache& programs)
 
 Expected<void> IzbPass::upload_world(const World& world) {
   if (world_ == &world) return {};
+  if (world.keeps_instances())
+    return fail(ErrorKind::graphics,
+                "technique izb holds every vertex in double precision, and this scene's instances are kept "
+                "(allowed: --instances flatten)");
   GLint64 limit = 0;
   (*gl_)->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const std::size_t allowed = static_cast<std::size_t>(limit) / sizeof(Vec3);
-  if (world.positions.size() > allowed)
+  if (world.vertex_count() > allowed)
     return fail(
         ErrorKind::graphics,
         fmt::format("the scene is too large for technique izb on this OpenGL (got {} vertices, allowed "
                     "{}: GL_MAX_SHADER_STORAGE_BLOCK_SIZE)",
-                    world.positions.size(), allowed));
-  vertices_.write(std::span<const Vec3>(world.positions));
+                    world.vertex_count(), allowed));
+  vertices_.fill<Vec3>(world.vertex_count(), [&](std::span<Vec3> out) {
+    for (const WorldPart& part : world.parts)
+      for (std::uint32_t v = 0; v < part.vertex_count(); ++v) out[part.first_vertex + v] = part.position(v);
+  });
   std::vector<DoubleShape> shapes;
   for (const Shape& shape : world.shapes) shapes.push_back(double_shape(shape));
   shapes_.write(std::span<const DoubleShape>(shapes));

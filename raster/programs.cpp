@@ -47,8 +47,8 @@ SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
   features.vertex_colors = plan.simulates(Effect::vertex_colors);
   features.unlit = plan.simulates(Effect::unlit);
   features.single_sided = plan.simulates(Effect::single_sided);
-  features.smooth_normals = std::any_of(world.normals.begin(), world.normals.end(),
-                                        [](const Vec3f& n) { return n != Vec3f(0.0f); });
+  features.smooth_normals = world.has_normals();
+  features.instances = world.keeps_instances();
   for (const Shape& shape : world.shapes) {
     features.quadrics = features.quadrics || std::holds_alternative<Quadric>(shape.geometry);
     features.tori = features.tori || std::holds_alternative<Torus>(shape.geometry);
@@ -64,7 +64,9 @@ Expected<TriangleProgram> TriangleProgram::link(const Gl& gl, const Permutation&
                            .add(p.textures && p.alpha_mask, "TEXTURES")
                            .add(p.vertex_colors && p.alpha_mask, "VERTEX_COLORS")
                            .add(p.peel, "PEEL")
-                           .add(p.reversed, "REVERSED");
+                           .add(p.reversed, "REVERSED")
+                           .add(p.instances, "INSTANCES")
+                           .add(p.kept, "KEPT");
   const bool has_fragments = p.primitive_ids || p.alpha_mask || p.peel;
   auto program = typed<TriangleProgram>(
       Program::link(gl, "triangle.vert", has_fragments ? "triangle.frag" : "", defines));
@@ -80,6 +82,16 @@ void TriangleProgram::set_clip_from_relative(const Mat4& matrix) const {
 
 void TriangleProgram::set_first_primitive(std::uint32_t primitive) const {
   if (reads_primitive_) gl()->ProgramUniform1ui(id(), shaders::first_primitive_uniform, primitive);
+}
+
+void TriangleProgram::set_part(std::uint32_t part) const {
+  gl()->ProgramUniform1ui(id(), shaders::part_uniform, part);
+}
+
+void TrianglePrograms::set_peel(int face, float step) const {
+  for (const auto& programs : of)
+    for (const TriangleProgram* program : programs)
+      if (program != nullptr) program->set_peel(face, step);
 }
 
 void TriangleProgram::set_peel(int face, float step) const {
@@ -164,6 +176,7 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                      .add(features.unlit, "UNLIT")
                      .add(features.smooth_normals, "SMOOTH_NORMALS")
                      .add(features.solids(), "SOLIDS")
+                     .add(features.instances, "INSTANCES")
                      .add(features.quadrics, "QUADRIC")
                      .add(features.tori, "TORUS")
                      .add(functions > 0, "IMPLICIT")
@@ -185,14 +198,19 @@ Expected<const Value*> find_or_link(std::map<Key, Value>& cache, const std::type
 
 }  // namespace
 
-Expected<const TriangleProgram*> ProgramCache::triangles(bool primitive_ids, bool alpha_mask) {
-  return triangles({.primitive_ids = primitive_ids, .alpha_mask = alpha_mask});
-}
-
-Expected<const TriangleProgram*> ProgramCache::triangles(TriangleProgram::Permutation key) {
-  key.textures = features_.textures;
-  key.vertex_colors = features_.vertex_colors;
-  return find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
+Expected<TrianglePrograms> ProgramCache::triangles(TriangleProgram::Permutation key) {
+  key.textures = features_.textures, key.vertex_colors = features_.vertex_colors;
+  key.instances = features_.instances;
+  TrianglePrograms programs;
+  for (const bool masked : {false, true})
+    for (const bool kept : {false, true}) {
+      if ((masked && !features_.alpha_mask) || (kept && !features_.instances)) continue;
+      key.alpha_mask = masked, key.kept = kept;
+      const auto program = find_or_link(triangles_, key, [&] { return TriangleProgram::link(*gl_, key); });
+      if (!program) return fail(program.error());
+      programs.of[masked ? 1 : 0][kept ? 1 : 0] = *program;
+    }
+  return programs;
 }
 
 Expected<const ImpostorProgram*> ProgramCache::impostor(const World& world, std::size_t shape,

@@ -26,6 +26,7 @@ struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
   bool vertex_colors = false, unlit = false, single_sided = false;
   bool quadrics = false, tori = false;
+  bool instances = false;     ///< some parts of the world are kept instances
   FunctionTable functions{};  ///< of the implicit surfaces
   bool solids() const { return quadrics || tori || !functions.functions.empty(); }
 };
@@ -37,20 +38,30 @@ class TriangleProgram : public Program {
   struct Permutation {
     bool primitive_ids = false;
     bool alpha_mask = false;
-    bool textures = false;                ///< of the alpha mask
-    bool vertex_colors = false;           ///< of the alpha mask
-    bool peel = false, reversed = false;  ///< only what lies behind a map's first layer
+    bool textures = false;                 ///< of the alpha mask
+    bool vertex_colors = false;            ///< of the alpha mask
+    bool peel = false, reversed = false;   ///< only what lies behind a map's first layer
+    bool instances = false, kept = false;  ///< the world has kept parts; this draws such a one
     auto operator<=>(const Permutation&) const = default;
   };
   static Expected<TriangleProgram> link(const Gl& gl, const Permutation& permutation);
   void set_clip_from_relative(const Mat4& matrix) const;
   /// The primitive id of the next draw call's first triangle.
   void set_first_primitive(std::uint32_t primitive) const;
+  /// Of a program of kept parts: which one.
+  void set_part(std::uint32_t part) const;
   /// Of a program that peels: the face of the first layer, and a step of its number format.
   void set_peel(int face, float step) const;
 
  private:
   bool reads_primitive_ = false;
+};
+
+/// A pass's programs: [masked][kept]; those that the scene does not call for are null.
+struct TrianglePrograms {
+  std::array<std::array<const TriangleProgram*, 2>, 2> of{};
+  /// As TriangleProgram::set_peel, of all.
+  void set_peel(int face, float step) const;
 };
 
 /// What an impostor program draws.
@@ -101,9 +112,9 @@ class ProgramCache {
  public:
   ProgramCache(const Gl& gl, const SceneFeatures& features) : gl_(&gl), features_(features) {}
   const SceneFeatures& features() const { return features_; }
-  Expected<const TriangleProgram*> triangles(bool primitive_ids, bool alpha_mask);
-  /// `permutation.textures` is filled in here.
-  Expected<const TriangleProgram*> triangles(TriangleProgram::Permutation permutation);
+  /// For opaque and masked triangles, of flattened parts and of kept ones; `textures`, `alpha_mask`, `instances` and
+  /// `kept` of the permutation are filled in here.
+  Expected<TrianglePrograms> triangles(TriangleProgram::Permutation permutation);
   /// For the world's i-th shape; `permutation.textures`, `kind` and `function` are filled in here.
   Expected<const ImpostorProgram*> impostor(const World& world, std::size_t shape,
                                             ImpostorProgram::Permutation permutation);

@@ -24,11 +24,8 @@ namespace gnomon::raster {
 // files of the user's could be at fault that the frame does not need.
 Expected<void> GlRenderer::compile() {
   if (!gl_->shader_folder().replaced().empty()) return {};
-  for (const bool ids : {false, true}) {
-    if (auto program = programs_.triangles(ids, false); !program) return fail(program.error());
-    if (!programs_.features().alpha_mask) continue;
-    if (auto program = programs_.triangles(ids, true); !program) return fail(program.error());
-  }
+  for (const bool ids : {false, true})
+    if (auto programs = programs_.triangles({.primitive_ids = ids}); !programs) return fail(programs.error());
   bool first = true;
   for (const Light& light : world_->scene->lights) {
     if (auto program = programs_.shade(shade_permutation(light, MapOptions{}, first, true)); !program)

@@ -100,10 +100,8 @@ void ShadingPass::set_camera(const WorldBuffers& world, const View& view) {
 
 Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const View& view) {
   const Gl& gl = *gl_;
-  const auto opaque = programs_->triangles(true, false);
-  if (!opaque) return fail(opaque.error());
-  const auto masked = programs_->features().alpha_mask ? programs_->triangles(true, true) : opaque;
-  if (!masked) return fail(masked.error());
+  const auto programs = programs_->triangles({.primitive_ids = true});
+  if (!programs) return fail(programs.error());
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
@@ -119,7 +117,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   const float clear_depth = shaders::camera_clear_depth;
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-  world.draw_triangles(**opaque, **masked, clip_from_relative(view, world.world(), world.reference()),
+  world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
                        programs_->features().single_sided);
   return draw_shapes(world, view);
 }

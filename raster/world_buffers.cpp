@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
+#include <cstring>
+#include <map>
 
 #include "raster/expression_glsl.h"
 #include "scene/solid.h"
@@ -87,8 +89,8 @@ ShapeData shape_data(const Shape& shape, std::uint32_t primitive, std::uint32_t 
   return out;
 }
 
-Vec4f triangle_plane(const World& world, std::uint32_t triangle, const Vec3& reference) {
-  const auto [a, b, c] = world.corners(triangle);
+Vec4f triangle_plane(const std::array<Vec3, 3>& corners, const Vec3& reference) {
+  const auto& [a, b, c] = corners;
   const Vec3 n = glm::cross(b - a, c - a);
   const double length = glm::length(n);
   if (!(length > 0.0)) return Vec4f(0.0f);
@@ -96,7 +98,7 @@ Vec4f triangle_plane(const World& world, std::uint32_t triangle, const Vec3& ref
 }
 
 /// Triangles and vertices are texels of buffer textures.
-Expected<void> check_size(const Gl& gl, const World& world) {
+Expected<void> check_size(const Gl& gl, const StoredMeshes& meshes) {
   GLint limit = 0;
   gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   const auto check = [&](std::size_t got, const char* what) -> Expected<void> {
@@ -106,8 +108,12 @@ Expected<void> check_size(const Gl& gl, const World& world) {
                             "allowed {})",
                             got, what, limit));
   };
-  if (const auto fits = check(world.triangles.size(), "triangles"); !fits) return fits;
-  return check(world.positions.size(), "vertices");
+  if (const auto fits = check(meshes.all.triangles, "triangles"); !fits) return fits;
+  if (const auto fits =
+          check(3 * std::size_t{meshes.all.vertices - meshes.flat.vertices}, "instanced coordinates");
+      !fits)
+    return fits;
+  return check(meshes.all.vertices, "vertices");
 }
 
 /// put(i) for 0 ... count - 1, on every thread.
@@ -115,11 +121,44 @@ template <class Put>
 void for_each_index(std::size_t count, const Put& put) {
   constexpr std::size_t at_a_time = 8192;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, at_a_time), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) put(i);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) put(static_cast<std::uint32_t>(i));
   });
 }
 
+/// A material that triangles of kept meshes leave to their instance (shaders/instances.glsl).
+constexpr std::uint32_t no_material = ~0u;
+
+std::uint32_t stored_material(const WorldPart& part, std::uint32_t triangle) {
+  return part.kept() && part.mesh->triangle_materials.empty() ? no_material : part.material_of(triangle);
+}
+
+PartData part_data(const WorldPart& part, const StoredMeshes::Place& at) {
+  PartData out{};
+  for (int c = 0; c < 4; ++c) out.column[c] = part.world_from_object[c];
+  for (int c = 0; c < 3; ++c) out.normal_column[c] = Vec4(part.normal_from_object[c], 0.0);
+  out.first_triangle = part.first_triangle, out.triangles_at = at.triangles, out.material = part.material;
+  out.kept = part.kept() ? 1 : 0;
+  return out;
+}
+
 }  // namespace
+
+StoredMeshes::StoredMeshes(const World& world) : of_part(world.parts.size()) {
+  const auto store = [&](std::uint32_t part) {
+    stored.push_back({part, all}), of_part[part] = all;
+    all.vertices += world.parts[part].vertex_count(), all.triangles += world.parts[part].triangle_count();
+  };
+  for (std::uint32_t i = 0; i < world.parts.size(); ++i)
+    if (!world.parts[i].kept()) store(i);
+  flat = all;
+  std::map<const Mesh*, std::uint32_t> first_of;
+  for (std::uint32_t i = 0; i < world.parts.size(); ++i) {
+    if (!world.parts[i].kept()) continue;
+    const auto [found, is_new] = first_of.try_emplace(world.parts[i].mesh, i);
+    if (is_new) store(i);
+    of_part[i] = of_part[found->second];
+  }
+}
 
 Vec3 reference_point(const World& world, const Vec3& eye) {
   if (world.finite_bounds.empty()) return eye;
@@ -140,6 +179,7 @@ double near_distance(const World& world, const Vec3& eye) {
 WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
     : gl_(&gl),
       world_(&world),
+      meshes_(world),
       vertex_array_(gl),
       positions_(gl),
       normals_(gl),
@@ -150,16 +190,25 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       planes_(gl),
       shapes_(gl),
       materials_(gl),
+      parts_(gl),
+      object_positions_(gl),
       position_texels_(gl),
       normal_texels_(gl),
       uv_texels_(gl),
       color_texels_(gl),
       triangle_texels_(gl),
-      plane_texels_(gl) {}
+      plane_texels_(gl),
+      object_position_texels_(gl) {}
+
+/// put(part, its mesh's place) for everything that is stored.
+template <class Put>
+void WorldBuffers::for_each_stored(const Put& put) const {
+  for (const StoredMeshes::Stored& s : meshes_.stored) put(world_->parts[s.part], s.at);
+}
 
 Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
-  if (const auto fits = check_size(gl, world); !fits) return fail(fits.error());
   WorldBuffers out(gl, world);
+  if (const auto fits = check_size(gl, out.meshes_); !fits) return fail(fits.error());
   out.upload_fixed(features);
   out.make_runs(features);
   if (features.textures) {
@@ -174,24 +223,61 @@ Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const Sc
 void WorldBuffers::upload_fixed(const SceneFeatures& features) {
   const World& world = *world_;
   using Corners = std::array<std::uint32_t, 3>;
-  indices_.write(std::span<const Corners>(world.triangles));
-  triangles_.fill<glm::uvec4>(world.triangles.size(), [&](std::span<glm::uvec4> out) {
-    for_each_index(out.size(), [&](std::size_t i) {
-      const Corners& t = world.triangles[i];
-      out[i] = {t[0], t[1], t[2], world.triangle_material[i]};
+  const auto corners_of = [](const WorldPart& part, const StoredMeshes::Place& at, std::uint32_t i) {
+    const Corners t = part.triangle(i);
+    return Corners{at.vertices + t[0], at.vertices + t[1], at.vertices + t[2]};
+  };
+  indices_.fill<Corners>(meshes_.all.triangles, [&](std::span<Corners> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      for_each_index(part.triangle_count(),
+                     [&](std::uint32_t i) { out[at.triangles + i] = corners_of(part, at, i); });
+    });
+  });
+  triangles_.fill<glm::uvec4>(meshes_.all.triangles, [&](std::span<glm::uvec4> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      for_each_index(part.triangle_count(), [&](std::uint32_t i) {
+        const Corners t = corners_of(part, at, i);
+        out[at.triangles + i] = {t[0], t[1], t[2], stored_material(part, i)};
+      });
     });
   });
   std::vector<MaterialData> materials;
   for (const Material& m : world.scene->materials) materials.push_back(material_data(m));
   materials_.write(std::span<const MaterialData>(materials));
-  if (features.smooth_normals) normals_.write(std::span<const Vec3f>(world.normals));
-  if (features.textures || features.alpha_mask) uvs_.write(std::span<const Vec2f>(world.uvs));
-  if (features.vertex_colors) colors_.write(std::span<const Vec4f>(world.colors));
+  upload_vertices(features);
   vertex_array_.set_indices(indices_);
   vertex_array_.set_floats(shaders::position_attribute, positions_, 3);
   if (!features.alpha_mask) return;
   vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
   if (features.vertex_colors) vertex_array_.set_floats(shaders::color_attribute, colors_, 4);
+}
+
+void WorldBuffers::upload_vertices(const SceneFeatures& features) {
+  const auto fill = [&]<class T>(Buffer& buffer, const auto& value) {
+    buffer.fill<T>(meshes_.all.vertices, [&](std::span<T> out) {
+      for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+        for_each_index(part.vertex_count(), [&](std::uint32_t i) { out[at.vertices + i] = value(part, i); });
+      });
+    });
+  };
+  if (features.smooth_normals)
+    fill.operator()<Vec3f>(normals_, [](const WorldPart& part, std::uint32_t i) {
+      if (!part.kept()) return part.normal(i);
+      return part.mesh->normals.empty() ? Vec3f(0.0f) : part.mesh->normals[i];
+    });
+  if (features.textures || features.alpha_mask)
+    fill.operator()<Vec2f>(uvs_, [](const WorldPart& part, std::uint32_t i) {
+      return part.mesh->uvs.empty() ? Vec2f(0.0f) : part.mesh->uvs[i];
+    });
+  if (features.vertex_colors)
+    fill.operator()<Vec4f>(colors_, [](const WorldPart& part, std::uint32_t i) { return part.color(i); });
+  object_positions_.fill<Vec3>(meshes_.all.vertices - meshes_.flat.vertices, [&](std::span<Vec3> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      if (part.kept())
+        std::copy(part.mesh->positions.begin(), part.mesh->positions.end(),
+                  out.begin() + (at.vertices - meshes_.flat.vertices));
+    });
+  });
 }
 
 void WorldBuffers::attach_textures() {
@@ -201,31 +287,60 @@ void WorldBuffers::attach_textures() {
   color_texels_.attach(colors_, GL_RGBA32F);
   triangle_texels_.attach(triangles_, GL_RGBA32UI);
   plane_texels_.attach(planes_, GL_RGBA32F);
+  object_position_texels_.attach(object_positions_, GL_RG32UI);
 }
 
 void WorldBuffers::make_runs(const SceneFeatures& features) {
   const auto& materials = world_->scene->materials;
-  for (std::uint32_t i = 0; i < world_->triangle_count(); ++i) {
-    const Material& material = materials[world_->triangle_material[i]];
-    const bool masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
-    const bool single = features.single_sided && !shows_back(material);
-    if (runs_.empty() || runs_.back().masked != masked || runs_.back().single_sided != single)
-      runs_.push_back({i, 0, masked, single});
-    ++runs_.back().count;
+  for (std::uint32_t p = 0; p < world_->parts.size(); ++p) {
+    const WorldPart& part = world_->parts[p];
+    for (std::uint32_t i = 0; i < part.triangle_count(); ++i) {
+      TriangleRun run{part.first_triangle + i, 1, meshes_.of_part[p].triangles + i, part.kept() ? p : no_id};
+      const Material& material = materials[part.material_of(i)];
+      run.masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
+      run.single_sided = features.single_sided && !shows_back(material);
+      if (!runs_.empty() && run.follows(runs_.back()))
+        ++runs_.back().count;
+      else
+        runs_.push_back(run);
+    }
   }
+}
+
+void WorldBuffers::write_parts() {
+  if (object_positions_.size() == 0) return;
+  PartsHeader header;
+  header.reference = Vec4(*reference_, 0.0);
+  header.part_count = static_cast<std::uint32_t>(world_->parts.size());
+  header.flat_vertices = meshes_.flat.vertices;
+  std::vector<std::byte> bytes(sizeof header + world_->parts.size() * sizeof(PartData));
+  std::memcpy(bytes.data(), &header, sizeof header);
+  for (std::size_t i = 0; i < world_->parts.size(); ++i) {
+    const PartData data = part_data(world_->parts[i], meshes_.of_part[i]);
+    std::memcpy(bytes.data() + sizeof header + i * sizeof data, &data, sizeof data);
+  }
+  parts_.write(std::span<const std::byte>(bytes));
 }
 
 void WorldBuffers::set_reference(const Vec3& reference) {
   if (reference_ == reference) return;
   reference_ = reference;
-  positions_.fill<Vec3f>(world_->positions.size(), [&](std::span<Vec3f> out) {
-    for_each_index(out.size(), [&](std::size_t i) { out[i] = Vec3f(world_->positions[i] - reference); });
-  });
-  planes_.fill<Vec4f>(world_->triangles.size(), [&](std::span<Vec4f> out) {
-    for_each_index(out.size(), [&](std::size_t i) {
-      out[i] = triangle_plane(*world_, static_cast<std::uint32_t>(i), reference);
+  positions_.fill<Vec3f>(meshes_.flat.vertices, [&](std::span<Vec3f> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      if (!part.kept())
+        for_each_index(part.vertex_count(),
+                       [&](std::uint32_t i) { out[at.vertices + i] = Vec3f(part.position(i) - reference); });
     });
   });
+  planes_.fill<Vec4f>(meshes_.flat.triangles, [&](std::span<Vec4f> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      if (!part.kept())
+        for_each_index(part.triangle_count(), [&](std::uint32_t i) {
+          out[at.triangles + i] = triangle_plane(part.corners(i), reference);
+        });
+    });
+  });
+  write_parts();
   std::vector<ShapeData> shapes;
   const FunctionTable table = function_table(*world_);
   for (std::size_t i = 0; i < world_->shapes.size(); ++i)
@@ -243,23 +358,30 @@ void WorldBuffers::bind() const {
   color_texels_.bind(shaders::colors_unit);
   triangle_texels_.bind(shaders::triangles_unit);
   plane_texels_.bind(shaders::planes_unit);
+  if (object_positions_.size() > 0) {
+    object_position_texels_.bind(shaders::object_positions_unit);
+    parts_.bind(GL_SHADER_STORAGE_BUFFER, shaders::parts_buffer);
+  }
   shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::shapes_buffer);
   materials_.bind(GL_SHADER_STORAGE_BUFFER, shaders::materials_buffer);
   if (texels_) texels_->bind();
 }
 
-void WorldBuffers::draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
-                                  const Mat4& clip_from_relative, bool culls) const {
+void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
+                                  bool culls) const {
   if (culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
   for (const bool with_mask : {false, true}) {
-    const TriangleProgram& program = with_mask ? masked : opaque;
-    bool ready = false;
+    const TriangleProgram* used = nullptr;
     for (const TriangleRun& run : runs_) {
       if (run.masked != with_mask) continue;
-      if (!ready) program.use(), program.set_clip_from_relative(clip_from_relative), ready = true;
+      const bool kept = run.part != no_id;
+      const TriangleProgram& program = *programs.of[with_mask ? 1 : 0][kept ? 1 : 0];
+      if (used != &program)
+        program.use(), program.set_clip_from_relative(clip_from_relative), used = &program;
       program.set_first_primitive(run.first);
+      if (kept) program.set_part(run.part);
       if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
-      const auto offset = static_cast<std::uintptr_t>(run.first) * 3 * sizeof(std::uint32_t);
+      const auto offset = static_cast<std::uintptr_t>(run.at) * 3 * sizeof(std::uint32_t);
       (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset));
     }

@@ -32,11 +32,43 @@ struct MaterialData {
   std::uint32_t diffuse_texture, emission_texture, unused0, unused1;
 };
 
-/// A run of triangles that share one program.
+/// A run of triangles that share one program; of a kept part each run is drawn by itself.
 struct TriangleRun {
-  std::uint32_t first = 0, count = 0;
+  std::uint32_t first = 0, count = 0;  ///< by the world's numbers
+  std::uint32_t at = 0;                ///< of the first one in the buffers
+  std::uint32_t part = no_id;          ///< of a kept part: its number
   bool masked = false;
   bool single_sided = false;
+  bool follows(const TriangleRun& run) const {
+    return masked == run.masked && single_sided == run.single_sided && part == run.part &&
+           first == run.first + run.count && at == run.at + run.count;
+  }
+};
+
+/// Twin of shaders/instances.glsl: what comes before the parts, and a part.
+struct alignas(32) PartsHeader {
+  glm::dvec4 reference{0.0};
+  std::uint32_t part_count = 0, flat_vertices = 0;
+};
+struct alignas(32) PartData {
+  glm::dvec4 column[4], normal_column[3];
+  std::uint32_t first_triangle, triangles_at, material, kept;
+};
+
+/// Where a world's meshes lie in the buffers: flattened parts one after the other, then each mesh that kept parts
+/// share.
+struct StoredMeshes {
+  struct Place {
+    std::uint32_t vertices = 0, triangles = 0;
+  };
+  struct Stored {
+    std::uint32_t part;  ///< one of those that share it
+    Place at;
+  };
+  std::vector<Stored> stored;
+  std::vector<Place> of_part;  ///< by part
+  Place flat, all;             ///< how many vertices and triangles are of flattened parts, and in all
+  explicit StoredMeshes(const World& world);
 };
 
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
@@ -57,24 +89,31 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
-  /// Draws every run with the program of its kind; both get the matrix. `culls`: single-sided triangles are not drawn
+  /// Draws every run with the program of its kind; all get the matrix. `culls`: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all.
-  void draw_triangles(const TriangleProgram& opaque, const TriangleProgram& masked,
-                      const Mat4& clip_from_relative, bool culls = false) const;
+  void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
+                      bool culls = false) const;
 
  private:
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
+  void upload_vertices(const SceneFeatures& features);
   void make_runs(const SceneFeatures& features);
+  void write_parts();
+  template <class Put>
+  void for_each_stored(const Put& put) const;
 
   const Gl* gl_;
   const World* world_;
+  StoredMeshes meshes_;
   std::optional<Vec3> reference_;
   std::vector<TriangleRun> runs_;
   VertexArray vertex_array_;
   Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
-  BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_;
+  Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none
+  BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,
+      object_position_texels_;
   std::optional<TexelPages> texels_;
 };
 

@@ -48,16 +48,16 @@ bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit
 
 /// A leaf's primitive; `room` holds it where the structure keeps no copies.
 inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& scratch) {
-  if (!s.bvh.primitives.empty()) [[likely]]
-    return s.bvh.primitives[index];
-  return scratch = leaf_primitive(*s.world, s.bvh.ids[index]);
+  if (s.bvh.has_primitives()) [[likely]]
+    return s.bvh.primitive_at(index, scratch);
+  return scratch = leaf_primitive(*s.world, s.bvh.id_at(index));
 }
 
 /// One candidate against the ray: fills `hit` (t in kernel units) if the ray intersects it inside ray.t.
 inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
   LeafPrimitive scratch;
   const LeafPrimitive& primitive = leaf_at(s, index, scratch);
-  hit.primitive = s.bvh.ids[index];
+  hit.primitive = s.bvh.id_at(index);
   if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
     hit.barycentric = Vec2(0.0);
     const ShapeGeometry& geometry = s.world->shape(hit.primitive).geometry;
@@ -120,7 +120,7 @@ inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
 inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint32_t primitive) {
   const World& world = *s.world;
   return s.hides_backs && world.is_triangle(primitive) &&
-         !shows_back(world.scene->materials[world.triangle_material[primitive]]) &&
+         !shows_back(world.scene->materials[world.material_of(primitive)]) &&
          is_back(world, direction, primitive);
 }
 

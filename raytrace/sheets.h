@@ -46,7 +46,7 @@ struct TexelLists {
 /// Built in parallel over the asked columns, by descending the tracer's hierarchy with the column's volume.
 TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::vector<TexelKey> keys);
 
-/// Triangle adjacency with vertices welded by exact position; built once per world.
+/// Triangle adjacency with vertices welded by exact position; built once per world, whose meshes must outlive it.
 class Topology {
  public:
   explicit Topology(const World& world);
@@ -55,15 +55,39 @@ class Topology {
       0xfffffffeu;  ///< an edge with three or more, or inconsistent winding
   /// The triangle across edge k (corners k and k+1) of a triangle, or boundary, or non_manifold.
   std::uint32_t across(std::uint32_t triangle, int edge) const {
-    return across_[3 * std::size_t{triangle} + static_cast<std::size_t>(edge)];
+    const Part& part = parts_[triangles_.of(triangle)];
+    const std::size_t at = 3 * std::size_t{triangle - part.first_triangle} + static_cast<std::size_t>(edge);
+    const std::uint32_t across = across_[part.at.across + at];
+    return across >= non_manifold ? across : across + part.add_triangle;
   }
-  /// The welded id of a triangle's corner.
+  /// The lowest vertex where a triangle's corner is.
   std::uint32_t welded(std::uint32_t triangle, int corner) const {
-    return welded_[3 * std::size_t{triangle} + static_cast<std::size_t>(corner)];
+    const Part& part = parts_[triangles_.of(triangle)];
+    const int stored = part.turned && corner > 0 ? 3 - corner : corner;
+    const auto& vertices = part.triangles[triangle - part.first_triangle];
+    return welded_[part.at.welded + vertices[static_cast<std::size_t>(stored)]] + part.add_vertex;
   }
 
  private:
-  std::vector<std::uint32_t> across_, welded_;
+  /// Where a part's numbers begin.
+  struct Place {
+    std::size_t across = 0, welded = 0;
+  };
+  /// Of an instance in the world. What instances share is numbered as their mesh is.
+  struct Part {
+    const std::array<std::uint32_t, 3>* triangles = nullptr;
+    Place at;
+    std::uint32_t first_triangle = 0, add_triangle = 0, add_vertex = 0;
+    bool turned = false;
+  };
+  /// Appends the numbers of these parts, one after the other.
+  Place connect(const std::vector<const WorldPart*>& parts);
+  /// Places the parts that share their mesh's numbers; returns 1 for those that do not.
+  std::vector<char> share_meshes(const World& world);
+
+  Ranges triangles_;  ///< of the parts
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> across_, welded_;  ///< three for each triangle; one for each vertex
 };
 
 struct Sheet {

@@ -15,6 +15,28 @@
 namespace gnomon::raytrace {
 namespace {
 
+/// Whether a triangle's material is such; each list of materials is looked at once.
+template <class Is>
+bool any_triangle_material(const World& world, const Is& is) {
+  const auto of = [&](std::uint32_t material) { return is(world.scene->materials[material]); };
+  std::vector<char> seen(world.scene->meshes.size(), 0);
+  for (const WorldPart& part : world.parts) {
+    if (part.triangle_count() == 0) continue;
+    const auto& of_triangles = part.mesh->triangle_materials;
+    if (of_triangles.empty() && of(part.material)) return true;
+    char& done = seen[static_cast<std::size_t>(part.mesh - world.scene->meshes.data())];
+    if (done == 0 && std::any_of(of_triangles.begin(), of_triangles.end(), of)) return true;
+    done = 1;
+  }
+  return false;
+}
+template <class Is>
+bool any_material(const World& world, const Is& is) {
+  return any_triangle_material(world, is) ||
+         std::any_of(world.shapes.begin(), world.shapes.end(),
+                     [&](const Shape& shape) { return is(world.scene->materials[shape.material]); });
+}
+
 Structures make_structures(const World& world, Accel accel, Precision precision) {
   Structures s;
   s.world = &world;
@@ -24,7 +46,8 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
     s.bvh = std::move(two->leaves);
   else
     s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
-  if (accel == Accel::bvh) s.wide = std::make_unique<WideOnDemand>(precision == Precision::fast);
+  if (accel == Accel::bvh && s.bvh.instances.empty())
+    s.wide = std::make_unique<WideOnDemand>(precision == Precision::fast);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
     if (plane == nullptr)
@@ -39,12 +62,22 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
       LeafPrimitive scratch;
       s.fast.push_back(fast_primitive(leaf_at(s, i, scratch), world.is_triangle(s.bvh.ids[i])));
     }
-  const auto& materials = world.scene->materials;
-  for (std::uint32_t id = 0; id < world.primitive_count() && !s.has_masks; ++id)
-    s.has_masks = materials[world.material_of(id)].alpha_mode == AlphaMode::mask;
-  s.hides_backs = std::any_of(world.triangle_material.begin(), world.triangle_material.end(),
-                              [&](std::uint32_t m) { return !shows_back(materials[m]); });
+  s.has_masks = any_material(world, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
+  s.hides_backs = any_triangle_material(world, [](const Material& m) { return !shows_back(m); });
   return s;
+}
+
+std::uint64_t bytes_of(const Bvh& bvh) {
+  std::uint64_t bytes = bvh.nodes.size() * sizeof(BvhNode) + bvh.below.size() * sizeof(LeafRange) +
+                        bvh.primitives.size() * sizeof(LeafPrimitive) +
+                        bvh.ids.size() * sizeof(std::uint32_t) + bvh.instances.size() * sizeof(BvhInstance);
+  for (const Bvh& tree : bvh.trees) bytes += bytes_of(tree);
+  return bytes;
+}
+std::uint64_t nodes_of(const Bvh& bvh) {
+  std::uint64_t nodes = bvh.nodes.size();
+  for (const Bvh& tree : bvh.trees) nodes += tree.nodes.size();
+  return nodes;
 }
 
 /// verb(masks, arithmetic) with types that stand for the scene's masks and the chosen arithmetic.
@@ -143,10 +176,8 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const Bvh& bvh = impl_->structures.bvh;
   const StructureSize size = size_of(impl_->structures.structure);
   impl_->stats = {.build_ms = watch.elapsed_ms(),
-                  .bytes = bvh.nodes.size() * sizeof(BvhNode) + bvh.below.size() * sizeof(LeafRange) +
-                           bvh.primitives.size() * sizeof(LeafPrimitive) +
-                           bvh.ids.size() * sizeof(std::uint32_t) + size.bytes,
-                  .nodes = bvh.nodes.size() + size.nodes,
+                  .bytes = bytes_of(bvh) + size.bytes,
+                  .nodes = nodes_of(bvh) + size.nodes,
                   .dropped = bvh.dropped};
 }
 Tracer::~Tracer() = default;

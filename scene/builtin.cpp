@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // In the order in which a newcomer should see them.
-constexpr std::array<BuiltinScene, 16> scenes{{
+constexpr std::array<BuiltinScene, 17> scenes{{
     {"fence", "A picket fence, a low sun and a garden path: long shadows of thin things."},
     {"acne-floor",
      "A large floor under a slanting sun and nothing that could cast a shadow on it: every shadow is false."},
@@ -34,6 +34,11 @@ constexpr std::array<BuiltinScene, 16> scenes{{
     {"stadium", "A teapot in a stadium: where uniform grids lose."},
     {"field", "An even field of small things: where a uniform grid is at its best."},
     {"orchard", "One tree planted over two hundred times: what a two-level structure saves."},
+    {"forest",
+     "Two thousand trees of ten thousand triangles along a sunny ride: twenty million, of which forty "
+     "thousand are "
+     "stored.",
+     true},
 }};
 
 }  // namespace

@@ -85,12 +85,11 @@ double nearest_seen(const World& world, const View& view, double limit) {
       view.forward * view.tan_half_y + view.up, view.forward * view.tan_half_y - view.up};
   const auto depth = [&](const Vec3& p) { return glm::dot(p - view.eye, view.forward); };
   double nearest = limit;
-  for (const auto& triangle : world.triangles) {
+  for (std::uint32_t t = 0; t < world.triangle_count(); ++t) {
+    const auto corners = world.corners(t);
+    if (std::min({depth(corners[0]), depth(corners[1]), depth(corners[2])}) >= nearest) continue;
     std::vector<Vec3> polygon;
-    double least = infinity;
-    for (const std::uint32_t v : triangle) least = std::min(least, depth(world.positions[v]));
-    if (least >= nearest) continue;
-    for (const std::uint32_t v : triangle) polygon.push_back(world.positions[v] - view.eye);
+    for (const Vec3& corner : corners) polygon.push_back(corner - view.eye);
     for (const Vec3& side : sides) polygon = clipped(polygon, side);
     for (const Vec3& p : polygon) nearest = std::min(nearest, std::max(0.0, glm::dot(p, view.forward)));
   }

@@ -80,13 +80,32 @@ double view_reach(const World& world, const View& view) {
   return has_plane ? far_away : light_fit::finite_reach(world, view);
 }
 
-// Calls use(rect, z_min, z_max) for the light-space extent of every finite primitive.
-template <class Use>
-void for_each_extent(const World& world, const LightFace& face, const Vec3& reference, const Use& use) {
-  for (const auto& triangle : world.triangles) {
-    Aabb box;
-    for (const std::uint32_t v : triangle) box.grow(to_light_space(face, world.positions[v] - reference));
-    use(Rect{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z);
+// The light-space box of a part's box, by so much too large that no rounding puts a corner outside it.
+Aabb extent_of(const WorldPart& part, const LightFace& face, const Vec3& reference) {
+  Aabb box;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner((i & 1) != 0 ? part.bounds.max.x : part.bounds.min.x,
+                      (i & 2) != 0 ? part.bounds.max.y : part.bounds.min.y,
+                      (i & 4) != 0 ? part.bounds.max.z : part.bounds.min.z);
+    box.grow(to_light_space(face, corner - reference));
+  }
+  const Vec3 size = glm::abs(box.min) + glm::abs(box.max);
+  const Vec3 margin(1e-9 * (size.x + size.y + size.z));
+  return {box.min - margin, box.max + margin};
+}
+
+// Calls use(rect, z_min, z_max) for the light-space extent of every finite primitive, but for parts of whose boxes
+// makes_no_difference(box) says so.
+template <class Makes, class Use>
+void for_each_extent(const World& world, const LightFace& face, const Vec3& reference,
+                     const Makes& makes_no_difference, const Use& use) {
+  for (const WorldPart& part : world.parts) {
+    if (part.kept() && makes_no_difference(extent_of(part, face, reference))) continue;
+    for (std::uint32_t t = 0; t < part.triangle_count(); ++t) {
+      Aabb box;
+      for (const Vec3& corner : part.corners(t)) box.grow(to_light_space(face, corner - reference));
+      use(Rect{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z);
+    }
   }
   for (const Shape& shape : world.shapes) {
     if (std::holds_alternative<Plane>(shape.geometry)) continue;
@@ -185,8 +204,12 @@ double distance_to_box(const Vec3& p, const ShapeGeometry& solid) {
 
 double closest_distance(const World& world, const Vec3& p) {
   double closest = infinity;
-  for (std::uint32_t i = 0; i < world.triangle_count(); ++i)
-    closest = std::min(closest, distance_to_triangle(p, world.corners(i)));
+  for (const WorldPart& part : world.parts) {
+    const double to_box = glm::length(p - glm::clamp(p, part.bounds.min, part.bounds.max));
+    if (part.kept() && 0.999 * to_box > closest) continue;
+    for (std::uint32_t i = 0; i < part.triangle_count(); ++i)
+      closest = std::min(closest, distance_to_triangle(p, part.corners(i)));
+  }
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       closest = std::min(closest, std::abs(glm::length(sphere->center - p) - sphere->radius));
@@ -202,7 +225,9 @@ double closest_distance(const World& world, const Vec3& p) {
 
 double farthest_distance(const World& world, const Vec3& p) {
   double farthest = 0.0;
-  for (const Vec3& v : world.positions) farthest = std::max(farthest, glm::length(v - p));
+  for (const WorldPart& part : world.parts)
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
+      farthest = std::max(farthest, glm::length(part.position(v) - p));
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       farthest = std::max(farthest, glm::length(sphere->center - p) + sphere->radius);
@@ -250,7 +275,11 @@ Vec3 to_light_space(const LightFace& f, const Vec3& d) {
 
 Rect casters_rect(const World& world, const LightFace& face, const Vec3& reference) {
   Rect rect;
-  for_each_extent(world, face, reference,
+  const auto inside = [&](const Aabb& box) {
+    return box.min.x > rect.min.x && box.min.y > rect.min.y && box.max.x < rect.max.x &&
+           box.max.y < rect.max.y;
+  };
+  for_each_extent(world, face, reference, inside,
                   [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
   return rect;
 }
@@ -258,7 +287,11 @@ Rect casters_rect(const World& world, const LightFace& face, const Vec3& referen
 Interval depths_over(const World& world, const LightFace& face, const Vec3& reference, const Rect& casters,
                      const Rect& rect) {
   Interval z{infinity, -infinity};
-  for_each_extent(world, face, reference, [&](const Rect& r, double z_min, double z_max) {
+  const auto beside_or_inside = [&](const Aabb& box) {
+    return (!box.empty() && !Rect{Vec2(box.min), Vec2(box.max)}.overlaps(casters)) ||
+           (box.min.z > z.min && box.max.z < z.max);
+  };
+  for_each_extent(world, face, reference, beside_or_inside, [&](const Rect& r, double z_min, double z_max) {
     if (!r.overlaps(casters)) return;
     z.min = std::min(z.min, z_min), z.max = std::max(z.max, z_max);
   });

@@ -41,6 +41,7 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name);
 struct BuiltinScene {
   std::string_view name;
   std::string_view description;  ///< one sentence
+  bool large = false;            ///< millions of triangles
 };
 std::vector<BuiltinScene> builtin_scenes();
 

@@ -11,22 +11,96 @@
 namespace gnomon {
 namespace {
 
-// Normals transform by the inverse transpose; a mirrored instance keeps its authored winding, so the normal
-// that the right-hand rule gives may point inwards. Everything here is two-sided, so only consistency
-// matters.
-void put_vertex(World& world, const Mesh& mesh, const Mat4& world_from_object, const Mat3& normal_from_object,
-                std::size_t base, std::size_t i) {
-  world.positions[base + i] = Vec3(world_from_object * Vec4(mesh.positions[i], 1.0));
-  Vec3f normal(0.0f);
-  if (!mesh.normals.empty()) {
-    const Vec3 n = normal_from_object * Vec3(mesh.normals[i]);
-    const double length = glm::length(n);
-    if (length > 0.0) normal = Vec3f(n / length);
-  }
-  world.normals[base + i] = normal;
-  world.uvs[base + i] = mesh.uvs.empty() ? Vec2f(0.0f) : mesh.uvs[i];
-  if (!mesh.colors.empty()) world.colors[base + i] = mesh.colors[i];
+using Range = tbb::blocked_range<std::size_t>;
+constexpr std::size_t at_a_time = 8192;
+
+/// True when each(i) is for all of 0 … count-1.
+template <class Each>
+bool all_of_many(std::size_t count, const Each& each) {
+  return tbb::parallel_reduce(
+      Range(0, count, at_a_time), true,
+      [&](const Range& range, bool so_far) {
+        for (std::size_t i = range.begin(); i != range.end() && so_far; ++i) so_far = each(i);
+        return so_far;
+      },
+      [](bool a, bool b) { return a && b; });
 }
+
+bool all_below(const Vec3& v, double limit) {
+  return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;  // false for NaN
+}
+
+/// Whether moving the mesh by its instance's matrix gives the mesh's own bits: the matrix is the identity, and no
+/// coordinate is one that the arithmetic changes (-0 becomes 0, infinity becomes NaN).
+bool stays_in_place(const WorldPart& part) {
+  if (part.world_from_object != Mat4(1.0)) return false;
+  const auto& positions = part.mesh->positions;
+  return all_of_many(positions.size(), [&](std::size_t i) {
+    const Vec3& p = positions[i];
+    const auto stays = [](double x) { return std::isfinite(x) && !(x == 0.0 && std::signbit(x)); };
+    return stays(p.x) && stays(p.y) && stays(p.z);
+  });
+}
+
+void flatten(World& world, WorldPart& part) {
+  if (stays_in_place(part)) {
+    part.positions = part.mesh->positions.data();
+    return;
+  }
+  const auto moved = std::make_shared<std::vector<Vec3>>(part.mesh->positions.size());
+  tbb::parallel_for(Range(0, moved->size(), at_a_time), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      (*moved)[i] = placed_vertex(part.world_from_object, part.mesh->positions[i]);
+  });
+  part.positions = moved->data();
+  world.moved.push_back(moved);
+}
+
+/// The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
+Aabb bounds_of(const WorldPart& part) {
+  return tbb::parallel_reduce(
+      Range(0, part.triangle_count(), at_a_time), Aabb{},
+      [&](const Range& range, Aabb bounds) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+          for (const Vec3& corner : part.corners(i)) bounds.grow(corner);
+        return bounds;
+      },
+      [](Aabb left, const Aabb& right) {
+        left.grow(right);
+        return left;
+      });
+}
+
+/// Beyond these sizes the boxes of a shared tree, which are floats, could overflow on their way into the world.
+constexpr double largest_coordinate = 1e15;
+
+bool is_tame(const Mesh& mesh) {
+  return all_of_many(mesh.positions.size(),
+                     [&](std::size_t i) { return all_below(mesh.positions[i], largest_coordinate); });
+}
+
+/// A kept instance shares its mesh's tree, so each of its triangles must be one that rays can hit just when that of
+/// the mesh is: rounding may take a triangle's area.
+bool can_be_kept(const WorldPart& part) {
+  if (part.turned) return false;  // the tree's corners are in the mesh's order
+  for (int c = 0; c < 4; ++c)
+    if (!all_below(Vec3(part.world_from_object[c]), largest_coordinate)) return false;
+  if (Vec4(part.world_from_object[0][3], part.world_from_object[1][3], part.world_from_object[2][3],
+           part.world_from_object[3][3]) != Vec4(0.0, 0.0, 0.0, 1.0))
+    return false;
+  const Mesh& mesh = *part.mesh;
+  return all_of_many(part.triangle_count(), [&](std::size_t i) {
+    const auto& t = mesh.triangles[i];
+    const std::array<Vec3, 3> corners = part.corners(i);
+    return has_surface(corners) ==
+               has_surface({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}) &&
+           all_below(corners[0], largest_coordinate) && all_below(corners[1], largest_coordinate) &&
+           all_below(corners[2], largest_coordinate);
+  });
+}
+
+/// Instances of meshes with fewer triangles are not worth a tree of their own.
+constexpr std::size_t few_triangles = 64;
 
 // All of its triangles, or none: neighbours stay of one orientation.
 bool is_turned_round(const Scene& scene, const Mesh& mesh, const MeshInstance& instance) {
@@ -36,70 +110,88 @@ bool is_turned_round(const Scene& scene, const Mesh& mesh, const MeshInstance& i
                      [&](std::uint32_t m) { return !shows_back(scene.materials[m]); });
 }
 
-struct Place {
-  std::size_t vertex = 0, triangle = 0;
-};
-
-constexpr std::size_t at_a_time = 8192;
-
-void put_instance(World& world, const Mesh& mesh, const MeshInstance& instance, std::uint32_t object,
-                  const Place& base) {
-  using Range = tbb::blocked_range<std::size_t>;
-  const Mat3 normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));
-  tbb::parallel_for(Range(0, mesh.positions.size(), at_a_time), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      put_vertex(world, mesh, instance.world_from_object, normal_from_object, base.vertex, i);
-  });
-  const auto first = static_cast<std::uint32_t>(base.vertex);
-  const bool turned = is_turned_round(*world.scene, mesh, instance);
-  // The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
-  world.finite_bounds.grow(tbb::parallel_reduce(
-      Range(0, mesh.triangles.size(), at_a_time), Aabb{},
-      [&](const Range& range, Aabb bounds) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          const auto& t = mesh.triangles[i];
-          const std::size_t at = base.triangle + i;
-          world.triangles[at] = {first + t[0], first + t[turned ? 2 : 1], first + t[turned ? 1 : 2]};
-          world.triangle_material[at] =
-              mesh.triangle_materials.empty() ? instance.material : mesh.triangle_materials[i];
-          world.triangle_object[at] = object;
-          for (const std::uint32_t corner : t) bounds.grow(world.positions[first + corner]);
-        }
-        return bounds;
-      },
-      [](Aabb left, const Aabb& right) {
-        left.grow(right);
-        return left;
-      }));
+std::vector<std::uint32_t> uses_of_meshes(const Scene& scene) {
+  std::vector<std::uint32_t> uses(scene.meshes.size());
+  for (const MeshInstance& instance : scene.instances) ++uses[instance.mesh];
+  return uses;
 }
 
-void put_instances(World& world, const Scene& scene) {
-  Place end;
-  bool has_colors = false;
-  for (const MeshInstance& instance : scene.instances) {
-    has_colors = has_colors || !scene.meshes[instance.mesh].colors.empty();
-    end.vertex += scene.meshes[instance.mesh].positions.size();
-    end.triangle += scene.meshes[instance.mesh].triangles.size();
+/// Of each mesh whether its instances are to be kept where they can be.
+std::vector<char> kept_meshes(const Scene& scene, InstanceChoice choice) {
+  std::vector<char> kept(scene.meshes.size(), 0);
+  if (choice == InstanceChoice::flatten ||
+      (choice == InstanceChoice::automatic && !plan_instances(scene).keep))
+    return kept;
+  const std::vector<std::uint32_t> uses = uses_of_meshes(scene);
+  const bool all = choice == InstanceChoice::keep;
+  for (std::size_t m = 0; m < kept.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    kept[m] = uses[m] > (all ? 0 : 1) && mesh.triangles.size() >= (all ? 1 : few_triangles) && is_tame(mesh);
   }
-  world.positions.resize(end.vertex), world.normals.resize(end.vertex), world.uvs.resize(end.vertex);
-  if (has_colors) world.colors.resize(end.vertex, Vec4f(1.0f));
-  world.triangles.resize(end.triangle), world.triangle_material.resize(end.triangle);
-  world.triangle_object.resize(end.triangle);
-  Place base;
-  std::uint32_t object = 0;
-  for (const MeshInstance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    put_instance(world, mesh, instance, object++, base);
-    base.vertex += mesh.positions.size(), base.triangle += mesh.triangles.size();
+  return kept;
+}
+
+void number_parts(World& world) {
+  std::vector<std::uint32_t> vertices{0}, triangles{0};
+  for (WorldPart& part : world.parts) {
+    part.first_vertex = vertices.back(), part.first_triangle = triangles.back();
+    vertices.push_back(part.first_vertex + part.vertex_count());
+    triangles.push_back(part.first_triangle + part.triangle_count());
   }
+  world.vertex_ranges = Ranges(std::move(vertices)), world.triangle_ranges = Ranges(std::move(triangles));
+}
+
+void put_parts(World& world, const std::vector<char>& kept) {
+  const Scene& scene = *world.scene;
+  world.parts.reserve(scene.instances.size());
+  for (const MeshInstance& instance : scene.instances) {
+    WorldPart part;
+    part.mesh = &scene.meshes[instance.mesh];
+    part.world_from_object = instance.world_from_object;
+    // A mirrored instance of two-sided materials keeps its authored winding, so the normal that the right-hand rule
+    // gives may point inwards: there only consistency matters.
+    part.normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));
+    part.material = instance.material;
+    part.turned = is_turned_round(scene, *part.mesh, instance);
+    world.parts.push_back(part);
+  }
+  number_parts(world);
+  std::vector<char> flat(world.parts.size());
+  tbb::parallel_for(std::size_t{0}, world.parts.size(), [&](std::size_t i) {
+    flat[i] = kept[scene.instances[i].mesh] == 0 || !can_be_kept(world.parts[i]);
+  });
+  for (std::size_t i = 0; i < world.parts.size(); ++i)
+    if (flat[i] != 0) flatten(world, world.parts[i]);
+  tbb::parallel_for(std::size_t{0}, world.parts.size(),
+                    [&](std::size_t i) { world.parts[i].bounds = bounds_of(world.parts[i]); });
+  for (const WorldPart& part : world.parts) world.finite_bounds.grow(part.bounds);
 }
 
 }  // namespace
 
-World make_world(const Scene& scene) {
+InstancePlan plan_instances(const Scene& scene) {
+  // Bytes that a triangle takes in the tracer's and the comparison's structures (235, measured on five million) and in
+  // the rasterizer's buffers (80, where triangles share no vertices); and what an instance takes in all of them.
+  constexpr std::uint64_t flat_triangle = 235 + 80, kept_instance = 1024;
+  constexpr std::uint64_t small = std::uint64_t{512} << 20;  // flattened scenes are traced faster
+  InstancePlan plan;
+  const std::vector<std::uint32_t> uses = uses_of_meshes(scene);
+  for (std::size_t m = 0; m < uses.size(); ++m) {
+    const std::uint64_t triangles = scene.meshes[m].triangles.size();
+    if (uses[m] < 2 || triangles < few_triangles) continue;
+    ++plan.meshes, plan.mesh_triangles += triangles;
+    plan.instances += uses[m], plan.triangles += uses[m] * triangles;
+  }
+  plan.flat_bytes = plan.triangles * flat_triangle;
+  plan.kept_bytes = plan.mesh_triangles * flat_triangle + plan.instances * kept_instance;
+  plan.keep = plan.flat_bytes > plan.kept_bytes && plan.flat_bytes > small;
+  return plan;
+}
+
+World make_world(const Scene& scene, InstanceChoice choice) {
   World world;
   world.scene = &scene;
-  put_instances(world, scene);
+  put_parts(world, kept_meshes(scene, choice));
   world.shapes = scene.shapes;
   for (const Shape& shape : scene.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
@@ -112,18 +204,75 @@ World make_world(const Scene& scene) {
   return world;
 }
 
-std::uint32_t World::object_of(std::uint32_t primitive) const {
-  if (is_triangle(primitive)) return triangle_object[primitive];
-  return static_cast<std::uint32_t>(scene->instances.size()) + (primitive - triangle_count());
+World make_world(const Scene& scene, const Mesh& mesh) {
+  World world;
+  world.scene = &scene;
+  WorldPart part;
+  part.mesh = &mesh, part.positions = mesh.positions.data();
+  part.bounds = bounds_of(part);
+  world.finite_bounds = part.bounds;
+  world.parts.push_back(part);
+  number_parts(world);
+  return world;
+}
+
+bool World::has_colors() const {
+  return std::any_of(parts.begin(), parts.end(),
+                     [](const WorldPart& part) { return !part.mesh->colors.empty(); });
+}
+
+bool World::has_normals() const {
+  return std::any_of(parts.begin(), parts.end(), [](const WorldPart& part) {
+    return !all_of_many(part.mesh->normals.size(),
+                        [&](std::size_t i) { return part.normal(i) == Vec3f(0.0f); });
+  });
+}
+
+bool World::keeps_instances() const {
+  return std::any_of(parts.begin(), parts.end(), [](const WorldPart& part) { return part.kept(); });
+}
+
+std::vector<Vec3> positions_of(const World& world) {
+  std::vector<Vec3> out(world.vertex_count());
+  for (const WorldPart& part : world.parts)
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v) out[part.first_vertex + v] = part.position(v);
+  return out;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const World& world) {
+  std::vector<std::array<std::uint32_t, 3>> out(world.triangle_count());
+  for (std::uint32_t t = 0; t < out.size(); ++t) out[t] = world.triangle(t);
+  return out;
+}
+
+// Normals transform by the inverse transpose.
+Vec3f WorldPart::normal(std::size_t vertex) const {
+  if (mesh->normals.empty()) return Vec3f(0.0f);
+  const Vec3 n = normal_from_object * Vec3(mesh->normals[vertex]);
+  const double length = glm::length(n);
+  return length > 0.0 ? Vec3f(n / length) : Vec3f(0.0f);
+}
+
+Vec3 geometric_normal(const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double length = glm::length(n);
+  return length > 0.0 ? n / length : Vec3(0.0);
+}
+
+bool has_surface(const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double size2 = glm::dot(n, n);
+  if (size2 > 1e-280 && size2 < 1e280) return true;  // and so all is finite: the common case, without a root
+  const auto finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  return finite(a) && finite(b) && finite(c) && geometric_normal(corners) != Vec3(0.0);
 }
 
 Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& position) {
-  if (world.is_triangle(primitive)) {
-    const auto [a, b, c] = world.corners(primitive);
-    const Vec3 n = glm::cross(b - a, c - a);
-    const double length = glm::length(n);
-    return length > 0.0 ? n / length : Vec3(0.0);
-  }
+  if (world.is_triangle(primitive)) return geometric_normal(world.corners(primitive));
   const auto& geometry = world.shape(primitive).geometry;
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) return glm::normalize(position - sphere->center);
   if (is_solid(geometry)) return solid_normal(geometry, position);

@@ -45,7 +45,7 @@ void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
   float wc = clamp(dot(cross(b - a, r.position - a), n) / area, 0.0, 1.0 - wb);
   float wa = 1.0 - wb - wc;
 #ifdef SMOOTH_NORMALS
-  vec3 shading = wa * normal_of(t.a) + wb * normal_of(t.b) + wc * normal_of(t.c);
+  vec3 shading = wa * normal_of(t, t.a) + wb * normal_of(t, t.b) + wc * normal_of(t, t.c);
   if (dot(shading, shading) > 0.0) {
     shading = normalize(shading);
     r.shading = dot(shading, r.normal) < 0.0 ? -shading : shading;
@@ -63,12 +63,12 @@ void interpolate(TriangleData t, vec3 a, vec3 b, vec3 c, inout Receiver r) {
 Receiver triangle_receiver(uint id, vec3 direction) {
   Receiver r;
   TriangleData t = triangle_at(id);
-  vec3 a = position_of(t.a), b = position_of(t.b), c = position_of(t.c);
+  vec3 a = position_of(t, t.a), b = position_of(t, t.b), c = position_of(t, t.c);
   vec3 eye = camera.eye_and_near.xyz;
   vec3 depths = vec3(dot(camera.forward.xyz, a - eye), dot(camera.forward.xyz, b - eye),
                      dot(camera.forward.xyz, c - eye));
   float t_min = min(depths.x, min(depths.y, depths.z)), t_max = max(depths.x, max(depths.y, depths.z));
-  vec4 plane = plane_of(id);
+  vec4 plane = plane_of(id, t);
   r.position = meet_plane(direction, plane.xyz, plane.w, max(t_min, 0.0), t_max);
   r.normal = face_forward(plane.xyz, direction);
   r.shading = r.normal;

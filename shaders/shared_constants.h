@@ -27,6 +27,7 @@ const int step_uniform = 1;
 const int blur_radius_uniform = 2;
 const int peel_uniform = 9;
 const int triangle_count_uniform = 6;
+const int part_uniform = 10;
 
 // Shader storage buffers
 const int shapes_buffer = 5;
@@ -39,6 +40,7 @@ const int izb_normals_buffer = 11;
 const int izb_errors_buffer = 12;
 const int izb_links_buffer = 13;
 const int izb_shadows_buffer = 14;
+const int parts_buffer = 4;
 
 // Images
 const int izb_heads_image = 0;
@@ -59,6 +61,7 @@ const int normals_unit = 11;
 const int uvs_unit = 12;
 const int triangles_unit = 13;
 const int planes_unit = 14;
+const int object_positions_unit = 16;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -1,9 +1,12 @@
 // Triangles and their vertices, in buffer textures: these hold more than a storage block, which ends at 128 MB on
-// some OpenGLs. Twin of raster/world_buffers.cpp.
+// some OpenGLs. Permutation INSTANCES: some of the world's parts are kept instances (scene/world.h), whose vertices are
+// those of their mesh; what lies in the world is worked out here, in double precision and in the order of operations of
+// scene/world.cpp. Twin of raster/world_buffers.cpp.
 
 struct TriangleData {
   uint a, b, c;
   uint material;
+  uint part;  // that it belongs to, with INSTANCES
 };
 
 layout(binding = triangles_unit) uniform usamplerBuffer triangle_texels;
@@ -15,13 +18,35 @@ layout(binding = uvs_unit) uniform samplerBuffer uv_texels;
 layout(binding = colors_unit) uniform samplerBuffer color_texels;
 #endif
 
+#ifdef INSTANCES
+#include "instances.glsl"
+
+TriangleData triangle_at(uint id) {
+  uint part = part_of(id);
+  uvec4 t = texelFetch(triangle_texels, int(parts[part].triangles_at + (id - parts[part].first_triangle)));
+  return TriangleData(t.x, t.y, t.z, t.w == no_material ? parts[part].material : t.w, part);
+}
+vec3 position_of(TriangleData t, uint vertex) {
+  if (is_kept(t.part)) return relative_position(t.part, vertex);
+  return texelFetch(position_texels, int(vertex)).xyz;
+}
+vec3 normal_of(TriangleData t, uint vertex) {
+  vec3 normal = texelFetch(normal_texels, int(vertex)).xyz;
+  return is_kept(t.part) ? placed_normal(t.part, normal) : normal;
+}
+vec4 plane_of(uint id, TriangleData t) {
+  if (is_kept(t.part)) return placed_plane(t.part, t.a, t.b, t.c);
+  return texelFetch(plane_texels, int(parts[t.part].triangles_at + (id - parts[t.part].first_triangle)));
+}
+#else
 TriangleData triangle_at(uint id) {
   uvec4 t = texelFetch(triangle_texels, int(id));
-  return TriangleData(t.x, t.y, t.z, t.w);
+  return TriangleData(t.x, t.y, t.z, t.w, 0u);
 }
-vec4 plane_of(uint triangle) { return texelFetch(plane_texels, int(triangle)); }  // unit normal, dot(normal, corner)
-vec3 position_of(uint vertex) { return texelFetch(position_texels, int(vertex)).xyz; }
-vec3 normal_of(uint vertex) { return texelFetch(normal_texels, int(vertex)).xyz; }
+vec3 position_of(TriangleData t, uint vertex) { return texelFetch(position_texels, int(vertex)).xyz; }
+vec3 normal_of(TriangleData t, uint vertex) { return texelFetch(normal_texels, int(vertex)).xyz; }
+vec4 plane_of(uint id, TriangleData t) { return texelFetch(plane_texels, int(id)); }  // unit normal, dot(normal, corner)
+#endif
 vec2 uv_of(uint vertex) { return texelFetch(uv_texels, int(vertex)).xy; }
 #ifdef VERTEX_COLORS
 vec4 color_of(uint vertex) { return texelFetch(color_texels, int(vertex)); }

@@ -37,6 +37,9 @@ TEST(Json, ScenesAndPlanArePure) {
       EXPECT_FALSE(document["tracer"][rays]["way"].get<std::string>().empty());
       EXPECT_FALSE(document["tracer"][rays]["reason"].get<std::string>().empty());
     }
+    EXPECT_EQ(document["instances"]["way"], scene["name"] == "forest" ? "kept" : "flattened")
+        << scene["name"];
+    EXPECT_FALSE(document["instances"]["reason"].get<std::string>().empty());
     for (const json& effect : effects) {
       EXPECT_TRUE(effect["simulated"] || effect["rays"] == 0);
       EXPECT_TRUE(effect["simulated"].is_boolean() && effect["called_for"].is_boolean());

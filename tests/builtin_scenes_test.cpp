@@ -12,7 +12,7 @@ namespace {
 
 TEST(BuiltinScenes, EveryNameHasAFileThatStartsWithAComment) {
   const auto scenes = builtin_scenes();
-  ASSERT_EQ(scenes.size(), 16u);
+  ASSERT_EQ(scenes.size(), 17u);
   std::set<std::string_view> names;
   for (const BuiltinScene& s : scenes) {
     EXPECT_TRUE(names.insert(s.name).second);
@@ -70,7 +70,7 @@ TEST(BuiltinScenes, ThinWallIsWhatTheClosedFormNeeds) {
   const World world = make_world(*scene);
   Aabb wall;
   for (std::uint32_t t = 0; t < world.triangle_count(); ++t) {
-    if (scene->instances[world.triangle_object[t]].name != "wall") continue;
+    if (scene->instances[world.object_of(t)].name != "wall") continue;
     for (const Vec3& p : world.corners(t)) wall.grow(p);
   }
   EXPECT_DOUBLE_EQ(wall.min.x, -0.025);

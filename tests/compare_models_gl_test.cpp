@@ -98,12 +98,12 @@ class EmbreeTruth {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | test::filter_by_query);
     RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.positions.size()));
-    for (const Vec3& p : world.positions)
+        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.vertex_count()));
+    for (const Vec3& p : positions_of(world))
       for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(p[k]);
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), world.triangles.size()));
-    for (const auto& t : world.triangles)
+        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), world.triangle_count()));
+    for (const auto& t : triangles_of(world))
       for (const std::uint32_t v : t) *indices++ = v;
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene_, mesh);

@@ -95,22 +95,21 @@ TEST(Surfaces, ShowWhatTheyAreSaidToShow) {
       const std::uint32_t object = drawn.world->object_of(point.primitive);
       const Vec3f color = frame.color.at(x, y);
       ++seen[object];
-      const auto& t = drawn.world->triangles[point.primitive];
+      const auto t = drawn.world->triangle(point.primitive);
       const Vec2 b = point.barycentric;
-      const auto blended = [&](const auto& values) {
-        return (1.0 - b.x - b.y) * Vec3(Vec3f(values[t[0]])) + b.x * Vec3(Vec3f(values[t[1]])) +
-               b.y * Vec3(Vec3f(values[t[2]]));
+      const auto blended_color = [&] {
+        const auto color_of = [&](std::size_t k) { return Vec3(Vec3f(drawn.world->color(t[k]))); };
+        return (1.0 - b.x - b.y) * color_of(0) + b.x * color_of(1) + b.y * color_of(2);
       };
       if (object == 0) {  // ambient and light are white: the channels are in the colours' proportion
-        const Vec3 expected = blended(drawn.world->colors);
+        const Vec3 expected = blended_color();
         ASSERT_NEAR(color.x * expected.y, color.y * expected.x, 1e-5);
         ASSERT_NEAR(color.z * expected.y, color.y * expected.z, 1e-5);
       }
       if (object == 2) {
         const Vec2 uv((point.position.x - 1.0 + 0.8) / 1.6, (point.position.z + 0.8) / 1.6);
-        const Vec3 expected = Vec3(0.9, 0.8, 0.7) *
-                              Vec3(Vec3f(sample_texture(drawn.scene->textures[0], uv))) *
-                              blended(drawn.world->colors);
+        const Vec3 expected =
+            Vec3(0.9, 0.8, 0.7) * Vec3(Vec3f(sample_texture(drawn.scene->textures[0], uv))) * blended_color();
         ASSERT_LT(glm::length(Vec3(color) - expected), 1e-5);
       }
     }

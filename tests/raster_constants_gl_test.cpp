@@ -36,6 +36,9 @@ constexpr Named constants[] = {
     GNOMON_NAMED(colors_unit),
     GNOMON_NAMED(triangles_unit),
     GNOMON_NAMED(planes_unit),
+    GNOMON_NAMED(object_positions_unit),
+    GNOMON_NAMED(part_uniform),
+    GNOMON_NAMED(parts_buffer),
     GNOMON_NAMED(shapes_buffer),
     GNOMON_NAMED(materials_buffer),
     GNOMON_NAMED(textures_buffer),
@@ -164,6 +167,15 @@ TEST_F(SharedConstants, BlocksAndBuffersHaveTheSizesOfTheirTwins) {
             static_cast<GLint>(sizeof(raster::ShapeData)));
   EXPECT_EQ(block_size(*gl_, id, GL_SHADER_STORAGE_BLOCK, "Materials"),
             static_cast<GLint>(sizeof(raster::MaterialData)));
+}
+
+TEST_F(SharedConstants, PartsHaveTheSizeOfTheirTwin) {
+  const raster::SceneFeatures features{.smooth_normals = true, .instances = true};
+  const auto program = raster::link_shade_program(*gl_, {.first_light = true}, features);
+  ASSERT_TRUE(program.has_value()) << program.error().message();
+  EXPECT_EQ(block_size(*gl_, program->id(), GL_SHADER_STORAGE_BLOCK, "Parts"),
+            static_cast<GLint>(sizeof(raster::PartsHeader) + offsetof(raster::PartData, kept) +
+                               sizeof(raster::PartData::kept)));  // an element without what pads it
 }
 
 TEST_F(SharedConstants, AShaderErrorNamesItsFileAndLine) {

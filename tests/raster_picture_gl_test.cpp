@@ -98,10 +98,10 @@ TEST(Picture, InterpolatesShadingNormals) {
       const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], n = glm::cross(e1, e2);
       const double wb = glm::dot(glm::cross(p - corners[0], e2), n) / glm::dot(n, n);
       const double wc = glm::dot(glm::cross(e1, p - corners[0]), n) / glm::dot(n, n);
-      const auto& t = drawn.world->triangles[hit->primitive];
+      const auto t = drawn.world->triangle(hit->primitive);
       const Vec3 shading =
-          glm::normalize((1.0 - wb - wc) * Vec3(drawn.world->normals[t[0]]) +
-                         wb * Vec3(drawn.world->normals[t[1]]) + wc * Vec3(drawn.world->normals[t[2]]));
+          glm::normalize((1.0 - wb - wc) * Vec3(drawn.world->normal(t[0])) +
+                         wb * Vec3(drawn.world->normal(t[1])) + wc * Vec3(drawn.world->normal(t[2])));
       const std::size_t pixel = drawn.frame.color.index(x, y);
       const Vec3 expected = expected_radiance(drawn, pixel, p, Vec3(0, 1, 0), shading, -ray.direction,
                                               drawn.scene->materials[0]);

@@ -82,7 +82,7 @@ std::vector<Ray> random_rays(int count, double extent, std::uint64_t seed) {
 }
 
 Vec3 vertex(const World& world, Random& random) {
-  return world.positions[random.below(static_cast<std::uint32_t>(world.positions.size()))];
+  return world.position(random.below(world.vertex_count()));
 }
 
 /// At vertices, along edges, with zero components, from points that lie on them.

@@ -30,13 +30,13 @@ class EmbreeScene {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.positions.size()));
-    for (const Vec3& p : world.positions)
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.vertex_count()));
+    for (const Vec3& p : positions_of(world))
       for (int a = 0; a < 3; ++a) *v++ = static_cast<float>(p[a]);
     auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                                   RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                                                  world.triangles.size()));
-    for (const auto& triangle : world.triangles)
+                                                                  world.triangle_count()));
+    for (const auto& triangle : triangles_of(world))
       for (const std::uint32_t corner : triangle) *t++ = corner;
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);

@@ -129,10 +129,11 @@ TEST(Sides, AClosedBodyIsSeenFromOutsideAlone) {
     const Tracer tracer(w.world(), Accel::bvh);
     const Vec3 inside(0.01, 0.02, 0.03), outside(0.3, 0.4, 5.0);
     std::size_t wrong = 0;
-    for (const auto& t : w.world().triangles)
+    for (std::uint32_t t = 0; t < w.world().triangle_count(); ++t)
       for (int corner = 0; corner < 3; ++corner) {
-        const Vec3 a = w.world().positions[t[static_cast<std::size_t>(corner)]],
-                   b = w.world().positions[t[static_cast<std::size_t>((corner + 1) % 3)]];
+        const auto corners = w.world().corners(t);
+        const Vec3 a = corners[static_cast<std::size_t>(corner)],
+                   b = corners[static_cast<std::size_t>((corner + 1) % 3)];
         for (const Vec3& target : {a, 0.5 * (a + b)}) {
           wrong += tracer.closest_seen({inside, target - inside}) ? 1 : 0;
           const Ray ray{outside, 0.9 * target - outside};

@@ -28,7 +28,7 @@ gnomon_test(raytrace_accel_test
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_two_level_test
-  SOURCES raytrace_two_level_test.cpp
+  SOURCES raytrace_two_level_test.cpp raytrace_instances_test.cpp
   LIBS raytrace_support TBB::tbb)
 
 # Real models, against Embree: a comparator, never behind the user's own result.

@@ -6,105 +6,30 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace_support.h"
 #include "scene/builtin.h"
 #include "scene/load.h"
+#include "support/placements.h"
 
 namespace gnomon {
 namespace {
 
 using namespace raytrace;  // NOLINT(google-build-using-namespace): every second word here is from that room
+using test::aimed_rays;
+using test::ball;
+using test::instances_of;
+using test::Kind;
+using test::kinds;
+using test::moved;
 using test::Random;
 using test::same;
+using test::scaling;
+using test::sheared;
 using test::TestWorld;
-
-Scene instances_of(std::vector<Mesh> meshes, const std::vector<std::pair<std::uint32_t, Mat4>>& placed) {
-  Scene scene = test::scene_of(std::move(meshes));
-  scene.instances.clear();
-  for (const auto& [mesh, matrix] : placed) scene.instances.push_back({"instance", mesh, matrix, 0});
-  return scene;
-}
-
-Mat4 turned(Random& random) {
-  return glm::rotate(Mat4(1.0), random.uniform(0.0, 2.0 * pi), random.direction());
-}
-
-/// Any affine map whose columns are neither short nor nearly in a plane.
-Mat4 sheared(Random& random) {
-  for (;;) {
-    Mat3 m(random.in_box(1.0), random.in_box(1.0), random.in_box(1.0));
-    if (std::abs(glm::determinant(m)) > 0.1) return Mat4(m);
-  }
-}
-
-Mat4 moved(const Vec3& by, const Mat4& matrix) {
-  return glm::translate(Mat4(1.0), by) * matrix;
-}
-
-Mat4 scaling(const Vec3& factors) {
-  return glm::scale(Mat4(1.0), factors);
-}
-
-struct Kind {
-  const char* name;
-  Mat4 (*linear)(Random&);
-  double extent;  ///< of the places, world units
-};
-
-const std::array<Kind, 9> kinds{{
-    {"rotated", turned, 6.0},
-    {"mirrored",
-     [](Random& r) {
-       return turned(r) * scaling({1.0, 1.0, -1.0});
-     },
-     6.0},
-    {"sheared", sheared, 6.0},
-    {"non-uniform",
-     [](Random& r) {
-       return turned(r) * scaling({2.0, 0.01, 0.3}) * turned(r);
-     },
-     6.0},
-    {"thin as paper",
-     [](Random& r) {
-       return turned(r) * scaling({1.0, 1e-6, 1.0});
-     },
-     6.0},
-    {"tiny", [](Random& r) { return sheared(r) * scaling(Vec3(1e-7)); }, 6e-7},
-    {"tiny and far apart", [](Random& r) { return turned(r) * scaling(Vec3(1e-4)); }, 6.0},
-    {"huge", [](Random& r) { return sheared(r) * scaling(Vec3(1e7)); }, 6e7},
-    {"of all sizes", [](Random& r) { return turned(r) * scaling(Vec3(std::exp(r.uniform(-9.0, 1.0)))); },
-     6.0},
-}};
-
-std::vector<Ray> aimed_rays(const World& world, int count, double extent, const Vec3& middle,
-                            std::uint64_t seed) {
-  Random random(seed);
-  std::vector<Ray> rays;
-  for (int i = 0; i < count; ++i) {
-    const std::uint32_t triangle = random.below(world.triangle_count());
-    const auto [p, q, r] = world.corners(triangle);
-    const Mat3 m(world.scene->instances[world.triangle_object[triangle]].world_from_object);
-    const Vec3 on_edge = p + random.uniform(0.0, 1.0) * (q - p);
-    const Vec3 from = middle + random.in_box(1.5 * extent);
-    const Vec3 along = m[static_cast<int>(random.below(3))];  // an axis of the object's
-    Vec3 axis(0.0);
-    axis[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0 : -1.0;
-    const double reach = extent / std::max(glm::length(along), 1e-300);
-    const std::array<Ray, 7> all{{{from, random.nudged(p, 1) - from},
-                                  {from, on_edge - from},
-                                  {p - reach * along, along},
-                                  {on_edge - 0.3 * reach * along, along},
-                                  {on_edge - 2.0 * extent * axis, axis},
-                                  {p - 3.0 * (q - p), q - p},
-                                  {from, (on_edge - from) * 1e-9, {0.0, 2e9}}}};
-    rays.push_back(all[static_cast<std::size_t>(i) % all.size()]);
-  }
-  return rays;
-}
+using test::turned;
 
 struct Compared {
   std::uint64_t wrong, hits;
@@ -125,10 +50,6 @@ Compared compare(const World& world, const Tracer& tracer, const std::vector<Ray
 
 TwoLevel structure_of(const World& world) {
   return std::get<TwoLevel>(build_structure(world, Accel::two_level));
-}
-
-Mesh ball() {
-  return test::uv_sphere(Vec3(0.3, -0.2, 0.1), 0.8, 6, 8, 0.1, 3);
 }
 
 TEST(TwoLevel, AgreesWithBruteForceForEveryKindOfTransform) {
@@ -281,6 +202,7 @@ TEST(TwoLevel, PicturesAndVerdictsAreThoseOfBruteForce) {
 
 TEST(TwoLevel, BuiltInScenes) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
+    if (builtin.large) continue;
     const auto scene = load_scene(std::string(builtin.name));
     ASSERT_TRUE(scene) << builtin.name;
     const World world = make_world(*scene);

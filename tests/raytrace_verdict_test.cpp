@@ -156,9 +156,7 @@ TEST(Verdict, Case25LightInsideAClosedMeshReachesNothingOutside) {
   for (int i = 0; i < 20000; ++i) {
     Vec3 foot(random.uniform(-5.0, 5.0), 0.0, random.uniform(-5.0, 5.0));
     if (i % 2 == 0) {  // straight below a vertex, seen from the light
-      const Vec3 d =
-          w.world().positions[random.below(static_cast<std::uint32_t>(w.world().positions.size()))] -
-          light.position;
+      const Vec3 d = w.world().position(random.below(w.world().vertex_count())) - light.position;
       if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
     }
     ASSERT_NE(tracer.light_verdict(test::seen(tracer, foot + Vec3(0, 0.01, 0), foot), light), Verdict::lit);

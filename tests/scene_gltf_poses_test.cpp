@@ -35,20 +35,20 @@ TEST_F(Gltf, SkinsAreAppliedInTheStoredPose) {
   ASSERT_EQ(without.instances.size(), 1u);
   // By hand: joint 1 moves by (0, 0, 5); joint 2 scales by 3 and moves by (2, 0, 5). The node's own move counts
   // for nothing.
-  EXPECT_EQ(make_world(without).positions,
+  EXPECT_EQ(positions_of(make_world(without)),
             (std::vector<Vec3>{{0, 0, 5}, {1, 0, 5}, {2, 3, 5}, {0.5 * (1 + 5), 0.5 * (1 + 3), 5}}));
   Builder b = skinned();
   const std::vector<float> inverse{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, -5, 1,
                                    1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 0, 0,  1};
   b.json["skins"][0]["inverseBindMatrices"] = floats(b, inverse, "MAT4", 16);
-  EXPECT_EQ(make_world(loaded(b)).positions[1], Vec3(1, 0, 0));
-  EXPECT_EQ(make_world(loaded(b)).positions[2], Vec3(3 * 10 + 2, 3, 5));
+  EXPECT_EQ(make_world(loaded(b)).position(1), Vec3(1, 0, 0));
+  EXPECT_EQ(make_world(loaded(b)).position(2), Vec3(3 * 10 + 2, 3, 5));
 }
 
 TEST_F(Gltf, ASkinWithoutBoundVerticesChangesNothing) {
   Builder b = skinned();
   primitive(b)["attributes"].erase("JOINTS_0");
-  EXPECT_EQ(make_world(loaded(b)).positions[1], Vec3(101, 0, 0));
+  EXPECT_EQ(make_world(loaded(b)).position(1), Vec3(101, 0, 0));
 }
 
 TEST_F(Gltf, MistakesInSkinsHaveTheirPath) {
@@ -68,16 +68,16 @@ TEST_F(Gltf, MorphTargetsFollowTheStoredWeights) {
   const std::vector<float> up{0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0, 8}, aside{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
   primitive(b)["targets"] =
       Json::array({{{"POSITION", b.positions(up)}}, {{"POSITION", b.positions(aside)}}});
-  EXPECT_EQ(make_world(loaded(b)).positions[3], Vec3(1, 1, 0));  // weights that are not given are 0
+  EXPECT_EQ(make_world(loaded(b)).position(3), Vec3(1, 1, 0));  // weights that are not given are 0
   b.json["meshes"][0]["weights"] = {0.5, 0};
-  EXPECT_EQ(make_world(loaded(b)).positions[3], Vec3(1, 1, 4));
+  EXPECT_EQ(make_world(loaded(b)).position(3), Vec3(1, 1, 4));
   // A node's own weights come first; the other node shows the mesh's, so there are two meshes.
   b.json["nodes"] = Json::array({{{"mesh", 0}, {"weights", {0.25, 1}}}, {{"mesh", 0}}});
   b.json["scenes"][0]["nodes"] = {0, 1};
   const Scene scene = loaded(b);
   EXPECT_EQ(scene.meshes.size(), 2u);
-  EXPECT_EQ(make_world(scene).positions[3], Vec3(2, 1, 2));
-  EXPECT_EQ(make_world(scene).positions[7], Vec3(1, 1, 4));
+  EXPECT_EQ(make_world(scene).position(3), Vec3(2, 1, 2));
+  EXPECT_EQ(make_world(scene).position(7), Vec3(1, 1, 4));
 }
 
 TEST_F(Gltf, InstancesOfANode) {
@@ -94,10 +94,10 @@ TEST_F(Gltf, InstancesOfANode) {
   ASSERT_EQ(scene.instances.size(), 3u);
   EXPECT_EQ(scene.meshes.size(), 1u);
   const World world = make_world(scene);
-  EXPECT_EQ(world.positions[1], Vec3(1, 0, 7));
+  EXPECT_EQ(world.position(1), Vec3(1, 0, 7));
   // Twice as large, turned a quarter about z, then moved; the turn is given in single precision.
-  EXPECT_NEAR(glm::length(world.positions[5] - Vec3(10, 2, 7)), 0.0, 1e-6);
-  EXPECT_EQ(world.positions[10], Vec3(0, 13, 7));
+  EXPECT_NEAR(glm::length(world.position(5) - Vec3(10, 2, 7)), 0.0, 1e-6);
+  EXPECT_EQ(world.position(10), Vec3(0, 13, 7));
   b.json["accessors"][static_cast<std::size_t>(sizes)]["count"] = 2;
   EXPECT_EQ(error(b.text()), "nodes[0].extensions.EXT_mesh_gpu_instancing: the attributes' counts differ");
 }

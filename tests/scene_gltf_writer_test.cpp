@@ -31,8 +31,8 @@ std::vector<std::uint32_t> in_file_order(const World& world) {
   std::vector<std::uint32_t> out(world.triangle_count());
   std::iota(out.begin(), out.end(), 0u);
   std::stable_sort(out.begin(), out.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(world.triangle_object[a], world.triangle_material[a]) <
-           std::pair(world.triangle_object[b], world.triangle_material[b]);
+    return std::pair(world.object_of(a), world.material_of(a)) <
+           std::pair(world.object_of(b), world.material_of(b));
   });
   return out;
 }
@@ -50,7 +50,7 @@ void expect_same_triangles(const Scene& before, const World& a, const World& b) 
   ASSERT_EQ(x.size(), y.size());
   double farthest = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    ASSERT_EQ(a.triangle_material[x[i]], b.triangle_material[y[i]]);
+    ASSERT_EQ(a.material_of(x[i]), b.material_of(y[i]));
     const auto p = a.corners(x[i]), q = b.corners(y[i]);
     for (std::size_t k = 0; k < 3; ++k) {
       farthest = std::max(farthest, glm::distance(p[k], q[k]));
@@ -137,7 +137,8 @@ TEST_P(EveryBuiltinScene, ComesBackAsItWas) {
 
 std::vector<std::string> builtin_names() {
   std::vector<std::string> out;
-  for (const BuiltinScene& scene : builtin_scenes()) out.emplace_back(scene.name);
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (!scene.large) out.emplace_back(scene.name);
   return out;
 }
 std::string test_name(const testing::TestParamInfo<std::string>& scene) {
@@ -200,10 +201,11 @@ TEST(GltfWriter, InstancesShareTheirMesh) {
 TEST(GltfWriter, MeshesFarFromTheirOriginKeepTheirDigits) {
   Scene scene = small();
   for (Vec3& p : scene.meshes[0].positions) p = 0.3 * p + Vec3(1e6, 0.0, -2e6);
-  const World before = make_world(scene), after = make_world(reread(scene, true));
+  const Scene read = reread(scene, true);
+  const World before = make_world(scene), after = make_world(read);
   for (std::size_t i = 0; i < 3;
        ++i)  // floats at 2e6 are 0.25 apart; those around the triangle's middle 1.2e-8
-    EXPECT_LT(glm::distance(before.positions[i], after.positions[i]), 3e-8);
+    EXPECT_LT(glm::distance(before.position(i), after.position(i)), 3e-8);
 }
 
 TEST(GltfWriter, ShearIsPutIntoTheMesh) {
@@ -214,9 +216,10 @@ TEST(GltfWriter, ShearIsPutIntoTheMesh) {
   shear[3] = Vec4(3.0, 2.0, 1.0, 1.0);
   scene.meshes[0].positions[2] = {0, 1, 2};
   scene.instances[0].world_from_object = shear;
-  const World before = make_world(scene), after = make_world(reread(scene, true));
-  EXPECT_EQ(before.positions, after.positions);  // binary fractions
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(before.normals[i], after.normals[i]), 1e-6f);
+  const Scene read = reread(scene, true);
+  const World before = make_world(scene), after = make_world(read);
+  EXPECT_EQ(positions_of(before), positions_of(after));  // binary fractions
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(before.normal(i), after.normal(i)), 1e-6f);
   EXPECT_EQ(write_gltf(scene, true)->notes.size(), 1u);
 }
 
@@ -226,10 +229,11 @@ TEST(GltfWriter, TrianglesWithoutNormalsStayFlat) {
   mesh.positions.push_back({1, 1, 0});
   mesh.normals = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1}, {0, 0, 1}};
   mesh.triangles.push_back({1, 3, 2});
-  const World after = make_world(reread(scene, true));
+  const Scene read = reread(scene, true);
+  const World after = make_world(read);
   ASSERT_EQ(after.triangle_count(), 2u);
-  EXPECT_EQ(after.normals[after.triangles[0][0]], Vec3f(0.0f));
-  EXPECT_EQ(after.normals[after.triangles[1][0]], Vec3f(0, 0, 1));
+  EXPECT_EQ(after.normal(after.triangle(0)[0]), Vec3f(0.0f));
+  EXPECT_EQ(after.normal(after.triangle(1)[0]), Vec3f(0, 0, 1));
 }
 
 TEST(GltfWriter, LightsOfEverySizeComeBack) {

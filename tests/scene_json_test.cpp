@@ -206,7 +206,7 @@ TEST(JsonScene, ModelFilesAreMeshesWithParts) {
   EXPECT_EQ(scene->instances[3].name, "again/right");
   const World world = make_world(*scene);
   ASSERT_EQ(world.triangle_count(), 4u);
-  const auto color = [&](std::uint32_t t) { return scene->materials[world.triangle_material[t]].diffuse; };
+  const auto color = [&](std::uint32_t t) { return scene->materials[world.material_of(t)].diffuse; };
   EXPECT_EQ(color(0), Vec3f(0, 0, 1));
   EXPECT_EQ(color(1), Vec3f(0, 0, 1));
   EXPECT_EQ(color(2), Vec3f(0, 0, 1));

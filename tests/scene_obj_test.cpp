@@ -159,7 +159,7 @@ map_Kd missing.png
   ASSERT_TRUE(scene) << scene.error().message();
   const World world = make_world(*scene);
   const auto material = [&](std::uint32_t t) -> const Material& {
-    return scene->materials[world.triangle_material[t]];
+    return scene->materials[world.material_of(t)];
   };
   EXPECT_EQ(material(0).diffuse, Vec3f(0.1f, 0.2f, 0.3f));
   EXPECT_EQ(material(0).specular, Vec3f(0.4f, 0.5f, 0.6f));

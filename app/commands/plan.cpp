@@ -75,8 +75,40 @@ nlohmann::ordered_json way_json(std::string_view way, std::string_view reason) {
   return {{"way", way}, {"reason", reason}};
 }
 
+/// Three digits are what a forecast is worth: 1.23 M.
+std::string short_count(std::uint64_t count) {
+  constexpr std::array<std::string_view, 5> units{"", " k", " M", " G", " T"};
+  double value = static_cast<double>(count);
+  std::size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < units.size()) value /= 1000.0, ++unit;
+  return unit == 0 ? std::to_string(count) : fmt::format("{:.3g}{}", value, units[unit]);
+}
+
+std::string_view name_of_way(const World& world) {
+  return world.keeps_instances() ? "kept" : "flattened";
+}
+
+/// Why the world's instances are kept or flattened.
+std::string instances_reason(const InstancePlan& plan, InstanceChoice choice) {
+  if (plan.instances == 0) return "no mesh of some size stands more than once";
+  const std::string bytes =
+      fmt::format("{} instances of {} {}, {} triangles, would take {}B flattened, {}B kept", plan.instances,
+                  plan.meshes, plan.meshes == 1 ? "mesh" : "meshes", short_count(plan.triangles),
+                  short_count(plan.flat_bytes), short_count(plan.kept_bytes));
+  if (choice != InstanceChoice::automatic) return "as asked for; " + bytes;
+  return plan.keep ? bytes : bytes + ": little, and flattened triangles are traced faster";
+}
+
+nlohmann::ordered_json instances_json(const LoadedScene& loaded, InstanceChoice choice) {
+  const InstancePlan plan = plan_instances(*loaded.scene);
+  nlohmann::ordered_json json = way_json(name_of_way(*loaded.world), instances_reason(plan, choice));
+  json["instances"] = plan.instances, json["meshes"] = plan.meshes, json["triangles"] = plan.triangles;
+  json["bytes_flattened"] = plan.flat_bytes, json["bytes_kept"] = plan.kept_bytes;
+  return json;
+}
+
 std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast,
-                      const raytrace::TracerPlan& ways) {
+                      const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
     effects.push_back({{"effect", effect_name(entry.effect)},
@@ -94,23 +126,15 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
   const nlohmann::ordered_json tracer{{"primary", way_json(name_of(ways.primary), ways.primary_reason)},
                                       {"receivers", way_json(name_of(ways.receivers), ways.receivers_reason)},
                                       {"shadow", way_json(name_of(ways.shadow), ways.shadow_reason)}};
-  return nlohmann::ordered_json{{"effects", effects}, {"rays", rays}, {"tracer", tracer}}.dump(
-             2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+  return nlohmann::ordered_json{
+             {"effects", effects}, {"rays", rays}, {"tracer", tracer}, {"instances", instances}}
+             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";
 }
 
 std::string_view verdict(const EffectEntry& entry) {
   if (entry.simulated) return "simulated";
   return entry.called_for ? "not yet" : "off";
-}
-
-/// Three digits are what a forecast is worth: 1.23 M.
-std::string short_count(std::uint64_t rays) {
-  constexpr std::array<std::string_view, 5> units{"", " k", " M", " G", " T"};
-  double value = static_cast<double>(rays);
-  std::size_t unit = 0;
-  while (value >= 999.5 && unit + 1 < units.size()) value /= 1000.0, ++unit;
-  return unit == 0 ? std::to_string(rays) : fmt::format("{:.3g}{}", value, units[unit]);
 }
 
 /// `text` behind `start`, at most 80 columns wide, further lines under the first.
@@ -136,13 +160,14 @@ std::string plan_row(std::string_view name, std::string_view state, const std::s
   return hanging(fmt::format("{:<16}{:<11}{:>9}  ", name, state, rays), why);
 }
 
-std::string ways_table(const raytrace::TracerPlan& ways) {
+std::string ways_table(const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances) {
   const auto row = [](std::string_view what, std::string_view way, std::string_view reason) {
     return hanging(fmt::format("{:<16}", what), fmt::format("{}: {}", way, reason));
   };
   return "\n" + row("primary rays", name_of(ways.primary), ways.primary_reason) +
          row("receivers", name_of(ways.receivers), ways.receivers_reason) +
-         row("shadow rays", name_of(ways.shadow), ways.shadow_reason);
+         row("shadow rays", name_of(ways.shadow), ways.shadow_reason) +
+         row("instances", instances["way"].get<std::string>(), instances["reason"].get<std::string>());
 }
 
 std::string plan_table(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
@@ -191,7 +216,8 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   const raytrace::Forecast forecast = forecast_rays(tracer, loaded->plan, loaded->scene->camera, options);
   console.clear_progress();
   const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
-  const std::string json = plan_json(loaded->plan, options.size, forecast, ways);
+  const nlohmann::ordered_json instances = instances_json(*loaded, command.scene.instances);
+  const std::string json = plan_json(loaded->plan, options.size, forecast, ways, instances);
   if (!command.json.empty() && command.json != "-") {
     if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
     if (const auto written = write_file(command.json, json); !written) return fail(written.error());
@@ -199,7 +225,7 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   if (command.json == "-") {
     print_data(json);
   } else if (!command.quiet) {
-    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways));
+    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways, instances));
   }
   return ExitCode::done;
 }

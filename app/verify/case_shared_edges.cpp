@@ -43,12 +43,12 @@ void light_inside(Run& run) {
   const SmallWorld w({in_floats(round_mesh(center, 1.0, mesh_rings, mesh_rings, 0.05, random))},
                      {plane(Vec3(0.0), Vec3(0.0, 1.0, 0.0))});
   const raytrace::Tracer tracer = run.tracer(w.world());
-  const auto& corners = w.world().positions;
+  const World& world = w.world();
   run.sample("lit outside", run.rays(0.3), [&](Random& r, Tally& tally) {
     const Light light = point_light(center + r.in_box(0.3));
     Vec3 foot(r.uniform(-5.0, 5.0), 0.0, r.uniform(-5.0, 5.0));
     // Mostly straight behind a corner, seen from the light.
-    const Vec3 d = corners[r.below(static_cast<std::uint32_t>(corners.size()))] - light.position;
+    const Vec3 d = world.position(r.below(world.vertex_count())) - light.position;
     if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
     const auto point = seen(tracer, foot + Vec3(0.0, 0.01, 0.0), foot);
     tally.check(tracer.light_verdict(point, light) != raytrace::Verdict::lit);

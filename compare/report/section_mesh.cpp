@@ -55,8 +55,9 @@ SectionMesh section_mesh(const World& world, std::size_t most_triangles) {
     return mesh;
   }
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), world.positions.begin(), world.positions.end());
-  for (const auto& triangle : world.triangles)
+  const std::vector<Vec3> positions = positions_of(world);
+  mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
+  for (const auto& triangle : triangles_of(world))
     mesh.triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
   return mesh;
 }

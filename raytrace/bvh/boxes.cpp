@@ -32,16 +32,8 @@ BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& cente
   return box_of(box.min - error - center, box.max + error - center, id);
 }
 
-bool usable_triangle(const World& world, std::uint32_t id, const std::array<Vec3, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const Vec3 n = glm::cross(b - a, c - a);
-  const double size2 = glm::dot(n, n);
-  if (size2 > 1e-280 && size2 < 1e280) return true;  // and so all is finite: the common case, without a root
-  return all_finite(a) && all_finite(b) && all_finite(c) && geometric_normal(world, id, a) != Vec3(0.0);
-}
-
 // In blocks over all threads, each at the place of its ids; closed up where some were left out.
-void append_triangles(const World& world, FinitePrimitives& out) {
+void append_triangles(const World& world, bool with_kept, FinitePrimitives& out) {
   constexpr std::uint32_t block_size = 8192;
   const std::uint32_t count = world.triangle_count();
   std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
@@ -50,8 +42,13 @@ void append_triangles(const World& world, FinitePrimitives& out) {
     const auto first = static_cast<std::uint32_t>(block) * block_size;
     BoxRef* at = out.boxes.data() + first;
     for (std::uint32_t id = first; id < std::min(first + block_size, count); ++id) {
-      const std::array<Vec3, 3> corners = world.corners(id);
-      if (usable_triangle(world, id, corners)) *at++ = triangle_box(corners, id, out.center);
+      const WorldPart& part = world.part_of(id);
+      if (part.kept() && !with_kept) {
+        id = part.first_triangle + part.triangle_count() - 1;
+        continue;
+      }
+      const std::array<Vec3, 3> corners = part.corners(id - part.first_triangle);
+      if (has_surface(corners)) *at++ = triangle_box(corners, id, out.center);
     }
     kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
   });
@@ -62,6 +59,8 @@ void append_triangles(const World& world, FinitePrimitives& out) {
       std::copy_n(out.boxes.data() + block * block_size, kept[block], out.boxes.data() + size);
   out.boxes.resize(size);
   out.dropped += count - size;
+  for (const WorldPart& part : world.parts)
+    if (part.kept() && !with_kept) out.dropped -= part.triangle_count();
 }
 
 }  // namespace
@@ -72,11 +71,13 @@ BoxRef shape_box(const World& world, std::uint32_t id, const Vec3& center) {
   return sphere_box(std::get<Sphere>(geometry), id, center);
 }
 
-FinitePrimitives finite_primitives(const World& world) {
+namespace {
+
+FinitePrimitives primitives_of(const World& world, bool kept) {
   FinitePrimitives out;
   const Vec3 middle = world.finite_bounds.center();
   if (all_finite(middle)) out.center = middle;
-  append_triangles(world, out);
+  append_triangles(world, kept, out);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const ShapeGeometry& geometry = world.shape(id).geometry;
     if (std::holds_alternative<Plane>(geometry)) continue;
@@ -95,6 +96,15 @@ FinitePrimitives finite_primitives(const World& world) {
       ++out.dropped;
   }
   return out;
+}
+
+}  // namespace
+
+FinitePrimitives finite_primitives(const World& world) {
+  return primitives_of(world, true);
+}
+FinitePrimitives flattened_primitives(const World& world) {
+  return primitives_of(world, false);
 }
 
 }  // namespace gnomon::raytrace

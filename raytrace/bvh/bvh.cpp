@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "raytrace/bvh/clusters.h"
+#include "raytrace/bvh/instance.h"
 #include "raytrace/bvh/treelet.h"
 #include "raytrace/given_up.h"
 #include "scene/solid.h"
@@ -224,11 +225,12 @@ BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint3
 }  // namespace
 
 Bvh build_bvh(const World& world) {
-  const FinitePrimitives finite = finite_primitives(world);
+  const FinitePrimitives finite = flattened_primitives(world);
   Bvh bvh;
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
   if (!finite.boxes.empty()) Builder(&world, bvh, finite.boxes.size()).run(finite.boxes);
+  if (world.keeps_instances()) put_instances(world, bvh);
   return bvh;
 }
 

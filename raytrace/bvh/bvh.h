@@ -16,7 +16,7 @@
 
 namespace gnomon::raytrace {
 
-/// A reference to a child: an inner node's index, or a range of leaf primitives.
+/// A reference to a child: an inner node's index, a range of leaf primitives, or a kept instance's tree.
 struct BvhChild {
   std::uint32_t bits;
   static constexpr std::uint32_t leaf_flag = 0x80000000u, first_mask = 0x07ffffffu;
@@ -26,7 +26,11 @@ struct BvhChild {
   static BvhChild leaf(std::uint32_t first, std::uint32_t count) {
     return {leaf_flag | (count << 27) | first};
   }
+  /// To whom does not look for it: a leaf that holds nothing.
+  static BvhChild instance(std::uint32_t index) { return {leaf_flag | (index + 1)}; }
   bool is_leaf() const { return (bits & leaf_flag) != 0; }
+  bool is_instance() const { return bits > leaf_flag && bits <= (leaf_flag | first_mask); }
+  std::uint32_t instance() const { return first() - 1; }
   std::uint32_t index() const { return bits; }
   std::uint32_t first() const { return bits & first_mask; }
   std::uint32_t count() const { return (bits >> 27) & max_leaf; }
@@ -49,6 +53,18 @@ struct LeafRange {
   std::uint32_t first, count;
 };
 
+/// A kept instance (scene/world.h). The boxes of its mesh's tree are brought into the world as they are reached
+/// (raytrace/bvh/instance.h), rounded outwards; so are its leaves' corners, to the world's own bits.
+struct BvhInstance {
+  std::uint32_t tree;            ///< in Bvh::trees
+  std::uint32_t first_leaf;      ///< what the tree's first leaf primitive is to who asks
+  std::uint32_t first_triangle;  ///< of the world
+  Mat4 world_from_object;
+  std::array<std::array<float, 3>, 3> matrix;          ///< matrix[row][column], world from object
+  std::array<std::array<std::uint8_t, 3>, 3> low_row;  ///< of BvhNode::bounds: what makes the row's sum least
+  std::array<float, 3> low_offset, high_offset;  ///< of the tree's centre from Bvh::center, and a margin
+};
+
 struct Bvh {
   HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: traverse all primitives
   HugeVector<LeafRange> below;           ///< of each node: what all its leaves hold
@@ -56,11 +72,39 @@ struct Bvh {
   HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order
   std::uint64_t dropped = 0;             ///< primitives left out: not finite, zero area or zero radius
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
-  /// The tree's depth is limited so that a stack of this size always suffices: three per level and one.
-  static constexpr int max_depth = 80, stack_size = 3 * max_depth + 1;
+  std::vector<Bvh> trees;  ///< of kept instances' meshes, in object space; ids: the mesh's own triangles
+  std::vector<BvhInstance> instances;
+  Ranges instance_leaves;  ///< of the instances, counted from the last of `ids`
+  /// The tree's depth is limited so that a stack of this size always suffices: three per level and one. Of the
+  /// levels some are kept for the nodes above instances.
+  static constexpr int max_depth = 88, stack_size = 3 * max_depth + 1;
 
-  /// Asks memory for a primitive ahead of need.
+  /// Leaf primitives: those in `ids`, then each instance's.
+  std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(ids.size()) + instance_leaves.size(); }
+  /// Whether the primitives are here; else they are read from the world.
+  bool has_primitives() const { return !primitives.empty() || !instances.empty(); }
+  /// A leaf primitive's id.
+  std::uint32_t id_at(std::uint32_t leaf) const {
+    if (leaf < ids.size()) [[likely]]
+      return ids[leaf];
+    const BvhInstance& instance = instance_of(leaf);
+    return instance.first_triangle + trees[instance.tree].ids[leaf - instance.first_leaf];
+  }
+  /// A leaf primitive itself, which is in `scratch` where it is an instance's. Requires `primitives`.
+  const LeafPrimitive& primitive_at(std::uint32_t leaf, LeafPrimitive& scratch) const {
+    if (leaf < ids.size()) [[likely]]
+      return primitives[leaf];
+    return scratch = placed_primitive(leaf);
+  }
+  /// Of a leaf that is an instance's.
+  const BvhInstance& instance_of(std::uint32_t leaf) const {
+    return instances[instance_leaves.of(leaf - static_cast<std::uint32_t>(ids.size()))];
+  }
+  LeafPrimitive placed_primitive(std::uint32_t leaf) const;
+
+  /// Asks memory for a primitive ahead of need; not for an instance's.
   void prefetch(std::size_t leaf) const {
+    if (leaf >= primitives.size()) return;
     const char* bytes = reinterpret_cast<const char*>(&primitives[leaf]);
     __builtin_prefetch(bytes), __builtin_prefetch(bytes + sizeof(LeafPrimitive) - 1);
     __builtin_prefetch(&ids[leaf]);
@@ -80,6 +124,8 @@ struct FinitePrimitives {
   std::uint64_t dropped = 0;
 };
 FinitePrimitives finite_primitives(const World& world);
+/// Without the triangles of kept instances.
+FinitePrimitives flattened_primitives(const World& world);
 /// A sphere's or solid's box as it is there.
 BoxRef shape_box(const World& world, std::uint32_t id, const Vec3& center);
 

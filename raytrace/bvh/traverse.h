@@ -7,7 +7,7 @@
 #include <bit>
 #include <limits>
 
-#include "raytrace/bvh/float4.h"
+#include "raytrace/bvh/instance.h"
 #include "raytrace/shapes/intersect.h"
 
 namespace gnomon::raytrace {
@@ -61,22 +61,15 @@ inline int intersect_boxes(const BvhNode& node, const BoxRay& ray, float t_max, 
   return less_equal_mask(near, far);
 }
 
-/// Calls visit(position in leaf order) for every primitive whose boxes the ray may intersect before t_max,
-/// nearest boxes first; visit may lower ray.t_max and returns true to end the traversal. Returns whether it
-/// was ended.
-template <class Stats, class Visit>
-bool traverse(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
-  if (bvh.nodes.empty()) {
-    for (std::uint32_t i = 0; i < bvh.ids.size(); ++i) {
-      stats.primitive();
-      if (visit(i)) return true;
-    }
-    return false;
-  }
+/// leaf(child) for every leaf of a tree, and every instance, whose boxes the ray may intersect before t_max, nearest
+/// boxes first; true ends the traversal. `space`: NodesThere or NodesPlaced.
+template <class Space, class Stats, class Leaf>
+bool traverse_tree(const Bvh& tree, const Space& space, BoxRay& ray, Stats& stats, const Leaf& leaf) {
   struct Entry {
     BvhChild child;
     float t_near;
   };
+  BvhNode scratch;
   std::array<Entry, Bvh::stack_size> stack;
   std::size_t size = 0;
   stack[size++] = {BvhChild::node(0), -std::numeric_limits<float>::infinity()};
@@ -84,14 +77,10 @@ bool traverse(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
     const Entry entry = stack[--size];
     if (entry.t_near > ray.t_max) continue;
     if (entry.child.is_leaf()) {
-      const std::uint32_t end = entry.child.first() + entry.child.count();
-      for (std::uint32_t i = entry.child.first(); i < end; ++i) {
-        stats.primitive();
-        if (visit(i)) return true;
-      }
+      if (leaf(entry.child)) return true;
       continue;
     }
-    const BvhNode& node = bvh.nodes[entry.child.index()];
+    const BvhNode& node = space.at(tree.nodes[entry.child.index()], scratch);
     alignas(16) std::array<float, 4> t_near;
     stats.boxes(4);
     const std::size_t base = size;
@@ -105,6 +94,30 @@ bool traverse(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
     }
   }
   return false;
+}
+
+/// Calls visit(position in leaf order) for every primitive whose boxes the ray may intersect before t_max,
+/// nearest boxes first; visit may lower ray.t_max and returns true to end the traversal. Returns whether it
+/// was ended.
+template <class Stats, class Visit>
+bool traverse(const Bvh& bvh, BoxRay& ray, Stats& stats, const Visit& visit) {
+  const auto visit_run = [&](const LeafRange& run) {
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+      stats.primitive();
+      if (visit(i)) return true;
+    }
+    return false;
+  };
+  if (bvh.nodes.empty()) return visit_run({0, static_cast<std::uint32_t>(bvh.ids.size())});
+  return traverse_tree(bvh, NodesThere{}, ray, stats, [&](BvhChild child) {
+    if (!child.is_instance()) [[likely]]
+      return visit_run({child.first(), child.count()});
+    const BvhInstance& instance = bvh.instances[child.instance()];
+    const NodesPlaced placed{instance};
+    return traverse_tree(bvh.trees[instance.tree], placed, ray, stats, [&](BvhChild inner) {
+      return visit_run(placed.leaves({inner.first(), inner.count()}));
+    });
+  });
 }
 
 }  // namespace gnomon::raytrace

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "raytrace/bvh/instance.h"
 #include "raytrace/packets/frustum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,10 +22,17 @@ namespace gnomon::raytrace::HWY_NAMESPACE {
 /// Runs of leaves are not divided below this.
 constexpr std::uint32_t run_size = 48;
 
-/// run(node, child, leaves) for every run that the frustum touches at a priority of at least limit(). Nearest
-/// first, but several nodes at a time: memory takes longer to bring a node than its test takes.
-template <class Limit, class Run>
-void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Run& run) {
+inline BoxRef box_of(const BvhNode& node, std::uint32_t child) {
+  BoxRef box{};
+  for (std::size_t a = 0; a < 3; ++a)
+    box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
+  return box;
+}
+
+/// A tree's part of traverse_block; enter(number) for every instance. `space`: NodesThere or NodesPlaced.
+template <class Space, class Limit, class Run, class Enter>
+void traverse_tree_by_block(const Bvh& tree, const Space& space, const Frustum& frustum, const Limit& limit,
+                            const Run& run, const Enter& enter) {
   struct Entry {
     const BvhNode* parent;
     std::uint32_t child;
@@ -35,16 +43,18 @@ void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, 
   std::size_t size = 0;
   std::uint32_t nodes[together] = {0};
   std::size_t count = 1;
+  BvhNode scratch;
   while (count > 0) {
     for (std::size_t k = count; k-- > 0;) {  // the nearest last, on top of the stack
-      const BvhNode& node = bvh.nodes[nodes[k]];
+      const BvhNode& node = tree.nodes[nodes[k]];
       alignas(16) float priority[4];
       const std::size_t base = size;
-      for (unsigned mask = frustum.hits(node, limit(), priority); mask != 0; mask &= mask - 1) {
+      for (unsigned mask = frustum.hits(space.at(node, scratch), limit(), priority); mask != 0;
+           mask &= mask - 1) {
         const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
         if (!node.child[i].is_leaf()) {
-          __builtin_prefetch(&bvh.below[node.child[i].index()]);
-          const char* next = reinterpret_cast<const char*>(&bvh.nodes[node.child[i].index()]);
+          __builtin_prefetch(&tree.below[node.child[i].index()]);
+          const char* next = reinterpret_cast<const char*>(&tree.nodes[node.child[i].index()]);
           __builtin_prefetch(next), __builtin_prefetch(next + 64);
         }
         std::size_t at = size++;
@@ -57,21 +67,36 @@ void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, 
       if (entry.priority < limit()) continue;
       const BvhChild child = entry.parent->child[entry.child];
       const LeafRange below =
-          child.is_leaf() ? LeafRange{child.first(), child.count()} : bvh.below[child.index()];
+          child.is_leaf() ? LeafRange{child.first(), child.count()} : tree.below[child.index()];
       if (below.count > run_size) {
         nodes[count++] = child.index();
-      } else {
-        run(*entry.parent, entry.child, below);
+      } else if (child.is_instance()) {
+        enter(child.instance());
+      } else if (below.count > 0) {
+        run(box_of(space.at(*entry.parent, scratch), entry.child), space.leaves(below));
       }
     }
   }
 }
 
-inline BoxRef box_of(const BvhNode& node, std::uint32_t child) {
-  BoxRef box{};
-  for (std::size_t a = 0; a < 3; ++a)
-    box.min[a] = node.bounds[a][child], box.max[a] = node.bounds[3 + a][child];
-  return box;
+/// run(box, leaves) for every run that the frustum touches at a priority of at least limit(). Nearest first, but
+/// several nodes at a time: memory takes longer to bring a node than its test takes.
+template <class Limit, class Run>
+void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Run& run) {
+  traverse_tree_by_block(bvh, NodesThere{}, frustum, limit, run, [&](std::uint32_t number) {
+    const BvhInstance& instance = bvh.instances[number];
+    traverse_tree_by_block(bvh.trees[instance.tree], NodesPlaced{instance}, frustum, limit, run,
+                           [](std::uint32_t) {});
+  });
+}
+
+/// Asks memory for a run's primitives.
+inline void prefetch_run(const Bvh& bvh, const LeafRange& run) {
+  const std::size_t count = run.count;
+  if (run.first + count > bvh.primitives.size()) return;  // an instance's
+  const char* bytes = reinterpret_cast<const char*>(&bvh.primitives[run.first]);
+  for (std::size_t at = 0; at < count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
+  __builtin_prefetch(&bvh.ids[run.first]), __builtin_prefetch(&bvh.ids[run.first + run.count - 1]);
 }
 
 using Eight = hn::CappedTag<float, 8>;

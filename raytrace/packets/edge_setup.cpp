@@ -114,14 +114,15 @@ unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span
                        EdgeSetupBlock& block) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < 8; ++i) {
-    const LeafPrimitive& p = s.bvh.primitives[leaves[std::min(i, leaves.size() - 1)]];
+    LeafPrimitive scratch;
+    const LeafPrimitive& p = s.bvh.primitive_at(leaves[std::min(i, leaves.size() - 1)], scratch);
     for (std::size_t k = 0; k < 9; ++k) block.rows.corner[k][i] = p.v[k];
   }
   set_up_eight_triangles(block.rows, pass);
   if (!s.has_shapes && !s.has_masks) return 0;
   unsigned never = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const std::uint32_t id = s.bvh.ids[leaves[i]];
+    const std::uint32_t id = s.bvh.id_at(leaves[i]);
     if (!s.world->is_triangle(id)) {
       const float void_rows[EdgeSetupRows::count] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
                                                      0.0f, 0.0f, 0.0f, 0.0f, 0.0f, inf,  inf,

@@ -8,7 +8,7 @@ namespace gnomon::raytrace {
 std::vector<std::uint32_t> hit_places(const Tracer& tracer) {
   const Structures& s = tracer.structures();
   std::vector<std::uint32_t> places(tracer.world().primitive_count(), nothing_hit);
-  for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) places[s.bvh.ids[i]] = i;
+  for (std::uint32_t i = 0; i < s.bvh.leaf_count(); ++i) places[s.bvh.id_at(i)] = i;
   for (std::uint32_t i = 0; i < s.planes.size(); ++i) places[s.planes[i]] = first_plane + i;
   return places;
 }

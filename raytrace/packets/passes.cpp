@@ -20,7 +20,7 @@ struct Candidates {
 std::uint32_t leaf_of(const Tracer& tracer, const Candidates& candidates, std::uint32_t triangle) {
   if (triangle == no_id || !tracer.world().is_triangle(triangle)) return ambiguous_hit;
   for (const std::uint32_t leaf : candidates.leaves)
-    if (tracer.structures().bvh.ids[leaf] == triangle) return leaf;
+    if (tracer.structures().bvh.id_at(leaf) == triangle) return leaf;
   return ambiguous_hit;
 }
 
@@ -132,7 +132,7 @@ void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePo
   if (stored == nullptr) {
     const Bvh& bvh = tracer->structures().bvh;
     for_each_place(rect, asked, [&](int, int, std::size_t lane) {
-      if (hits->leaf[lane] < bvh.primitives.size()) bvh.prefetch(hits->leaf[lane]);
+      if (hits->leaf[lane] < bvh.leaf_count()) bvh.prefetch(hits->leaf[lane]);
     });
     const LaneMask others =
         store_receivers(bvh, *view, rect.x0, rect.y0, axis_of(*view, rect), those_of(*hits, asked),

@@ -47,13 +47,15 @@ struct Corners {
   Corners(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
     const auto first = leaf[std::countr_zero(known)];
     if (hn::AllTrue(leaves, hn::Eq(hn::LoadU(leaves, leaf), hn::Set(leaves, first)))) {
-      const auto& v = bvh.primitives[first].v;
+      LeafPrimitive scratch;
+      const auto& v = bvh.primitive_at(first, scratch).v;
       for (std::size_t k = 0; k < 3; ++k) corner[k] = {all(v[3 * k]), all(v[3 * k + 1]), all(v[3 * k + 2])};
       return;
     }
     alignas(64) double rows[9][8];
     for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-      const auto& v = bvh.primitives[(known >> i & 1) != 0 ? leaf[i] : first].v;
+      LeafPrimitive scratch;
+      const auto& v = bvh.primitive_at((known >> i & 1) != 0 ? leaf[i] : first, scratch).v;
       for (std::size_t k = 0; k < 9; ++k) rows[k][i] = v[k];
     }
     for (std::size_t k = 0; k < 3; ++k)
@@ -117,7 +119,7 @@ class Draft {
     }
     for (unsigned left = sound; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      tile_.source[lane + i] = bvh_.ids[leaf[i]];
+      tile_.source[lane + i] = bvh_.id_at(leaf[i]);
     }
     tile_.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
     return sound;
@@ -152,7 +154,7 @@ class Draft {
 /// The corners of a packet's triangles on their way to the cache; where all are one they are there.
 inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
   if (leaf[0] == leaf[packet_rays - 1]) return;
-  const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
+  const std::uint32_t count = bvh.leaf_count();
   for (std::size_t i = 0; i < packet_rays; ++i) {
     if (leaf[i] < count) bvh.prefetch(leaf[i]);
   }
@@ -162,7 +164,7 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
                        QuantisedTile& tile, TileDraft& draft) {
   constexpr std::size_t ahead = 3;  // packets
   const PixelPlane plane(view, x0, y0);
-  const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
+  const std::uint32_t count = bvh.leaf_count();
   DraftLeft left{};
   Draft some(bvh, view, tile, draft);
   const auto bits = [](auto mask) {

@@ -160,7 +160,7 @@ inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* l
     hn::BlendedStore(normal, hn::LoadMaskBits(half, bytes), half, tile.normal[a] + lane);
   }
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-    if ((sound >> i & 1) != 0) tile.source[lane + i] = bvh.ids[leaf[i]];
+    if ((sound >> i & 1) != 0) tile.source[lane + i] = bvh.id_at(leaf[i]);
   }
 }
 
@@ -179,8 +179,10 @@ LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int 
   alignas(64) double sx[packet_rays], sy[packet_rays];
   alignas(64) std::int64_t at[packet_rays];
   const V3 origin{{all(view.eye.x), all(view.eye.y), all(view.eye.z)}};
-  const double* corners = bvh.primitives.front().v.data();
-  const auto count = static_cast<std::uint32_t>(bvh.primitives.size());
+  LeafPrimitive placed[packet_rays]{};  // of instances
+  const bool has_instances = !bvh.instances.empty();
+  const double* corners = (has_instances ? placed : bvh.primitives.data())->v.data();
+  const std::uint32_t count = bvh.leaf_count();
   LaneMask left{};
   Rows rows;
   Reach reach;
@@ -191,7 +193,11 @@ LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int 
     for (std::size_t i = 0; i < packet_rays; ++i) {
       const bool triangle = leaf[i] < count;
       known |= static_cast<unsigned>(triangle) << i;
-      at[i] = triangle ? 9 * static_cast<std::int64_t>(leaf[i]) : 0;
+      at[i] = triangle ? 9 * static_cast<std::int64_t>(has_instances ? i : leaf[i]) : 0;
+      if (has_instances && triangle) {
+        LeafPrimitive scratch;
+        placed[i] = bvh.primitive_at(leaf[i], scratch);
+      }
     }
     if (known != 0) place_packet(view, x0, y0, p, sx, sy);
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
@@ -209,7 +215,7 @@ LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int 
         write_draft(rows, sound, leaf + i, bvh, lane, *sinks.quantised, *sinks.draft, reach);
       for (std::size_t j = 0; j < hn::Lanes(d) && sinks.points != nullptr; ++j)
         if ((sound >> j & 1) != 0)
-          write(rows, j, bvh.ids[leaf[i + j]],
+          write(rows, j, bvh.id_at(leaf[i + j]),
                 sinks.points[corner_pixel + (i + j) / 4 * sinks.stride + (i + j) % 4]);
       done |= sound << i;
     }

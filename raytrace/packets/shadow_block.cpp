@@ -36,8 +36,8 @@ class BlockShadows {
       const Frustum frustum(s_.bvh, setup_, whole());
       traverse_block(
           s_.bvh, frustum, [&] { return limit_; },
-          [&](const BvhNode& node, std::uint32_t child, LeafRange leaves) {
-            if (is_touched(projection_.of(box_of(node, child)))) put(leaves);
+          [&](const BoxRef& box, LeafRange leaves) {
+            if (is_touched(projection_.of(box))) put(leaves);
           });
       while (begin_ < end_) flush();
     }
@@ -65,9 +65,7 @@ class BlockShadows {
   }
 
   void put(LeafRange run) {
-    const char* bytes = reinterpret_cast<const char*>(&s_.bvh.primitives[run.first]);
-    for (std::size_t at = 0; at < run.count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
-    __builtin_prefetch(&s_.bvh.ids[run.first]), __builtin_prefetch(&s_.bvh.ids[run.first + run.count - 1]);
+    prefetch_run(s_.bvh, run);
     for (std::uint32_t k = 0; k < run.count; ++k) pending_[end_++] = run.first + k;
     while (end_ - begin_ >= run_size) flush();
     end_ = static_cast<std::size_t>(std::copy(pending_ + begin_, pending_ + end_, pending_) - pending_),
@@ -131,12 +129,13 @@ class BlockShadows {
 
   /// Of what has no bounds of its own: shapes, and triangles seen edge-on.
   PrimitiveBounds bounds_of_box(std::uint32_t leaf) const {
-    const std::uint32_t id = s_.bvh.ids[leaf];
+    const std::uint32_t id = s_.bvh.id_at(leaf);
     return projection_.of(s_.world->is_triangle(id) ? triangle_box(leaf)
                                                     : shape_box(*s_.world, id, s_.bvh.center));
   }
   BoxRef triangle_box(std::uint32_t leaf) const {
-    const LeafPrimitive& p = s_.bvh.primitives[leaf];
+    LeafPrimitive scratch;
+    const LeafPrimitive& p = s_.bvh.primitive_at(leaf, scratch);
     BoxRef box{};
     for (std::size_t a = 0; a < 3; ++a) {
       const double center = s_.bvh.center[static_cast<int>(a)];
@@ -153,7 +152,7 @@ class BlockShadows {
     for (std::size_t k = 0; k < 9; ++k) p.edge[k / 3][k % 3] = out[k][i];
     for (std::size_t k = 0; k < 3; ++k) p.reciprocal_depth[k] = out[9 + k][i];
     p.edge_error = out[12][i], p.depth_error = out[13][i], p.depth_floor = out[14][i];
-    p.id = s_.bvh.ids[leaf] | ((never_ >> i & 1) != 0 ? never_sure : 0u);
+    p.id = s_.bvh.id_at(leaf) | ((never_ >> i & 1) != 0 ? never_sure : 0u);
     return p;
   }
 

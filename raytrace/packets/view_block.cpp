@@ -65,8 +65,8 @@ class BlockClosest {
     update_limit();
     traverse_block(
         s_.bvh, frustum, [&] { return limit_; },
-        [&](const BvhNode& node, std::uint32_t child, LeafRange leaves) {
-          if (!is_hidden(node, child)) put(leaves);
+        [&](const BoxRef& box, LeafRange leaves) {
+          if (!is_hidden(box)) put(leaves);
         });
     while (pending_count_ > 0) flush();
     finish();
@@ -108,15 +108,14 @@ class BlockClosest {
   std::uint32_t* leaf_at(std::size_t place) { return out_.tiles[place / tile_rays].leaf + place % tile_rays; }
 
   void put(LeafRange run) {
-    const char* bytes = reinterpret_cast<const char*>(&s_.bvh.primitives[run.first]);
-    for (std::size_t at = 0; at < run.count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
+    prefetch_run(s_.bvh, run);
     for (std::uint32_t k = 0; k < run.count; ++k) pending_[pending_count_++] = run.first + k;
     while (pending_count_ >= batch + run_size) flush();
   }
 
-  /// Whether no ray of the block can find anything in the child's box that is nearer than what it has.
-  bool is_hidden(const BvhNode& node, std::uint32_t child) const {
-    const BoxPlace place = plane_.packets_of(box_of(node, child));
+  /// Whether no ray of the block can find anything in the box that is nearer than what it has.
+  bool is_hidden(const BoxRef& box) const {
+    const BoxPlace place = plane_.packets_of(box);
     if (place.covered.x0 > place.covered.x1) return true;
     for (int y = place.covered.y0; y <= place.covered.y1; ++y)
       if (asking(place.nearest, place.covered, y) != 0) return false;
@@ -160,8 +159,8 @@ class BlockClosest {
       PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
                          std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
       // A sphere's or a solid's own numbers have no bounds.
-      if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.ids[leaf]))
-        covered = plane_.packets_of(shape_box(*s_.world, s_.bvh.ids[leaf], s_.bvh.center)).covered;
+      if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.id_at(leaf)))
+        covered = plane_.packets_of(shape_box(*s_.world, s_.bvh.id_at(leaf), s_.bvh.center)).covered;
       if (covered.x0 > covered.x1 || covered.y0 > covered.y1) continue;
       const LaneNumbers numbers(blocks_[b].rows, i);
       taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], covered);
@@ -176,11 +175,11 @@ class BlockClosest {
   unsigned leave_out_backs(std::size_t first, std::size_t count, unsigned& never) const {
     unsigned backs = 0;
     for (std::size_t i = 0; i < 8 && first + i < count; ++i) {
-      const std::uint32_t leaf = pending_[first + i], id = s_.bvh.ids[leaf];
-      if (!s_.world->is_triangle(id) ||
-          shows_back(s_.world->scene->materials[s_.world->triangle_material[id]]))
+      const std::uint32_t leaf = pending_[first + i], id = s_.bvh.id_at(leaf);
+      if (!s_.world->is_triangle(id) || shows_back(s_.world->scene->materials[s_.world->material_of(id)]))
         continue;
-      const Facing facing = facing_of(s_.bvh.primitives[leaf].v.data(), setup_.origin);
+      LeafPrimitive scratch;
+      const Facing facing = facing_of(s_.bvh.primitive_at(leaf, scratch).v.data(), setup_.origin);
       if (facing == Facing::back) backs |= 1u << i;
       if (facing == Facing::doubtful) never |= 1u << i;
     }

@@ -71,7 +71,7 @@ double exact_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3,
 }
 
 bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
-  const std::uint32_t id = s.bvh.ids[index];
+  const std::uint32_t id = s.bvh.id_at(index);
   if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
   hit.primitive = id;
   LeafPrimitive scratch;

@@ -65,7 +65,7 @@ class Query {
   // True ends the traversal: a sure hit.
   template <bool masks>
   bool visit(std::uint32_t index) {
-    const std::uint32_t id = s_.bvh.ids[index];
+    const std::uint32_t id = s_.bvh.id_at(index);
     if (s_.has_shapes && !s_.world->is_triangle(id))
       return count<masks>(id, ambiguous_.intersects_shape(id), -1, false);
     LeafPrimitive scratch;

@@ -156,7 +156,7 @@ bool spares_triangle(const LightShaft& shaft, const LeafPrimitive& triangle, boo
 
 /// Whether the shaft surely passes by the leaf's primitive.
 bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t leaf, std::uint32_t source) {
-  const std::uint32_t id = s.bvh.ids[leaf];
+  const std::uint32_t id = s.bvh.id_at(leaf);
   if (!s.has_shapes || s.world->is_triangle(id))
     return spares_triangle(shaft, s.bvh.primitives[leaf], id == source);
   const auto* sphere = std::get_if<Sphere>(&s.world->shape(id).geometry);

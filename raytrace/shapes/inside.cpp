@@ -47,8 +47,15 @@ InsideTest::InsideTest(const World& world)
   for (Object& object : objects_) {
     if (object.count == 0) continue;
     if (world.is_triangle(object.first)) {
-      const std::span<const MeshTriangle> triangles(world.triangles);
-      object.closed = open_edges(world.positions, triangles.subspan(object.first, object.count)) == 0;
+      const WorldPart& part = world.part_of(object.first);
+      const std::span<const MeshTriangle> triangles(part.mesh->triangles);
+      if (!part.kept()) {
+        object.closed = open_edges({part.positions, part.vertex_count()}, triangles) == 0;
+        continue;
+      }
+      std::vector<Vec3> positions(part.vertex_count());
+      for (std::uint32_t v = 0; v < positions.size(); ++v) positions[v] = part.position(v);
+      object.closed = open_edges(positions, triangles) == 0;
       continue;
     }
     const ShapeGeometry& geometry = world.shape(object.first).geometry;

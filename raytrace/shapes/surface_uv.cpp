@@ -6,10 +6,10 @@ namespace gnomon::raytrace {
 
 Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycentric, const Vec3& position) {
   if (world.is_triangle(primitive)) {
-    const auto& t = world.triangles[primitive];
+    const auto t = world.triangle(primitive);
     const double b0 = 1.0 - barycentric.x - barycentric.y;
-    return b0 * Vec2(world.uvs[t[0]]) + barycentric.x * Vec2(world.uvs[t[1]]) +
-           barycentric.y * Vec2(world.uvs[t[2]]);
+    return b0 * Vec2(world.uv(t[0])) + barycentric.x * Vec2(world.uv(t[1])) +
+           barycentric.y * Vec2(world.uv(t[2]));
   }
   const auto& geometry = world.shape(primitive).geometry;
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
@@ -25,11 +25,11 @@ Vec2 surface_uv(const World& world, std::uint32_t primitive, const Vec2& barycen
 }
 
 Vec4f surface_color(const World& world, std::uint32_t primitive, const Vec2& barycentric) {
-  if (world.colors.empty() || !world.is_triangle(primitive)) return Vec4f(1.0f);
-  const auto& t = world.triangles[primitive];
+  if (!world.is_triangle(primitive)) return Vec4f(1.0f);
+  const auto t = world.triangle(primitive);
   const double b0 = 1.0 - barycentric.x - barycentric.y;
-  return Vec4f(b0 * Vec4(world.colors[t[0]]) + barycentric.x * Vec4(world.colors[t[1]]) +
-               barycentric.y * Vec4(world.colors[t[2]]));
+  return Vec4f(b0 * Vec4(world.color(t[0])) + barycentric.x * Vec4(world.color(t[1])) +
+               barycentric.y * Vec4(world.color(t[2])));
 }
 
 bool is_masked_out(const World& world, const Material& material, std::uint32_t primitive,

@@ -44,7 +44,7 @@ class Splitter {
     Node& node = nodes_[i];
     for (std::size_t k = 0; k < 3; ++k) node.corners[k] = column_.vertex(corners[k]);
     node.facing = column_.facing(node.corners);
-    const Material& material = world_.scene->materials[world_.triangle_material[ids_[i]]];
+    const Material& material = world_.scene->materials[world_.material_of(ids_[i])];
     node.boundary = node.facing == 0 || material.alpha_mode == AlphaMode::mask;
     node.parent = i;
   }

@@ -126,31 +126,40 @@ class Collector {
     if (bvh_.nodes.empty())
       for (std::uint32_t i = 0; i < bvh_.ids.size(); ++i) found_.push_back(i);
     else
-      descend(BoxColumn(view_, strip, bvh_, reach_));
-    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.ids[a] < bvh_.ids[b]; });
+      descend(bvh_, NodesThere{}, BoxColumn(view_, strip, bvh_, reach_));
+    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.id_at(a) < bvh_.id_at(b); });
     const TexelColumn column(view_, strip.face, strip.first, strip.row);
     candidates_.resize(found_.size());
     for (std::size_t i = 0; i < found_.size(); ++i) {
       Candidate& c = candidates_[i];
-      c.id = bvh_.ids[found_[i]];
+      c.id = bvh_.id_at(found_[i]);
       if (!s_.world->is_triangle(c.id)) continue;
-      const auto& v = bvh_.primitives[found_[i]].v;
+      LeafPrimitive scratch;
+      const auto& v = bvh_.primitive_at(found_[i], scratch).v;
       for (std::size_t k = 0; k < 3; ++k)
         c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
     }
   }
 
-  void descend(const BoxColumn& boxes) {
+  template <class Space>
+  void descend(const Bvh& tree, const Space& space, const BoxColumn& boxes) {
     std::array<BvhChild, Bvh::stack_size> stack;
+    BvhNode scratch;
     std::size_t size = 0;
     stack[size++] = BvhChild::node(0);
     while (size > 0) {
       const BvhChild child = stack[--size];
-      if (child.is_leaf()) {
-        for (std::uint32_t i = child.first(); i < child.first() + child.count(); ++i) found_.push_back(i);
+      if (child.is_instance()) {
+        const BvhInstance& instance = bvh_.instances[child.instance()];
+        descend(bvh_.trees[instance.tree], NodesPlaced{instance}, boxes);
         continue;
       }
-      const BvhNode& node = bvh_.nodes[child.index()];
+      if (child.is_leaf()) {
+        const LeafRange run = space.leaves({child.first(), child.count()});
+        for (std::uint32_t i = run.first; i < run.first + run.count; ++i) found_.push_back(i);
+        continue;
+      }
+      const BvhNode& node = space.at(tree.nodes[child.index()], scratch);
       for (auto mask = static_cast<unsigned>(boxes.intersect(node)); mask != 0; mask &= mask - 1)
         stack[size++] = node.child[std::countr_zero(mask)];
     }

@@ -1,8 +1,10 @@
-// Which triangle lies across which edge, with vertices welded by exact position. Sorting instead of hashing,
-// so that the result is the same for any number of threads.
+// Which triangle lies across which edge, with vertices welded by exact position. Kept instances (scene/world.h) share
+// what their mesh has, unless they touch something: then they are worked out in the world, with all that is flattened.
+// The result is the same for any number of threads, and whether instances are kept or not.
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <atomic>
 #include <tuple>
 
 #include "raytrace/sheets.h"
@@ -11,8 +13,54 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// The lowest vertex index at each vertex's position (-0 equals 0).
-std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
+using Parts = std::vector<const WorldPart*>;
+
+/// Some parts of a world, their vertices and triangles numbered one part after the other.
+class Soup {
+ public:
+  explicit Soup(const Parts& parts) : parts_(parts) {
+    std::vector<std::uint32_t> vertices{0}, triangles{0};
+    for (const WorldPart* part : parts) {
+      vertices.push_back(vertices.back() + part->vertex_count());
+      triangles.push_back(triangles.back() + part->triangle_count());
+    }
+    vertices_ = Ranges(std::move(vertices)), triangles_ = Ranges(std::move(triangles));
+    if (parts.size() == 1 && !parts[0]->kept()) {
+      positions_ = {parts[0]->positions, parts[0]->vertex_count()};
+      return;
+    }
+    moved_.resize(vertices_.size());
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+      tbb::parallel_for(std::uint32_t{0}, parts[i]->vertex_count(),
+                        [&](std::uint32_t v) { moved_[vertices_.begin_of(i) + v] = parts[i]->position(v); });
+    positions_ = moved_;
+  }
+
+  std::span<const Vec3> positions() const { return positions_; }
+  std::uint32_t triangle_count() const { return triangles_.size(); }
+  std::array<std::uint32_t, 3> triangle(std::uint32_t t) const {
+    const std::uint32_t part = triangles_.of(t), first = vertices_.begin_of(part);
+    const auto corners = parts_[part]->triangle(t - triangles_.begin_of(part));
+    return {first + corners[0], first + corners[1], first + corners[2]};
+  }
+  std::uint32_t world_triangle(std::uint32_t t) const {
+    const std::uint32_t part = triangles_.of(t);
+    return parts_[part]->first_triangle + (t - triangles_.begin_of(part));
+  }
+  std::uint32_t world_vertex(std::uint32_t v) const {
+    const std::uint32_t part = vertices_.of(v);
+    return parts_[part]->first_vertex + (v - vertices_.begin_of(part));
+  }
+
+ private:
+  const Parts& parts_;
+  Ranges vertices_, triangles_;
+  std::vector<Vec3> moved_;
+  std::span<const Vec3> positions_;
+};
+
+/// The lowest vertex at each vertex's position (-0 equals 0).
+std::vector<std::uint32_t> weld(std::span<const Vec3> positions) {
   std::vector<std::uint32_t> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
   const auto key = [&](std::uint32_t i) {
@@ -31,44 +79,207 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
   return welded;
 }
 
+/// A triangle's edge, kept with its lower vertex.
 struct HalfEdge {
-  std::uint32_t low, high;
+  std::uint32_t high;
   std::uint32_t place;  // 3 * triangle + edge
-  bool forwards;        // from low to high
+  bool operator<(const HalfEdge& b) const { return std::tie(high, place) < std::tie(b.high, b.place); }
+};
+
+/// Finds what lies across the edges of a soup's triangles.
+class Pairing {
+ public:
+  /// across: three for each triangle, filled with Topology::boundary.
+  Pairing(const Soup& soup, const std::vector<std::uint32_t>& welded, std::span<std::uint32_t> across)
+      : soup_(soup), welded_(welded), across_(across) {}
+
+  void run() {
+    sort_by_lower_vertex();
+    tbb::parallel_for(std::size_t{0}, welded_.size(), [&](std::size_t v) {
+      const std::span<HalfEdge> edges(edges_.data() + ends_[v], edges_.data() + ends_[v + 1]);
+      std::sort(edges.begin(), edges.end());
+      for (std::size_t first = 0; first < edges.size();) {
+        std::size_t end = first + 1;
+        while (end < edges.size() && edges[end].high == edges[first].high) ++end;
+        pair(static_cast<std::uint32_t>(v), edges.subspan(first, end - first));
+        first = end;
+      }
+    });
+  }
+
+ private:
+  std::array<std::uint32_t, 2> ends_of(std::uint32_t triangle, std::uint32_t edge) const {
+    const auto t = soup_.triangle(triangle);
+    return {welded_[t[edge]], welded_[t[(edge + 1) % 3]]};
+  }
+
+  // A counting sort: each thread counts, then each fills from the end of the vertex's run.
+  void sort_by_lower_vertex() {
+    ends_.assign(welded_.size() + 1, 0);
+    const auto each_edge = [&](const auto& use) {
+      tbb::parallel_for(std::uint32_t{0}, soup_.triangle_count(), [&](std::uint32_t t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          const auto [a, b] = ends_of(t, k);
+          use(std::min(a, b), HalfEdge{std::max(a, b), 3 * t + k});
+        }
+      });
+    };
+    each_edge([&](std::uint32_t low, const HalfEdge&) {
+      std::atomic_ref(ends_[low]).fetch_add(1, std::memory_order_relaxed);
+    });
+    for (std::size_t v = 1; v < ends_.size(); ++v) ends_[v] += ends_[v - 1];
+    edges_.resize(ends_.back());
+    each_edge([&](std::uint32_t low, const HalfEdge& edge) {
+      edges_[std::atomic_ref(ends_[low]).fetch_sub(1, std::memory_order_relaxed) - 1] = edge;
+    });
+  }
+
+  /// All edges between two vertices.
+  void pair(std::uint32_t low, std::span<const HalfEdge> edges) const {
+    if (edges.size() < 2) return;
+    const std::uint32_t a = edges[0].place, b = edges[1].place;
+    const auto forwards = [&](std::uint32_t place) { return ends_of(place / 3, place % 3)[0] == low; };
+    if (edges.size() == 2 && low != edges[0].high && forwards(a) != forwards(b) && a / 3 != b / 3) {
+      across_[a] = soup_.world_triangle(b / 3), across_[b] = soup_.world_triangle(a / 3);
+      return;
+    }
+    for (const HalfEdge& edge : edges) across_[edge.place] = Topology::non_manifold;
+  }
+
+  const Soup& soup_;
+  const std::vector<std::uint32_t>& welded_;
+  std::span<std::uint32_t> across_;
+  std::vector<std::uint32_t> ends_;  // of the vertices' runs of edges; filled, their beginnings
+  std::vector<HalfEdge> edges_;
+};
+
+std::uint64_t hash_of(const Vec3& p) {
+  std::uint64_t hash = 0;
+  for (int a = 0; a < 3; ++a) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(p[a] + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 becomes 0
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+/// Which parts have a vertex where another part has one, or where another one of their own came to lie; what is
+/// flattened counts as such. A part too many does no harm.
+class Touching {
+ public:
+  /// `welded`: by mesh, of those that kept parts show.
+  Touching(const World& world, const std::vector<std::vector<std::uint32_t>>& welded)
+      : world_(world), welded_(welded), touches_(world.parts.size(), 0) {}
+
+  std::vector<char> run() {
+    std::uint64_t vertices = 0;
+    for (const WorldPart& part : world_.parts) vertices += part.vertex_count();
+    constexpr std::uint64_t at_a_time = std::uint64_t{1} << 23;  // so that the hashes take little memory
+    passes_ = vertices / at_a_time + 1;
+    std::vector<std::uint64_t> shared;
+    for (std::uint64_t pass = 0; pass < passes_; ++pass) append_shared(pass, shared);
+    std::sort(shared.begin(), shared.end());
+    tbb::parallel_for(std::size_t{0}, touches_.size(), [&](std::size_t i) {
+      const WorldPart& part = world_.parts[i];
+      touches_[i] = !part.kept();
+      if (part.kept() && !shared.empty())
+        each_vertex(part, [&](std::uint64_t hash) {
+          if (std::binary_search(shared.begin(), shared.end(), hash)) touches_[i] = 1;
+        });
+    });
+    return touches_;
+  }
+
+ private:
+  /// Of a kept part one vertex at each place, of a flattened one all.
+  template <class Use>
+  void each_vertex(const WorldPart& part, const Use& use) const {
+    const auto& welded = welded_[static_cast<std::size_t>(part.mesh - world_.scene->meshes.data())];
+    for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
+      if (!part.kept() || welded[v] == v) use(hash_of(part.position(v)));
+  }
+
+  /// Of the hashes of this pass those that two vertices have, once each.
+  void append_shared(std::uint64_t pass, std::vector<std::uint64_t>& shared) const {
+    std::vector<std::vector<std::uint64_t>> of_part(world_.parts.size());
+    tbb::parallel_for(std::size_t{0}, of_part.size(), [&](std::size_t i) {
+      each_vertex(world_.parts[i], [&](std::uint64_t hash) {
+        if (hash % passes_ == pass) of_part[i].push_back(hash);
+      });
+    });
+    std::vector<std::uint64_t> flat, all;
+    for (std::size_t i = 0; i < of_part.size(); ++i) {
+      std::vector<std::uint64_t>& to = world_.parts[i].kept() ? all : flat;
+      to.insert(to.end(), of_part[i].begin(), of_part[i].end());
+      std::vector<std::uint64_t>().swap(of_part[i]);
+    }
+    tbb::parallel_sort(flat.begin(), flat.end());  // together already: each place once
+    all.insert(all.end(), flat.begin(), std::unique(flat.begin(), flat.end()));
+    tbb::parallel_sort(all.begin(), all.end());
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i])) shared.push_back(all[i]);
+  }
+
+  const World& world_;
+  const std::vector<std::vector<std::uint32_t>>& welded_;
+  std::vector<char> touches_;
+  std::uint64_t passes_ = 1;
 };
 
 }  // namespace
 
-Topology::Topology(const World& world)
-    : across_(3 * world.triangles.size(), boundary), welded_(across_.size()) {
+Topology::Topology(const World& world) : triangles_(world.triangle_ranges), parts_(world.parts.size()) {
   const TimedStage stage("topology");
-  const std::vector<std::uint32_t> vertex = weld(world.positions);
-  std::vector<HalfEdge> edges(across_.size());
-  tbb::parallel_for(std::size_t{0}, world.triangles.size(), [&](std::size_t t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = vertex[world.triangles[t][k]], b = vertex[world.triangles[t][(k + 1) % 3]];
-      welded_[3 * t + k] = a;
-      edges[3 * t + k] = {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(3 * t + k), a < b};
-    }
-  });
-  tbb::parallel_sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.place) < std::tie(b.low, b.high, b.place);
-  });
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t end = first + 1;
-    while (end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high)
-      ++end;
-    const HalfEdge& a = edges[first];
-    const bool shared = end - first == 2 && a.low != a.high && a.forwards != edges[first + 1].forwards &&
-                        a.place / 3 != edges[first + 1].place / 3;
-    if (shared) {
-      across_[a.place] = edges[first + 1].place / 3;
-      across_[edges[first + 1].place] = a.place / 3;
-    } else if (end - first > 1) {
-      for (std::size_t i = first; i < end; ++i) across_[edges[i].place] = non_manifold;
-    }
-    first = end;
+  std::vector<char> together(world.parts.size(), 1);
+  if (world.keeps_instances()) together = share_meshes(world);
+  std::vector<const WorldPart*> soup;
+  for (std::size_t i = 0; i < world.parts.size(); ++i)
+    if (together[i] != 0) soup.push_back(&world.parts[i]);
+  Place place = connect(soup);
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    Part& part = parts_[i];
+    part.triangles = world.parts[i].mesh->triangles.data(), part.turned = world.parts[i].turned;
+    part.first_triangle = world.parts[i].first_triangle;
+    if (together[i] == 0) continue;
+    part.at = place;
+    place.across += 3 * std::size_t{world.parts[i].triangle_count()};
+    place.welded += world.parts[i].vertex_count();
   }
+}
+
+Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
+  const Soup soup(parts);
+  const Place place{across_.size(), welded_.size()};
+  std::vector<std::uint32_t> welded = weld(soup.positions());
+  across_.resize(place.across + 3 * std::size_t{soup.triangle_count()}, boundary);
+  Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
+  tbb::parallel_for(std::size_t{0}, welded.size(),
+                    [&](std::size_t v) { welded[v] = soup.world_vertex(welded[v]); });
+  if (welded_.empty())
+    welded_ = std::move(welded);
+  else
+    welded_.insert(welded_.end(), welded.begin(), welded.end());
+  return place;
+}
+
+std::vector<char> Topology::share_meshes(const World& world) {
+  const Mesh* meshes = world.scene->meshes.data();
+  std::vector<Place> places(world.scene->meshes.size());
+  std::vector<std::vector<std::uint32_t>> welded(places.size());
+  for (const WorldPart& part : world.parts) {
+    const auto m = static_cast<std::size_t>(part.mesh - meshes);
+    if (!part.kept() || !welded[m].empty()) continue;
+    const World alone = make_world(*world.scene, *part.mesh);
+    places[m] = connect({&alone.parts[0]});
+    welded[m].assign(welded_.begin() + static_cast<std::ptrdiff_t>(places[m].welded), welded_.end());
+  }
+  const std::vector<char> together = Touching(world, welded).run();
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    const WorldPart& part = world.parts[i];
+    if (together[i] != 0) continue;
+    parts_[i].at = places[static_cast<std::size_t>(part.mesh - meshes)];
+    parts_[i].add_triangle = part.first_triangle, parts_[i].add_vertex = part.first_vertex;
+  }
+  return together;
 }
 
 }  // namespace gnomon::raytrace

@@ -34,9 +34,9 @@ Mesh teapot() {
   if (!scene) return all;
   const World world = make_world(*scene);
   std::vector<std::uint32_t> count(scene->instances.size());
-  for (const std::uint32_t object : world.triangle_object) ++count[object];
+  for (std::uint32_t i = 0; i < world.triangle_count(); ++i) ++count[world.object_of(i)];
   for (std::uint32_t i = 0; i < world.triangle_count(); ++i) {
-    if (count[world.triangle_object[i]] < 100) continue;
+    if (count[world.object_of(i)] < 100) continue;
     const auto first = static_cast<std::uint32_t>(all.positions.size());
     for (const Vec3& corner : world.corners(i)) all.positions.push_back(corner);
     all.triangles.push_back({first, first + 1, first + 2});

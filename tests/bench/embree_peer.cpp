@@ -124,13 +124,14 @@ Embree::Embree(const World& world, const std::string& settings)
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.positions.size()));
-  for (const Vec3& p : world.positions)
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.vertex_count()));
+  for (const Vec3& p : positions_of(world))
     for (int a = 0; a < 3; ++a) *v++ = static_cast<float>(p[a]);
   auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                                 RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                                                world.triangles.size()));
-  std::memcpy(t, world.triangles.data(), world.triangles.size() * sizeof world.triangles[0]);
+                                                                world.triangle_count()));
+  const auto triangles = triangles_of(world);
+  std::memcpy(t, triangles.data(), triangles.size() * sizeof triangles[0]);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);

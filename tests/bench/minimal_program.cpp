@@ -52,7 +52,7 @@ class MinimalProgram::Passes {
     buffers_->bind();
     bind_blocks();
     if (!izb_) {
-      draw_map(map_targets_, *map_program_, *map_masked_);
+      draw_map(map_targets_, map_programs_);
       if (middle_) draw_middle();
       (middle_ ? middle_ : depth_).bind(shaders::depth_map_unit);
     }
@@ -61,7 +61,7 @@ class MinimalProgram::Passes {
     const float back = shaders::camera_clear_depth;
     gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &back);
     gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-    buffers_->draw_triangles(*camera_program_, *camera_masked_, camera_clip_);
+    buffers_->draw_triangles(camera_programs_, camera_clip_);
     if (izb_) draw_lists();
     fullscreen(color_target_, options_.size, *shade_program_);
     gl->Finish();
@@ -80,8 +80,7 @@ class MinimalProgram::Passes {
         raster::make_light_block(light, light_view_, options_.map, bias, rounding, reference));
     if (options_.map.technique == raster::Technique::izb) return;
     depth_ = make_depth(map_targets_);
-    map_program_ = must(programs_->triangles(false, false));
-    map_masked_ = features_.alpha_mask ? must(programs_->triangles(false, true)) : map_program_;
+    map_programs_ = must(programs_->triangles({}));
     for (int face = 0; face < light_view_.face_count; ++face)
       map_clips_.push_back(light_clip_from_relative(light_view_, face, buffers_->reference()));
     if (options_.map.technique == raster::Technique::midpoint) make_middle();
@@ -99,10 +98,8 @@ class MinimalProgram::Passes {
 
   void make_middle() {
     second_ = make_depth(second_targets_);
-    peel_program_ = must(programs_->triangles({.peel = true}));
-    peel_masked_ =
-        features_.alpha_mask ? must(programs_->triangles({.alpha_mask = true, .peel = true})) : peel_program_;
-    for (const auto* program : {peel_program_, peel_masked_}) program->set_peel(0, std::exp2(-23.0f));
+    peel_programs_ = must(programs_->triangles({.peel = true}));
+    peel_programs_.set_peel(0, std::exp2(-23.0f));
     middle_ = Texture2D(*gl_, GL_R32F, {options_.map.size, options_.map.size}, 1);
     middle_target_ = Framebuffer(*gl_);
     middle_target_.attach(GL_COLOR_ATTACHMENT0, middle_, 0);
@@ -178,8 +175,7 @@ class MinimalProgram::Passes {
     color_target_ = Framebuffer(gl);
     color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
     color_target_.draw_to(1);
-    camera_program_ = must(programs_->triangles(true, false));
-    camera_masked_ = features_.alpha_mask ? must(programs_->triangles(true, true)) : camera_program_;
+    camera_programs_ = must(programs_->triangles({.primitive_ids = true}));
     raster::ShadePermutation permutation;
     permutation.first_light = true;
     permutation.light = world_.scene->lights[0].type;
@@ -218,20 +214,19 @@ class MinimalProgram::Passes {
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void draw_map(const std::vector<Framebuffer>& targets, const raster::TriangleProgram& opaque,
-                const raster::TriangleProgram& masked) const {
+  void draw_map(const std::vector<Framebuffer>& targets, const raster::TrianglePrograms& programs) const {
     const float far = shaders::map_clear_depth;
     for (std::size_t face = 0; face < targets.size(); ++face) {
       begin(GL_LOWER_LEFT, targets[face], options_.map.size, options_.map.size, GL_LESS);
       (*gl_)->ClearNamedFramebufferfv(targets[face].id(), GL_DEPTH, 0, &far);
-      buffers_->draw_triangles(opaque, masked, map_clips_[face]);
+      buffers_->draw_triangles(programs, map_clips_[face]);
     }
   }
 
   void draw_middle() const {
     const raster::Gl& gl = *gl_;
     depth_.bind(shaders::first_layer_unit);
-    draw_map(second_targets_, *peel_program_, *peel_masked_);
+    draw_map(second_targets_, peel_programs_);
     depth_.bind(shaders::depth_map_unit);
     second_.bind(shaders::second_layer_unit);
     gl->Disable(GL_DEPTH_TEST);
@@ -302,8 +297,7 @@ class MinimalProgram::Passes {
   std::unique_ptr<raster::DepthMapPass> unused_map_;
   raster::Program middle_program_, insert_, block_;
   Framebuffer middle_target_, no_target_, moment_target_, row_target_, visibility_target_, color_target_;
-  const raster::TriangleProgram *map_program_ = nullptr, *map_masked_ = nullptr, *camera_program_ = nullptr,
-                                *camera_masked_ = nullptr, *peel_program_ = nullptr, *peel_masked_ = nullptr;
+  raster::TrianglePrograms map_programs_, camera_programs_, peel_programs_;
   const raster::Program *convert_ = nullptr, *blur_ = nullptr, *shade_program_ = nullptr;
 };
 

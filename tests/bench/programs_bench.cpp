@@ -56,25 +56,25 @@ void write_pov(const std::string& path, const World& world, const View& view, co
             vector_text(2.0 * view.tan_half_y * view.up));
   out.print("light_source {{ {} color rgb 1 parallel point_at <0,0,0> }}\n",
             vector_text(-1000.0 * sun.direction));
-  out.print("mesh2 {{\nvertex_vectors {{ {}", world.positions.size());
-  for (const Vec3& p : world.positions) out.print(",\n{}", vector_text(p));
-  out.print(" }}\nface_indices {{ {}", world.triangles.size());
-  for (const auto& t : world.triangles) out.print(",\n<{},{},{}>", t[0], t[1], t[2]);
+  out.print("mesh2 {{\nvertex_vectors {{ {}", world.vertex_count());
+  for (const Vec3& p : positions_of(world)) out.print(",\n{}", vector_text(p));
+  out.print(" }}\nface_indices {{ {}", world.triangle_count());
+  for (const auto& t : triangles_of(world)) out.print(",\n<{},{},{}>", t[0], t[1], t[2]);
   out.print(" }}\npigment {{ rgb {} }} finish {{ ambient 0 diffuse 1 }} }}\n", grey);
 }
 
 void write_ply(const std::string& path, const World& world) {
   std::ofstream out(path, std::ios::binary);
-  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << world.positions.size()
-      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << world.triangles.size()
+  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << world.vertex_count()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << world.triangle_count()
       << "\nproperty list uchar int vertex_indices\nend_header\n";
   std::string bytes;
   const auto put = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  for (const Vec3& p : world.positions)
+  for (const Vec3& p : positions_of(world))
     for (int k = 0; k < 3; ++k) put(static_cast<float>(p[k]));
-  for (const auto& t : world.triangles) {
+  for (const auto& t : triangles_of(world)) {
     put(static_cast<std::uint8_t>(3));
     for (const std::uint32_t index : t) put(index);
   }

@@ -39,12 +39,12 @@ bool finite(const Vec3& v) {
 void check_world(const Scene& scene) {
   if (scene.materials.empty() || scene.lights.empty()) broken("a scene without material or light");
   const World world = make_world(scene);
-  for (const Vec3& p : world.positions)
+  for (const Vec3& p : positions_of(world))
     if (!finite(p)) broken("a vertex that is not finite");
   for (std::uint32_t i = 0; i < world.triangle_count(); ++i) {
-    for (const std::uint32_t corner : world.triangles[i])
-      if (corner >= world.positions.size()) broken("a corner beyond the vertices");
-    if (world.triangle_material[i] >= scene.materials.size()) broken("a material beyond the list");
+    for (const std::uint32_t corner : world.triangle(i))
+      if (corner >= world.vertex_count()) broken("a corner beyond the vertices");
+    if (world.material_of(i) >= scene.materials.size()) broken("a material beyond the list");
   }
   for (const Shape& shape : world.shapes)
     if (shape.material >= scene.materials.size()) broken("a shape's material beyond the list");
