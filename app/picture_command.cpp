@@ -30,6 +30,7 @@ void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size
 
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json) {
   add_threads(app, command.threads, threads);
+  add_memory(app, command.memory);
   add_exposure(app, command.exposure);
   add_json(app, command.json, json);
   add_quiet(app, command.quiet);
@@ -54,7 +55,7 @@ Expected<RunFiles> check_files(PictureCommand& command, const std::string& rende
 
 Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files, ImageSize size,
                                  const BytesPerPixel& bytes, Console& console) {
-  if (const auto fits = check_memory(size, command.wants_records() ? bytes.exr : bytes.png); !fits)
+  if (const auto fits = check_memory(command.memory, size, bytes.of(command)); !fits)
     return fail(fits.error());
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return loaded;
@@ -65,16 +66,16 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files,
   return loaded;
 }
 
-Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,
+Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded,
                             const PictureWriter& writer, const Stopwatch& watch, Console& console) {
   const OutputGuard whole_outputs;
   if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
-  const double exposure = choose_exposure(command.exposure, *loaded.scene, color);
   TimedStage writing("write");
-  if (const auto written = writer.picture(exposure); !written) return fail(written.error());
+  const Expected<double> exposure = writer.picture();
+  if (!exposure) return fail(exposure.error());
   writing.end();
   console.message(fmt::format("picture: {}", command.image));
-  const RenderRecord record{command.command_line, command.image, loaded, exposure, watch.elapsed_ms()};
+  const RenderRecord record{command.command_line, command.image, loaded, *exposure, watch.elapsed_ms()};
   if (command.json.empty()) return ExitCode::done;
   if (const auto out = hand_out_json(command.json, compare::with_time_budget(writer.json(record))); !out)
     return fail(out.error());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/invocation.h"
+#include "app/memory_limit.h"
 #include "app/pose_options.h"
 #include "app/render_json.h"
 #include "app/session.h"
@@ -22,6 +23,7 @@ struct PictureCommand {
   std::string image, camera, light, json, command_line;
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
+  MemoryLimit memory;
   int threads = 0;
   int tessellate = 0;                ///< sectors; 0: shapes stay exact
   int max_lights = most_max_lights;  ///< a picture has all
@@ -33,7 +35,7 @@ struct PictureCommand {
 
 /// The scene, --output, --size, --tessellate, --camera, --max-lights.
 void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output);
-/// --threads, --exposure, --json, --quiet.
+/// --threads, --memory, --exposure, --json, --quiet.
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json);
 /// When all is parsed: how the command was called.
 void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand& command);
@@ -41,20 +43,21 @@ void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand
 /// Gives the picture its default name, out/NAME-RENDERER.png; nothing is written yet.
 Expected<RunFiles> check_files(PictureCommand& command, const std::string& renderer);
 
-/// By which the peak of memory grows.
+/// By which the peak of memory grows, for a .png and for an .exr.
 struct BytesPerPixel {
-  double png, exr;
+  PictureBytes png, exr;
+  const PictureBytes& of(const PictureCommand& command) const { return command.wants_records() ? exr : png; }
 };
 Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files, ImageSize size,
                                  const BytesPerPixel& bytes, Console& console);
 
 /// How a renderer's frame becomes a file and a document.
 struct PictureWriter {
-  std::function<Expected<void>(double exposure)> picture;
+  std::function<Expected<double>()> picture;  ///< gives its exposure
   std::function<std::string(const RenderRecord& record)> json;
 };
 /// Writes the picture and, where it is asked for, the JSON, neither to be interrupted.
-Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded, const ColorImage& color,
+Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded,
                             const PictureWriter& writer, const Stopwatch& watch, Console& console);
 
 }  // namespace gnomon::app

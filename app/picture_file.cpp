@@ -48,7 +48,7 @@ class Channels {
     add("primitive.V", [&](std::size_t i) { return id_value(primitive(i)); });
   }
 
-  Expected<void> write(const std::string& path) const { return write_exr(path, size_, channels_); }
+  std::vector<Channel> take() { return std::move(channels_); }
 
  private:
   static double id_value(std::uint32_t id) { return id == no_id ? -1.0 : static_cast<double>(id); }
@@ -84,25 +84,25 @@ bool is_png(const std::string& path) {
 
 double choose_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene,
                        const ColorImage& color) {
-  const std::optional<double> factor = asked ? *asked : scene.exposure;
+  const std::optional<double> factor = known_exposure(asked, scene);
   return factor ? *factor : auto_exposure(color);
 }
 
-Expected<void> write_picture(const std::string& path, const World& world, const raster::RasterFrame& frame,
-                             double exposure) {
-  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+std::optional<double> known_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene) {
+  return asked ? *asked : scene.exposure;
+}
+
+std::vector<Channel> exr_channels(const World& world, const raster::RasterFrame& frame) {
   Channels channels(frame.color.size);
   channels.add_color(frame.color);
   channels.add_ids(world, [&](std::size_t i) { return frame.primitive.data[i]; });
   for (const raster::LightRecord& record : frame.lights) {
     add_record(channels, record, light_prefix(world, record.light, frame.lights.size()));
   }
-  return channels.write(path);
+  return channels.take();
 }
 
-Expected<void> write_picture(const std::string& path, const World& world,
-                             const raytrace::RayTracedFrame& frame, double exposure) {
-  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+std::vector<Channel> exr_channels(const World& world, const raytrace::RayTracedFrame& frame) {
   const View view = make_view(world.scene->camera, frame.color.size);
   const auto& points = frame.receiver.data;
   const auto seen = [&](std::size_t i) { return points[i].primitive != no_id; };
@@ -118,7 +118,19 @@ Expected<void> write_picture(const std::string& path, const World& world,
     channels.add(light_prefix(world, light.light, frame.lights.size()) + "truth.V",
                  [&](std::size_t i) { return truth_value(light, i); });
   }
-  return channels.write(path);
+  return channels.take();
+}
+
+Expected<void> write_picture(const std::string& path, const World& world, const raster::RasterFrame& frame,
+                             double exposure) {
+  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+  return write_exr(path, frame.color.size, exr_channels(world, frame));
+}
+
+Expected<void> write_picture(const std::string& path, const World& world,
+                             const raytrace::RayTracedFrame& frame, double exposure) {
+  if (is_png(path)) return write_png(path, display_image(frame.color, exposure));
+  return write_exr(path, frame.color.size, exr_channels(world, frame));
 }
 
 }  // namespace gnomon::app

@@ -9,6 +9,7 @@
 #include "raytrace/frame.h"
 #include "scene/camera.h"
 #include "scene/expected.h"
+#include "scene/files/image_io.h"
 #include "scene/world.h"
 
 namespace gnomon::app {
@@ -16,6 +17,8 @@ namespace gnomon::app {
 /// The picture's factor: what was asked for, else the scene's own, else auto_exposure of this picture.
 double choose_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene,
                        const ColorImage& color);
+/// The same without a picture; nothing where it would have to be looked at.
+std::optional<double> known_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene);
 
 /// Every EXR holds R,G,B (linear radiance), object.V and primitive.V (-1 for background). With several
 /// lights, a light's channels carry its name in front ("sun.gap.V").
@@ -28,5 +31,9 @@ Expected<void> write_picture(const std::string& path, const World& world, const 
 /// per light truth.V (1 lit, 0 shadowed, 0.5 uncertain).
 Expected<void> write_picture(const std::string& path, const World& world,
                              const raytrace::RayTracedFrame& frame, double exposure);
+
+/// An EXR's channels, of a frame that may be a band of the picture.
+std::vector<Channel> exr_channels(const World& world, const raster::RasterFrame& frame);
+std::vector<Channel> exr_channels(const World& world, const raytrace::RayTracedFrame& frame);
 
 }  // namespace gnomon::app

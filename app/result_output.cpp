@@ -54,18 +54,25 @@ Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& 
 /// All but result.json.
 Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
                                             const RunFiles& files, Console& console,
-                                            const compare::PageIntroduction* introduction) {
+                                            const compare::PageIntroduction* introduction,
+                                            compare::BandedParts* parts) {
   if (const auto apart = check_aov(output, comparison, files); !apart) return fail(apart.error());
-  auto written = compare::write_all_but_result(comparison, {.folder = output.folder,
-                                                            .report_max_mb = output.report_max_mb,
-                                                            .introduction = introduction,
-                                                            .page = !output.no_report,
-                                                            .inputs = files.inputs()});
+  auto written = compare::write_all_but_result(comparison, parts,
+                                               {.folder = output.folder,
+                                                .report_max_mb = output.report_max_mb,
+                                                .introduction = introduction,
+                                                .page = !output.no_report,
+                                                .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
   if (!output.aov.empty()) {
     const TimedStage stage("write");
     if (const auto made = make_folder_for(output.aov); !made) return fail(made.error());
+    if (parts != nullptr) {
+      for (ExrFile& file : parts->channels)
+        if (const auto closed = file.close(); !closed) return fail(closed.error());
+      return written;
+    }
     if (const auto saved = compare::write_aov(comparison, output.aov); !saved) return fail(saved.error());
   }
   return written;
@@ -133,9 +140,10 @@ bool only_prints_json(const ResultOutput& output) {
 }
 
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console) {
+                      Console& console, const compare::BandedParts* parts) {
   const ExitCode code = judge_lights(output, comparison, console);
-  std::string json = compare::result_json(comparison);
+  std::string json = compare::result_json(comparison, comparison.report_ms, comparison.total_ms,
+                                          parts != nullptr ? &parts->cascades : nullptr);
   give_back(comparison, loaded);
   print_data(compare::with_time_budget(std::move(json)));
   return code;
@@ -143,9 +151,11 @@ ExitCode print_result(const ResultOutput& output, compare::Comparison& compariso
 
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
-                                Console& console, const compare::PageIntroduction* introduction) {
+                                Console& console, const compare::PageIntroduction* introduction,
+                                std::unique_ptr<compare::BandedParts> parts) {
   std::optional<OutputGuard> whole_outputs(std::in_place);
-  auto written = write_all(output, comparison, files, console, introduction);
+  auto written = write_all(output, comparison, files, console, introduction, parts.get());
+  parts.reset();
   if (!written) return fail(written.error());
   std::string summary = compare::summary_table(comparison, stdout_takes_colour());
   const ExitCode code = judge_lights(output, comparison, console);

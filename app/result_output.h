@@ -2,12 +2,13 @@
 // channels; and the exit code that --fail-above asks for.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/invocation.h"
 #include "app/session.h"
-#include "compare/outputs.h"
+#include "compare/bands/bands.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -34,10 +35,11 @@ bool only_prints_json(const ResultOutput& output);
 /// --json - alone: the result goes to stdout and nowhere else. Both give scene and comparison back before the
 /// time budget is taken.
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console);
-/// `introduction`: what stands before the comparison on the page.
+                      Console& console, const compare::BandedParts* parts = nullptr);
+/// `introduction`: what stands before the comparison on the page. `parts`: of a comparison in bands.
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
-                                Console& console, const compare::PageIntroduction* introduction = nullptr);
+                                Console& console, const compare::PageIntroduction* introduction = nullptr,
+                                std::unique_ptr<compare::BandedParts> parts = nullptr);
 
 }  // namespace gnomon::app

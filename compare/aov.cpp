@@ -6,10 +6,10 @@
 
 #include <array>
 
+#include "compare/aov.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
-#include "scene/files/image_io.h"
 
 namespace gnomon::compare {
 namespace {
@@ -28,7 +28,7 @@ class Channels {
     for (std::size_t i = 0; i < pixels_; ++i) channel.values[i] = static_cast<float>(value(i));
     list_.push_back(std::move(channel));
   }
-  std::span<const Channel> list() const { return list_; }
+  std::vector<Channel> take() { return std::move(list_); }
 
  private:
   std::size_t pixels_;
@@ -39,7 +39,7 @@ double id_value(std::uint32_t id) {
   return id == no_id ? -1.0 : static_cast<double>(id);
 }
 
-void add_receiver(Channels& channels, const Comparison& c) {
+void add_receiver(Channels& channels, const AovRows& c) {
   const auto& points = c.raytraced.receiver.data;
   const auto seen = [&points](std::size_t i) { return points[i].primitive != no_id; };
   constexpr std::array<const char*, 3> axes{"X", "Y", "Z"};
@@ -51,22 +51,22 @@ void add_receiver(Channels& channels, const Comparison& c) {
                  [&](std::size_t i) { return seen(i) ? points[i].normal[k] : 0.0; });
 }
 
-void add_ids(Channels& channels, const Comparison& c) {
+void add_ids(Channels& channels, const AovRows& c) {
   const auto& points = c.raytraced.receiver.data;
   channels.add("object.V", [&](std::size_t i) {
-    return points[i].primitive == no_id ? -1.0 : id_value(c.world->object_of(points[i].primitive));
+    return points[i].primitive == no_id ? -1.0 : id_value(c.world.object_of(points[i].primitive));
   });
   channels.add("primitive.V", [&](std::size_t i) { return id_value(points[i].primitive); });
 }
 
-void add_ladder(Channels& channels, const LightComparison& light) {
+void add_ladder(Channels& channels, const AovRows& light) {
   for (std::size_t k = 0; k < rung_count; ++k)
     channels.add(rung_channels[k], [&](std::size_t i) { return light.rungs[k].data[i]; });
   channels.add("class.V", [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); });
 }
 
-void add_lookup(Channels& channels, const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& record = drawn_record(c, light);
+void add_lookup(Channels& channels, const AovRows& c) {
+  const raster::LightRecord& record = c.record;
   const auto drawn = [&c](std::size_t i) { return c.raster.primitive.data[i] != no_id; };
   channels.add("texel_uv.U", [&](std::size_t i) { return drawn(i) ? record.texel_uv.data[i].x : 0.0f; });
   channels.add("texel_uv.V", [&](std::size_t i) { return drawn(i) ? record.texel_uv.data[i].y : 0.0f; });
@@ -76,37 +76,41 @@ void add_lookup(Channels& channels, const Comparison& c, const LightComparison& 
     channels.add("decision.V", [&](std::size_t i) { return record.external->decision.data[i]; });
 }
 
-void add_picture(Channels& channels, const Comparison& c) {
+void add_picture(Channels& channels, const AovRows& c) {
   const auto& colour = c.raytraced.color.data;
   channels.add("R", [&](std::size_t i) { return colour[i].r; });
   channels.add("G", [&](std::size_t i) { return colour[i].g; });
   channels.add("B", [&](std::size_t i) { return colour[i].b; });
 }
 
-Expected<void> write_light(const Comparison& c, const LightComparison& light, const std::string& path) {
-  Channels channels(light.labels.data.size());
-  add_receiver(channels, c);
-  add_ladder(channels, light);
-  add_ids(channels, c);
-  add_lookup(channels, c, light);
-  add_picture(channels, c);
+}  // namespace
+
+std::vector<Channel> aov_channels(const AovRows& rows) {
+  Channels channels(rows.labels.data.size());
+  add_receiver(channels, rows);
+  add_ladder(channels, rows);
+  add_ids(channels, rows);
+  add_lookup(channels, rows);
+  add_picture(channels, rows);
+  return channels.take();
+}
+
+AovAttributes aov_attributes(const Comparison& c, const LightComparison& light) {
   std::string classes;
   for (std::size_t k = 0; k <= class_count; ++k)
     classes += fmt::format("{}{}={}", k == 0 ? "" : " ", k, label_name(static_cast<Label>(k)));
-  const std::array<std::pair<std::string, std::string>, 5> attributes{
-      {{"gnomon_version", std::string(program_version())},
-       {"gnomon_command", c.command},
-       {"gnomon_scene", c.world->scene->name},
-       {"gnomon_light", light_of(c, light).name},
-       {"gnomon_classes", classes}}};
-  return write_exr(path, light.labels.size, channels.list(), attributes);
+  return {{{"gnomon_version", std::string(program_version())},
+           {"gnomon_command", c.command},
+           {"gnomon_scene", c.world->scene->name},
+           {"gnomon_light", light_of(c, light).name},
+           {"gnomon_classes", classes}}};
 }
-
-}  // namespace
 
 Expected<void> write_aov(const Comparison& c, const std::string& path) {
   for (const LightComparison& light : c.lights) {
-    const Expected<void> written = write_light(c, light, aov_path(c, light, path));
+    const AovRows rows{*c.world, c.raster, drawn_record(c, light), c.raytraced, light.rungs, light.labels};
+    const Expected<void> written =
+        write_exr(aov_path(c, light, path), light.labels.size, aov_channels(rows), aov_attributes(c, light));
     if (!written) return written;
   }
   return {};

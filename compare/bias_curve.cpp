@@ -43,13 +43,19 @@ BiasCurvePoint GapLists::at(double bias) const {
   return {bias, count_above(lit, b), shadowed.size() - count_above(shadowed, b)};
 }
 
+std::vector<float> gaps_where(const raster::LightRecord& record, const Image<float>& truth,
+                              const Image<Label>& labels, bool lit) {
+  const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
+    return is_compared(labels.data[i]) && (truth.data[i] > 0.5f) == lit;
+  });
+  std::vector<float> values(pixels.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = record.gap.data[pixels[i]];
+  return values;
+}
+
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels) {
   const auto sorted = [&](bool lit) {
-    const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
-      return is_compared(labels.data[i]) && (truth.data[i] > 0.5f) == lit;
-    });
-    std::vector<float> values(pixels.size());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = record.gap.data[pixels[i]];
+    std::vector<float> values = gaps_where(record, truth, labels, lit);
     sort_numbers(std::span(values));
     return values;
   };

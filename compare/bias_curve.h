@@ -19,6 +19,9 @@ struct GapLists {
   BiasCurvePoint at(double bias) const;
 };
 
+/// The gaps of the compared pixels that are lit, or not, in the order of the pixels.
+std::vector<float> gaps_where(const raster::LightRecord& record, const Image<float>& truth,
+                              const Image<Label>& labels, bool lit);
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels);
 
 /// The bias >= 0 with the fewest wrong pixels: in the first interval between neighbouring gaps where the

@@ -22,9 +22,9 @@ namespace {
 constexpr double few_pixels = 1e-5, few_wrong = 0.02;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// What the hard test compares with a constant, by kind of bias; each with a setting of 1 or "on".
-enum Kind : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
+using Kind = KindOfBias;
 
+/// Each with a setting of 1 or "on".
 raster::Bias bias_of(Kind kind, raster::Bias bias) {
   if (kind == slope) bias.slope = 1.0;
   if (kind == receiver_plane) bias.receiver_plane = true;
@@ -65,27 +65,10 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
   return gaps;
 }
 
-/// Where a lit pixel's setting is not above 0 no setting does it harm: such pixels are only counted.
-GapLists sorted_lists(const std::vector<float>& gaps, const std::vector<std::uint32_t>& pixels,
-                      const Image<float>& truth) {
-  GapLists lists;
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const bool lit = truth.data[pixels[i]] > 0.5f;
-    if (lit && !(gaps[i] > 0.0f))
-      ++lists.lit_left_out;
-    else
-      (lit ? lists.lit : lists.shadowed).push_back(gaps[i]);
-  }
-  sort_numbers(std::span(lists.lit));
-  sort_numbers(std::span(lists.shadowed));
-  return lists;
-}
-
-/// All kinds' lists, made side by side; of `slope` the slopes from which on a pixel is lit beside a constant:
-/// its gap less that, over what a slope of 1 takes off.
-std::array<GapLists, kind_count> lists_of_kinds(KindGaps gaps, const std::vector<std::uint32_t>& pixels,
-                                                const Image<float>& truth, double constant) {
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
+/// Of `slope` the slopes from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1
+/// takes off.
+void make_slopes(KindGaps& gaps, double constant) {
+  for (std::size_t i = 0; i < gaps[plain].size(); ++i) {
     const double over = double{gaps[plain][i]} - constant;
     const double taken = double{gaps[plain][i]} - double{gaps[slope][i]};
     if (!(over > 0.0))
@@ -93,15 +76,6 @@ std::array<GapLists, kind_count> lists_of_kinds(KindGaps gaps, const std::vector
     else
       gaps[slope][i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
   }
-  std::array<GapLists, kind_count> lists;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, kind_count, 1),
-      [&](const auto& range) {
-        for (std::size_t k = range.begin(); k != range.end(); ++k)
-          lists[k] = sorted_lists(gaps[k], pixels, truth);
-      },
-      tbb::simple_partitioner());
-  return lists;
 }
 
 double wrong_share(const GapLists& gaps, double setting) {
@@ -187,27 +161,64 @@ double short_number_in(double from, double to) {
   return from;
 }
 
-std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
-                                         const Image<Label>& labels) {
+bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
+  return biases_follow_from_gaps(plain_options(drawn.options.map)) && !record.map.depth.empty();
+}
+
+KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
   const raster::MapOptions map = plain_options(in.drawn.options.map);
-  if (!biases_follow_from_gaps(map) || in.record.map.depth.empty()) return {};
   const std::vector<std::uint32_t> pixels =
       pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
-  if (pixels.empty()) return {};
-  const double automatic = raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world);
-  const auto lists = lists_of_kinds(gaps_of_kinds(in, map.bias, pixels), pixels, truth, automatic);
-  std::vector<BiasKind> kinds{of_slope(map, lists[slope], automatic)};
-  constexpr std::array<std::pair<std::string_view, Kind>, 4> others{{{"constant bias", plain},
-                                                                     {"receiver plane", receiver_plane},
-                                                                     {"normal offset", normal_offset},
-                                                                     {"adaptive bias", adaptive}}};
-  for (const auto& [name, kind] : others) {
-    raster::MapOptions tried = map;
-    tried.bias = bias_of(kind, map.bias);
-    kinds.push_back(of_constant(name, tried, in.record, lists[kind], automatic));
+  KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size())};
+  make_slopes(out.settings, raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world));
+  for (std::size_t i = 0; i < pixels.size(); ++i) out.lit[i] = truth.data[pixels[i]] > 0.5f ? 1 : 0;
+  return out;
+}
+
+void put_into_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists) {
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (lit[i] != 0 && !(settings[i] > 0.0f))
+      ++lists.lit_left_out;
+    else
+      (lit[i] != 0 ? lists.lit : lists.shadowed).push_back(settings[i]);
   }
+}
+
+BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists) {
+  constexpr std::array<std::string_view, kind_count> names{"constant bias", "slope bias", "receiver plane",
+                                                           "adaptive bias", "normal offset"};
+  const raster::MapOptions map = plain_options(in.drawn.options.map);
+  const double automatic = raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world);
+  if (kind == slope) return of_slope(map, lists, automatic);
+  raster::MapOptions tried = map;
+  tried.bias = bias_of(kind, map.bias);
+  return of_constant(names[kind], tried, in.record, lists, automatic);
+}
+
+void sort_kinds(std::vector<BiasKind>& kinds) {
   std::stable_sort(kinds.begin(), kinds.end(),
                    [](const BiasKind& a, const BiasKind& b) { return a.wrong_fraction < b.wrong_fraction; });
+}
+
+std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
+                                         const Image<Label>& labels) {
+  if (!kinds_apply(in.drawn, in.record)) return {};
+  KindSettings found = settings_of_kinds(in, truth, labels);
+  if (found.lit.empty()) return {};
+  std::array<GapLists, kind_count> lists;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, kind_count, 1),
+      [&](const auto& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+          put_into_lists(found.settings[k], found.lit, lists[k]);
+          sort_numbers(std::span(lists[k].lit));
+          sort_numbers(std::span(lists[k].shadowed));
+        }
+      },
+      tbb::simple_partitioner());
+  std::vector<BiasKind> kinds;
+  for (const KindOfBias kind : kinds_in_order) kinds.push_back(kind_of_bias(kind, in, lists[kind]));
+  sort_kinds(kinds);
   return kinds;
 }
 

@@ -23,4 +23,24 @@ double short_number_in(double from, double to);
 std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
                                          const Image<Label>& labels);
 
+/// The parts of it, for pictures that come in bands. `settings`: of each kind, for each compared pixel the setting
+/// from which on it is lit, in the order of the pixels, and which of them are truly lit.
+enum KindOfBias : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
+struct KindSettings {
+  std::array<std::vector<float>, kind_count> settings;
+  std::vector<char> lit;
+};
+/// Whether kinds can be compared on this map.
+bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
+KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels);
+/// Lists of one kind from its settings; the lit ones that no setting harms are only counted.
+void put_into_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists);
+/// From sorted lists.
+BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists);
+/// The best first.
+void sort_kinds(std::vector<BiasKind>& kinds);
+/// In the order in which equally good kinds are listed.
+inline constexpr std::array<KindOfBias, kind_count> kinds_in_order{slope, plain, receiver_plane,
+                                                                   normal_offset, adaptive};
+
 }  // namespace gnomon::compare

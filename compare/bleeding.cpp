@@ -17,10 +17,9 @@ bool shadowed_up_to_bias(const std::array<Image<float>, rung_count>& rungs, std:
 
 }  // namespace
 
-BleedingStats measure_bleeding(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
-                               const Image<Label>& labels) {
-  BleedingStats out;
-  if (!raster::uses_moments(in.drawn.options.map.technique)) return out;
+void BleedingSum::add(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
+                      const Image<Label>& labels) {
+  if (!raster::uses_moments(in.drawn.options.map.technique)) return;
   const auto width = static_cast<std::size_t>(labels.size.width);
   std::vector<BleedingStats> rows(static_cast<std::size_t>(labels.size.height));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
@@ -33,15 +32,25 @@ BleedingStats measure_bleeding(const LadderInput& in, const std::array<Image<flo
       rows[y].max = std::max(rows[y].max, double{bled});
     }
   });
-  std::uint64_t compared = 0;
-  for (const Label label : labels.data) compared += is_compared(label) ? 1 : 0;
+  for (const Label label : labels.data) compared_ += is_compared(label) ? 1 : 0;
   for (const BleedingStats& row : rows) {
-    out.pixels += row.pixels;
-    out.mean += row.mean;
-    out.max = std::max(out.max, row.max);
+    sums_.pixels += row.pixels;
+    sums_.mean += row.mean;
+    sums_.max = std::max(sums_.max, row.max);
   }
-  if (compared > 0) out.mean /= static_cast<double>(compared);
+}
+
+BleedingStats BleedingSum::stats() const {
+  BleedingStats out = sums_;
+  if (compared_ > 0) out.mean /= static_cast<double>(compared_);
   return out;
+}
+
+BleedingStats measure_bleeding(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
+                               const Image<Label>& labels) {
+  BleedingSum sum;
+  sum.add(in, rungs, labels);
+  return sum.stats();
 }
 
 }  // namespace gnomon::compare

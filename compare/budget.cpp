@@ -9,9 +9,12 @@
 namespace gnomon::compare {
 namespace {
 
-/// add(sums, pixel) for the compared pixels, all sums in one pass.
+using Rungs = std::array<Image<float>, rung_count>;
+using Labels = std::array<std::uint64_t, 256>;  ///< pixels by label
+
+/// add(sums, pixel) for the compared pixels, all sums in one pass; `total` may hold those of the rows above.
 template <std::size_t count, class Add>
-std::array<double, count> sum_compared(const Image<Label>& labels, const Add& add) {
+void sum_compared(const Image<Label>& labels, const Add& add, std::array<double, count>& total) {
   using Sums = std::array<double, count>;
   std::vector<Sums> rows(static_cast<std::size_t>(labels.size.height), Sums{});
   const auto width = static_cast<std::size_t>(labels.size.width);
@@ -21,37 +24,30 @@ std::array<double, count> sum_compared(const Image<Label>& labels, const Add& ad
       if (is_compared(labels.data[i])) add(sums, i);
     rows[y] = sums;
   });
-  Sums total{};
   for (const Sums& row : rows)
     for (std::size_t k = 0; k < count; ++k) total[k] += row[k];
-  return total;
 }
 
 /// How many pixels have each label.
-std::array<std::uint64_t, 256> count_labels(const Image<Label>& labels) {
-  using Counts = std::array<std::uint64_t, 256>;
+Labels count_labels(const Image<Label>& labels) {
   constexpr std::size_t block = 1 << 16;
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, labels.data.size(), block), Counts{},
-      [&](const auto& range, Counts counts) {
+      tbb::blocked_range<std::size_t>(0, labels.data.size(), block), Labels{},
+      [&](const auto& range, Labels counts) {
         for (std::size_t i = range.begin(); i != range.end(); ++i)
           ++counts[static_cast<std::uint8_t>(labels.data[i])];
         return counts;
       },
-      [](Counts a, const Counts& b) {
+      [](Labels a, const Labels& b) {
         for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
         return a;
       });
 }
 
-}  // namespace
-
-PixelCounts count_pixels(const Image<Label>& labels) {
-  const auto of = [counts = count_labels(labels)](Label label) {
-    return counts[static_cast<std::uint8_t>(label)];
-  };
+PixelCounts pixels_of(const Labels& labels) {
+  const auto of = [&labels](Label label) { return labels[static_cast<std::uint8_t>(label)]; };
   PixelCounts counts;
-  counts.total = labels.data.size();
+  for (const std::uint64_t count : labels) counts.total += count;
   counts.background = of(Label::background);
   counts.facing_away = of(Label::facing_away);
   counts.silhouette = of(Label::silhouette);
@@ -61,17 +57,19 @@ PixelCounts count_pixels(const Image<Label>& labels) {
   return counts;
 }
 
-std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels) {
-  const auto counts = count_labels(labels);
+std::array<std::uint64_t, class_count> classes_of(const Labels& labels) {
   std::array<std::uint64_t, class_count> classes{};
-  for (std::size_t k = 0; k < class_count; ++k) classes[k] = counts[k + 1];  // Label's first values
+  for (std::size_t k = 0; k < class_count; ++k) classes[k] = labels[k + 1];  // Label's first values
   return classes;
 }
 
-ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels) {
+using ErrorSums = std::array<double, 7>;
+
+void sum_errors(const Rungs& rungs, const Image<Label>& labels, ErrorSums& total) {
   const auto between = [](float v) { return v > 0.0f && v < 1.0f; };
-  const auto [count, false_shadow, missed_shadow, ties, fractional, absolute, squared] =
-      sum_compared<7>(labels, [&](auto& sums, std::size_t i) {
+  sum_compared(
+      labels,
+      [&](auto& sums, std::size_t i) {
         const float drawn = rungs[6].data[i], truth = rungs[0].data[i];
         const double difference = double(drawn) - double(truth);
         sums[0] += 1.0;
@@ -79,7 +77,12 @@ ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, cons
         sums[3] += std::abs(difference) == 0.5 ? 1.0 : 0.0;
         sums[4] += between(drawn) || between(truth) ? 1.0 : 0.0;
         sums[5] += std::abs(difference), sums[6] += difference * difference;
-      });
+      },
+      total);
+}
+
+ErrorStats error_of(const ErrorSums& sums) {
+  const auto [count, false_shadow, missed_shadow, ties, fractional, absolute, squared] = sums;
   ErrorStats error;
   error.false_shadow = static_cast<std::uint64_t>(false_shadow);
   error.missed_shadow = static_cast<std::uint64_t>(missed_shadow);
@@ -93,24 +96,70 @@ ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, cons
   return error;
 }
 
-std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
-                                          const Image<Label>& labels) {
-  const auto sums = sum_compared<rung_count + 1>(labels, [&](auto& sum, std::size_t i) {
-    for (std::size_t k = 0; k < rung_count; ++k) sum[k] += double(rungs[k].data[i]);
-    sum[rung_count] += 1.0;
-  });
+std::array<float, rung_count> rungs_of(const Rungs& rungs, std::size_t pixel) {
+  std::array<float, rung_count> v{};
+  for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
+  return v;
+}
+
+void sum_rungs(const Rungs& rungs, const Image<Label>& labels, std::array<double, rung_count + 1>& total) {
+  sum_compared(
+      labels,
+      [&](auto& sum, std::size_t i) {
+        for (std::size_t k = 0; k < rung_count; ++k) sum[k] += double(rungs[k].data[i]);
+        sum[rung_count] += 1.0;
+      },
+      total);
+}
+
+std::array<double, rung_count> means_of(const std::array<double, rung_count + 1>& sums) {
   std::array<double, rung_count> means{};
   const double count = sums[rung_count];
   for (std::size_t k = 0; k < rung_count && count > 0.0; ++k) means[k] = sums[k] / count;
   return means;
 }
 
-namespace {
+void sum_accidents(const Rungs& rungs, const Image<Label>& labels, std::array<double, 2>& total) {
+  sum_compared(
+      labels,
+      [&](auto& sums, std::size_t i) {
+        const std::array<float, rung_count> v = rungs_of(rungs, i);
+        if (is_accident(v)) sums[v[2] > v[0] ? 0 : 1] += 1.0;
+      },
+      total);
+}
 
-std::array<float, rung_count> rungs_of(const std::array<Image<float>, rung_count>& rungs, std::size_t pixel) {
-  std::array<float, rung_count> v{};
-  for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
-  return v;
+RightByAccident accidents_of(const std::array<double, 2>& sums) {
+  return {static_cast<std::uint64_t>(sums[0]), static_cast<std::uint64_t>(sums[1])};
+}
+
+using BudgetSums = std::array<double, 4 * cause_count + 1>;
+
+void sum_budget(const Rungs& rungs, const Image<Label>& labels, BudgetSums& total) {
+  sum_compared(
+      labels,
+      [&](auto& sum, std::size_t i) {
+        const std::array<float, rung_count> v = rungs_of(rungs, i);
+        for (std::size_t k = 0; k < cause_count; ++k) {
+          const double step = double(v[k + 1]) - double(v[k]);
+          sum[4 * k] += step, sum[4 * k + 1] += std::abs(step);
+        }
+        if (is_wrong(labels.data[i])) {
+          const auto step = static_cast<std::size_t>(step_of_label(labels.data[i], v));
+          sum[4 * step + (v[6] < v[0] ? 2 : 3)] += 1.0;
+        }
+        sum[4 * cause_count] += 1.0;
+      },
+      total);
+}
+
+std::array<BudgetStep, cause_count> budget_of(const BudgetSums& sums) {
+  std::array<BudgetStep, cause_count> budget{};
+  const double count = sums[4 * cause_count];
+  for (std::size_t k = 0; k < cause_count && count > 0.0; ++k)
+    budget[k] = {sums[4 * k] / count, sums[4 * k + 1] / count, static_cast<std::uint64_t>(sums[4 * k + 2]),
+                 static_cast<std::uint64_t>(sums[4 * k + 3])};
+  return budget;
 }
 
 }  // namespace
@@ -119,35 +168,64 @@ bool is_accident(const std::array<float, rung_count>& v) {
   return std::abs(v[2] - v[0]) > 0.5f && !(std::abs(v[1] - v[0]) > 0.5f) && !(std::abs(v[6] - v[0]) > 0.5f);
 }
 
-RightByAccident count_accidents(const std::array<Image<float>, rung_count>& rungs,
-                                const Image<Label>& labels) {
-  const auto [shadowed, lit] = sum_compared<2>(labels, [&](auto& sums, std::size_t i) {
-    const std::array<float, rung_count> v = rungs_of(rungs, i);
-    if (is_accident(v)) sums[v[2] > v[0] ? 0 : 1] += 1.0;
-  });
-  return {static_cast<std::uint64_t>(shadowed), static_cast<std::uint64_t>(lit)};
+void PixelSums::add(const Rungs& rungs, const Image<Label>& labels) {
+  const Labels counted = count_labels(labels);
+  for (std::size_t k = 0; k < counted.size(); ++k) labels_[k] += counted[k];
+  sum_errors(rungs, labels, error_);
+  sum_rungs(rungs, labels, rungs_);
+  sum_accidents(rungs, labels, accidents_);
+  sum_budget(rungs, labels, budget_);
 }
 
-std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
-                                                  const Image<Label>& labels) {
-  const auto sums = sum_compared<4 * cause_count + 1>(labels, [&](auto& sum, std::size_t i) {
-    const std::array<float, rung_count> v = rungs_of(rungs, i);
-    for (std::size_t k = 0; k < cause_count; ++k) {
-      const double step = double(v[k + 1]) - double(v[k]);
-      sum[4 * k] += step, sum[4 * k + 1] += std::abs(step);
-    }
-    if (is_wrong(labels.data[i])) {
-      const auto step = static_cast<std::size_t>(step_of_label(labels.data[i], v));
-      sum[4 * step + (v[6] < v[0] ? 2 : 3)] += 1.0;
-    }
-    sum[4 * cause_count] += 1.0;
-  });
-  std::array<BudgetStep, cause_count> budget{};
-  const double count = sums[4 * cause_count];
-  for (std::size_t k = 0; k < cause_count && count > 0.0; ++k)
-    budget[k] = {sums[4 * k] / count, sums[4 * k + 1] / count, static_cast<std::uint64_t>(sums[4 * k + 2]),
-                 static_cast<std::uint64_t>(sums[4 * k + 3])};
-  return budget;
+PixelCounts PixelSums::pixels() const {
+  return pixels_of(labels_);
+}
+std::array<std::uint64_t, class_count> PixelSums::classes() const {
+  return classes_of(labels_);
+}
+ErrorStats PixelSums::error() const {
+  return error_of(error_);
+}
+std::array<double, rung_count> PixelSums::rung_means() const {
+  return means_of(rungs_);
+}
+RightByAccident PixelSums::accidents() const {
+  return accidents_of(accidents_);
+}
+std::array<BudgetStep, cause_count> PixelSums::budget() const {
+  return budget_of(budget_);
+}
+
+PixelCounts count_pixels(const Image<Label>& labels) {
+  return pixels_of(count_labels(labels));
+}
+
+std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels) {
+  return classes_of(count_labels(labels));
+}
+
+ErrorStats measure_error(const Rungs& rungs, const Image<Label>& labels) {
+  ErrorSums sums{};
+  sum_errors(rungs, labels, sums);
+  return error_of(sums);
+}
+
+std::array<double, rung_count> mean_rungs(const Rungs& rungs, const Image<Label>& labels) {
+  std::array<double, rung_count + 1> sums{};
+  sum_rungs(rungs, labels, sums);
+  return means_of(sums);
+}
+
+RightByAccident count_accidents(const Rungs& rungs, const Image<Label>& labels) {
+  std::array<double, 2> sums{};
+  sum_accidents(rungs, labels, sums);
+  return accidents_of(sums);
+}
+
+std::array<BudgetStep, cause_count> add_up_budget(const Rungs& rungs, const Image<Label>& labels) {
+  BudgetSums sums{};
+  sum_budget(rungs, labels, sums);
+  return budget_of(sums);
 }
 
 }  // namespace gnomon::compare

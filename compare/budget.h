@@ -6,6 +6,25 @@
 
 namespace gnomon::compare {
 
+/// The sums of a picture that comes in parts, each of whole rows, from the top: the same as those of the whole.
+class PixelSums {
+ public:
+  void add(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
+  PixelCounts pixels() const;
+  std::array<std::uint64_t, class_count> classes() const;
+  ErrorStats error() const;
+  std::array<double, rung_count> rung_means() const;
+  RightByAccident accidents() const;
+  std::array<BudgetStep, cause_count> budget() const;
+
+ private:
+  std::array<std::uint64_t, 256> labels_{};
+  std::array<double, 7> error_{};
+  std::array<double, rung_count + 1> rungs_{};
+  std::array<double, 2> accidents_{};
+  std::array<double, 4 * cause_count + 1> budget_{};
+};
+
 PixelCounts count_pixels(const Image<Label>& labels);
 std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels);
 

@@ -1,5 +1,6 @@
 // The budget of each cascade by itself: its compared pixels alone.
-#include "compare/budget.h"
+#include "compare/by_cascade.h"
+
 #include "compare/output_parts.h"
 #include "compare/result_parts.h"
 
@@ -17,24 +18,50 @@ Json steps_json(const std::array<BudgetStep, cause_count>& budget) {
 
 }  // namespace
 
-Json by_cascade_json(const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& record = drawn_record(c, light);
-  const bool cascades = c.raster.options.map.technique == raster::Technique::csm && !c.judged;
-  if (!cascades || light.labels.data.empty() || record.face.data.size() != light.labels.data.size())
-    return nullptr;
+std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
+                                          const raster::LightRecord& record) {
+  std::vector<CascadeSums> sums;
+  if (drawn.options.map.technique != raster::Technique::csm || record.captured) return sums;
+  for (int face = 0; face < record.map.view.face_count; ++face) sums.emplace_back(face);
+  return sums;
+}
+
+std::vector<CascadeFigures> figures_of(const std::vector<CascadeSums>& sums) {
+  std::vector<CascadeFigures> figures;
+  for (const CascadeSums& cascade : sums)
+    figures.push_back({cascade.sums.pixels().compared, cascade.sums.error(), cascade.sums.budget()});
+  return figures;
+}
+
+void CascadeSums::add(const raster::LightRecord& record, const std::array<Image<float>, rung_count>& rungs,
+                      const Image<Label>& labels) {
+  Image<Label> own = labels;
+  for (std::size_t i = 0; i < own.data.size(); ++i)
+    if (record.face.data[i] != face) own.data[i] = Label::background;
+  sums.add(rungs, own);
+}
+
+Json by_cascade_json(const std::vector<CascadeFigures>& cascades) {
+  if (cascades.empty()) return nullptr;
   Json out = Json::array();
-  for (int face = 0; face < record.map.view.face_count; ++face) {
-    Image<Label> labels = light.labels;
-    for (std::size_t i = 0; i < labels.data.size(); ++i)
-      if (record.face.data[i] != face) labels.data[i] = Label::background;
-    const ErrorStats error = measure_error(light.rungs, labels);
+  for (std::size_t face = 0; face < cascades.size(); ++face) {
+    const CascadeFigures& figures = cascades[face];
     out.push_back({{"cascade", face},
-                   {"compared", count_pixels(labels).compared},
-                   {"wrong", error.wrong},
-                   {"mean_absolute", number(error.mean_absolute)},
-                   {"budget", steps_json(add_up_budget(light.rungs, labels))}});
+                   {"compared", figures.compared},
+                   {"wrong", figures.error.wrong},
+                   {"mean_absolute", number(figures.error.mean_absolute)},
+                   {"budget", steps_json(figures.budget)}});
   }
   return out;
+}
+
+Json by_cascade_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  if (c.judged || light.labels.data.empty() || record.face.data.size() != light.labels.data.size())
+    return nullptr;
+  std::vector<CascadeSums> sums = sums_of_cascades(c.raster, record);
+  for (CascadeSums& cascade : sums) cascade.add(record, light.rungs, light.labels);
+  return by_cascade_json(figures_of(sums));
 }
 
 }  // namespace gnomon::compare

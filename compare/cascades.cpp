@@ -88,6 +88,11 @@ double cascade_visibility(const raster::LightRecord& record, const raster::MapOp
 }
 
 std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels) {
+  return count_seams(in, labels, {0, labels.size.height});
+}
+
+std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels,
+                                     const PictureRows& within) {
   const raster::LightRecord& record = in.record;
   const bool cascades = in.drawn.options.map.technique == raster::Technique::csm && !record.captured;
   if (!cascades || in.drawn.custom_shader || record.map.depth.empty() ||
@@ -95,7 +100,7 @@ std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& 
     return std::nullopt;
   const SeamCounter counter(in, labels);
   return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, labels.size.height), SeamCount{},
+      tbb::blocked_range<int>(within.first, within.end()), SeamCount{},
       [&](const tbb::blocked_range<int>& rows, SeamCount sum) {
         for (int y = rows.begin(); y < rows.end(); ++y) counter.count_row(y, sum);
         return sum;

@@ -3,52 +3,49 @@
 #include <tbb/parallel_for.h>
 
 namespace gnomon::compare {
+
+void EdgeSums::add(double moved_texels, double offset_pixels, double moved_world) {
+  ++edges;
+  texels += moved_texels;
+  texels_absolute += std::abs(moved_texels);
+  world += moved_world;
+  world_absolute += std::abs(moved_world);
+  world_squared += moved_world * moved_world;
+  texels_squared += moved_texels * moved_texels;
+  pixels_squared += offset_pixels * offset_pixels;
+}
+
+void EdgeSums::add(const EdgeSums& other) {
+  edges += other.edges;
+  texels += other.texels;
+  texels_squared += other.texels_squared;
+  pixels_squared += other.pixels_squared;
+  texels_absolute += other.texels_absolute;
+  world += other.world;
+  world_absolute += other.world_absolute;
+  world_squared += other.world_squared;
+}
+
+EdgeStats EdgeSums::stats() const {
+  EdgeStats out;
+  out.edges = edges;
+  if (edges == 0) return out;
+  const auto n = static_cast<double>(edges);
+  out.mean_texels = texels / n;
+  out.rms_texels = std::sqrt(texels_squared / n);
+  out.rms_pixels = std::sqrt(pixels_squared / n);
+  out.mean_absolute_texels = texels_absolute / n;
+  out.mean_world = world / n;
+  out.mean_absolute_world = world_absolute / n;
+  out.rms_world = std::sqrt(world_squared / n);
+  return out;
+}
+
 namespace {
 
 constexpr int window = 3;       // half-width of the gradient's window, pixels
 constexpr double step = 0.5;    // of the walk, pixels
 constexpr double reach = 64.0;  // of the walk, pixels
-
-struct EdgeSums {
-  std::uint64_t edges = 0;
-  double texels = 0.0, texels_absolute = 0.0, texels_squared = 0.0, pixels_squared = 0.0;
-  double world = 0.0, world_absolute = 0.0, world_squared = 0.0;
-
-  void add(double moved_texels, double offset_pixels, double moved_world) {
-    ++edges;
-    texels += moved_texels;
-    texels_absolute += std::abs(moved_texels);
-    world += moved_world;
-    world_absolute += std::abs(moved_world);
-    world_squared += moved_world * moved_world;
-    texels_squared += moved_texels * moved_texels;
-    pixels_squared += offset_pixels * offset_pixels;
-  }
-  void add(const EdgeSums& other) {
-    edges += other.edges;
-    texels += other.texels;
-    texels_squared += other.texels_squared;
-    pixels_squared += other.pixels_squared;
-    texels_absolute += other.texels_absolute;
-    world += other.world;
-    world_absolute += other.world_absolute;
-    world_squared += other.world_squared;
-  }
-  EdgeStats stats() const {
-    EdgeStats out;
-    out.edges = edges;
-    if (edges == 0) return out;
-    const auto n = static_cast<double>(edges);
-    out.mean_texels = texels / n;
-    out.rms_texels = std::sqrt(texels_squared / n);
-    out.rms_pixels = std::sqrt(pixels_squared / n);
-    out.mean_absolute_texels = texels_absolute / n;
-    out.mean_world = world / n;
-    out.mean_absolute_world = world_absolute / n;
-    out.rms_world = std::sqrt(world_squared / n);
-    return out;
-  }
-};
 
 // The way of a walk from an edge to the pixel where it ended.
 struct Moved {
@@ -87,7 +84,7 @@ struct EdgeWalk : EdgeInput {
     for (double s = 0.5 * step; s <= reach; s += step) {
       const Vec2 p = from + s * direction;
       const int x = static_cast<int>(std::floor(p.x));
-      const int y = static_cast<int>(std::floor(p.y));
+      const int y = static_cast<int>(std::floor(p.y)) - first_row;
       if (!usable(x, y)) return;
       const std::size_t i = labels.index(x, y);
       if (object(i) != own || lit(truth, i) != truly_lit) return;
@@ -108,8 +105,9 @@ struct EdgeWalk : EdgeInput {
     return found;
   }
 
-  static Vec2 middle_of(int px, int py, int qx, int qy) {
-    return {0.5 * (px + qx) + 0.5, 0.5 * (py + qy) + 0.5};
+  // In the whole picture, as all places of a walk are, so that they are rounded alike wherever it is cut.
+  Vec2 middle_of(int px, int py, int qx, int qy) const {
+    return {0.5 * (px + qx) + 0.5, 0.5 * (py + qy + 2 * first_row) + 0.5};
   }
   // Where a true edge between two pixels lies: in the picture, on the map, in the world.
   struct Start {
@@ -125,7 +123,7 @@ struct EdgeWalk : EdgeInput {
   // way to the pixel's centre, scaled to the way that was walked.
   Moved moved(const Start& start, std::size_t end, double offset) const {
     const auto width = static_cast<std::size_t>(labels.size.width);
-    const std::size_t column = end % width, row = end / width;
+    const std::size_t column = end % width, row = end / width + static_cast<std::size_t>(first_row);
     const Vec2 centre(double(column) + 0.5, double(row) + 0.5);
     const double scale = offset / glm::length(centre - start.middle);
     return {glm::length(Vec2(record.texel_uv.data[end]) - start.uv) * scale,
@@ -180,34 +178,45 @@ struct EdgeWalk : EdgeInput {
 
 }  // namespace
 
-EdgeStats measure_edges(const EdgeInput& input) {
+void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& total) {
   const EdgeWalk walk(input);
-  const Image<Label>& labels = input.labels;
-  std::vector<EdgeSums> rows(static_cast<std::size_t>(labels.size.height));
-  tbb::parallel_for(0, labels.size.height, [&](int y) {
-    EdgeSums& sums = rows[static_cast<std::size_t>(y)];
-    walk.at_edges_of_row(y, [&](int px, int py, int qx, int qy) { walk.measure(px, py, qx, qy, sums); });
+  std::vector<EdgeSums> by_row(static_cast<std::size_t>(rows.count));
+  tbb::parallel_for(0, rows.count, [&](int i) {
+    EdgeSums& sums = by_row[static_cast<std::size_t>(i)];
+    walk.at_edges_of_row(rows.first + i,
+                         [&](int px, int py, int qx, int qy) { walk.measure(px, py, qx, qy, sums); });
   });
+  for (const EdgeSums& row : by_row) total.add(row);
+}
+
+EdgeStats measure_edges(const EdgeInput& input) {
   EdgeSums all;
-  for (const EdgeSums& row : rows) all.add(row);
+  add_edges(input, {0, input.labels.size.height}, all);
   return all.stats();
 }
 
 Image<float> edge_displacement_map(const EdgeInput& input) {
+  return edge_displacement_rows(input, {0, input.labels.size.height});
+}
+
+Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows) {
   const EdgeWalk walk(input);
-  Image<float> map(input.labels.size, std::numeric_limits<float>::quiet_NaN());
-  const auto paint = [&map](std::size_t pixel, float texels) {
-    float& there = map.data[pixel];
+  const ImageSize size{input.labels.size.width, rows.count};
+  const std::size_t first = input.labels.index(0, rows.first);
+  Image<float> map(size, std::numeric_limits<float>::quiet_NaN());
+  const auto paint = [&](std::size_t pixel, float texels) {
+    if (pixel < first || pixel - first >= map.data.size()) return;
+    float& there = map.data[pixel - first];
     if (std::isnan(there) || std::abs(there) < std::abs(texels)) there = texels;
   };
   const auto paint_edge = [&](int px, int py, int qx, int qy) {
     const EdgeWalk::Found found = walk.find_drawn(px, py, qx, qy);
     if (!std::isfinite(found.offset)) return;
-    const std::size_t p = map.index(px, py);
+    const std::size_t p = input.labels.index(px, py);
     const double texels = walk.moved(found.start, found.end, std::abs(found.offset)).texels;
     const auto value = static_cast<float>(std::copysign(texels, found.offset));
     paint(p, value);
-    paint(map.index(qx, qy), value);
+    paint(input.labels.index(qx, qy), value);
     const bool outwards = found.offset > 0.0;
     walk.follow(found.start.middle, outwards ? found.normal : -found.normal, outwards, walk.object(p),
                 [&](std::size_t pixel, double offset) {
@@ -215,7 +224,9 @@ Image<float> edge_displacement_map(const EdgeInput& input) {
                   return offset >= std::abs(found.offset);
                 });
   };
-  for (int y = 0; y < map.size.height; ++y) walk.at_edges_of_row(y, paint_edge);
+  constexpr int beside = static_cast<int>(reach) + 2;  // rows whose walks may come into these
+  const int end = std::min(rows.end() + beside, input.labels.size.height);
+  for (int y = std::max(0, rows.first - beside); y < end; ++y) walk.at_edges_of_row(y, paint_edge);
   return map;
 }
 

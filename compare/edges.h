@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "compare/comparison.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 
@@ -12,6 +13,8 @@ namespace gnomon::compare {
 /// edge there; edges that are not found within 64 pixels are missing features, not displaced edges, and are
 /// left out. Offsets are > 0 where the drawn shadow is larger. Texel figures are distances between looked-up
 /// map positions, world figures between receivers.
+inline constexpr int edge_margin = 136;  ///< rows above and below a row on which its edges and offsets hang
+
 struct EdgeInput {
   const raster::RasterFrame& drawn;
   const raster::LightRecord& record;
@@ -19,12 +22,28 @@ struct EdgeInput {
   const Image<float>& truth;
   const Image<Label>& labels;
   const World& world;
+  int first_row = 0;  ///< of the picture: row 0 of these images, of a picture in bands
 };
 EdgeStats measure_edges(const EdgeInput& input);
+
+/// Sums over edges, in their order.
+struct EdgeSums {
+  std::uint64_t edges = 0;
+  double texels = 0.0, texels_absolute = 0.0, texels_squared = 0.0, pixels_squared = 0.0;
+  double world = 0.0, world_absolute = 0.0, world_squared = 0.0;
+
+  void add(double moved_texels, double offset_pixels, double moved_world);
+  void add(const EdgeSums& other);
+  EdgeStats stats() const;
+};
+/// Adds the edges that begin in those rows of the images; all within edge_margin of them must be there.
+void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& sums);
 
 /// The offsets in texels on the pixels that were walked over, the larger one where several walks meet; NaN
 /// elsewhere.
 Image<float> edge_displacement_map(const EdgeInput& input);
+/// Those rows of the images alone.
+Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows);
 
 /// The same for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed
 /// the bias: each walk is made once and keeps the pixels that can end it.

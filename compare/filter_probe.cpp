@@ -62,7 +62,8 @@ double pixel_level(const LadderInput& in, std::size_t pixel) {
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const LightView& map = in.record.map.view;
   const int face = in.record.face.data[pixel];
-  const ImageSize size = in.drawn.primitive.size;
+  ImageSize size = in.drawn.primitive.size;
+  if (in.place.picture_height > 0) size.height = in.place.picture_height;
   const View view = make_view(in.world.scene->camera, size);
   const auto place = [&](double x, double y) {
     const Ray ray = pixel_ray(view, x, y);
@@ -72,7 +73,8 @@ double pixel_level(const LadderInput& in, std::size_t pixel) {
     return Vec2(at.u, at.v);
   };
   const auto width = static_cast<std::size_t>(size.width);
-  const double x = static_cast<double>(pixel % width) + 0.5, y = static_cast<double>(pixel / width) + 0.5;
+  const double x = static_cast<double>(pixel % width) + 0.5;
+  const double y = in.place.first_row + static_cast<double>(pixel / width) + 0.5;
   const TexelCoordinate own = project_to_face(map, face, receiver.position);
   const Vec2 here(own.u, own.v), across = place(x + 1.0, y) - here, down = place(x, y + 1.0) - here;
   const double level = 0.5 * std::log2(std::max(glm::dot(across, across), glm::dot(down, down)));

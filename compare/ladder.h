@@ -11,6 +11,12 @@
 
 namespace gnomon::compare {
 
+/// Where images lie in a picture that comes in bands.
+struct ImagePlace {
+  int first_row = 0;       ///< of the picture: row 0 of the images
+  int picture_height = 0;  ///< 0: the images hold the whole picture
+};
+
 /// What one light's pixels are climbed with. All parts must outlive the ladder.
 struct LadderInput {
   const World& world;
@@ -21,6 +27,7 @@ struct LadderInput {
   const raster::LightRecord& record;
   const raytrace::RayTracedFrame& traced;
   const raytrace::LightTruth& truth;
+  ImagePlace place{};
 };
 
 /// Marks each pixel background, silhouette, facing_away, uncertain, or right (= to be compared). Uncertain: a

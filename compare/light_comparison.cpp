@@ -1,7 +1,5 @@
 #include "compare/light_comparison.h"
 
-#include <tbb/parallel_for.h>
-
 #include "compare/bias_curve.h"
 #include "compare/bias_kinds.h"
 #include "compare/bleeding.h"
@@ -9,58 +7,15 @@
 #include "compare/cascades.h"
 #include "compare/edges.h"
 #include "compare/flip.h"
-#include "compare/option_names.h"
+#include "compare/light_parts.h"
 #include "compare/penumbra.h"
-#include "compare/pixel_list.h"
 #include "compare/shadow_cost.h"
 #include "compare/ssim.h"
-#include "compare/sweep/engine.h"
 #include "compare/theory.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {
-
-// Of the compared pixels that have a value; NaN of none.
-double mean_compared(const Image<float>& map, const Image<Label>& labels) {
-  double sum = 0.0;
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < map.data.size(); ++i) {
-    if (!is_compared(labels.data[i]) || std::isnan(map.data[i])) continue;
-    sum += double{map.data[i]};
-    ++count;
-  }
-  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
-}
-
-// White lit, black shadowed, white where nothing is compared. Where the truth is uncertain the rungs have
-// what is known of it, or are white both.
-Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels) {
-  Image<float> picture(visibility.size, 1.0f);
-  for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (is_compared(labels.data[i]) || labels.data[i] == Label::uncertain)
-      picture.data[i] = visibility.data[i];
-  return picture;
-}
-
-// Of the samples of partly lit compared pixels.
-void add_standard_error(const raytrace::LightTruth& truth, const Image<Label>& labels, PenumbraStats& out) {
-  std::uint64_t count = 0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < labels.data.size(); ++i) {
-    const float share = truth.visibility.data[i];
-    if (!is_compared(labels.data[i]) || share <= 0.0f || share >= 1.0f) continue;
-    const double error = double{truth.standard_error.data[i]};
-    sum += error;
-    out.standard_error_max = std::max(out.standard_error_max, error);
-    ++count;
-  }
-  if (count > 0) out.standard_error_mean = sum / static_cast<double>(count);
-}
-
-bool has_one_texel_size(const LightView& view) {
-  return view.projection == LightProjection::orthographic && view.face_count == 1 && view.face(0).warp == 0.0;
-}
 
 // On another renderer's map, too, Gnomon's own kinds are tried.
 std::vector<BiasKind> kinds_of_bias(const LadderInput& in, const Image<float>& truth,
@@ -70,40 +25,6 @@ std::vector<BiasKind> kinds_of_bias(const LadderInput& in, const Image<float>& t
   record.captured.reset();
   return compare_bias_kinds(
       {in.world, in.tracer, in.topology, in.light, in.drawn, record, in.traced, in.truth}, truth, labels);
-}
-
-std::array<double, 3> texel_sizes(const LadderInput& in, const Image<Label>& labels) {
-  const LightView& view = in.record.map.view;
-  std::vector<std::uint32_t> pixels =
-      pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
-  if (pixels.empty()) return {};
-  if (has_one_texel_size(view)) pixels.erase(pixels.begin() + 1, pixels.end());
-  std::vector<double> sizes(pixels.size());
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
-    const Vec3& x = in.traced.receiver.data[pixels[i]].position;
-    sizes[i] = texel_world_size(view, project_to_face(view, in.record.face.data[pixels[i]], x));
-  });
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const auto [low, high] = std::minmax_element(sizes.begin(), sizes.end());
-  return {*low, *middle, *high};
-}
-
-// A sentence, or nothing where a hard test drew, whose gaps say what every other constant bias would draw.
-std::string_view why_no_curve(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
-  if (record.captured && !drawn.custom_shader)
-    return record.captured->unit_world == 0.0
-               ? std::string_view("The picture came without its map: there are no gaps to follow.")
-               : std::string_view();
-  if (biases_follow_from_gaps(drawn)) return {};
-  if (drawn.custom_shader)
-    return "A shader of --shader-dir drew this: what it would draw with another bias does not follow from "
-           "one "
-           "drawing.";
-  if (!compares_depths(drawn.options.map.technique))
-    return "This technique compares no stored depths: a bias does not change what it draws.";
-  return "This technique filters: what it would draw with another bias does not follow from one drawing; a "
-         "sweep over --bias draws each.";
 }
 
 }  // namespace
@@ -125,8 +46,9 @@ void measure_perceptual(LightComparison& light) {
   const Image<float> windows = ssim_map(truth, drawn);
   light.error.ssim = mean_ssim(windows);
   light.ssim_map = ssim_by_pixel(windows, truth.size);
-  light.error.flip_compared = mean_compared(light.flip_map, light.labels);
-  light.error.ssim_compared = mean_compared(light.ssim_map, light.labels);
+  ComparedMean flip, ssim;
+  flip.add(light.flip_map, light.labels), ssim.add(light.ssim_map, light.labels);
+  light.error.flip_compared = flip.mean(), light.error.ssim_compared = ssim.mean();
 }
 
 ErrorFigures measure_figures(const LadderInput& in, ErrorMeasure measure) {
@@ -151,7 +73,8 @@ ErrorFigures measure_figures(const LadderInput& in, ErrorMeasure measure) {
 }
 
 MapMeasures measure_map(const LadderInput& in, const Image<Label>& labels) {
-  return {texel_sizes(in, labels), predict(in, labels)};
+  std::vector<double> widths = texel_widths(in, labels);
+  return {low_middle_high(widths), predict(in, labels)};
 }
 
 LightComparison measure_light(const LadderInput& in, std::size_t record, Climb climbed,
@@ -176,7 +99,9 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   if (!in.truth.visibility.data.empty()) {
     out.pixels.uncertain_by_samples = count_pixels(climbed_labels).compared - out.pixels.compared;
     out.penumbra = measure_penumbra(in, truth, climbed_labels);
-    add_standard_error(in.truth, out.labels, *out.penumbra);
+    StandardErrors errors;
+    errors.add(in.truth, out.labels);
+    errors.put(*out.penumbra);
   }
   const MapMeasures map = options.map != nullptr ? *options.map : measure_map(in, out.labels);
   out.texel_world = map.texel_world;

@@ -12,24 +12,18 @@ constexpr double step = 0.5;     // of a walk, pixels
 constexpr double reach = 256.0;  // of a walk, pixels
 constexpr double dark = 0.1, bright = 0.9;
 
-struct Width {
-  std::optional<double> penumbra, umbra;  // world units; none where a walk left the object or the picture
-};
-
-struct Sample {
-  Width truth, drawn;
-};
-
 // Where a walk came to a level of visibility: pixels, and world units on the receiver.
 struct Crossing {
   Vec2 pixel;
   Vec3 world;
 };
 
-class Walker {
+}  // namespace
+
+class PenumbraMeasure::Walker {
  public:
-  Walker(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels)
-      : in_(in), truth_(truth), labels_(labels) {}
+  Walker(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels, int first_row)
+      : in_(in), truth_(truth), labels_(labels), first_row_(first_row) {}
 
   bool same_object(int x, int y, std::uint32_t own) const {
     const ImageSize& s = labels_.size;
@@ -64,8 +58,9 @@ class Walker {
 
   /// Between pixel centres, bilinearly; none where one of the four is not of the object.
   std::optional<Place> place(const Image<float>& v, Vec2 p, std::uint32_t own) const {
-    const int x = static_cast<int>(std::floor(p.x - 0.5)), y = static_cast<int>(std::floor(p.y - 0.5));
-    const double fx = p.x - 0.5 - x, fy = p.y - 0.5 - y;
+    const int x = static_cast<int>(std::floor(p.x - 0.5)), below = static_cast<int>(std::floor(p.y - 0.5));
+    const double fx = p.x - 0.5 - x, fy = p.y - 0.5 - below;
+    const int y = below - first_row_;
     Place sum{0.0, Vec3(0.0)};
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i) {
@@ -127,7 +122,7 @@ class Walker {
     if (!same_object(qx, qy, own) || (truth_.at(px, py) > 0.5f) == (truth_.at(qx, qy) > 0.5f)) return;
     const Vec2 normal = towards_light(px, py);
     if (normal == Vec2(0.0)) return;
-    const Vec2 middle(0.5 * (px + qx) + 0.5, 0.5 * (py + qy) + 0.5);
+    const Vec2 middle(0.5 * (px + qx) + 0.5, 0.5 * (py + qy + 2 * first_row_) + 0.5);  // in the whole picture
     Sample sample{width(truth_, middle, normal, own), {}};
     if (!sample.truth.penumbra) return;
     if (const auto crossing = nearest_crossing(in_.record.visibility, middle, normal, own))
@@ -140,7 +135,10 @@ class Walker {
   const LadderInput& in_;
   const Image<float>& truth_;
   const Image<Label>& labels_;
+  int first_row_;
 };
+
+namespace {
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -149,7 +147,16 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void add_widths(const std::vector<Sample>& samples, PenumbraStats& out) {
+void count(float visibility, std::uint64_t& umbra, std::uint64_t& penumbra) {
+  if (visibility <= 0.0f)
+    ++umbra;
+  else if (visibility < 1.0f)
+    ++penumbra;
+}
+
+}  // namespace
+
+void PenumbraMeasure::add_widths(const std::vector<Sample>& samples, PenumbraStats& out) {
   std::vector<double> truth, drawn, true_umbra, drawn_umbra;
   for (const Sample& s : samples) {
     if (s.truth.penumbra && s.drawn.penumbra) {
@@ -169,35 +176,37 @@ void add_widths(const std::vector<Sample>& samples, PenumbraStats& out) {
   out.drawn_umbra_world = median(std::move(drawn_umbra));
 }
 
-void count(float visibility, std::uint64_t& umbra, std::uint64_t& penumbra) {
-  if (visibility <= 0.0f)
-    ++umbra;
-  else if (visibility < 1.0f)
-    ++penumbra;
-}
-
-}  // namespace
-
-PenumbraStats measure_penumbra(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
-  const Walker walker(in, truth, labels);
-  std::vector<std::vector<Sample>> rows(static_cast<std::size_t>(labels.size.height));
-  tbb::parallel_for(0, labels.size.height, [&](int y) {
+void PenumbraMeasure::add(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels,
+                          int first_row, const PictureRows& rows) {
+  const Walker walker(in, truth, labels, first_row);
+  std::vector<std::vector<Sample>> by_row(static_cast<std::size_t>(rows.count));
+  tbb::parallel_for(0, rows.count, [&](int i) {
+    const int y = rows.first + i;
+    std::vector<Sample>& row = by_row[static_cast<std::size_t>(i)];
     for (int x = 0; x < labels.size.width; ++x) {
       if (!is_compared(labels.at(x, y))) continue;
-      walker.measure(x, y, x + 1, y, rows[static_cast<std::size_t>(y)]);
-      walker.measure(x, y, x, y + 1, rows[static_cast<std::size_t>(y)]);
+      walker.measure(x, y, x + 1, y, row);
+      walker.measure(x, y, x, y + 1, row);
     }
   });
-  std::vector<Sample> all;
-  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
-  PenumbraStats out;
-  add_widths(all, out);
-  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+  for (const auto& row : by_row) samples_.insert(samples_.end(), row.begin(), row.end());
+  for (std::size_t i = labels.index(0, rows.first); i < labels.index(0, rows.end()); ++i) {
     if (!is_compared(labels.data[i])) continue;
-    count(truth.data[i], out.true_umbra_pixels, out.true_penumbra_pixels);
-    count(in.record.visibility.data[i], out.drawn_umbra_pixels, out.drawn_penumbra_pixels);
+    count(truth.data[i], counts_.true_umbra_pixels, counts_.true_penumbra_pixels);
+    count(in.record.visibility.data[i], counts_.drawn_umbra_pixels, counts_.drawn_penumbra_pixels);
   }
+}
+
+PenumbraStats PenumbraMeasure::stats() const {
+  PenumbraStats out = counts_;
+  add_widths(samples_, out);
   return out;
+}
+
+PenumbraStats measure_penumbra(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
+  PenumbraMeasure measure;
+  measure.add(in, truth, labels, 0, {0, labels.size.height});
+  return measure.stats();
 }
 
 }  // namespace gnomon::compare

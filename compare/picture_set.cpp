@@ -28,13 +28,10 @@ struct Job {
   std::function<Rgb8Image()> draw;
 };
 
-void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image& drawn,
-                    const LightComparison& light, LightPictures& out) {
-  const std::string suffix = c.lights.size() > 1 ? fmt::format("-{}", light_file_part(c, light)) : "";
+void add_map_jobs(std::vector<Job>& jobs, const Comparison& c, const LightComparison& light,
+                  LightPictures& out) {
+  const std::string suffix = light_suffix(c, light);
   const raster::ShadowMap& map = drawn_record(c, light).map;
-  out.difference.file_name = "difference" + suffix + ".png";
-  out.labels.file_name = "labels" + suffix + ".png";
-  out.error.file_name = "error" + suffix + ".png";
   out.depth_map.file_name = "depth-map" + suffix + ".png";
   out.depth_map_small.file_name = "depth-map-small" + suffix + ".png";
   out.depth_map_step = step_for_width(map, folder_width);
@@ -48,6 +45,15 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image
   if (small_step != full_step && !lacks_map(c))
     jobs.push_back({&out.depth_map_small,
                     [&map, small_step] { return depth_map_picture(reduced_map(map, small_step)); }});
+}
+
+void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image& drawn,
+                    const LightComparison& light, LightPictures& out) {
+  const std::string suffix = light_suffix(c, light);
+  out.difference.file_name = "difference" + suffix + ".png";
+  out.labels.file_name = "labels" + suffix + ".png";
+  out.error.file_name = "error" + suffix + ".png";
+  add_map_jobs(jobs, c, light, out);
   jobs.push_back({&out.difference, [&drawn, &light] { return difference_picture(drawn, light); }});
   jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
   jobs.push_back({&out.error, [&light] { return error_picture(light); }});
@@ -69,7 +75,39 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image
   jobs.push_back({&out.ssim, [&light] { return ssim_picture(light); }});
 }
 
+Expected<void> run_jobs(const std::vector<Job>& jobs) {
+  std::vector<std::optional<Error>> errors(jobs.size());
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    const Rgb8Image image = jobs[i].draw();
+    Expected<std::string> png = encode_png(image);
+    if (!png)
+      errors[i] = png.error();
+    else
+      jobs[i].target->png = std::move(*png);
+    jobs[i].target->size = image.size;
+  });
+  for (const std::optional<Error>& error : errors)
+    if (error) return fail(*error);
+  return {};
+}
+
+void share_depth_map(LightPictures& light) {
+  if (light.depth_map_small.png.empty()) light.depth_map_small = light.depth_map;
+}
+
 }  // namespace
+
+std::string light_suffix(const Comparison& c, const LightComparison& light) {
+  return c.lights.size() > 1 ? fmt::format("-{}", light_file_part(c, light)) : "";
+}
+
+Expected<void> encode_depth_maps(const Comparison& c, const LightComparison& light, LightPictures& out) {
+  std::vector<Job> jobs;
+  add_map_jobs(jobs, c, light, out);
+  if (const auto done = run_jobs(jobs); !done) return done;
+  share_depth_map(out);
+  return {};
+}
 
 raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step) {
   raster::ShadowMap small;
@@ -105,20 +143,8 @@ Expected<PictureSet> encode_pictures(const Comparison& c) {
   jobs.push_back({&set.raster, [&drawn] { return drawn; }});
   jobs.push_back({&set.raytraced, [&c] { return raytraced_picture(c); }});
 
-  std::vector<std::optional<Error>> errors(jobs.size());
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    const Rgb8Image image = jobs[i].draw();
-    Expected<std::string> png = encode_png(image);
-    if (!png)
-      errors[i] = png.error();
-    else
-      jobs[i].target->png = std::move(*png);
-    jobs[i].target->size = image.size;
-  });
-  for (const std::optional<Error>& error : errors)
-    if (error) return fail(*error);
-  for (LightPictures& light : set.lights)
-    if (light.depth_map_small.png.empty()) light.depth_map_small = light.depth_map;
+  if (const auto done = run_jobs(jobs); !done) return fail(done.error());
+  for (LightPictures& light : set.lights) share_depth_map(light);
   return set;
 }
 

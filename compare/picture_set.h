@@ -34,6 +34,12 @@ struct PictureSet {
 /// Draws and encodes all pictures in parallel.
 Expected<PictureSet> encode_pictures(const Comparison& comparison);
 
+/// What a light's file names end in: nothing for the only one.
+std::string light_suffix(const Comparison& comparison, const LightComparison& light);
+/// The pictures of its depth map alone.
+Expected<void> encode_depth_maps(const Comparison& comparison, const LightComparison& light,
+                                 LightPictures& out);
+
 /// A map with one texel for every step x step block, which keeps the block's nearest depth, so that thin
 /// casters stay visible. Only `view.size` and `depth` are meaningful in it.
 raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step);

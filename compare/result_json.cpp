@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "compare/by_cascade.h"
 #include "compare/judge/judged.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
@@ -196,10 +197,14 @@ std::string dumped(const Json& json, int indent) {
 }  // namespace
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
+  return result_json(c, report_ms, total_ms, nullptr);
+}
+
+std::string result_json(const Comparison& c, double report_ms, double total_ms, const CascadeTables* tables) {
   Json json = result_object(c, report_ms, total_ms);
   for (std::size_t i = 0; i < c.lights.size(); ++i) {
-    if (Json cascades = by_cascade_json(c, c.lights[i]); !cascades.is_null())
-      json["lights"][i]["by_cascade"] = std::move(cascades);
+    Json cascades = tables != nullptr ? by_cascade_json((*tables)[i]) : by_cascade_json(c, c.lights[i]);
+    if (!cascades.is_null()) json["lights"][i]["by_cascade"] = std::move(cascades);
     if (const auto& seams = c.lights[i].seams)
       json["lights"][i]["seams"] = {{"at_border", seams->at_border}, {"changed", seams->changed}};
   }

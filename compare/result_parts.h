@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compare/by_cascade.h"
 #include "compare/comparison.h"
 
 namespace gnomon::compare {
@@ -30,6 +31,7 @@ inline Json one_time_json(double ms) {
 Json light_block(const Comparison& comparison, const LightComparison& light);
 /// The budget of each cascade by itself, finest first; null of other techniques.
 Json by_cascade_json(const Comparison& comparison, const LightComparison& light);
+Json by_cascade_json(const std::vector<CascadeFigures>& cascades);
 /// Its "times_ms".
 Json light_times_json(const Comparison& comparison, const LightComparison& light);
 

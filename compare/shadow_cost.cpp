@@ -41,18 +41,26 @@ std::optional<std::uint64_t> count_lookups(const raster::RasterFrame& frame, con
   return sum;
 }
 
-RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
-                       const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
+void add_ray_work(const raytrace::Tracer& tracer, const Light& light,
+                  const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels,
+                  std::size_t first_pixel, std::size_t all_pixels, RayWork& sum) {
   constexpr std::size_t about = 1024;  // rays
-  RayWork out;
   raytrace::WorkCounts work;
-  const std::size_t step = std::max<std::size_t>(1, labels.data.size() / about);
-  for (std::size_t i = step / 2; i < labels.data.size(); i += step) {
+  const std::size_t step = std::max<std::size_t>(1, all_pixels / about);
+  std::size_t next = step / 2;
+  if (next < first_pixel) next += (first_pixel - next + step - 1) / step * step;
+  for (std::size_t i = next - first_pixel; i < labels.data.size(); i += step) {
     if (!is_compared(labels.data[i])) continue;
     static_cast<void>(tracer.occluded(tracer.shadow_ray(receivers.data[i], light), work));
-    ++out.rays;
+    ++sum.rays;
   }
-  out.boxes = work.boxes, out.primitives = work.primitives;
+  sum.boxes += work.boxes, sum.primitives += work.primitives;
+}
+
+RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
+                       const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
+  RayWork out;
+  add_ray_work(tracer, light, receivers, labels, 0, labels.data.size(), out);
   return out;
 }
 

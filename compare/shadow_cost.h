@@ -25,5 +25,9 @@ std::optional<std::uint64_t> count_lookups(const raster::RasterFrame& frame, con
 /// Of some thousand compared pixels spread evenly over the picture.
 RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
                        const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+/// Adds those whose rays begin in a part of the picture: the first of its pixels, and the pixels of the whole.
+void add_ray_work(const raytrace::Tracer& tracer, const Light& light,
+                  const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels,
+                  std::size_t first_pixel, std::size_t all_pixels, RayWork& sum);
 
 }  // namespace gnomon::compare

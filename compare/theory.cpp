@@ -9,17 +9,15 @@
 
 #include "compare/biased_test.h"
 #include "scene/camera.h"
+#include "scene/paging.h"
 
 namespace gnomon::compare {
 namespace {
 
 using raytrace::SurfacePoint;
 
-/// Written by the threads that fill them, and so paged in by them.
-using Values = std::unique_ptr<double[]>;
+}  // namespace
 
-// The median, the 90th and 99th percentile and the largest of the finite values, which this puts into another
-// order.
 Distribution distribution(std::span<double> values) {
   const auto end = std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
   Distribution out;
@@ -39,6 +37,8 @@ Distribution distribution(std::span<double> values) {
   out.max = *std::max_element(above, end);
   return out;
 }
+
+namespace {
 
 struct PixelTheory {
   double acne_free_bias = infinity, perspective = infinity, projection = infinity, measured = infinity;
@@ -62,11 +62,11 @@ double texel_area(const LightView& view, const TexelCoordinate& at) {
 
 class Predictor {
  public:
-  Predictor(const LadderInput& in, const Image<Label>& labels)
+  Predictor(const LadderInput& in, const Image<Label>& labels, int picture_height)
       : in_(in),
         labels_(labels),
         camera_(in.world.scene->camera),
-        pixel_side_(2.0 * std::tan(0.5 * camera_.vertical_fov) / labels.size.height),
+        pixel_side_(2.0 * std::tan(0.5 * camera_.vertical_fov) / picture_height),
         forward_(glm::normalize(camera_.target - camera_.eye)) {}
 
   PixelTheory at(int x, int y) const {
@@ -113,16 +113,12 @@ class Predictor {
   Vec3 forward_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Where each row's compared pixels begin among all of them; at last their number.
-std::vector<std::size_t> compared_before(const Image<Label>& labels) {
-  std::vector<std::size_t> before(static_cast<std::size_t>(labels.size.height) + 1, 0);
-  tbb::parallel_for(0, labels.size.height, [&](int y) {
+std::vector<std::size_t> compared_before(const Image<Label>& labels, const PictureRows& rows) {
+  std::vector<std::size_t> before(static_cast<std::size_t>(rows.count) + 1, 0);
+  tbb::parallel_for(0, rows.count, [&](int i) {
     for (int x = 0; x < labels.size.width; ++x)
-      before[static_cast<std::size_t>(y) + 1] += is_compared(labels.at(x, y)) ? 1 : 0;
+      before[static_cast<std::size_t>(i) + 1] += is_compared(labels.at(x, rows.first + i)) ? 1 : 0;
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
   return before;
@@ -130,13 +126,15 @@ std::vector<std::size_t> compared_before(const Image<Label>& labels) {
 
 }  // namespace
 
-TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
-  const std::vector<std::size_t> before = compared_before(labels);
-  std::array<Values, 5> values;
-  for (Values& v : values) v = std::make_unique_for_overwrite<double[]>(before.back());
-  const Predictor predictor(in, labels);
-  tbb::parallel_for(0, labels.size.height, [&](int y) {
-    std::size_t i = before[static_cast<std::size_t>(y)];
+TheoryValues theory_values(const LadderInput& in, const Image<Label>& labels, const PictureRows& rows,
+                           int picture_height) {
+  const std::vector<std::size_t> before = compared_before(labels, rows);
+  TheoryValues values;
+  for (std::vector<double>& v : values) v = paged_vector<double>(before.back());
+  const Predictor predictor(in, labels, picture_height);
+  tbb::parallel_for(0, rows.count, [&](int row) {
+    std::size_t i = before[static_cast<std::size_t>(row)];
+    const int y = rows.first + row;
     for (int x = 0; x < labels.size.width; ++x) {
       if (!is_compared(labels.at(x, y))) continue;
       const PixelTheory p = predictor.at(x, y);
@@ -145,12 +143,20 @@ TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
       ++i;
     }
   });
+  return values;
+}
+
+Distribution& distribution_of(TheoryStats& stats, std::size_t value) {
+  const std::array<Distribution*, 5> places{&stats.acne_free_bias, &stats.perspective, &stats.projection,
+                                            &stats.aliasing, &stats.measured_aliasing};
+  return *places[value];
+}
+
+TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
+  TheoryValues values = theory_values(in, labels, {0, labels.size.height}, labels.size.height);
   TheoryStats stats;
-  const std::array<Distribution*, 5> out{&stats.acne_free_bias, &stats.perspective, &stats.projection,
-                                         &stats.aliasing, &stats.measured_aliasing};
-  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t k) {
-    *out[k] = distribution({values[k].get(), before.back()});
-  });
+  tbb::parallel_for(std::size_t{0}, values.size(),
+                    [&](std::size_t k) { distribution_of(stats, k) = distribution(values[k]); });
   return stats;
 }
 

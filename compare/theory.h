@@ -15,11 +15,27 @@
 
 #include <array>
 
+#include <array>
+#include <span>
+#include <vector>
+
 #include "compare/ladder.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 
 /// Theory of one light over its compared pixels.
 TheoryStats predict(const LadderInput& input, const Image<Label>& labels);
+
+/// The parts that predict() is made of: of each compared pixel the acne-free bias, perspective, projection, their
+/// product (aliasing) and the measured aliasing, in that order; infinite where there is none.
+using TheoryValues = std::array<std::vector<double>, 5>;
+/// Of those rows of the images; the row below them must be there. picture_height: of the whole picture.
+TheoryValues theory_values(const LadderInput& input, const Image<Label>& labels, const PictureRows& rows,
+                           int picture_height);
+Distribution& distribution_of(TheoryStats& stats, std::size_t value);
+/// The median, the 90th and 99th percentile and the largest of the finite values, which this puts into another
+/// order.
+Distribution distribution(std::span<double> values);
 
 }  // namespace gnomon::compare

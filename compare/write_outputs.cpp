@@ -2,7 +2,9 @@
 // that took. They are written beside the folder's place and moved there whole (scene/files/staged_folder.h).
 #include <filesystem>
 #include <future>
+#include <optional>
 
+#include "compare/bands/bands.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/picture_set.h"
@@ -69,15 +71,20 @@ struct Texts {
   BuiltPage page;
 };
 
-Texts make_texts(const Comparison& comparison, const PictureSet& pictures, const OutputFolder& output,
-                 const Stopwatch& watch) {
-  PageInput input{comparison, pictures, {}, {}, 0.0, output.introduction};
+Texts make_texts(const Comparison& comparison, const BandedParts* parts, const PictureSet& pictures,
+                 const OutputFolder& output, const Stopwatch& watch) {
+  // Bands leave only the images that the page has room for.
+  const int step = parts != nullptr ? 1 : image_step(comparison.raster.options.size);
+  std::optional<Comparison> reduced;
+  if (output.page && step > 1) reduced = reduced_images(comparison, step);
+  PageInput input{reduced ? *reduced : comparison, pictures, {}, {}, 0.0, output.introduction};
   PageData data;
   if (output.page) data = page_data(input);
   // What the files say about the time of their own making: up to the point where their text is fixed.
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
   const double total_ms = comparison.total_ms + watch.elapsed_ms();
-  Texts out{result_json(comparison, report_ms, total_ms), {}, {}};
+  Texts out{
+      result_json(comparison, report_ms, total_ms, parts != nullptr ? &parts->cascades : nullptr), {}, {}};
   out.csv = result_csv(out.result);
   if (!output.page) return out;
   const StageLog* log = StageLog::current();
@@ -92,12 +99,19 @@ Texts make_texts(const Comparison& comparison, const PictureSet& pictures, const
 }  // namespace
 
 Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output) {
+  return write_all_but_result(comparison, nullptr, std::move(output));
+}
+
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
+                                              OutputFolder output) {
   const Stopwatch watch;
   auto staged = StagedFolder::open(output.folder);
   if (!staged) return fail(staged.error());
   const std::string folder = staged->path();
   TimedStage encoding("pictures");
-  const Expected<PictureSet> pictures = encode_pictures(comparison);
+  const Expected<PictureSet> pictures =
+      parts != nullptr ? encode_pictures(comparison, parts->pictures) : encode_pictures(comparison);
+  if (parts != nullptr) parts->pictures = PictureStore({}, 0);
   encoding.end();
   if (!pictures) return fail(pictures.error());
   // Waiting for the disk, while the page is made.
@@ -105,7 +119,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Outp
       std::async(std::launch::async, [&] { return write_files(folder, picture_files(*pictures)); });
 
   TimedStage making(output.page ? "page" : "write");
-  Texts texts = make_texts(comparison, *pictures, output, watch);
+  Texts texts = make_texts(comparison, parts, *pictures, output, watch);
   making.end();
 
   const TimedStage writing("write");

@@ -28,7 +28,7 @@ Receivers make_receivers(Image<SurfacePoint> points) {
   return made;
 }
 
-ReceiverCounts ReceiverFinder::find(const View& view, const Image<std::uint32_t>& primitive,
+ReceiverCounts ReceiverFinder::find(const View& view, int first_row, const Image<std::uint32_t>& primitive,
                                     Receivers& receivers) const {
   const raytrace::TileGrid grid{primitive.size};
   if (!(receivers.points.size == primitive.size)) {
@@ -37,8 +37,8 @@ ReceiverCounts ReceiverFinder::find(const View& view, const Image<std::uint32_t>
   }
   std::vector<std::uint64_t> traced(grid.count());
   for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    traced[i] = raytrace::known_tile(tracer_, view, leaf_of_, {x0, y0, x1, y1}, primitive, receivers.points,
-                                     receivers.tiles[i]);
+    traced[i] = raytrace::known_tile(tracer_, view, first_row, leaf_of_, {x0, y0, x1, y1}, primitive,
+                                     receivers.points, receivers.tiles[i]);
   });
   return {std::accumulate(traced.begin(), traced.end(), std::uint64_t{0})};
 }

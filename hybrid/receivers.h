@@ -30,8 +30,9 @@ class ReceiverFinder {
  public:
   /// The tracer must outlive the finder.
   explicit ReceiverFinder(const raytrace::Tracer& tracer);
-  /// `receivers` keeps its memory between calls.
-  ReceiverCounts find(const View& view, const Image<std::uint32_t>& primitive, Receivers& receivers) const;
+  /// Row 0 of `primitive` is first_row of the view's picture. `receivers` keeps its memory between calls.
+  ReceiverCounts find(const View& view, int first_row, const Image<std::uint32_t>& primitive,
+                      Receivers& receivers) const;
 
  private:
   const raytrace::Tracer& tracer_;

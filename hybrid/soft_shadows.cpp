@@ -132,20 +132,22 @@ class SoftLight::Block {
   std::vector<std::uint32_t> edges_;
 };
 
-SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<Verdict>& verdicts, int samples,
-                           std::uint64_t seed, Image<Decision>& decisions, Image<float>& visibility) const {
-  raytrace::prepare_light_shafts(tracer_, samples);
+SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<Verdict>& verdicts,
+                           const SoftSamples& samples, Image<Decision>& decisions,
+                           Image<float>& visibility) const {
+  raytrace::prepare_light_shafts(tracer_, samples.count);
   const raytrace::TileGrid grid{receivers.size};
   std::vector<SoftCounts> tiles(grid.count());
-  const auto pixel = [&](int x, int y, std::span<const std::uint32_t> edges, SoftCounts& counts) {
+  const auto look = [&](int x, int y, std::span<const std::uint32_t> edges, SoftCounts& counts) {
     const Verdict centre = verdicts.at(x, y);
     const SurfacePoint& point = receivers.at(x, y);
     float& out = visibility.at(x, y);
     out = centre == Verdict::shadowed ? 0.0f : 1.0f;
     if (decisions.at(x, y) == Decision::not_asked) return;
     if (centre != Verdict::uncertain && !in_penumbra(point, edges)) return;
-    const std::uint64_t key = raytrace::pixel_key(seed, receivers.index(x, y), index_);
-    const raytrace::Visibility seen = light_visibility(tracer_, point, light_, samples, key);
+    const std::size_t pixel = samples.first_pixel + receivers.index(x, y);
+    const std::uint64_t key = raytrace::pixel_key(samples.seed, pixel, index_);
+    const raytrace::Visibility seen = light_visibility(tracer_, point, light_, samples.count, key);
     out = static_cast<float>(seen.share);
     decisions.at(x, y) = Decision::traced;
     ++counts.penumbra, counts.rays += seen.rays;
@@ -156,7 +158,7 @@ SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<Ver
         const int ex = std::min(bx + block_pixels, x1), ey = std::min(by + block_pixels, y1);
         const Block block(*this, receivers, decisions, bx, by, ex, ey);
         for (int y = by; y < ey; ++y)
-          for (int x = bx; x < ex; ++x) pixel(x, y, block.edges(), tiles[tile]);
+          for (int x = bx; x < ex; ++x) look(x, y, block.edges(), tiles[tile]);
       }
   });
   SoftCounts sum;

@@ -22,6 +22,12 @@ struct SoftCounts {
   std::uint64_t rays = 0;      ///< to samples
 };
 
+struct SoftSamples {
+  int count = 0;  ///< of each receiver
+  std::uint64_t seed = 0;
+  std::size_t first_pixel = 0;  ///< the first receiver's number in the camera's picture
+};
+
 class SoftLight {
  public:
   /// The light has a size; all must outlive it.
@@ -31,8 +37,7 @@ class SoftLight {
   /// where samples were. `visibility`: the share of the light that each receiver sees, as in
   /// raytrace::LightTruth.
   SoftCounts find(const Image<raytrace::SurfacePoint>& receivers, const Image<raytrace::Verdict>& verdicts,
-                  int samples, std::uint64_t seed, Image<Decision>& decisions,
-                  Image<float>& visibility) const;
+                  const SoftSamples& samples, Image<Decision>& decisions, Image<float>& visibility) const;
 
   std::uint64_t bytes() const { return edges_.bytes(); }
 

@@ -8,6 +8,7 @@
 #include "hybrid/hard_shadows.h"
 #include "hybrid/receivers.h"
 #include "hybrid/soft_shadows.h"
+#include "raster/bands.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -28,7 +29,7 @@ bool same(const LightView& a, const LightView& b) {
   return faces && a.projection == b.projection && a.size == b.size && a.origin == b.origin;
 }
 
-class HybridVisibility final : public raster::ExternalVisibility {
+class HybridVisibility final : public raster::ExternalVisibility, public raster::ExternalRows {
  public:
   explicit HybridVisibility(const World& world) : world_(world) {}
 
@@ -52,17 +53,21 @@ class HybridVisibility final : public raster::ExternalVisibility {
     return {};
   }
 
+  void set_first_row(int row) override { first_row_ = row; }
+
   Expected<void> find(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
                       Image<float>& visibility) override {
     Kept& kept = kept_.at(request.light);
     time_run(kept.receivers_ms,
-             [&] { silhouette_ = finder_->find(request.camera, primitive, receivers_).traced; });
+             [&] { silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced; });
     if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
     time_run(kept.shadow, [&] {
       counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, verdicts_, &decision_);
       if (kept.soft) {
-        soft_counts_ = kept.soft->find(receivers_.points, verdicts_, samples_of(request), request.seed,
-                                       decision_, visibility);
+        const std::size_t first_pixel = receivers_.points.index(0, first_row_);
+        soft_counts_ =
+            kept.soft->find(receivers_.points, verdicts_, {samples_of(request), request.seed, first_pixel},
+                            decision_, visibility);
         return;
       }
       for (std::size_t i = 0; i < verdicts_.data.size(); ++i)
@@ -143,6 +148,7 @@ class HybridVisibility final : public raster::ExternalVisibility {
   ShadowCounts counts_;
   SoftCounts soft_counts_;
   std::uint64_t silhouette_ = 0;
+  int first_row_ = 0;
 };
 
 }  // namespace

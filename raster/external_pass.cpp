@@ -1,5 +1,6 @@
 #include "raster/external_pass.h"
 
+#include "raster/bands.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -11,6 +12,7 @@ Expected<void> ExternalPass::check() const {
 
 Expected<void> ExternalPass::find(const VisibilityRequest& request, const ShadingPass& shading) {
   shading.read_primitives(primitive_);
+  if (auto* rows = dynamic_cast<ExternalRows*>(visibility_.get())) rows->set_first_row(shading.rows().first);
   if (!(image_.size == primitive_.size)) {
     image_ = Image<float>(primitive_.size);
     texture_ = Texture2D(*gl_, GL_R32F, primitive_.size);

@@ -101,6 +101,13 @@ void Texture2D::read(GLenum components, GLenum type, std::span<std::byte> out) c
   }
 }
 
+void Texture2D::read_rows(const PictureRows& rows, GLenum components, GLenum type,
+                          std::span<std::byte> out) const {
+  gl()->PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl()->GetTextureSubImage(id(), 0, 0, rows.first, 0, size_.width, rows.count, 1, components, type,
+                           static_cast<GLsizei>(out.size()), out.data());
+}
+
 void Texture2D::write(GLenum components, GLenum type, std::span<const std::byte> texels) {
   gl()->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl()->TextureSubImage2D(id(), 0, 0, 0, size_.width, size_.height, components, type, texels.data());

@@ -7,6 +7,7 @@
 
 #include "raster/gl.h"
 #include "scene/image.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon::raster {
 
@@ -103,6 +104,8 @@ class Texture2D : public GlObject<GlKind::texture> {
   GLenum format() const { return format_; }
   /// All texels of level 0, all layers, row 0 first, tightly packed.
   void read(GLenum components, GLenum type, std::span<std::byte> out) const;
+  /// The same of some rows of level 0 of a 2D texture.
+  void read_rows(const PictureRows& rows, GLenum components, GLenum type, std::span<std::byte> out) const;
   /// Replaces all texels of a 2D texture.
   void write(GLenum components, GLenum type, std::span<const std::byte> texels);
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 
+#include "raster/bands.h"
 #include "raster/depth_map_pass.h"
 #include "raster/external_pass.h"
 #include "raster/map_camera.h"
@@ -41,6 +43,8 @@ class GlRenderer final : public Renderer {
     external_.use(std::move(visibility));
   }
   void fit_maps_to(const std::optional<MapCamera>& camera) { map_camera_ = camera; }
+  void draw_rows(const std::optional<PictureRows>& rows) { rows_ = rows; }
+  std::size_t most_pixels(const MapOptions& map) const;
 
  private:
   struct Job;  // one call of render()
@@ -93,6 +97,8 @@ class GlRenderer final : public Renderer {
   Technique technique_ = Technique::hard;  ///< of technique_pass_
   ExternalPass external_;
   std::optional<MapCamera> map_camera_;
+  std::optional<PictureRows> rows_;
+  std::map<std::uint32_t, LightView> fitted_;  ///< by light, to what the whole of a picture in bands shows
   double upload_ms_;
   std::optional<KeptMap> kept_map_;
   std::optional<ShadePermutation> last_timed_;  ///< of the shading pass
@@ -102,9 +108,12 @@ struct GlRenderer::Job {
   RasterOptions options;
   View view;
   RasterFrame frame{};
+  PictureRows rows{};    ///< that are made
+  bool goes_on = false;  ///< a picture whose upper rows were made before
   bool visibility_drawn = false;
   bool first_light = true;
-  Stopwatch map_started{};  ///< since the memory of the light's map was asked for
+  std::uint32_t light_index = 0;  ///< whose turn it is
+  Stopwatch map_started{};        ///< since the memory of the light's map was asked for
 };
 
 /// Charges what is read back from the device to its stage and to the frame.

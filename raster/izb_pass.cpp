@@ -73,6 +73,7 @@ IzbPass::IzbPass(Gl& gl, ProgramCache& programs)
       errors_(gl),
       links_(gl),
       shadows_(gl),
+      vertex_bits_(gl),
       no_target_(gl) {}
 
 Expected<void> IzbPass::upload_world(const World& world) {
@@ -81,19 +82,21 @@ Expected<void> IzbPass::upload_world(const World& world) {
     return fail(ErrorKind::graphics,
                 "technique izb holds every vertex in double precision, and this scene's instances are kept "
                 "(allowed: --instances flatten)");
-  GLint64 limit = 0;
-  (*gl_)->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  const std::size_t allowed = static_cast<std::size_t>(limit) / sizeof(Vec3);
+  GLint limit = 0;
+  (*gl_)->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  constexpr std::size_t texels = 2;  // of three 32-bit numbers: a vertex
+  const std::size_t allowed = static_cast<std::size_t>(limit) / texels;
   if (world.vertex_count() > allowed)
     return fail(
         ErrorKind::graphics,
         fmt::format("the scene is too large for technique izb on this OpenGL (got {} vertices, allowed "
-                    "{}: GL_MAX_SHADER_STORAGE_BLOCK_SIZE)",
+                    "{}: GL_MAX_TEXTURE_BUFFER_SIZE)",
                     world.vertex_count(), allowed));
   vertices_.fill<Vec3>(world.vertex_count(), [&](std::span<Vec3> out) {
     for (const WorldPart& part : world.parts)
       for (std::uint32_t v = 0; v < part.vertex_count(); ++v) out[part.first_vertex + v] = part.position(v);
   });
+  vertex_bits_.attach(vertices_, GL_RGB32UI);
   std::vector<DoubleShape> shapes;
   for (const Shape& shape : world.shapes) shapes.push_back(double_shape(shape));
   shapes_.write(std::span<const DoubleShape>(shapes));
@@ -102,11 +105,15 @@ Expected<void> IzbPass::upload_world(const World& world) {
   return {};
 }
 
+std::size_t IzbPass::most_pixels(const Gl& gl) {
+  GLint64 limit = 0;
+  gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  return static_cast<std::size_t>(limit) / point_bytes;
+}
+
 Expected<void> IzbPass::reserve_pixels(ImageSize size) {
   if (size == size_) return {};
-  GLint64 limit = 0;
-  (*gl_)->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  const std::size_t allowed = static_cast<std::size_t>(limit) / point_bytes;
+  const std::size_t allowed = most_pixels(*gl_);
   if (size.pixels() > allowed)
     return fail(
         ErrorKind::graphics,
@@ -213,7 +220,7 @@ Expected<const Program*> IzbPass::program(Stage stage, LightType light, std::uin
 
 void IzbPass::bind_all() const {
   block_.bind(GL_UNIFORM_BUFFER, shaders::izb_block);
-  vertices_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_vertices_buffer);
+  vertex_bits_.bind(shaders::izb_vertices_unit);
   shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_shapes_buffer);
   points_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_points_buffer);
   normals_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_normals_buffer);
@@ -244,7 +251,7 @@ Expected<void> IzbPass::insert(const MapJob& job) {
   if (!insert) return fail(insert.error());
   const GLuint nothing = 0;
   gl->ClearTexImage(heads_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
-  const ImageSize size = job.camera->size;
+  const ImageSize size = job.camera_pass->size();
   gl->NamedFramebufferParameteri(no_target_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.width);
   gl->NamedFramebufferParameteri(no_target_.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.height);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);

@@ -19,6 +19,8 @@ class IzbPass final : public TechniquePass {
   void bind_for_lookup() const override;
   std::uint64_t texels() const override;
   std::uint64_t bytes() const override;
+  /// That one drawing can keep lists of.
+  static std::size_t most_pixels(const Gl& gl);
 
  private:
   enum class Stage : std::uint8_t { insert, triangles, spheres, quadrics, tori, implicits };
@@ -39,6 +41,7 @@ class IzbPass final : public TechniquePass {
   const World* world_ = nullptr;
   ImageSize size_{0, 0};
   Buffer block_, vertices_, shapes_, points_, normals_, errors_, links_, shadows_;
+  BufferTexture vertex_bits_;
   Texture2D heads_;
   Framebuffer no_target_;  ///< the passes write to buffers alone
 };

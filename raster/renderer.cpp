@@ -60,12 +60,15 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   }
   gl_->shader_folder().begin_frame();
   Job job{options, make_view(scene.camera, options.size)};
+  job.rows = rows_.value_or(PictureRows{0, options.size.height});
+  job.goes_on = job.visibility_drawn = job.rows.first > 0;
+  if (!job.goes_on) fitted_.clear();
   job.options.map = effective_options(options.map);
   job.frame.context = info_;
   job.frame.upload_ms = upload_ms_;
   job.frame.options = job.options;
   job.frame.lights.resize(lights.size());
-  if (auto ok = shading_.prepare(options.size, options.analysis && !lights.empty()); !ok)
+  if (auto ok = shading_.prepare(options.size, job.rows, options.analysis && !lights.empty()); !ok)
     return fail(ok.error());
   buffers_.set_reference(reference_point(*world_, job.view.eye));
   shading_.set_camera(buffers_, job.view);
@@ -123,6 +126,7 @@ void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord&
 
 Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {
   const Light& light = world_->scene->lights[index];
+  job.light_index = index;
   MapOptions map = job.options.map;
   if (record != nullptr) {
     if (auto ok = check_light(map.technique, light); !ok) return ok;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "raster/gl_renderer.h"
+#include "raster/izb_pass.h"
 #include "raster/map_shape.h"
 #include "raster/shader_folder.h"
 #include "raster/technique_shader.h"
@@ -66,7 +67,7 @@ Expected<void> GlRenderer::time_pass(std::string_view repeats, const RasterOptio
 Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record) {
   if (auto ok = external_.check(); !ok) return ok;
   job.frame.map_texels += texels_of(request.map);
-  if (record != nullptr) {
+  if (record != nullptr && !job.goes_on) {
     const Pass pass = [&] { return external_.prepare(request, true); };
     if (auto ok = time_pass("sheet runs", job.options, record->map_pass, pass, pass); !ok) return ok;
   }
@@ -90,6 +91,8 @@ Expected<std::vector<Vec3>> GlRenderer::visible_surfaces(Job& job, const Camera&
 Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptions& map) {
   const Camera& camera = map_camera_ ? map_camera_->camera : world_->scene->camera;
   std::vector<Vec3> visible;
+  if (const auto found = fitted_.find(job.light_index); job.goes_on && found != fitted_.end())
+    return found->second;
   if (fits_to_samples(map)) {
     auto seen = visible_surfaces(job, camera);
     if (!seen) return fail(seen.error());
@@ -99,6 +102,7 @@ Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptio
   auto view = fit_map(*world_, light, camera, aspect, map, visible);
   if (view && map_camera_) move_window(map_camera_->shift, map_camera_->margin, *view);
   if (view && map.snap) snap_window(*view);
+  if (view && rows_) fitted_[job.light_index] = *view;
   return view;
 }
 
@@ -134,7 +138,7 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
     job.visibility_drawn = true;
   }
-  if (record != nullptr && map.options.technique != Technique::hybrid) {
+  if (record != nullptr && !job.goes_on && map.options.technique != Technique::hybrid) {
     const Pass pass = [&]() -> Expected<void> {
       if (fits_to_samples(map.options)) {
         if (auto fitted = fit(job, map.light, map.options); !fitted) return fail(fitted.error());
@@ -184,7 +188,8 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
   const bool apart = job.options.shadow_cost;
   const Pass pass = [&]() -> Expected<void> {
     const Stopwatch shadowed;
-    if (auto seen = see(job, nullptr); !seen) return seen;
+    if (!job.goes_on)
+      if (auto seen = see(job, nullptr); !seen) return seen;
     job.visibility_drawn = true;
     if (apart) (*gl_)->Finish();
     const double seen_ms = shadowed.elapsed_ms();
@@ -200,6 +205,7 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
     return {};
   };
   const Pass warm_up = [&]() -> Expected<void> {
+    if (job.goes_on) return {};
     if (apart)
       if (auto ok = shading_.warm_up(buffers_, job.view, plain, !job.first_light); !ok) return ok;
     if (last_timed_ == timed) return {};
@@ -221,9 +227,12 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
-  if (!job.visibility_drawn || (asked != nullptr && (record == nullptr || job.options.runs == 0))) {
-    if (auto ok = see(job, asked); !ok) return ok;
+  if (!job.visibility_drawn) {
+    if (auto ok = see(job, nullptr); !ok) return ok;
     job.visibility_drawn = true;
+  }
+  if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
+    if (auto ok = find_external(asked); !ok) return ok;
   }
   const ShadePermutation kept = shade_permutation(map_job.light, map, job.first_light, records);
   TimedStage shading(records ? "shading with records" : "shading");
@@ -248,8 +257,14 @@ Expected<void> GlRenderer::read_shading(Job& job, const MapJob& map_job, LightRe
   return check_visibility(record.visibility, gl_->shader_folder(), file);
 }
 
+std::size_t GlRenderer::most_pixels(const MapOptions& map) const {
+  if (map.technique != Technique::izb || !context_->make_current()) return 0;
+  return IzbPass::most_pixels(*gl_);
+}
+
 Expected<void> GlRenderer::shade_without_light(Job& job) {
-  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+  if (!job.goes_on)
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
   ShadePermutation permutation;
   permutation.no_light = true;
   permutation.first_light = true;

@@ -39,18 +39,31 @@ CameraBlock camera_block(const View& view, const World& world, const Vec3& refer
   return block;
 }
 
+/// Enough for a device to compile and set up what it draws triangles with.
+constexpr std::uint32_t few_triangles = 4096;
+
 }  // namespace
 
 ShadingPass::ShadingPass(Gl& gl, ProgramCache& programs)
     : gl_(&gl), programs_(&programs), camera_block_(gl) {}
 
-Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
+Expected<void> ShadingPass::prepare(ImageSize size, const PictureRows& rows, bool with_records) {
+  if (!(size_ == size)) {
+    *this = ShadingPass(*gl_, *programs_);
+    if (auto ok = prepare_seen(size); !ok) return ok;
+    size_ = size;
+  }
+  const ImageSize shaded{size.width, rows.count};
+  if (!(color_ && color_.size() == shaded && (!with_records || record_)))
+    if (auto ok = prepare_shaded(shaded, with_records); !ok) return ok;
+  rows_ = rows;
+  return {};
+}
+
+Expected<void> ShadingPass::prepare_seen(ImageSize size) {
   Gl& gl = *gl_;
-  if (size_ == size && (!with_records || record_)) return {};
-  *this = ShadingPass(gl, *programs_);
   visibility_ = Texture2D(gl, GL_R32UI, size);
   depth_ = Texture2D(gl, GL_DEPTH_COMPONENT32F, size);
-  color_ = Texture2D(gl, GL_RGBA32F, size);
   visibility_target_ = Framebuffer(gl);
   visibility_target_.attach(GL_DEPTH_ATTACHMENT, depth_);
   visibility_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::primitive_output, visibility_);
@@ -60,6 +73,14 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
     visibility_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::solid_distance_output, solid_distance_);
   }
   visibility_target_.draw_to(solids ? 2 : 1);
+  if (auto ok = gl.check("making the buffers of what is seen"); !ok) return ok;
+  return visibility_target_.check_complete();
+}
+
+Expected<void> ShadingPass::prepare_shaded(ImageSize size, bool with_records) {
+  Gl& gl = *gl_;
+  for (Texture2D* old : {&trial_color_, &record_, &flags_, &drawn_visibility_}) *old = Texture2D();
+  color_ = Texture2D(gl, GL_RGBA32F, size);
   color_target_ = Framebuffer(gl);
   color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
   color_target_.draw_to(1);
@@ -75,18 +96,13 @@ Expected<void> ShadingPass::prepare(ImageSize size, bool with_records) {
     record_target_.draw_to(4);
   }
   if (auto ok = gl.check("making the image buffers"); !ok) return ok;
-  if (auto ok = visibility_target_.check_complete(); !ok) return ok;
   if (auto ok = color_target_.check_complete(); !ok) return ok;
-  if (with_records) {
-    if (auto ok = record_target_.check_complete(); !ok) return ok;
-  }
-  size_ = drawn_ = size;
-  return {};
+  return with_records ? record_target_.check_complete() : Expected<void>{};
 }
 
 Expected<void> ShadingPass::prepare_trial() {
   if (trial_color_) return {};
-  trial_color_ = Texture2D(*gl_, GL_RGBA32F, size_);
+  trial_color_ = Texture2D(*gl_, GL_RGBA32F, size());
   trial_target_ = Framebuffer(*gl_);
   trial_target_.attach(GL_COLOR_ATTACHMENT0, trial_color_);
   trial_target_.draw_to(1);
@@ -94,7 +110,9 @@ Expected<void> ShadingPass::prepare_trial() {
 }
 
 void ShadingPass::set_camera(const WorldBuffers& world, const View& view) {
-  camera_block_.write_one(camera_block(view, world.world(), world.reference()));
+  CameraBlock block = camera_block(view, world.world(), world.reference());
+  block.size.z = static_cast<float>(rows_.first);
+  camera_block_.write_one(block);
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
 }
 
@@ -105,7 +123,8 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
-  gl->Viewport(0, 0, drawn_.width, drawn_.height);
+  const ImageSize drawn = drawn_part(size_);
+  gl->Viewport(0, 0, drawn.width, drawn.height);
   gl->Disable(GL_BLEND);
   gl->Disable(GL_SCISSOR_TEST);
   gl->Disable(GL_CULL_FACE);
@@ -117,8 +136,9 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   const float clear_depth = shaders::camera_clear_depth;
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-  world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
-                       programs_->features().single_sided);
+  world.draw_triangles(
+      *programs, clip_from_relative(view, world.world(), world.reference()),
+      {.culls = programs_->features().single_sided, .most = in_corner_ ? few_triangles : all_triangles});
   return draw_shapes(world, view);
 }
 
@@ -162,7 +182,8 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-  gl->Viewport(0, 0, drawn_.width, drawn_.height);
+  const ImageSize drawn = drawn_part(size());
+  gl->Viewport(0, 0, drawn.width, drawn.height);
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
@@ -179,12 +200,16 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
 
 Expected<void> ShadingPass::warm_up(const WorldBuffers& world, const View& view,
                                     const ShadePermutation& permutation, bool trial) {
-  constexpr int corner = 64;  // pixels
-  drawn_ = {std::min(corner, size_.width), std::min(corner, size_.height)};
+  in_corner_ = true;
   Expected<void> done = draw_visibility(world, view);
   if (done) done = draw_light(world, permutation, trial);
-  drawn_ = size_;
+  in_corner_ = false;
   return done;
+}
+
+ImageSize ShadingPass::drawn_part(ImageSize of) const {
+  constexpr int corner = 64;  // pixels
+  return in_corner_ ? ImageSize{std::min(corner, of.width), std::min(corner, of.height)} : of;
 }
 
 void ShadingPass::bind_visibility() const {
@@ -193,7 +218,7 @@ void ShadingPass::bind_visibility() const {
 }
 
 void ShadingPass::read_color(ColorImage& out) const {
-  out = paged_image<Vec3f>(size_);
+  out = paged_image<Vec3f>(size());
   color_.read(GL_RGB, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
 }
 
@@ -214,25 +239,26 @@ std::vector<Vec3> ShadingPass::read_positions(const World& world, const View& vi
 }
 
 void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {
-  out = paged_image<std::uint32_t>(size_);
-  visibility_.read(GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
+  out = paged_image<std::uint32_t>(size());
+  visibility_.read_rows(rows_, GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
 }
 
 void ShadingPass::read_records(LightRecord& record) const {
-  auto values = paged_vector<Vec4f>(size_.pixels());
-  std::vector<std::uint8_t> flags(size_.pixels());
+  const ImageSize size = this->size();
+  auto values = paged_vector<Vec4f>(size.pixels());
+  std::vector<std::uint8_t> flags(size.pixels());
   record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
-  record.visibility = paged_image<float>(size_);
+  record.visibility = paged_image<float>(size);
   drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
-  std::vector<float> lookups(size_.pixels());
+  std::vector<float> lookups(size.pixels());
   drawn_visibility_.read(GL_GREEN, GL_FLOAT, std::as_writable_bytes(std::span(lookups)));
-  record.lookups = Image<std::uint16_t>(size_);
-  record.texel_uv = paged_image<Vec2f>(size_);
-  record.face = Image<std::uint8_t>(size_);
-  record.distance = paged_image<float>(size_);
-  record.gap = paged_image<float>(size_);
-  record.outside_map = Image<std::uint8_t>(size_);
+  record.lookups = Image<std::uint16_t>(size);
+  record.texel_uv = paged_image<Vec2f>(size);
+  record.face = Image<std::uint8_t>(size);
+  record.distance = paged_image<float>(size);
+  record.gap = paged_image<float>(size);
+  record.outside_map = Image<std::uint8_t>(size);
   tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
     record.texel_uv.data[i] = Vec2f(values[i]);
     record.distance.data[i] = values[i].z;

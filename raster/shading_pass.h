@@ -12,20 +12,23 @@ class ShadingPass {
  public:
   ShadingPass(Gl& gl, ProgramCache& programs);
 
-  /// Makes (or keeps) the images. Error (graphics): out of memory.
-  Expected<void> prepare(ImageSize size, bool with_records);
+  /// Makes (or keeps) the images: of the whole picture what the camera sees, of some rows what is shaded. Error
+  /// (graphics): out of memory.
+  Expected<void> prepare(ImageSize size, const PictureRows& rows, bool with_records);
   void set_camera(const WorldBuffers& world, const View& view);
   /// Fills the visibility buffer.
   Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
   /// Both, into a corner of the images: whatever the device compiles or sets up at the first use is then
-  /// there, without the time of a whole picture. Leaves the visibility buffer to be filled again.
+  /// there, without the time of a whole picture or of all triangles. Leaves the visibility buffer to be filled again.
   Expected<void> warm_up(const WorldBuffers& world, const View& view, const ShadePermutation& permutation,
                          bool trial);
 
   void bind_visibility() const;
-  ImageSize size() const { return size_; }
+  /// Of what is shaded.
+  ImageSize size() const { return {size_.width, rows_.count}; }
+  const PictureRows& rows() const { return rows_; }
   void read_color(ColorImage& out) const;
   /// Of everything that the visibility buffer shows, in world space.
   std::vector<Vec3> read_positions(const World& world, const View& view) const;
@@ -34,14 +37,18 @@ class ShadingPass {
   void read_records(LightRecord& record) const;
 
  private:
+  ImageSize drawn_part(ImageSize of) const;
+  Expected<void> prepare_seen(ImageSize size);
+  Expected<void> prepare_shaded(ImageSize size, bool with_records);
   Expected<void> prepare_trial();
   Expected<void> draw_shapes(const WorldBuffers& world, const View& view);
 
   Gl* gl_;
   ProgramCache* programs_;
   Buffer camera_block_;
-  ImageSize size_;
-  ImageSize drawn_;  ///< part of the images that is drawn to
+  ImageSize size_;          ///< of the picture
+  PictureRows rows_;        ///< that are shaded
+  bool in_corner_ = false;  ///< only a part of the images is drawn to
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
 };

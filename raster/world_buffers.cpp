@@ -368,25 +368,29 @@ void WorldBuffers::bind() const {
 }
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                                  bool culls) const {
-  if (culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
+                                  const DrawnTriangles& drawn) const {
+  if (drawn.culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;
+    std::array<std::uint32_t, 2> left{drawn.most,
+                                      drawn.most};  // of flattened triangles, and of kept instances
     for (const TriangleRun& run : runs_) {
-      if (run.masked != with_mask) continue;
       const bool kept = run.part != no_id;
+      const std::uint32_t count = std::min(run.count, left[kept ? 1 : 0]);
+      if (run.masked != with_mask || count == 0) continue;
+      left[kept ? 1 : 0] -= count;
       const TriangleProgram& program = *programs.of[with_mask ? 1 : 0][kept ? 1 : 0];
       if (used != &program)
         program.use(), program.set_clip_from_relative(clip_from_relative), used = &program;
       program.set_first_primitive(run.first);
       if (kept) program.set_part(run.part);
-      if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
+      if (drawn.culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
       const auto offset = static_cast<std::uintptr_t>(run.at) * 3 * sizeof(std::uint32_t);
-      (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
+      (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset));
     }
   }
-  if (culls) (*gl_)->Disable(GL_CULL_FACE);
+  if (drawn.culls) (*gl_)->Disable(GL_CULL_FACE);
 }
 
 }  // namespace gnomon::raster

@@ -78,6 +78,15 @@ Vec3 reference_point(const World& world, const Vec3& eye);
 /// only share one depth.
 double near_distance(const World& world, const Vec3& eye);
 
+inline constexpr std::uint32_t all_triangles = ~0u;
+
+struct DrawnTriangles {
+  /// Single-sided triangles are not drawn where their back is seen (GL_CULL_FACE is off before and after); else the
+  /// caller's state holds for all.
+  bool culls = false;
+  std::uint32_t most = all_triangles;  ///< of the opaque ones, and of the others
+};
+
 class WorldBuffers {
  public:
   /// Error (graphics): more data than the context's buffers hold.
@@ -89,10 +98,9 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
-  /// Draws every run with the program of its kind; all get the matrix. `culls`: single-sided triangles are not drawn
-  /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all.
+  /// Draws every run with the program of its kind; all get the matrix.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                      bool culls = false) const;
+                      const DrawnTriangles& drawn = {}) const;
 
  private:
   WorldBuffers(const Gl& gl, const World& world);

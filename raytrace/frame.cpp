@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "raytrace/band.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/packets/unstored.h"
@@ -39,13 +40,22 @@ Times time_pass(const PassStages& stages, const RaytraceOptions& options, const 
 /// Tiles for the lights' passes; none where they are not asked for.
 using QuantisedTiles = HugeArray<QuantisedTile>;
 
+/// What is traced of a picture. RaytraceOptions::size is the band's wherever the two come together.
+struct Band {
+  View view;  ///< of the whole picture
+  int first_row = 0;
+};
+
 /// As trace_primary, keeping only what is seen.
-void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions& options,
+void find_primary(const Tracer& tracer, const Band& band, const RaytraceOptions& options,
                   RayTracedFrame& frame, UnstoredReceivers& unstored, QuantisedTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
+  unstored.first_row = band.first_row;
   frame.primary_rays = time_pass(primary_stages, options, [&] {
-    primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
-                 {.hits = {unstored.hits.data(), unstored.hits.size()},
+    primary_pass(tracer, band.view, edge_setup_of_eye(tracer, band.view),
+                 {.size = options.size,
+                  .first_row = band.first_row,
+                  .hits = {unstored.hits.data(), unstored.hits.size()},
                   .receivers = nullptr,
                   .quantised = {tiles.data(), tiles.size()}},
                  options.stop);
@@ -53,18 +63,22 @@ void find_primary(const Tracer& tracer, const View& view, const RaytraceOptions&
   frame.rays.primary = options.size.pixels();
 }
 
-void trace_primary(const Tracer& tracer, const View& view, PrimaryWay way, const RaytraceOptions& options,
+void trace_primary(const Tracer& tracer, const Band& band, PrimaryWay way, const RaytraceOptions& options,
                    RayTracedFrame& frame, QuantisedTiles& tiles) {
   frame.receiver = paged_image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(primary_stages, options, [&] {
     if (way == PrimaryWay::blocks) {
-      primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
-                   {.hits = {}, .receivers = &frame.receiver, .quantised = {tiles.data(), tiles.size()}},
+      primary_pass(tracer, band.view, edge_setup_of_eye(tracer, band.view),
+                   {.size = options.size,
+                    .first_row = band.first_row,
+                    .hits = {},
+                    .receivers = &frame.receiver,
+                    .quantised = {tiles.data(), tiles.size()}},
                    options.stop);
       return;
     }
     for_each_pixel({options.size, options.stop}, [&](int x, int y, std::size_t) {
-      const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+      const Ray ray = pixel_ray(band.view, x + 0.5, y + band.first_row + 0.5);
       const std::optional<Hit> hit = tracer.closest_seen(ray);
       frame.receiver.at(x, y) = hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
     });
@@ -78,7 +92,7 @@ bool reaches(const Light& light, const SurfacePoint& point) {
 
 LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, ShadowWay way,
                          const RaytraceOptions& options, const Image<SurfacePoint>& receivers,
-                         const View& view, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
+                         const Band& band, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{.light = light_index,
                    .verdict = Image<Verdict>(options.size, Verdict::lit),
@@ -87,9 +101,10 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
   const PictureReceivers source{.tracer = tracer,
                                 .size = options.size,
                                 .stored = unstored.apply() ? nullptr : &receivers,
-                                .view = &view,
+                                .view = &band.view,
                                 .hits = {unstored.hits.data(), unstored.hits.size()},
-                                .quantised = {tiles.data(), tiles.size()}};
+                                .quantised = {tiles.data(), tiles.size()},
+                                .first_row = band.first_row};
   const TileGrid grid{options.size, options.stop};
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
@@ -112,13 +127,14 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
 }
 
 // The truth of a light with size: the share of its samples that arrive.
-void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
+void trace_soft_shadows(const Tracer& tracer, const Band& band, const RaytraceOptions& options,
                         const Image<SurfacePoint>& receivers, LightTruth& truth) {
   const Light& light = tracer.world().scene->lights[truth.light];
   truth.samples = options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
   truth.visibility = Image<float>(options.size, 1.0f);
   truth.standard_error = Image<float>(options.size, 0.0f);
   const TileGrid grid{options.size, options.stop};
+  const std::size_t first_pixel = receivers.index(0, band.first_row);
   struct Counts {
     std::uint64_t asked = 0, cast = 0;
   };
@@ -129,7 +145,7 @@ void trace_soft_shadows(const Tracer& tracer, const RaytraceOptions& options,
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;
-      const std::uint64_t key = pixel_key(options.seed, receivers.index(x, y), truth.light);
+      const std::uint64_t key = pixel_key(options.seed, first_pixel + receivers.index(x, y), truth.light);
       const bool reached = reaches(light, point);
       const Visibility setup =
           reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0.0, 0};
@@ -171,32 +187,40 @@ void warm_up(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
 
 RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                            std::span<const std::uint32_t> lights, const RaytraceOptions& options) {
-  if (options.warm_up) warm_up(tracer, plan, camera, lights, options);
-  const View view = make_view(camera, options.size);
+  return trace_band(tracer, plan, camera, lights, options, {0, options.size.height});
+}
+
+RayTracedFrame trace_band(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+                          std::span<const std::uint32_t> lights, const RaytraceOptions& whole,
+                          const PictureRows& rows) {
+  if (whole.warm_up) warm_up(tracer, plan, camera, lights, whole);
+  const Band band{make_view(camera, whole.size), rows.first};
+  RaytraceOptions options = whole;
+  options.size.height = rows.count;
   RayTracedFrame frame;
-  frame.options = options;
-  const TracerPlan ways = choose_tracer(tracer, view, lights, options);
+  frame.options = whole;
+  const TracerPlan ways = choose_tracer(tracer, band.view, lights, options);
   const bool at_centres = ways.primary != PrimaryWay::none;
   QuantisedTiles tiles;
   if (ways.quantised) tiles = QuantisedTiles(TileGrid{options.size}.count());
   UnstoredReceivers unstored;
   if (ways.receivers == ReceiverStore::found_again)
-    find_primary(tracer, view, options, frame, unstored, tiles);
+    find_primary(tracer, band, options, frame, unstored, tiles);
   else if (ways.receivers == ReceiverStore::stored)
-    trace_primary(tracer, view, ways.primary, options, frame, tiles);
+    trace_primary(tracer, band, ways.primary, options, frame, tiles);
   for (const std::uint32_t light : lights) {
     if (!at_centres || options.stop.stop_requested()) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
       frame.lights.push_back(
-          trace_shadows(tracer, light, ways.shadow, options, frame.receiver, view, unstored, tiles));
+          trace_shadows(tracer, light, ways.shadow, options, frame.receiver, band, unstored, tiles));
     } else {
       frame.lights.emplace_back().light = light;
     }
     LightTruth& truth = frame.lights.back();
     frame.rays.shadow += truth.rays;
     if (!soft) continue;
-    trace_soft_shadows(tracer, options, frame.receiver, truth);
+    trace_soft_shadows(tracer, band, options, frame.receiver, truth);
     frame.rays.soft_shadow += truth.soft_rays;
     frame.rays.soft_shadow_asked += truth.soft_rays_asked;
   }
@@ -205,7 +229,8 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
     frame.color = ColorImage(options.size);
     const TimedStage stage("ray-traced picture");
     const Stopwatch watch;
-    shade_picture(tracer, plan, view, options, unstored.apply() ? &unstored : nullptr, frame);
+    shade_picture(tracer, plan, band.view, band.first_row, options, unstored.apply() ? &unstored : nullptr,
+                  frame);
     frame.picture_ms = watch.elapsed_ms();
   }
   return frame;

@@ -8,7 +8,7 @@ layout(std140, binding = camera_block) uniform Camera {
   vec4 right_and_tan_x;
   vec4 up_and_tan_y;
   vec4 forward;
-  vec4 size;               // width, height in pixels
+  vec4 size;               // width, height in pixels; the first row that is shaded
   uvec4 counts;            // triangles in the world
   vec4 ambient;            // scene-wide ambient radiance
   vec4 background;
@@ -20,5 +20,8 @@ vec3 pixel_direction(vec2 window) {
   float y = (1.0 - 2.0 * window.y / camera.size.y) * camera.up_and_tan_y.w;
   return camera.forward.xyz + x * camera.right_and_tan_x.xyz + y * camera.up_and_tan_y.xyz;
 }
+
+// Where a fragment of the shading pass, which may be given the rows from some row on alone, lies in the whole picture.
+vec2 window_position(vec4 fragment) { return fragment.xy + vec2(0.0, camera.size.z); }
 
 float reversed_depth(float t) { return camera.eye_and_near.w / t; }

@@ -1,9 +1,12 @@
 // Evenly spread points of the unit disc and square, turned or shifted by another amount at every pixel, so that too few of
 // them give noise instead of bands.
+#include "camera.glsl"
 
 // In [0, 1), evenly spread over every neighbourhood of pixels (Jimenez 2014, "Next Generation Post Processing in Call of
 // Duty: Advanced Warfare": interleaved gradient noise).
-float pixel_noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
+float pixel_noise() {
+  return fract(52.9829189 * fract(dot(window_position(gl_FragCoord), vec2(0.06711056, 0.00583715))));
+}
 
 // Point i of n on a spiral with the golden angle between neighbours (Vogel 1979, "A better way to construct the sunflower head").
 vec2 disc_point(int i, int n, float turn) {

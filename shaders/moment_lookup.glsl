@@ -15,8 +15,8 @@ vec2 texels_to(Texel at, vec3 position, vec3 normal, vec2 window) {
 // Texels that a pixel covers on its longer side, as a mipmap level.
 float pixel_level(Texel at, vec3 position, vec3 normal) {
 #ifdef MIPMAPS
-  vec2 across = texels_to(at, position, normal, gl_FragCoord.xy + vec2(1.0, 0.0));
-  vec2 down = texels_to(at, position, normal, gl_FragCoord.xy + vec2(0.0, 1.0));
+  vec2 across = texels_to(at, position, normal, window_position(gl_FragCoord) + vec2(1.0, 0.0));
+  vec2 down = texels_to(at, position, normal, window_position(gl_FragCoord) + vec2(0.0, 1.0));
   float level = 0.5 * log2(max(dot(across, across), dot(down, down)));
   return clamp(level, 0.0, float(MAX_LEVEL));  // not a number becomes 0
 #else

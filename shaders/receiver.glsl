@@ -84,7 +84,7 @@ layout(binding = solid_distance_unit) uniform sampler2D solid_distance;
 // Where the pixel's ray meets the solid, as its impostor found, put back onto it. Nothing is searched for again, so that
 // this program stays small.
 vec3 solid_receiver(ShapeData shape, vec3 direction, out vec3 normal) {
-  float t = texelFetch(solid_distance, ivec2(gl_FragCoord.xy), 0).r;
+  float t = texelFetch(solid_distance, ivec2(window_position(gl_FragCoord)), 0).r;
   vec3 p = to_solid(shape, camera.eye_and_near.xyz + t * direction - shape.center_and_radius.xyz);
   normal = from_solid(shape, solid_surface(shape, p));
   return shape.center_and_radius.xyz + from_solid(shape, p);

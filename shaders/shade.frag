@@ -25,7 +25,7 @@ layout(location = visibility_output) out vec2 visibility_record;  // and the map
 const uint no_id = 0xffffffffu;
 
 void main() {
-  uint primitive = texelFetch(visible_primitive, ivec2(gl_FragCoord.xy), 0).r;
+  uint primitive = texelFetch(visible_primitive, ivec2(window_position(gl_FragCoord)), 0).r;
   radiance = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef RECORDS
   record = vec4(0.0);
@@ -38,7 +38,7 @@ void main() {
 #endif
     return;
   }
-  Receiver r = receiver_at(primitive, gl_FragCoord.xy);
+  Receiver r = receiver_at(primitive, window_position(gl_FragCoord));
   MaterialData material = materials[r.material];
   vec3 albedo = surface_albedo(material, r.uv).rgb;
 #ifdef VERTEX_COLORS

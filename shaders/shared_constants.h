@@ -33,7 +33,6 @@ const int part_uniform = 10;
 const int shapes_buffer = 5;
 const int materials_buffer = 6;
 const int textures_buffer = 7;
-const int izb_vertices_buffer = 8;
 const int izb_shapes_buffer = 9;
 const int izb_points_buffer = 10;
 const int izb_normals_buffer = 11;
@@ -62,6 +61,7 @@ const int uvs_unit = 12;
 const int triangles_unit = 13;
 const int planes_unit = 14;
 const int object_positions_unit = 16;
+const int izb_vertices_unit = 6;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -31,7 +31,7 @@ Outcome run(const Stage& stage, std::uint32_t light) {
                                  &decisions)
                   .asked;
   out.soft = SoftLight(stage.tracer, stage.topology, light)
-                 .find(stage.frame.receiver, verdicts, source.shadow_samples, 5, decisions, visibility);
+                 .find(stage.frame.receiver, verdicts, {source.shadow_samples, 5, 0}, decisions, visibility);
   const auto& truth = stage.frame.lights[light].visibility.data;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool differs = truth[i] != visibility.data[i];

@@ -76,7 +76,7 @@ constexpr Named constants[] = {
     GNOMON_NAMED(shape_torus),
     GNOMON_NAMED(shape_implicit),
     GNOMON_NAMED(izb_block),
-    GNOMON_NAMED(izb_vertices_buffer),
+    GNOMON_NAMED(izb_vertices_unit),
     GNOMON_NAMED(izb_shapes_buffer),
     GNOMON_NAMED(izb_points_buffer),
     GNOMON_NAMED(izb_normals_buffer),

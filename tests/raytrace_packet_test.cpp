@@ -95,13 +95,13 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
   std::vector<raytrace::TileHits> hits(grid.count());
   raytrace::HugeArray<raytrace::QuantisedTile> tiles(grid.count());
   Image<SurfacePoint> receivers(size);
-  primary_pass(tracer, view, eye, {.hits = hits, .receivers = &receivers, .quantised = {}});
+  primary_pass(tracer, view, eye, {.size = size, .hits = hits, .receivers = &receivers, .quantised = {}});
   std::size_t points = 0;
   for (std::size_t i = 0; i < receivers.data.size(); ++i)
     points += same_point(receivers.data[i], reference.receivers[i]) ? 0 : 1;
   EXPECT_EQ(points, 0U) << "receivers differ, " << raytrace::packet_target();
   primary_pass(tracer, view, eye,
-               {.hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
+               {.size = size, .hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     Image<Verdict> verdicts(size, Verdict::lit);
     shadow_pass({.tracer = tracer,

@@ -5,17 +5,21 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/bind.h"
 #include "app/machine.h"
+#include "app/memory_limit.h"
+#include "app/output_path.h"
 #include "app/result_output.h"
 #include "app/run_options.h"
 #include "app/session.h"
 #include "app/setting.h"
 #include "app/strongest_lights.h"
 #include "app/swim_note.h"
+#include "raster/bands.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
 
@@ -32,17 +36,77 @@ struct CompareCommand : RunOptions {
   std::optional<int> runs;
   int max_lights = usual_max_lights;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
+  MemoryLimit memory;
   std::string command_line;
   std::vector<std::string> given;  ///< options
 };
 
-// Measured: what the peak grows by from 320x180 to 2560x1440, with one light and with four.
-constexpr double bytes_per_pixel = 260.0;
-constexpr double bytes_per_pixel_and_light = 57.0;
+struct Compared {
+  compare::Comparison comparison;
+  std::unique_ptr<compare::BandedParts> parts;  ///< of a picture in bands
+};
+
 constexpr double bytes_per_texel = 24.0;  // a map as drawn, read back and kept
 
-Expected<compare::Comparison> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
-                                                 Console& console) {
+bool wants_page(const CompareCommand& command) {
+  return !command.output.no_report && !only_prints_json(command.output);
+}
+
+/// Where rows of a picture in bands wait: beside the output.
+std::string folder_of_rows(const CompareCommand& command) {
+  const std::filesystem::path folder = command.output.folder;
+  return folder.empty() ? std::filesystem::temp_directory_path().string()
+                        : std::filesystem::absolute(folder).parent_path().string();
+}
+
+Expected<Compared> compare_bands(const CompareCommand& command, const LoadedScene& loaded,
+                                 raster::Renderer& renderer, const std::vector<std::uint32_t>& lights,
+                                 std::vector<PictureRows> bands, const compare::Progress& progress) {
+  if (const std::string& aov = command.output.aov; !aov.empty())
+    if (const auto made = make_folder_for(aov); !made) return fail(made.error());
+  auto compared = compare::compare_in_bands({.world = *loaded.world,
+                                             .renderer = renderer,
+                                             .lights = lights,
+                                             .options = command.setting.options,
+                                             .bands = std::move(bands),
+                                             .folder = folder_of_rows(command),
+                                             .page = wants_page(command),
+                                             .command = command.command_line,
+                                             .aov = command.output.aov},
+                                            progress);
+  if (!compared) return fail(compared.error());
+  return Compared{std::move(compared->comparison), std::move(compared->parts)};
+}
+
+Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
+                                   raster::Renderer& renderer, const std::vector<std::uint32_t>& lights,
+                                   Console& console) {
+  const raster::RasterOptions& raster = command.setting.options.raster;
+  const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, wants_page(command));
+  auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(renderer, raster.map));
+  if (!bands) return fail(bands.error());
+  const compare::Progress progress = [&](std::string_view stage, double done) {
+    console.progress(stage, done);
+  };
+  if (bands->size() > 1) return compare_bands(command, loaded, renderer, lights, std::move(*bands), progress);
+  auto comparison =
+      compare::compare_world(*loaded.world, renderer, lights, command.setting.options, progress);
+  if (!comparison) return fail(comparison.error());
+  return Compared{std::move(*comparison), nullptr};
+}
+
+/// What the page leaves out is said on it and in the JSON, too.
+void note_reduced_page(const CompareCommand& command, Scene& scene, Console& console) {
+  const int step = compare::image_step(command.setting.options.raster.size);
+  if (step == 1 || !wants_page(command)) return;
+  const std::string note = fmt::format(
+      "the report page shows one pixel of every {0} x {0}; all numbers and pictures are of all pixels", step);
+  console.note(note);
+  scene.notes.push_back(note);
+}
+
+Expected<Compared> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
+                                      Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
   for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
@@ -54,29 +118,29 @@ Expected<compare::Comparison> render_and_compare(const CompareCommand& command, 
     console.note(swims);
     loaded.scene->notes.push_back(std::move(swims));  // for the page and the JSON
   }
-  const double bytes = bytes_per_pixel + bytes_per_pixel_and_light * static_cast<double>(lights->size());
+  note_reduced_page(command, *loaded.scene, console);
   const double map_bytes = bytes_per_texel * std::pow(double(raster.map.size), 2.0);
-  if (const auto fits = check_memory(raster.size, bytes, graphics_bytes + map_bytes); !fits)
-    return fail(fits.error());
+  const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));
+  const auto fits = check_memory(command.memory, raster.size, bytes, graphics_bytes + map_bytes);
+  if (!fits) return fail(fits.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
-  auto comparison =
-      compare::compare_world(*loaded.world, **renderer, *lights, command.setting.options,
-                             [&](std::string_view stage, double done) { console.progress(stage, done); });
-  if (!comparison) return comparison;
-  const auto used = check_shaders_used(command.shader_folder, comparison->raster, *loaded.scene, console);
+  auto compared = compare_picture(command, loaded, **renderer, *lights, console);
+  if (!compared) return compared;
+  compare::Comparison& comparison = compared->comparison;
+  const auto used = check_shaders_used(command.shader_folder, comparison.raster, *loaded.scene, console);
   if (!used) return fail(used.error());
   {
     const TimedStage stage("exit");
     renderer->reset();
   }
-  comparison->command = command.command_line;
-  comparison->seed = command.seed;
-  comparison->machine = machine_info();
-  comparison->fail_above = command.output.fail_above;
-  comparison->load_ms = loaded.load_ms;
-  comparison->peak_memory_bytes = peak_memory_bytes();
-  return comparison;
+  comparison.command = command.command_line;
+  comparison.seed = command.seed;
+  comparison.machine = machine_info();
+  comparison.fail_above = command.output.fail_above;
+  comparison.load_ms = loaded.load_ms;
+  comparison.peak_memory_bytes = peak_memory_bytes();
+  return compared;
 }
 
 /// One rule for both renderers.
@@ -108,13 +172,14 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
   const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
-  auto comparison = render_and_compare(command, *loaded, console);
-  if (!comparison) return fail(comparison.error());
-  comparison->total_ms = total.elapsed_ms();
+  auto compared = render_and_compare(command, *loaded, console);
+  if (!compared) return fail(compared.error());
+  compared->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
-  return only_prints_json(command.output)
-             ? print_result(command.output, *comparison, *loaded, console)
-             : write_folder(command.output, *comparison, *loaded, files, total, console);
+  if (only_prints_json(command.output))
+    return print_result(command.output, compared->comparison, *loaded, console, compared->parts.get());
+  return write_folder(command.output, compared->comparison, *loaded, files, total, console, nullptr,
+                      std::move(compared->parts));
 }
 
 void add_options(CLI::App& app, CompareCommand& command) {
@@ -125,6 +190,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_setting_options(app, command.setting);
   add_max_lights(app, command.max_lights);
   add_run_options(app, command);
+  add_memory(app, command.memory);
   add_shader_dir(app, command.shader_folder);
   add_runs(
       app, command.runs,

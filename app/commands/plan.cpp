@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "app/invocation.h"
+#include "app/memory_limit.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_samples.h"
@@ -27,9 +28,31 @@ struct PlanCommand {
   std::string camera, json;
   raytrace::RaytraceOptions options;
   PictureSamples samples;
+  MemoryLimit memory;
   int threads = 0;
   bool quiet = false;
 };
+
+/// How a command goes through the picture.
+struct BandPlan {
+  std::string_view command;
+  PictureBytes bytes;
+  Expected<std::vector<PictureRows>> bands;
+};
+
+std::vector<BandPlan> band_plans(const PlanCommand& command, const Scene& scene) {
+  std::vector<std::uint32_t> lights(scene.lights.size());
+  std::iota(lights.begin(), lights.end(), 0U);
+  const ImageSize size = command.options.size;
+  std::vector<BandPlan> plans;
+  const auto add = [&](std::string_view name, const PictureBytes& bytes) {
+    plans.push_back({name, bytes, plan_bands(command.memory, size, bytes)});
+  };
+  add("compare", compare_bytes(scene, lights, size, true));
+  add("raster", raster_png);
+  add("raytrace", raytrace_png);
+  return plans;
+}
 
 /// Cast. Effects that decide a ray's colour, not whether there is one, cost none.
 std::uint64_t rays_of(Effect effect, const raytrace::RayCounts& rays) {
@@ -107,8 +130,19 @@ nlohmann::ordered_json instances_json(const LoadedScene& loaded, InstanceChoice 
   return json;
 }
 
+nlohmann::ordered_json memory_json(const std::vector<BandPlan>& plans, const ImageSize& size) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const BandPlan& plan : plans) {
+    const int rows = plan.bands ? plan.bands->front().count : band_step;
+    json[std::string(plan.command)] = {
+        {"bytes", plan.bytes.of(size, rows)}, {"bands", plan.bands ? plan.bands->size() : 0}, {"rows", rows}};
+  }
+  return json;
+}
+
 std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast,
-                      const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances) {
+                      const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances,
+                      const std::vector<BandPlan>& bands) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
     effects.push_back({{"effect", effect_name(entry.effect)},
@@ -126,8 +160,11 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
   const nlohmann::ordered_json tracer{{"primary", way_json(name_of(ways.primary), ways.primary_reason)},
                                       {"receivers", way_json(name_of(ways.receivers), ways.receivers_reason)},
                                       {"shadow", way_json(name_of(ways.shadow), ways.shadow_reason)}};
-  return nlohmann::ordered_json{
-             {"effects", effects}, {"rays", rays}, {"tracer", tracer}, {"instances", instances}}
+  return nlohmann::ordered_json{{"effects", effects},
+                                {"rays", rays},
+                                {"tracer", tracer},
+                                {"instances", instances},
+                                {"memory", memory_json(bands, size)}}
              .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";
 }
@@ -168,6 +205,15 @@ std::string ways_table(const raytrace::TracerPlan& ways, const nlohmann::ordered
          row("receivers", name_of(ways.receivers), ways.receivers_reason) +
          row("shadow rays", name_of(ways.shadow), ways.shadow_reason) +
          row("instances", instances["way"].get<std::string>(), instances["reason"].get<std::string>());
+}
+
+/// What the pixels take, and in how many bands.
+std::string memory_table(const std::vector<BandPlan>& plans, const ImageSize& size) {
+  std::string text = "\n";
+  for (const BandPlan& plan : plans)
+    text += hanging(fmt::format("{:<18}", fmt::format("memory, {}", plan.command)),
+                    plan.bands ? bands_text(size, plan.bytes, *plan.bands) : plan.bands.error().reason);
+  return text;
 }
 
 std::string plan_table(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast) {
@@ -217,7 +263,8 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   console.clear_progress();
   const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
   const nlohmann::ordered_json instances = instances_json(*loaded, command.scene.instances);
-  const std::string json = plan_json(loaded->plan, options.size, forecast, ways, instances);
+  const std::vector<BandPlan> bands = band_plans(command, *loaded->scene);
+  const std::string json = plan_json(loaded->plan, options.size, forecast, ways, instances, bands);
   if (!command.json.empty() && command.json != "-") {
     if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
     if (const auto written = write_file(command.json, json); !written) return fail(written.error());
@@ -225,7 +272,8 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   if (command.json == "-") {
     print_data(json);
   } else if (!command.quiet) {
-    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways, instances));
+    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways, instances) +
+               memory_table(bands, options.size));
   }
   return ExitCode::done;
 }
@@ -248,6 +296,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   add_samples(*app, command->options.shadow_samples);
   add_picture_samples(*app, command->samples);
   add_min_contribution(*app, command->options.min_contribution);
+  add_memory(*app, command->memory);
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_json(*app, command->json, "the plan");
   add_quiet(*app, command->quiet);

@@ -5,11 +5,13 @@
 #include "app/effect_options.h"
 #include "app/invocation.h"
 #include "app/options.h"
+#include "app/output_path.h"
+#include "app/picture_bands.h"
 #include "app/picture_command.h"
-#include "app/picture_file.h"
 #include "app/pose_options.h"
 #include "app/session.h"
 #include "app/technique_options.h"
+#include "raster/bands.h"
 
 namespace gnomon::app {
 
@@ -21,8 +23,39 @@ struct RasterCommand : PictureCommand {
   std::string shader_folder;
 };
 
-// Measured from 320x180 to 2560x1440, with one light.
-constexpr BytesPerPixel bytes_per_pixel{.png = 42.0, .exr = 178.0};
+constexpr BytesPerPixel bytes_per_pixel{.png = raster_png, .exr = raster_exr};
+
+struct Drawing {
+  const RasterCommand& command;
+  const LoadedScene& loaded;
+  raster::Renderer& renderer;
+  const std::vector<std::uint32_t>& lights;
+};
+
+/// Band by band into the picture; `costs` are of all of them.
+Expected<void> draw_in_bands(const Drawing& in, const std::vector<PictureRows>& bands, PictureBands& picture,
+                             raster::RasterFrame& costs, Console& console) {
+  const raster::RasterOptions& options = in.command.options;
+  if (in.command.wants_records())  // an .exr grows in its place
+    if (const auto made = make_folder_for(in.command.image); !made) return made;
+  for (const PictureRows& rows : bands) {
+    console.progress("drawing in bands", double(rows.first) / options.size.height);
+    raster::set_rows(in.renderer, rows);
+    const auto frame = in.renderer.render(options, in.lights);
+    if (!frame) return fail(frame.error());
+    if (const auto added = picture.add(*frame, rows); !added) return fail(added.error());
+    raster::add_costs(*frame, costs);
+  }
+  raster::set_rows(in.renderer, std::nullopt);
+  return {};
+}
+
+Expected<void> draw_whole(const Drawing& in, raster::RasterFrame& frame) {
+  auto drawn = in.renderer.render(in.command.options, in.lights);
+  if (!drawn) return fail(drawn.error());
+  frame = std::move(*drawn);
+  return {};
+}
 
 Expected<ExitCode> run_raster(RasterCommand& command) {
   const Stopwatch watch;
@@ -43,15 +76,23 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   console.progress("shadow maps", 0.5);
   command.options.runs = command.json.empty() ? 0 : 1;
   command.options.analysis = command.wants_records() || !command.shader_folder.empty();
-  const auto frame = (*renderer)->render(command.options, *lights);
-  if (!frame) return fail(frame.error());
-  const auto used = check_shaders_used(command.shader_folder, *frame, *loaded->scene, console);
+  const auto bands = plan_bands(command.memory, command.options.size, bytes_per_pixel.of(command),
+                                raster::most_pixels(**renderer, command.options.map));
+  if (!bands) return fail(bands.error());
+  raster::RasterFrame frame;
+  PictureBands picture(command.image, *loaded->world, command.options.size,
+                       known_exposure(command.exposure, *loaded->scene));
+  const Drawing drawing{command, *loaded, **renderer, *lights};
+  const bool whole = bands->size() == 1;
+  const auto drawn =
+      whole ? draw_whole(drawing, frame) : draw_in_bands(drawing, *bands, picture, frame, console);
+  if (!drawn) return fail(drawn.error());
+  const auto used = check_shaders_used(command.shader_folder, frame, *loaded->scene, console);
   if (!used) return fail(used.error());
   const PictureWriter writer{
-      .picture =
-          [&](double exposure) { return write_picture(command.image, *loaded->world, *frame, exposure); },
-      .json = [&](const RenderRecord& record) { return render_json(record, *frame); }};
-  return hand_out(command, *loaded, frame->color, writer, watch, console);
+      .picture = [&] { return whole ? write_whole(command, *loaded, frame) : picture.finish(); },
+      .json = [&](const RenderRecord& record) { return render_json(record, frame); }};
+  return hand_out(command, *loaded, writer, watch, console);
 }
 
 }  // namespace

@@ -10,11 +10,12 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/picture_bands.h"
 #include "app/picture_command.h"
-#include "app/picture_file.h"
 #include "app/picture_samples.h"
 #include "app/pose_options.h"
 #include "app/session.h"
+#include "raytrace/band.h"
 
 namespace gnomon::app {
 
@@ -28,8 +29,29 @@ struct RaytraceCommand : PictureCommand {
   PictureSamples samples;
 };
 
-// Measured from 320x180 to 2560x1440, with one light.
-constexpr BytesPerPixel bytes_per_pixel{.png = 109.0, .exr = 216.0};
+constexpr BytesPerPixel bytes_per_pixel{.png = raytrace_png, .exr = raytrace_exr};
+
+struct Tracing {
+  const RaytraceCommand& command;
+  const LoadedScene& loaded;
+  const raytrace::Tracer& tracer;
+  const std::vector<std::uint32_t>& lights;
+};
+
+/// Band by band into the picture; `costs` are of all of them.
+Expected<void> trace_in_bands(const Tracing& in, const std::vector<PictureRows>& bands, PictureBands& picture,
+                              raytrace::RayTracedFrame& costs, Console& console) {
+  if (in.command.wants_records())  // an .exr grows in its place
+    if (const auto made = make_folder_for(in.command.image); !made) return made;
+  for (const PictureRows& rows : bands) {
+    console.progress("ray tracing in bands", double(rows.first) / in.command.options.size.height);
+    const auto frame = raytrace::trace_band(in.tracer, in.loaded.plan, in.loaded.scene->camera, in.lights,
+                                            in.command.options, rows);
+    if (const auto added = picture.add(frame, rows); !added) return added;
+    raytrace::add_costs(frame, costs);
+  }
+  return {};
+}
 
 Expected<ExitCode> draw_heatmap(const RaytraceCommand& command, const raytrace::Tracer& tracer,
                                 const Camera& camera, Console& console) {
@@ -64,17 +86,26 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const raytrace::Tracer tracer(*loaded->world, command.accel, command.precision);
   const Camera& camera = loaded->scene->camera;
   if (command.heatmap) return draw_heatmap(command, tracer, camera, console);
-  const auto frame = raytrace::trace_frame(tracer, loaded->plan, camera, *lights, command.options);
+  const auto bands = plan_bands(command.memory, command.options.size, bytes_per_pixel.of(command));
+  if (!bands) return fail(bands.error());
+  raytrace::RayTracedFrame frame;
+  PictureBands picture(command.image, *loaded->world, command.options.size,
+                       known_exposure(command.exposure, *loaded->scene));
+  const Tracing tracing{command, *loaded, tracer, *lights};
+  const bool whole = bands->size() == 1;
+  if (whole)
+    frame = raytrace::trace_frame(tracer, loaded->plan, camera, *lights, command.options);
+  else if (const auto traced = trace_in_bands(tracing, *bands, picture, frame, console); !traced)
+    return fail(traced.error());
   if (frame.non_finite > 0)
     console.note(fmt::format("{} samples of the picture were not finite; they are black.", frame.non_finite));
   const PictureWriter writer{
-      .picture =
-          [&](double exposure) { return write_picture(command.image, *loaded->world, frame, exposure); },
+      .picture = [&] { return whole ? write_whole(command, *loaded, frame) : picture.finish(); },
       .json =
           [&](const RenderRecord& record) {
             return render_json(record, tracer, accel_name(command.accel), command.options, frame);
           }};
-  return hand_out(command, *loaded, frame.color, writer, watch, console);
+  return hand_out(command, *loaded, writer, watch, console);
 }
 
 }  // namespace

@@ -13,9 +13,10 @@ std::vector<std::uint32_t> hit_places(const Tracer& tracer) {
   return places;
 }
 
-std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
-                         const TileRect& rect, const Image<std::uint32_t>& primitives,
-                         Image<SurfacePoint>& receivers, QuantisedTile& quantised) {
+std::uint64_t known_tile(const Tracer& tracer, const View& view, int first_row,
+                         std::span<const std::uint32_t> leaf_of, const TileRect& rect,
+                         const Image<std::uint32_t>& primitives, Image<SurfacePoint>& receivers,
+                         QuantisedTile& quantised) {
   LaneMask left;
   left.fill(0xffff);
   TileDraft draft;
@@ -27,7 +28,8 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
       const std::uint32_t id = primitives.at(x, y);
       known.leaf[lane] = id == no_id || !tracer.world().is_triangle(id) ? nothing_hit : leaf_of[id];
     });
-    left = store_receivers(s.bvh, view, rect.x0, rect.y0, axis_of(view, rect), known,
+    const TileRect shown{rect.x0, rect.y0 + first_row, rect.x1, rect.y1 + first_row};
+    left = store_receivers(s.bvh, view, shown.x0, shown.y0, axis_of(view, shown), known,
                            {.points = &receivers.at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(receivers.size.width),
                             .quantised = &quantised,
@@ -39,7 +41,7 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const
     const std::uint32_t id = primitives.at(x, y);
     out = SurfacePoint{};
     if (id == no_id) return;
-    const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
+    const Ray ray = pixel_ray(view, x + 0.5, y + first_row + 0.5);
     std::optional<Hit> hit = hit_at(s, ray, leaf_of[id]);
     if (!hit) ++missed, hit = tracer.closest_seen(ray);
     if (!hit) return;

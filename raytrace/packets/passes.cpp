@@ -36,6 +36,11 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, s
   return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
 }
 
+/// The same pixels by their rows in the picture.
+TileRect in_picture(TileRect rect, int first_row) {
+  return {rect.x0, rect.y0 + first_row, rect.x1, rect.y1 + first_row};
+}
+
 std::size_t place_in_tile(const TileRect& rect, int x, int y) {
   return static_cast<std::size_t>(tile_pixels * (y - rect.y0) + x - rect.x0);
 }
@@ -48,20 +53,21 @@ TileHits those_of(const TileHits& hits, const LaneMask& bits) {
 }
 
 /// Those receivers that are found many at a time; returns the bits of the others.
-LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, const TileHits& hits,
-                          Image<SurfacePoint>* receivers, QuantisedTile* quantised, TileDraft& draft) {
+LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, int first_row,
+                          const TileHits& hits, Image<SurfacePoint>* receivers, QuantisedTile* quantised,
+                          TileDraft& draft) {
   const Bvh& bvh = tracer.structures().bvh;
-  const int axis = axis_of(view, rect);
+  const int axis = axis_of(view, in_picture(rect, first_row)), y0 = rect.y0 + first_row;
   if (receivers != nullptr || quantised == nullptr)
-    return store_receivers(bvh, view, rect.x0, rect.y0, axis, hits,
+    return store_receivers(bvh, view, rect.x0, y0, axis, hits,
                            {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(view.size.width),
                             .quantised = quantised,
                             .draft = &draft});
-  const DraftLeft left = draft_receivers(bvh, view, rect.x0, rect.y0, hits, *quantised, draft);
+  const DraftLeft left = draft_receivers(bvh, view, rect.x0, y0, hits, *quantised, draft);
   if (left.ill == LaneMask{}) return left.others;
   const TileHits ill = those_of(hits, left.ill);
-  LaneMask still = store_receivers(bvh, view, rect.x0, rect.y0, axis, ill,
+  LaneMask still = store_receivers(bvh, view, rect.x0, y0, axis, ill,
                                    {.points = nullptr, .stride = 0, .quantised = quantised, .draft = &draft});
   for (std::size_t p = 0; p < tile_packets; ++p)
     still[p] = static_cast<std::uint16_t>((still[p] & left.ill[p]) | left.others[p]);
@@ -70,15 +76,19 @@ LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect
 
 /// The tile's receivers from its hits in the block.
 void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::size_t index,
-                const TileRect& rect, Image<SurfacePoint>* receivers, QuantisedTile* quantised) {
+                const TileRect& rect, const PrimarySinks& sinks, QuantisedTile* quantised) {
+  Image<SurfacePoint>* receivers = sinks.receivers;
   TileHits& hits = block.tiles[index];
   TileDraft draft;
   if (quantised != nullptr) quantised->clear();
-  const LaneMask left = vector_receivers(tracer, view, rect, hits, receivers, quantised, draft);
+  const LaneMask left =
+      vector_receivers(tracer, view, rect, sinks.first_row, hits, receivers, quantised, draft);
   const bool any_planes = !tracer.structures().planes.empty();
   HugeArray<SurfacePoint> on_planes(any_planes ? tile_rays : 0);
   LaneMask found{};
-  if (any_planes) found = find_plane_receivers(tracer.structures(), view, rect, hits, left, on_planes.data());
+  if (any_planes)
+    found = find_plane_receivers(tracer.structures(), view, in_picture(rect, sinks.first_row), hits, left,
+                                 on_planes.data());
   const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
     if (receivers != nullptr) receivers->at(x, y) = point;
     if (quantised != nullptr) quantised->put(lane, point, draft);
@@ -96,7 +106,7 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
         leaves.push_back(candidate.leaf);
       candidates = {leaves, block.all_ambiguous};
     }
-    const SurfacePoint point = receiver_of(tracer, view, x, y, leaf, candidates);
+    const SurfacePoint point = receiver_of(tracer, view, x, y + sinks.first_row, leaf, candidates);
     if (leaf == ambiguous_hit) hits.leaf[lane] = leaf_of(tracer, candidates, point.primitive);
     store(x, y, lane, point);
   });
@@ -108,13 +118,14 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
 void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks,
                   const std::stop_token& stop) {
   const bool hits_alone = sinks.receivers == nullptr && sinks.quantised.empty();
-  for_each_block(view.size, stop, [&](const BlockRect& rect) {
+  for_each_block(sinks.size, stop, [&](const BlockRect& rect) {
     BlockHits block;
-    closest_in_block(tracer.structures(), eye, view, rect, block);
+    closest_in_block(tracer.structures(), eye, view,
+                     {rect.x0, rect.y0 + sinks.first_row, rect.x1, rect.y1 + sinks.first_row}, block);
     for_each_tile_of(rect, [&](std::size_t i, const TileRect& tile) {
-      const std::size_t at = tile_at(view.size, tile);
+      const std::size_t at = tile_at(sinks.size, tile);
       if (!hits_alone)
-        store_tile(tracer, view, block, i, tile, sinks.receivers,
+        store_tile(tracer, view, block, i, tile, sinks,
                    sinks.quantised.empty() ? nullptr : &sinks.quantised[at]);
       if (!sinks.hits.empty()) sinks.hits[at] = block.tiles[i];
     });
@@ -124,21 +135,23 @@ void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, 
 SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
   const TilePixel place = tile_pixel(lane);
   const int x = rect.x0 + place.x, y = rect.y0 + place.y;
-  return stored != nullptr ? stored->at(x, y) : receiver_of(*tracer, *view, x, y, hits->leaf[lane]);
+  return stored != nullptr ? stored->at(x, y)
+                           : receiver_of(*tracer, *view, x, y + first_row, hits->leaf[lane]);
 }
 
 void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const {
   LaneMask left = asked;
   if (stored == nullptr) {
     const Bvh& bvh = tracer->structures().bvh;
+    const TileRect shown = in_picture(rect, first_row);
     for_each_place(rect, asked, [&](int, int, std::size_t lane) {
       if (hits->leaf[lane] < bvh.leaf_count()) bvh.prefetch(hits->leaf[lane]);
     });
     const LaneMask others =
-        store_receivers(bvh, *view, rect.x0, rect.y0, axis_of(*view, rect), those_of(*hits, asked),
+        store_receivers(bvh, *view, shown.x0, shown.y0, axis_of(*view, shown), those_of(*hits, asked),
                         {.points = points, .stride = tile_pixels});
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
-    const LaneMask found = find_plane_receivers(tracer->structures(), *view, rect, *hits, left, points);
+    const LaneMask found = find_plane_receivers(tracer->structures(), *view, shown, *hits, left, points);
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= static_cast<std::uint16_t>(~found[p]);
   }
   for_each_place(rect, left,

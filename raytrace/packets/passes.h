@@ -15,15 +15,18 @@
 
 namespace gnomon::raytrace {
 
-/// Where a whole picture's pass goes; what is empty is not asked for.
+/// Where a pass goes: of the whole picture, or of the rows from first_row on, which then are row 0 here. What is
+/// empty is not asked for.
 struct PrimarySinks {
+  ImageSize size;     ///< of what is stored
+  int first_row = 0;  ///< of the picture; a multiple of block_pixels
   std::span<TileHits>
       hits;  ///< by tile; ambiguous where floats cannot tell, but on triangles that doubles found
   Image<SurfacePoint>* receivers = nullptr;
   std::span<QuantisedTile> quantised;  ///< by tile
 };
 
-/// The whole picture by blocks, over all threads. `eye`: edge_setup_of_eye(). Once a stop is requested no further
+/// What the sinks hold of the picture, by blocks, over all threads. `eye`: edge_setup_of_eye(). Once a stop is requested no further
 /// block is begun.
 void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, const PrimarySinks& sinks,
                   const std::stop_token& stop = {});
@@ -34,6 +37,7 @@ struct ReceiverSource {
   const Image<SurfacePoint>* stored = nullptr;
   const View* view = nullptr;  ///< these two when none are stored
   const TileHits* hits = nullptr;
+  int first_row = 0;  ///< as PrimarySinks has it
   SurfacePoint at(const TileRect& rect, std::size_t lane) const;
   /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
@@ -42,11 +46,12 @@ struct ReceiverSource {
 /// By primitive, its place as TileHits has it; nothing_hit for those that cannot be hit.
 std::vector<std::uint32_t> hit_places(const Tracer& tracer);
 
-/// Fills the tile's receivers from the primitives that its pixels are known to show (no_id: none), as
+/// Fills the tile's receivers (row 0 of the images is first_row of the view's picture) from the primitives that its pixels are known to show (no_id: none), as
 /// primary_pass does where it finds the same ones. `leaf_of`: hit_places(). Returns the
 /// number of pixels whose ray misses their primitive; these get the nearest hit.
-std::uint64_t known_tile(const Tracer& tracer, const View& view, std::span<const std::uint32_t> leaf_of,
-                         const TileRect& rect, const Image<std::uint32_t>& primitives,
-                         Image<SurfacePoint>& receivers, QuantisedTile& quantised);
+std::uint64_t known_tile(const Tracer& tracer, const View& view, int first_row,
+                         std::span<const std::uint32_t> leaf_of, const TileRect& rect,
+                         const Image<std::uint32_t>& primitives, Image<SurfacePoint>& receivers,
+                         QuantisedTile& quantised);
 
 }  // namespace gnomon::raytrace

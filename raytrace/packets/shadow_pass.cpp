@@ -111,7 +111,8 @@ class ShadowPass {
     tile.source = {.tracer = &receivers_.tracer,
                    .stored = receivers_.stored,
                    .view = receivers_.view,
-                   .hits = receivers_.hits.empty() ? nullptr : &receivers_.hits[at]};
+                   .hits = receivers_.hits.empty() ? nullptr : &receivers_.hits[at],
+                   .first_row = receivers_.first_row};
     bool any = false;
     if (tile.quantised != nullptr) {
       any = tile.quantised->any;

@@ -9,7 +9,7 @@
 
 namespace gnomon::raytrace {
 
-/// A picture's receivers, as a light's pass reads them.
+/// A picture's receivers, or those of its rows from first_row on, as a light's pass reads them.
 struct PictureReceivers {
   const Tracer& tracer;
   ImageSize size;
@@ -17,6 +17,7 @@ struct PictureReceivers {
   const View* view = nullptr;                  ///< these two when none are stored
   std::span<const TileHits> hits{};            ///< by tile
   std::span<const QuantisedTile> quantised{};  ///< by tile; empty: the receivers are stored
+  int first_row = 0;                           ///< as PrimarySinks has it
 };
 
 /// Fills the verdicts as Tracer::light_verdict does, `shadowed` where the light cannot reach, and returns the number

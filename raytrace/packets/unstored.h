@@ -10,10 +10,11 @@ namespace gnomon::raytrace {
 
 struct UnstoredReceivers {
   HugeArray<TileHits> hits;  ///< by tile; empty: the receivers are stored
+  int first_row = 0;         ///< as PrimarySinks has it
 
   bool apply() const { return hits.size() > 0; }
   ReceiverSource source(const Tracer& tracer, const View& view, std::size_t tile) const {
-    return {.tracer = &tracer, .stored = nullptr, .view = &view, .hits = &hits[tile]};
+    return {.tracer = &tracer, .stored = nullptr, .view = &view, .hits = &hits[tile], .first_row = first_row};
   }
 };
 

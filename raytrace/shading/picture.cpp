@@ -107,13 +107,14 @@ Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& ray
   return interior;
 }
 
-void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
+void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view, int first_row,
                    const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame) {
   PictureInput input{.tracer = tracer,
                      .view = view,
                      .options = options,
                      .effects = ShadedEffects(plan),
-                     .unstored = unstored};
+                     .unstored = unstored,
+                     .first_row = first_row};
   if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
   if (plan.simulates(Effect::soft_shadow))
     prepare_light_shafts(tracer, most_samples(*tracer.world().scene, options));

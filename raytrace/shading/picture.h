@@ -18,8 +18,9 @@ constexpr std::uint64_t pixel_key(std::uint64_t seed, std::size_t pixel, std::ui
 /// The closed bodies of glass that hold a place. rays: adds those that it took to find them.
 Interior interior_at(const Tracer& tracer, const Vec3& place, std::uint64_t& rays);
 
-/// Fills frame.color and adds the rays that it casts. `unstored`: the receivers, where the frame has none.
-void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view,
+/// Fills frame.color and adds the rays that it casts. options.size is the frame's, which holds the rows of the
+/// view's picture from first_row on. `unstored`: the receivers, where the frame has none.
+void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& view, int first_row,
                    const RaytraceOptions& options, const UnstoredReceivers* unstored, RayTracedFrame& frame);
 
 }  // namespace gnomon::raytrace

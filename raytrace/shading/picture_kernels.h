@@ -68,8 +68,8 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
       return;
     }
     RayCounts& rays = counts[tile].rays;
-    Shader<Kind> shader(input, frame.color.index(x, y), rays);
-    const PathOf<Kind> path{.direction = pixel_ray(input.view, x + 0.5, y + 0.5).direction};
+    Shader<Kind> shader(input, input.first_pixel() + frame.color.index(x, y), rays);
+    const PathOf<Kind> path{.direction = pixel_ray(input.view, x + 0.5, y + input.first_row + 0.5).direction};
     // A verdict already known saves the ray, but for light that glass may let through and for ambiguous
     // pixels.
     const auto shadow = [&](std::uint32_t i) {
@@ -101,12 +101,12 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
   for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
     RayCounts& rays = counts[tile].rays;
     const std::size_t pixel = frame.color.index(x, y);
-    Shader<Kind> shader(input, pixel, rays);
+    Shader<Kind> shader(input, input.first_pixel() + pixel, rays);
     const StratifiedSquare square(static_cast<std::uint32_t>(per_pixel), shader.next_key());
     Vec3 sum(0.0);
     for (int s = 0; s < per_pixel; ++s) {
       const Vec2 place = square[static_cast<std::uint32_t>(s)];
-      const Ray ray = pixel_ray(input.view, x + place.x, y + place.y);
+      const Ray ray = pixel_ray(input.view, x + place.x, y + input.first_row + place.y);
       if (s > 0 || traced_centres) ++rays.antialiasing;
       const std::optional<Hit> hit = tracer.closest_seen(ray);
       if (!hit) {

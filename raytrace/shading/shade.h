@@ -81,6 +81,12 @@ struct PictureInput {
   const ShadedEffects effects;
   Interior eye{};                               ///< the glass that the camera is in
   const UnstoredReceivers* unstored = nullptr;  ///< where the frame stores no receivers of pixel centres
+  int first_row = 0;                            ///< of the view's picture; options.size begins there
+
+  /// The number of the first pixel in the view's picture.
+  std::size_t first_pixel() const {
+    return static_cast<std::size_t>(first_row) * static_cast<std::size_t>(view.size.width);
+  }
 };
 
 template <class Kind>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "scene/expected.h"
 #include "scene/image.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon {
 
@@ -32,6 +34,16 @@ inline std::uint64_t image_budget(std::uint64_t file_bytes) {
   return (std::uint64_t{64} << 20) + 1100 * file_bytes;
 }
 
+/// An EXR that is written some rows at a time, from the first on. Without close() it is not whole.
+class ExrRows {
+ public:
+  virtual ~ExrRows() = default;
+  /// Interleaved channels of `rows`, which begin where the last ones ended, and hold a multiple of 64 rows or the
+  /// rest.
+  virtual Expected<void> write(const PictureRows& rows, std::span<const float> pixels) = 0;
+  virtual Expected<void> close() = 0;
+};
+
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
@@ -42,6 +54,10 @@ class ImageLibrary {
   /// An EXR of float channels, interleaved; attributes: string metadata.
   virtual Expected<std::string> encode_exr(
       ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
+      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
+  /// The same into a file, byte for byte.
+  virtual Expected<std::unique_ptr<ExrRows>> open_exr(
+      const std::string& path, ImageSize size, std::span<const std::string> channels,
       std::span<const std::pair<std::string, std::string>> attributes) const = 0;
 };
 

@@ -91,6 +91,39 @@ Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* inpu
                      fmt::format("cannot read the image: {}", library_error(input->geterror())));
 }
 
+OIIO::ImageSpec exr_spec(ImageSize size, std::span<const std::string> channels,
+                         std::span<const std::pair<std::string, std::string>> attributes) {
+  OIIO::ImageSpec spec(size.width, size.height, static_cast<int>(channels.size()), OIIO::TypeFloat);
+  spec.channelnames.assign(channels.begin(), channels.end());
+  spec.alpha_channel = -1;
+  spec.attribute("compression", "zip");
+  // No date of now: an attribute of another type is not written at all, of which OpenImageIO would tell.
+  spec.attribute("DateTime", 0);
+  OIIO::attribute("debug", 0);
+  for (const auto& [key, value] : attributes) spec.attribute(key, value);
+  return spec;
+}
+
+class OpenExrRows final : public ExrRows {
+ public:
+  OpenExrRows(std::string path, std::unique_ptr<OIIO::ImageOutput> output)
+      : path_(std::move(path)), output_(std::move(output)) {}
+
+  Expected<void> write(const PictureRows& rows, std::span<const float> pixels) override {
+    return checked(output_->write_scanlines(rows.first, rows.end(), 0, OIIO::TypeFloat, pixels.data()));
+  }
+  Expected<void> close() override { return checked(output_->close()); }
+
+ private:
+  Expected<void> checked(bool done) const {
+    if (done) return {};
+    return image_error(ErrorKind::cannot_write, path_,
+                       fmt::format("cannot write: {}", library_error(output_->geterror())));
+  }
+  std::string path_;
+  std::unique_ptr<OIIO::ImageOutput> output_;
+};
+
 class OpenImageIo final : public ImageLibrary {
  public:
   Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
@@ -115,14 +148,7 @@ class OpenImageIo final : public ImageLibrary {
   Expected<std::string> encode_exr(
       ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
       std::span<const std::pair<std::string, std::string>> attributes) const override {
-    OIIO::ImageSpec spec(size.width, size.height, static_cast<int>(channels.size()), OIIO::TypeFloat);
-    spec.channelnames.assign(channels.begin(), channels.end());
-    spec.alpha_channel = -1;
-    spec.attribute("compression", "zip");
-    // No date of now: an attribute of another type is not written at all, of which OpenImageIO would tell.
-    spec.attribute("DateTime", 0);
-    OIIO::attribute("debug", 0);
-    for (const auto& [key, value] : attributes) spec.attribute(key, value);
+    const OIIO::ImageSpec spec = exr_spec(size, channels, attributes);
     const auto output = OIIO::ImageOutput::create("openexr");
     if (!output || !output->supports("ioproxy"))
       return fail(ErrorKind::internal,
@@ -135,6 +161,16 @@ class OpenImageIo final : public ImageLibrary {
       return fail(ErrorKind::cannot_write,
                   fmt::format("cannot encode the image: {}", library_error(output->geterror())));
     return std::string(bytes.begin(), bytes.end());
+  }
+
+  Expected<std::unique_ptr<ExrRows>> open_exr(
+      const std::string& path, ImageSize size, std::span<const std::string> channels,
+      std::span<const std::pair<std::string, std::string>> attributes) const override {
+    auto output = OIIO::ImageOutput::create("openexr");
+    if (output && output->open(path, exr_spec(size, channels, attributes)))
+      return std::make_unique<OpenExrRows>(path, std::move(output));
+    return image_error(ErrorKind::cannot_write, path,
+                       fmt::format("cannot write it: {}", library_error(output ? output->geterror() : "")));
   }
 };
 

@@ -1,5 +1,7 @@
 #include "scene/files/write_file.h"
 
+#include "scene/files/part_file.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -131,6 +133,52 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
     filled = cannot_write(path, "cannot rename the finished file", errno);
   if (!filled) ::unlink(temporary.c_str());
   return filled;
+}
+
+Expected<PartFile> PartFile::create(const std::string& path) {
+  PartFile file;
+  file.target_ = follow_link(path);
+  struct stat status {};
+  if (::stat(file.target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    return cannot_write(path, "a picture made in bands needs a plain file", EINVAL);
+  const fs::path folder = fs::path(file.target_).parent_path();
+  file.descriptor_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (file.descriptor_ >= 0) return file;
+  const std::string part = temporary_name(file.target_);
+  file.descriptor_ = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file.descriptor_ < 0) return cannot_write(path, "cannot create a file beside it", errno);
+  file.part_ = part;
+  return file;
+}
+
+PartFile& PartFile::operator=(PartFile&& other) noexcept {
+  std::swap(target_, other.target_);
+  std::swap(part_, other.part_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!part_.empty()) ::unlink(part_.c_str());
+}
+
+std::string PartFile::path() const {
+  return part_.empty() ? fmt::format("/proc/self/fd/{}", descriptor_) : part_;
+}
+
+Expected<void> PartFile::publish() {
+  if (::fsync(descriptor_) != 0) return cannot_write(target_, "cannot flush it to the disk", errno);
+  if (part_.empty()) {  // gets a name first, for a file that is there already can only be renamed over
+    const std::string part = temporary_name(target_);
+    if (::linkat(AT_FDCWD, path().c_str(), AT_FDCWD, part.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      return cannot_write(target_, "cannot name the finished file", errno);
+    part_ = part;
+  }
+  if (::rename(part_.c_str(), target_.c_str()) != 0)
+    return cannot_write(target_, "cannot rename the finished file", errno);
+  part_.clear();
+  return {};
 }
 
 Expected<void> write_over_end(const std::string& path, std::string_view end) {

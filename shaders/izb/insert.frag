@@ -3,6 +3,7 @@
 #include "shared_constants.h"
 layout(binding = visibility_unit) uniform usampler2D visible_primitive;
 #include "izb/izb.glsl"
+#include "camera.glsl"
 #include "world.glsl"
 #include "triangles.glsl"
 #ifdef SOLIDS
@@ -159,10 +160,10 @@ int grid_face(dvec3 position) {
 
 void main() {
   uint pixel = uint(gl_FragCoord.y) * uint(izb.size.x) + uint(gl_FragCoord.x);
-  uint primitive = texelFetch(visible_primitive, ivec2(gl_FragCoord.xy), 0).r;
+  uint primitive = texelFetch(visible_primitive, ivec2(window_position(gl_FragCoord)), 0).r;
   shadows[pixel] = 0u;
   if (primitive == no_id) return;
-  dvec3 direction = pixel_direction64(floor(dvec2(gl_FragCoord.xy)) + 0.5LF);
+  dvec3 direction = pixel_direction64(floor(dvec2(window_position(gl_FragCoord))) + 0.5LF);
   double length = sqrt(dot(direction, direction));
   direction /= length;
   Receiver64 r;
@@ -170,7 +171,7 @@ void main() {
   else if (shapes[primitive - triangle_count].kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
 #ifdef SOLIDS
   else if (shapes[primitive - triangle_count].kind >= uint(shape_quadric)) {
-    double t = double(texelFetch(solid_distance, ivec2(gl_FragCoord.xy), 0).r) * length;
+    double t = double(texelFetch(solid_distance, ivec2(window_position(gl_FragCoord)), 0).r) * length;
     r = solid_receiver(primitive - triangle_count, direction, t);
   }
 #endif

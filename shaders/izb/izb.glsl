@@ -18,7 +18,8 @@ layout(std140, binding = izb_block) uniform Izb {
   ivec4 size;          // image width and height, texels on a side, shapes
 } izb;
 
-layout(std430, binding = izb_vertices_buffer) readonly buffer IzbVertices { double vertices[]; };
+// Two texels a vertex, which are the bits of three doubles: a buffer texture holds more than a storage block.
+layout(binding = izb_vertices_unit) uniform usamplerBuffer vertex_bits;
 struct DoubleShape {         // as ShapeData (world.glsl), in the world
   dvec4 center_and_radius;  // of a sphere; of a plane: a point; of a solid: its origin
   dvec4 normal;             // of a plane; or a solid's local z axis
@@ -45,7 +46,10 @@ double error_gamma(int operations) {
 
 double max_component(dvec3 v) { return max(v.x, max(v.y, v.z)); }
 
-dvec3 vertex(uint i) { return dvec3(vertices[3u * i], vertices[3u * i + 1u], vertices[3u * i + 2u]); }
+dvec3 vertex(uint i) {
+  uvec3 first = texelFetch(vertex_bits, int(2u * i)).xyz, last = texelFetch(vertex_bits, int(2u * i + 1u)).xyz;
+  return dvec3(packDouble2x32(first.xy), packDouble2x32(uvec2(first.z, last.x)), packDouble2x32(last.yz));
+}
 
 struct Receiver64 {
   dvec3 position, normal, error;

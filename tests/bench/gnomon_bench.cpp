@@ -120,12 +120,15 @@ class Bench {
   /// Which primitive each pixel sees, as far as floats can tell.
   void our_hits() {
     primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
-                 {.hits = hits_, .receivers = nullptr, .quantised = {}});
+                 {.size = view_.size, .hits = hits_, .receivers = nullptr, .quantised = {}});
   }
   /// The product's pass: a fresh eye, receivers in double and compact.
   void our_receivers() {
     primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
-                 {.hits = {}, .receivers = &frame_.receiver, .quantised = {tiles_.data(), tiles_.size()}});
+                 {.size = view_.size,
+                  .hits = {},
+                  .receivers = &frame_.receiver,
+                  .quantised = {tiles_.data(), tiles_.size()}});
   }
   /// The product's pass: a fresh light.
   void our_shadows(std::size_t light) {

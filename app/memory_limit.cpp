@@ -1,0 +1,151 @@
+#include "app/memory_limit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/values.h"
+#include "compare/bands/bands.h"
+
+namespace gnomon::app {
+namespace {
+
+constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
+constexpr double most_by_default = 2.0 * gibibyte;
+constexpr NumberRange memory_range{0.0, 1e18, true};
+
+std::string text_of_bytes(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", std::ceil(bytes / 1e6))
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+/// A number alone in a file; infinite for "max", and where there is none.
+double number_in(const std::string& path) {
+  double value = infinity;
+  if (std::ifstream file(path); !(file >> value)) return infinity;
+  return value;
+}
+
+/// What the process's control group (version 2, as the process sees it) leaves it.
+double free_in_group() {
+  std::ifstream file("/proc/self/cgroup");
+  std::string line;
+  while (std::getline(file, line) && !line.starts_with("0::")) {
+  }
+  if (!line.starts_with("0::")) return infinity;
+  const std::string folder = "/sys/fs/cgroup" + line.substr(3) + "/memory.";
+  const double limit = number_in(folder + "max");
+  return std::isfinite(limit) ? std::max(0.0, limit - number_in(folder + "current")) : infinity;
+}
+
+/// What the machine could still give; infinite where it does not say.
+double free_in_machine() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("MemAvailable:"))
+      return 1024.0 * std::strtod(line.c_str() + line.find(':') + 1, nullptr);
+  return infinity;
+}
+
+/// The largest whole number of band_step rows, at least that.
+int in_steps(double rows) {
+  const double steps = std::floor(rows / band_step);
+  return band_step * static_cast<int>(std::clamp(steps, 1.0, 1e6));
+}
+
+}  // namespace
+
+Expected<double> parse_bytes(const std::string& text) {
+  constexpr std::array<std::pair<char, double>, 4> units{
+      {{'K', 1024.0}, {'M', 1024.0 * 1024.0}, {'G', gibibyte}, {'T', 1024.0 * gibibyte}}};
+  std::string number = text;
+  double unit = 1.0;
+  for (const auto& [letter, factor] : units)
+    if (!number.empty() && std::toupper(static_cast<unsigned char>(number.back())) == letter) {
+      unit = factor;
+      number.pop_back();
+      break;
+    }
+  const Expected<double> value = parse_number(number, memory_range);
+  if (!value)
+    return fail(ErrorKind::usage,
+                fmt::format("not a number of bytes (got {}, allowed such as 500M or 2G, {})", text,
+                            range_text(memory_range)));
+  return *value * unit;
+}
+
+void add_memory(CLI::App& command, MemoryLimit& bytes) {
+  add_checked(
+      command, "--memory", "BYTES",
+      "what the picture's pixels may take at a time, besides scene, maps and OpenGL; a picture that would "
+      "take more is worked through in bands, with the same results [bytes, also 500M or 2G (units of "
+      "1024); default half of what the machine has free, at most 2G]",
+      [&bytes](const std::string& text) -> Expected<void> {
+        const Expected<double> value = parse_bytes(text);
+        if (!value) return fail(value.error());
+        bytes = *value;
+        return {};
+      });
+}
+
+double default_memory() {
+  return std::min(0.5 * std::min(free_in_machine(), free_in_group()), most_by_default);
+}
+
+double PictureBytes::of(const ImageSize& size, int rows) const {
+  const auto pixels = static_cast<double>(size.pixels());
+  if (rows >= size.height) return piece * pixels;
+  return whole * pixels + band * size.width * std::min(rows + margin, size.height);
+}
+
+PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>& lights,
+                           const ImageSize& size, bool page) {
+  // Measured: what the peak of a picture in one piece grows by from 320x180 to 2560x1440, with one light and with
+  // four. In bands what the camera sees, the longest list and a picture on its way to its file are whole, and what
+  // the page shows; half as much as of a band is kept of the rows around it.
+  const double light = static_cast<double>(lights.size());
+  const double piece = 260.0 + 57.0 * light, shown = 120.0 + 54.0 * light, step = compare::image_step(size);
+  return {.piece = piece,
+          .whole = 20.0 + (page ? shown / (step * step) : 0.0),
+          .band = piece,
+          .margin = compare::margin_of_bands(scene, lights)};
+}
+
+Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const ImageSize& size,
+                                              const PictureBytes& bytes, std::size_t most_pixels) {
+  const double allowed = limit.value_or(default_memory());
+  const bool fits = bytes.of(size, size.height) <= allowed;
+  if (fits && (most_pixels == 0 || size.pixels() <= most_pixels)) return bands_of(size, size.height);
+  if (limit && bytes.of(size, band_step) > allowed)
+    return fail(
+        ErrorKind::graphics,
+        fmt::format("--memory: too little for a picture of {}x{} (got {}, allowed {} and more)", size.width,
+                    size.height, text_of_bytes(allowed), text_of_bytes(bytes.of(size, band_step))));
+  const double left = allowed - bytes.whole * static_cast<double>(size.pixels());
+  double rows = fits ? size.height : left / (bytes.band * size.width) - bytes.margin;
+  if (most_pixels > 0) rows = std::min(rows, static_cast<double>(most_pixels) / size.width);
+  return bands_of(size, in_steps(rows));
+}
+
+std::string bands_text(const ImageSize& size, const PictureBytes& bytes,
+                       const std::vector<PictureRows>& bands) {
+  const int rows = bands.front().count;
+  const std::string takes = text_of_bytes(bytes.of(size, rows));
+  if (bands.size() == 1) return takes + ", in one piece";
+  return fmt::format("{}, in {} bands of {} rows", takes, bands.size(), rows);
+}
+
+Expected<void> check_memory(const MemoryLimit& limit, const ImageSize& size, const PictureBytes& bytes,
+                            double other) {
+  const auto bands = plan_bands(limit, size, bytes);
+  if (!bands) return fail(bands.error());
+  return check_memory(size, bytes.of(size, bands->front().count) / static_cast<double>(size.pixels()), other);
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,56 @@
+// The comparison of a picture that is too large for memory: drawn, traced and climbed band by band. Every number, every
+// picture and every channel is that of the whole, to the last bit (tests/compare_bands_gl_test.cpp).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/bands/picture_store.h"
+#include "compare/compare.h"
+#include "compare/outputs.h"
+#include "scene/files/exr_file.h"
+
+namespace gnomon::compare {
+
+struct BandedInput {
+  const World& world;
+  raster::Renderer& renderer;
+  std::span<const std::uint32_t> lights;
+  const CompareOptions& options;
+  std::vector<PictureRows> bands;
+  std::string folder;            ///< for what waits on the disk; "": the present one
+  bool page = true;              ///< whether the images that the report page shows are wanted
+  std::string command{}, aov{};  ///< as Comparison::command; a path as write_aov() has it, "": not wanted
+};
+
+/// What a banded comparison has beside its numbers.
+struct BandedParts {
+  PictureStore pictures;
+  CascadeTables cascades;
+  std::vector<ExrFile> channels;  ///< --aov, by light; appear when they are closed
+};
+
+struct BandedComparison {
+  /// Its images hold each image_step()-th pixel of each such row.
+  Comparison comparison;
+  std::unique_ptr<BandedParts> parts;
+};
+
+/// Rows that bands keep beside themselves: near_margin() of the lights, above and below.
+int margin_of_bands(const Scene& scene, std::span<const std::uint32_t> lights);
+
+/// As compare_world().
+Expected<BandedComparison> compare_in_bands(const BandedInput& input, const Progress& progress = {});
+
+/// Of a picture with more pixels than a page can hold, the page shows every so-manieth pixel and row: 1 up to 8
+/// million pixels.
+int image_step(const ImageSize& picture);
+/// The comparison with the images of those pixels alone; of a picture that has all.
+Comparison reduced_images(const Comparison& comparison, int step);
+
+/// write_all_but_result() of a comparison that was made in bands; `parts` null: of any other.
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
+                                              OutputFolder output);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,61 @@
+#include "compare/bands/near_rows.h"
+
+namespace gnomon::compare {
+namespace {
+
+/// All but the images.
+raster::LightRecord without_images(const raster::LightRecord& record) {
+  raster::LightRecord out = record;
+  out.visibility = out.distance = out.gap = {};
+  out.texel_uv = {};
+  out.face = out.outside_map = {};
+  out.lookups = {};
+  out.external.reset();
+  return out;
+}
+
+}  // namespace
+
+void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFrame& rays,
+                   const std::vector<NearLight>& more) {
+  if (drawn.lights.empty()) {
+    drawn.options = band.options, drawn.context = band.context, drawn.custom_shader = band.custom_shader;
+    for (const raster::LightRecord& record : band.lights) drawn.lights.push_back(without_images(record));
+    traced.options = rays.options;
+    traced.lights.resize(rays.lights.size());
+    for (std::size_t i = 0; i < rays.lights.size(); ++i) traced.lights[i].light = rays.lights[i].light;
+    lights.resize(more.size());
+  }
+  append_rows(drawn.primitive, band.primitive);
+  append_rows(traced.receiver, rays.receiver);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    raster::LightRecord& record = drawn.lights[i];
+    append_rows(record.visibility, band.lights[i].visibility);
+    append_rows(record.texel_uv, band.lights[i].texel_uv);
+    append_rows(record.face, band.lights[i].face);
+    append_rows(lights[i].truth, more[i].truth);
+    append_rows(lights[i].drawn, more[i].drawn);
+    append_rows(lights[i].labels, more[i].labels);
+    append_rows(lights[i].climbed, more[i].climbed);
+  }
+}
+
+void NearRows::forget_above(int row) {
+  const int count = row - first_;
+  if (count <= 0) return;
+  first_ = row;
+  drop_rows(drawn.primitive, count);
+  drop_rows(traced.receiver, count);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    raster::LightRecord& record = drawn.lights[i];
+    drop_rows(record.visibility, count);
+    drop_rows(record.texel_uv, count);
+    drop_rows(record.face, count);
+    drop_rows(lights[i].truth, count);
+    drop_rows(lights[i].drawn, count);
+    drop_rows(lights[i].labels, count);
+    drop_rows(lights[i].climbed, count);
+  }
+}
+
+}  // namespace gnomon::compare

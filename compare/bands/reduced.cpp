@@ -1,0 +1,70 @@
+#include "compare/bands/reduced.h"
+
+#include "compare/bands/bands.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::size_t most_pixels = std::size_t{1} << 23;  // of a page: 4096 x 2048
+
+}  // namespace
+
+int image_step(const ImageSize& picture) {
+  int step = 1;
+  const auto left = [&] {
+    return ImageSize{(picture.width + step - 1) / step, (picture.height + step - 1) / step}.pixels();
+  };
+  while (left() > most_pixels) ++step;
+  return step;
+}
+
+void append_reduced(raster::RasterFrame& to, const raster::RasterFrame& from, int first_row,
+                    const Reduction& step) {
+  append_reduced(to.color, from.color, first_row, step);
+  append_reduced(to.primitive, from.primitive, first_row, step);
+  if (to.lights.empty()) to.lights.resize(from.lights.size());
+  for (std::size_t i = 0; i < from.lights.size(); ++i) {
+    raster::LightRecord& light = to.lights[i];
+    const raster::LightRecord& all = from.lights[i];
+    append_reduced(light.texel_uv, all.texel_uv, first_row, step);
+    append_reduced(light.face, all.face, first_row, step);
+    append_reduced(light.distance, all.distance, first_row, step);
+    append_reduced(light.gap, all.gap, first_row, step);
+    if (!all.external || all.external->decision.data.empty()) continue;
+    if (!light.external) light.external.emplace();
+    append_reduced(light.external->decision, all.external->decision, first_row, step);
+  }
+}
+
+void append_reduced(raytrace::RayTracedFrame& to, const raytrace::RayTracedFrame& from, int first_row,
+                    const Reduction& step) {
+  append_reduced(to.color, from.color, first_row, step);
+  append_reduced(to.receiver, from.receiver, first_row, step);
+}
+
+Comparison reduced_images(const Comparison& whole, int every) {
+  const Reduction step{every, whole.raster.options.size.height};
+  Comparison out = whole;
+  out.raster.color = {}, out.raster.primitive = {};
+  for (raster::LightRecord& light : out.raster.lights) {
+    light.texel_uv = {}, light.face = {}, light.distance = light.gap = {};
+    if (light.external) light.external->decision = {};
+  }
+  out.raytraced.color = {}, out.raytraced.receiver = {};
+  append_reduced(out.raster, whole.raster, 0, step);
+  append_reduced(out.raytraced, whole.raytraced, 0, step);
+  for (std::size_t i = 0; i < out.lights.size(); ++i) {
+    const auto reduce = [&](auto& image) {
+      auto all = std::move(image);
+      image = {};
+      append_reduced(image, all, 0, step);
+    };
+    LightComparison& light = out.lights[i];
+    for (Image<float>& rung : light.rungs) reduce(rung);
+    reduce(light.labels), reduce(light.flip_map), reduce(light.ssim_map);
+    reduce(light.edge_map), reduce(light.detachment_map);
+  }
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,148 @@
+// A comparison in bands against the same in one piece: every number, picture, channel and the page's data, to the last
+// bit.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "compare/bands/bands.h"
+#include "compare/output_parts.h"
+#include "compare/report/page.h"
+#include "compare/report/page_data.h"
+#include "hybrid/visibility.h"
+#include "scene/load.h"
+
+namespace gnomon::test {
+namespace {
+
+using namespace compare;  // its functions, by their names
+
+// Six bands, the last of ten rows; more rows than edges hang on.
+constexpr ImageSize size{160, 330};
+
+struct BandCase {
+  const char* scene;
+  raster::Technique technique;
+  raster::Bias bias{};
+};
+
+class CompareBands : public testing::TestWithParam<BandCase> {
+ protected:
+  CompareBands() : scene_(*load_scene(GetParam().scene)), world_(make_world(scene_)) {
+    for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) lights_.push_back(i);
+    options_.raster.size = options_.raytrace.size = size;
+    options_.raster.map.size = 128;
+    options_.raster.map.technique = GetParam().technique;
+    options_.raster.map.bias = GetParam().bias;
+    options_.raytrace.shadow_samples = 16;
+    options_.raytrace.seed = 5;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("gnomon-bands-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+               std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+    std::filesystem::create_directories(folder_);
+  }
+  ~CompareBands() override { std::filesystem::remove_all(folder_); }
+
+  std::unique_ptr<raster::Renderer> renderer() {
+    auto made = raster::Renderer::create(std::move(*raster::create_context(raster::Backend::automatic)),
+                                         world_, plan_effects(scene_));
+    EXPECT_TRUE(made);
+    (*made)->use_external_visibility(hybrid::make_visibility(world_));
+    return std::move(*made);
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  Scene scene_;
+  World world_;
+  std::vector<std::uint32_t> lights_;
+  compare::CompareOptions options_;
+  std::filesystem::path folder_;
+};
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void expect_same(const compare::EncodedPicture& whole, const compare::EncodedPicture& banded) {
+  EXPECT_EQ(whole.file_name, banded.file_name);
+  EXPECT_EQ(whole.size, banded.size) << whole.file_name;
+  EXPECT_TRUE(whole.png == banded.png) << whole.file_name;
+}
+
+void expect_same(const compare::PictureSet& whole, const compare::PictureSet& banded) {
+  expect_same(whole.raster, banded.raster);
+  expect_same(whole.raytraced, banded.raytraced);
+  ASSERT_EQ(whole.lights.size(), banded.lights.size());
+  for (std::size_t i = 0; i < whole.lights.size(); ++i) {
+    const compare::LightPictures &a = whole.lights[i], &b = banded.lights[i];
+    expect_same(a.difference, b.difference), expect_same(a.labels, b.labels), expect_same(a.error, b.error);
+    expect_same(a.flip, b.flip), expect_same(a.ssim, b.ssim), expect_same(a.decisions, b.decisions);
+    expect_same(a.edges, b.edges), expect_same(a.detachment, b.detachment);
+    expect_same(a.depth_map, b.depth_map), expect_same(a.depth_map_small, b.depth_map_small);
+  }
+}
+
+void expect_same_page(const Comparison& whole, const Comparison& banded,
+                      const compare::PictureSet& pictures) {
+  const auto a = compare::page_data({whole, pictures, {}, {}}),
+             b = compare::page_data({banded, pictures, {}, {}});
+  EXPECT_EQ(a.head, b.head);
+  ASSERT_EQ(a.parts.size(), b.parts.size());
+  for (std::size_t i = 0; i < a.parts.size(); ++i)
+    EXPECT_TRUE(a.parts[i].json == b.parts[i].json) << a.parts[i].name;
+}
+
+TEST_P(CompareBands, AreTheWhole) {
+  const auto whole = compare_world(world_, *renderer(), lights_, options_);
+  ASSERT_TRUE(whole) << whole.error().reason;
+  const auto drawn = renderer();
+  auto banded = compare_in_bands({.world = world_,
+                                  .renderer = *drawn,
+                                  .lights = lights_,
+                                  .options = options_,
+                                  .bands = bands_of(size, band_step),
+                                  .folder = folder_.string(),
+                                  .aov = path("bands.exr")});
+  ASSERT_TRUE(banded) << banded.error().reason;
+  // What the hybrid holds of a light grows with the receivers that it has been asked for at a time.
+  banded->comparison.raster.map_bytes = whole->raster.map_bytes;
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    if (auto& external = banded->comparison.raster.lights[i].external)
+      external->bytes = whole->raster.lights[i].external->bytes;
+  EXPECT_EQ(result_line(*whole, {}), result_line(banded->comparison, {}));
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const auto& edges = banded->comparison.lights[i].edges;
+    EXPECT_GT(edges.edges, 0U) << "nothing hangs on rows nearby";
+  }
+  if (GetParam().technique == raster::Technique::csm) {
+    ASSERT_EQ(banded->parts->cascades.size(), lights_.size());
+    EXPECT_FALSE(banded->parts->cascades.front().empty());
+  }
+  const auto pictures = encode_pictures(*whole),
+             in_bands = encode_pictures(banded->comparison, banded->parts->pictures);
+  ASSERT_TRUE(pictures && in_bands);
+  expect_same(*pictures, *in_bands);
+  expect_same_page(*whole, banded->comparison, *pictures);
+  ASSERT_TRUE(write_aov(*whole, path("whole.exr")));
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    ASSERT_TRUE(banded->parts->channels[i].close());
+    EXPECT_TRUE(bytes_of(aov_path(*whole, whole->lights[i], path("whole.exr"))) ==
+                bytes_of(aov_path(*whole, whole->lights[i], path("bands.exr"))));
+  }
+}
+
+using raster::Technique;
+INSTANTIATE_TEST_SUITE_P(Cases, CompareBands,
+                         testing::Values(BandCase{"fence", Technique::hard},
+                                         BandCase{"floating-box",
+                                                  Technique::hard,
+                                                  {.constant = 0.6, .unit = raster::BiasUnit::world}},
+                                         BandCase{"fence", Technique::csm}, BandCase{"fence", Technique::vsm},
+                                         BandCase{"penumbra", Technique::pcss},
+                                         BandCase{"whitted", Technique::pcf},
+                                         BandCase{"shapes", Technique::hybrid}));
+
+}  // namespace
+}  // namespace gnomon::test
