@@ -51,11 +51,13 @@ void check_world(const Scene& scene) {
   for (const Material& material : scene.materials)
     for (const std::uint32_t texture : {material.diffuse_texture, material.emission_texture})
       if (texture != no_id && texture >= scene.textures.size()) broken("a texture beyond the list");
-  if (!world.colors.empty() && world.colors.size() != world.positions.size())
-    broken("not one colour for each vertex");
-  for (const Vec4f& c : world.colors)
-    for (int i = 0; i < 4; ++i)
-      if (!(c[i] >= 0.0f && c[i] <= 1.0f)) broken("a colour beyond [0, 1]");
+  for (const Mesh& mesh : scene.meshes) {
+    if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+      broken("not one colour for each vertex");
+    for (const Vec4f& c : mesh.colors)
+      for (int i = 0; i < 4; ++i)
+        if (!(c[i] >= 0.0f && c[i] <= 1.0f)) broken("a colour beyond [0, 1]");
+  }
   for (const Light& light : scene.lights)
     if (!finite(light.position) || !(std::abs(glm::length(light.direction) - 1.0) < 1e-6))
       broken("a light without a place or direction");
