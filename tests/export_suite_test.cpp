@@ -144,7 +144,7 @@ TEST(Suite, ScenesComeBackFromTheirFiles) {
     const auto again = load_scene(folder.put(entry.scene.name + ".glb", file->bytes));
     ASSERT_TRUE(again) << again.error().message();
     EXPECT_TRUE(again->notes.empty()) << again->notes.front();
-    EXPECT_EQ(make_world(entry.scene).positions, make_world(*again).positions) << entry.scene.name;
+    EXPECT_EQ(positions_of(make_world(entry.scene)), positions_of(make_world(*again))) << entry.scene.name;
     const SuiteMask before = suite_mask(entry.scene, size), after = suite_mask(*again, size);
     EXPECT_EQ(before.lit, after.lit) << entry.scene.name;
     EXPECT_EQ(before.asked, after.asked) << entry.scene.name;

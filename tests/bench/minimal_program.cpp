@@ -156,7 +156,7 @@ class MinimalProgram::Passes {
     const raster::Gl& gl = *gl_;
     // The camera's block and matrix are those of the shading pass; its set-up is not timed.
     shading_ = std::make_unique<raster::ShadingPass>(*gl_, *programs_);
-    must(shading_->prepare(options_.size, false));
+    must(shading_->prepare(options_.size, {0, options_.size.height}, false));
     shading_->set_camera(*buffers_, view_);
     GLint block = 0;
     gl->GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, shaders::camera_block, &block);
