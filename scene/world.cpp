@@ -42,9 +42,15 @@ bool stays_in_place(const WorldPart& part) {
   });
 }
 
+/// Never null, so that a mesh without vertices is not taken for a kept one.
+const Vec3* start_of(const std::vector<Vec3>& positions) {
+  static constexpr Vec3 none(0.0);
+  return positions.empty() ? &none : positions.data();
+}
+
 void flatten(World& world, WorldPart& part) {
   if (stays_in_place(part)) {
-    part.positions = part.mesh->positions.data();
+    part.positions = start_of(part.mesh->positions);
     return;
   }
   const auto moved = std::make_shared<std::vector<Vec3>>(part.mesh->positions.size());
@@ -52,7 +58,7 @@ void flatten(World& world, WorldPart& part) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       (*moved)[i] = placed_vertex(part.world_from_object, part.mesh->positions[i]);
   });
-  part.positions = moved->data();
+  part.positions = start_of(*moved);
   world.moved.push_back(moved);
 }
 
@@ -208,7 +214,7 @@ World make_world(const Scene& scene, const Mesh& mesh) {
   World world;
   world.scene = &scene;
   WorldPart part;
-  part.mesh = &mesh, part.positions = mesh.positions.data();
+  part.mesh = &mesh, part.positions = start_of(mesh.positions);
   part.bounds = bounds_of(part);
   world.finite_bounds = part.bounds;
   world.parts.push_back(part);
