@@ -22,29 +22,9 @@ struct CompareWorker::Job {
 
 namespace {
 
-/// A world of its own for the thread. The flattened world holds all geometry, so the meshes are not copied
-/// with it.
-std::unique_ptr<Scene> copy_without_meshes(const Scene& scene) {
-  auto copy = std::make_unique<Scene>();
-  copy->name = scene.name;
-  copy->camera = scene.camera;
-  copy->lights = scene.lights;
-  copy->materials = scene.materials;
-  copy->textures = scene.textures;
-  copy->instances = scene.instances;
-  copy->shapes = scene.shapes;
-  copy->ambient = scene.ambient;
-  copy->background = scene.background;
-  copy->exposure = scene.exposure;
-  copy->max_depth = scene.max_depth;
-  return copy;
-}
-
-std::unique_ptr<World> copy_of(const World& world, const Scene& scene) {
-  auto copy = std::make_unique<World>(world);
-  copy->scene = &scene;
-  copy->shapes = scene.shapes;
-  return copy;
+/// A world of the thread's own scene, which holds the meshes; with instances kept where the other one keeps them.
+World world_like(const World& other, const Scene& scene) {
+  return make_world(scene, other.keeps_instances() ? InstanceChoice::automatic : InstanceChoice::flatten);
 }
 
 void draw_pictures(ComparisonOutcome& outcome) {
@@ -64,8 +44,8 @@ void draw_pictures(ComparisonOutcome& outcome) {
 
 CompareWorker::CompareWorker(const Scene& scene, const World& world, const compare::CompareOptions& options,
                              std::function<void()> on_finished)
-    : scene_(copy_without_meshes(scene)),
-      world_(copy_of(world, *scene_)),
+    : scene_(std::make_unique<Scene>(scene)),
+      world_(std::make_unique<World>(world_like(world, *scene_))),
       options_(options),
       on_finished_(std::move(on_finished)),
       thread_([this] { run(); }) {}
