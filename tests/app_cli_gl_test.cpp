@@ -28,7 +28,7 @@ TEST(Json, ScenesAndPlanArePure) {
     EXPECT_EQ(plan.exit_code, 0) << plan.err;
     const json document = json::parse(plan.out);
     const json& effects = document["effects"];
-    EXPECT_EQ(effects.size(), 12u);
+    EXPECT_EQ(effects.size(), 15u);
     std::uint64_t total = document["rays"]["primary"];
     for (const json& effect : effects) total += effect["rays"].get<std::uint64_t>();
     EXPECT_EQ(document["rays"]["total"], total);
