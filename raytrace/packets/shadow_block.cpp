@@ -9,9 +9,30 @@
 #include "raytrace/packets/shadow_block.h"
 #include "raytrace/packets/tile_state-inl.h"
 
+#ifndef GNOMON_RAYTRACE_PACKETS_PLACES_OF_BITS  // once for all instruction sets
+#define GNOMON_RAYTRACE_PACKETS_PLACES_OF_BITS
+namespace gnomon::raytrace {
+namespace {
+
+/// The places of a byte's bits, and then anything. Here and not by Highway's Compress, of which GCC copies the table
+/// onto the stack at every use.
+constexpr auto places_of_bits = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (std::size_t bits = 0; bits < table.size(); ++bits)
+    for (std::uint8_t place = 0, count = 0; place < 8; ++place)
+      if ((bits >> place & 1) != 0) table[bits][count++] = place;
+  return table;
+}();
+
+}  // namespace
+}  // namespace gnomon::raytrace
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
+constexpr hn::CappedTag<std::uint32_t, 8> eight_ids;
+constexpr hn::Rebind<std::uint8_t, decltype(eight_ids)> eight_bytes;
 
 class BlockShadows {
  public:
@@ -99,12 +120,15 @@ class BlockShadows {
 
   /// 16 `first` + i for every bit i; returns their number.
   static std::size_t list_bits(unsigned bits, std::size_t first, std::uint32_t* out) {
-    const auto base = hn::Set(ids, static_cast<std::uint32_t>(16 * first));
     std::size_t count = 0;
-    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
-      const auto numbers = hn::Add(base, hn::Iota(ids, static_cast<std::uint32_t>(i)));
-      const unsigned these = bits >> i & ((1u << lanes()) - 1u);
-      hn::StoreU(hn::Compress(numbers, hn::RebindMask(ids, mask_of(these))), ids, out + count);
+    for (std::size_t i = 0; i < packet_rays; i += 8) {
+      const unsigned these = bits >> i & 0xffu;
+      const auto base = hn::Set(eight_ids, static_cast<std::uint32_t>(16 * first + i));
+      for (std::size_t k = 0; k < 8; k += hn::Lanes(eight_ids)) {
+        const auto places =
+            hn::PromoteTo(eight_ids, hn::LoadU(eight_bytes, places_of_bits[these].data() + k));
+        hn::StoreU(hn::Add(base, places), eight_ids, out + count + k);
+      }
       count += static_cast<std::size_t>(std::popcount(these));
     }
     return count;
