@@ -24,14 +24,19 @@ struct Stack {
   float near[most];
 };
 
+using Bytes = hn::CappedTag<std::uint8_t, node_lanes>;
+inline constexpr Bytes byte_lanes;
+
 /// The ray in every lane, and where in a node the near and the far planes are.
 struct SpreadRay {
   V inverse[3], near[3], far_inverse[3], far[3], t_min;
   std::size_t near_row[3], far_row[3];  // bytes
-  int octant_shift;
+  std::size_t order_row;
+  alignas(16) std::uint8_t turn[node_lanes];  // places in that row, from the first to the last or back
   explicit SpreadRay(const WideRay& ray)
-      : t_min(all(ray.t_min)),
-        octant_shift(static_cast<int>(4 * (lanes == node_lanes ? 7 - ray.octant : ray.octant))) {
+      : t_min(all(ray.t_min)), order_row(ray.octant < 4 ? ray.octant : 7 - ray.octant) {
+    const std::uint8_t turned = (ray.octant < 4) != nearest_first ? node_lanes - 1 : 0;
+    for (std::uint8_t i = 0; i < node_lanes; ++i) turn[i] = i ^ turned;
     constexpr std::size_t row = sizeof(WideNode::bounds[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
@@ -39,6 +44,13 @@ struct SpreadRay {
       near_row[a] = row * ((ray.octant >> a & 1u) != 0 ? 3 + a : a);
       far_row[a] = row * (2 * a + 3) - near_row[a];
     }
+  }
+
+  /// A node's children as the ray visits them, or the other way round.
+  static constexpr bool nearest_first = lanes == node_lanes;
+  template <class Tag>
+  HWY_INLINE hn::Vec<Tag> order(Tag tag, const WideNode& node) const {
+    return hn::TableLookupBytes(hn::Load(tag, node.order[order_row]), hn::Load(tag, turn));
   }
 };
 
@@ -93,8 +105,7 @@ struct IntersectedChildren {
     std::uint32_t count;
     HWY_INLINE Sorted(const IntersectedChildren& hit, const WideNode& node, const SpreadRay& ray)
         : count(static_cast<std::uint32_t>(std::popcount(hit.bits))) {
-      const auto order = hn::And(hn::ShiftRightSame(hn::Load(ids, node.order), ray.octant_shift),
-                                 hn::Set(ids, node_lanes - 1));
+      const auto order = hn::PromoteTo(ids, ray.order(hn::Rebind<std::uint8_t, F>(), node));
       const auto in_order = [&](V v) { return hn::TableLookupLanes(v, hn::IndicesFromVec(f, order)); };
       const V entered = in_order(hit.near);
       const M is_hit = hn::Le(entered, in_order(hit.far));
@@ -128,12 +139,7 @@ struct IntersectedChildren<false> {
   }
 
   HWY_INLINE void push(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size) const {
-    if (bits == 0) return;
-    for (std::size_t i = 0; i < node_lanes; ++i) {
-      const std::uint32_t lane = node.order[i] >> ray.octant_shift & (node_lanes - 1);
-      stack.child[size] = node.child[lane], stack.near[size] = near[lane];
-      size += bits >> lane & 1u;
-    }
+    if (bits != 0) Sorted(*this, node, ray).push(stack, size);
   }
   HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
                        std::uint32_t& next) const {
@@ -142,10 +148,47 @@ struct IntersectedChildren<false> {
       next = node.child[std::countr_zero(bits)];
       return true;
     }
-    push(node, ray, stack, size);
-    next = stack.child[--size];
+    Sorted sorted(*this, node, ray);
+    next = sorted.take_nearest();
+    sorted.push(stack, size);
     return true;
   }
+
+ private:
+  /// Farthest first: bit i of `left` is for the child `place[i]`.
+  struct Sorted {
+    const IntersectedChildren& hit;
+    const WideNode& node;
+    alignas(16) std::uint8_t place[node_lanes];
+    unsigned left = 0;
+    HWY_INLINE Sorted(const IntersectedChildren& intersected, const WideNode& of, const SpreadRay& ray)
+        : hit(intersected), node(of) {
+      if constexpr (hn::MaxLanes(byte_lanes) == node_lanes) {
+        const auto order = ray.order(byte_lanes, node);
+        std::uint8_t bits[8] = {};
+        std::memcpy(bits, &hit.bits, sizeof hit.bits);
+        const auto is_hit = hn::VecFromMask(byte_lanes, hn::LoadMaskBits(byte_lanes, bits));
+        left = bits_of(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, order)));
+        hn::Store(order, byte_lanes, place);
+      } else {
+        for (std::size_t i = 0; i < node_lanes; ++i) {
+          place[i] = node.order[ray.order_row][ray.turn[i]];
+          left |= (hit.bits >> place[i] & 1u) << i;
+        }
+      }
+    }
+    HWY_INLINE std::uint32_t take_nearest() {
+      const unsigned last = static_cast<unsigned>(std::bit_width(left)) - 1;
+      left ^= 1u << last;
+      return node.child[place[last]];
+    }
+    HWY_INLINE void push(Stack& stack, std::size_t& size) const {
+      for (unsigned bits = left; bits != 0; bits &= bits - 1, ++size) {
+        const std::size_t lane = place[std::countr_zero(bits)];
+        stack.child[size] = node.child[lane], stack.near[size] = hit.near[lane];
+      }
+    }
+  };
 };
 
 /// The children of a node, as above, over those of one that comes after it. Together, for a ray that waits

@@ -250,12 +250,11 @@ class Collapse {
     leave_if_given_up();
   }
 
-  /// Nearest first by the boxes' middles along the octant's diagonal; the opposite octant's is the reverse.
+  /// Nearest first by the boxes' middles along the octant's diagonal.
   static void put_order(std::span<const Part> pieces, WideNode& node) {
-    std::fill(std::begin(node.order), std::end(node.order), 0u);
     for (unsigned octant = 0; octant < 4; ++octant) {
-      std::array<std::pair<float, std::uint32_t>, node_lanes> far;
-      for (std::uint32_t i = 0; i < node_lanes; ++i) {
+      std::array<std::pair<float, std::uint8_t>, node_lanes> far;
+      for (std::uint8_t i = 0; i < node_lanes; ++i) {
         far[i] = {inf, i};
         if (i >= pieces.size()) continue;
         const auto& box = pieces[i].box.at;
@@ -267,10 +266,7 @@ class Collapse {
         far[i].first = sum;
       }
       std::sort(far.begin(), far.end());
-      for (std::size_t i = 0; i < node_lanes; ++i) {
-        node.order[node_lanes - 1 - i] |= far[i].second << (4 * octant);
-        node.order[i] |= far[i].second << (4 * (7 - octant));
-      }
+      for (std::size_t i = 0; i < node_lanes; ++i) node.order[octant][i] = far[i].second;
     }
   }
 

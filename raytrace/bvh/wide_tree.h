@@ -23,12 +23,12 @@ struct WideChild {
   std::uint32_t index() const { return bits & ~leaf_flag; }
 };
 
-/// bounds as in BvhNode. order: lane i has in bits 4k..4k+3 the child that rays of octant k (bit a: backwards
-/// along axis a) visit as the i-th from the end.
+/// bounds as in BvhNode. order[k]: the children as rays of octant k (bit a: backwards along axis a) visit them;
+/// those of the opposite octant, 7 - k, the other way round.
 struct alignas(64) WideNode {
   float bounds[6][node_lanes];
   std::uint32_t child[node_lanes];
-  std::uint32_t order[node_lanes];
+  std::uint8_t order[4][node_lanes];
 };
 
 /// The triangles of a leaf share their corners, numbered from 1. Triangle i has the number of its k-th in the
