@@ -309,6 +309,34 @@ TEST(PixelStory, IsToldOfEveryPixel) {
     EXPECT_TRUE(any(part)) << part;
 }
 
+// The page's remarks, of the page's own phrases, on what mirrors, on glass, and on what the map stores glass before.
+TEST(PixelStory, RemarksOnMirrorsAndGlass) {
+  Lab lab("whitted", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  std::set<std::string> told;
+  bool some_plain = false;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const PixelStory story = tell_story(*done->outcome, {x, y}, size);
+      some_plain = some_plain || (story.seen && story.remarks.empty());
+      told.insert(story.remarks.begin(), story.remarks.end());
+      EXPECT_TRUE(story.seen || story.remarks.empty());
+      const bool own = !story.remarks.empty() && story.remarks.front().starts_with("This surface is");
+      EXPECT_FALSE(own && story.words.find("exact ray says: lit") != std::string::npos) << story.words;
+    }
+  EXPECT_TRUE(some_plain);
+  for (const char* start :
+       {"This surface is glass (material “glass”). The ray-traced picture adds what is seen through it",
+        "This surface is a mirror (material “mirror”). The ray-traced picture adds what is mirrored in it",
+        "The texel looked up holds glass (material “glass”), which the map"})
+    EXPECT_TRUE(std::any_of(told.begin(), told.end(), [&](const std::string& t) {
+      return t.starts_with(start);
+    })) << start;
+  EXPECT_EQ(told.size(), 3u);
+}
+
 TEST(SaveScene, SaysWhatIsShown) {
   const app_test::TemporaryFolder folder;
   for (const char* name : {"floating-box", "shapes", "whitted", "penumbra", "acne"}) {

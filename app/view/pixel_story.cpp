@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compare/report/explanations.h"
 #include "compare/report/pixel_words.h"
@@ -54,6 +55,12 @@ void add_neighbours(const raster::LightRecord& record, PixelPlace pixel, LightCu
     }
 }
 
+std::optional<compare::ShownMaterial> material_at(const ShownSurfaces& shown,
+                                                  const Image<std::uint32_t>& places, int x, int y) {
+  const std::uint32_t place = places.data.empty() ? 0u : places.at(x, y);
+  return place == 0u ? std::nullopt : std::optional(shown.list[place - 1]);
+}
+
 /// A surface is there, and a map that holds its place.
 bool looks_up(const raster::LightRecord& record, const PixelStory& story) {
   return story.seen && !record.map.depth.empty() && story.distance != 0.0 &&
@@ -79,12 +86,15 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   const Vec2f uv = record.texel_uv.at(x, y);
   story.u = static_cast<double>(uv.x), story.v = static_cast<double>(uv.y);
   story.face = record.face.at(x, y);
-  compare::PixelFacts facts{
-      story.label, story.rungs, story.gap, story.u, story.v, outcome.adds_more.at(x, y) != 0, {}};
+  compare::PixelFacts facts{story.label, story.rungs, story.gap, story.u, story.v};
+  facts.seen = story.seen && story.label != Label::silhouette;
+  facts.material = material_at(outcome.shown, outcome.shown.material, x, y);
+  facts.stored_glass = material_at(outcome.shown, outcome.shown.stored_glass, x, y);
   if (record.external && !record.external->decision.data.empty())
     facts.decision = record.external->decision.at(x, y);
   story.deciding = compare::deciding_rung(facts);
   story.words = compare::pixel_words(outcome.comparison, light, facts);
+  story.remarks = compare::pixel_remarks(facts);
   if (story.deciding > 0) story.cure = compare::label_text(story.label).cure;
   return story;
 }
@@ -144,11 +154,20 @@ std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const Pi
     return uv.x >= float(space.first_u) && uv.y >= float(space.first_v) &&
            uv.x < float(space.first_u + space.side) && uv.y < float(space.first_v + space.side);
   };
+  // One dot a cell, for where texels are large on the screen a drawing of all would be nothing but dots.
+  constexpr int cells = 3;  // of a texel, each way
+  std::vector<char> taken(static_cast<std::size_t>(cells * cells * space.side * space.side));
+  const auto is_first_in_its_cell = [&](const Vec2f& uv) {
+    const auto column = static_cast<std::size_t>((uv.x - float(space.first_u)) * float(cells));
+    const auto row = static_cast<std::size_t>((uv.y - float(space.first_v)) * float(cells));
+    const std::size_t cell = row * static_cast<std::size_t>(cells * space.side) + column;
+    return cell < taken.size() && std::exchange(taken[cell], 1) == 0;
+  };
   const ImageSize size = record.gap.size;
   for (int y = std::max(0, story.pixel.y - reach); y < std::min(size.height, story.pixel.y + reach); ++y)
     for (int x = std::max(0, story.pixel.x - reach); x < std::min(size.width, story.pixel.x + reach); ++x)
       if (record.face.at(x, y) == story.face && record.distance.at(x, y) != 0.0f &&
-          inside(record.texel_uv.at(x, y)))
+          inside(record.texel_uv.at(x, y)) && is_first_in_its_cell(record.texel_uv.at(x, y)))
         space.neighbours.emplace_back(record.texel_uv.at(x, y));
   return space;
 }

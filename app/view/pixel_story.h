@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/view/look.h"
 #include "app/view/worker.h"
@@ -18,9 +19,10 @@ struct PixelStory {
   double gap = 0.0, distance = 0.0, texel_world = 0.0, bias_world = 0.0;
   double u = 0.0, v = 0.0;  ///< where it looks the map up, texels
   int face = 0;
-  bool seen = false;  ///< a surface is there
-  std::string words;  ///< the story: what the map's test says, and why it is wrong
-  std::string cure;   ///< what helps; empty where nothing is wrong
+  bool seen = false;                 ///< a surface is there
+  std::string words;                 ///< the story: what the map's test says, and why it is wrong
+  std::vector<std::string> remarks;  ///< what the pictures show there beside it: mirrors and glass
+  std::string cure;                  ///< what helps; empty where nothing is wrong
 };
 
 /// `picture`: the size that the place counts in, which a preview's differs from.
@@ -51,7 +53,7 @@ struct LightSpace {
   double bias =
       0.0;  ///< the constant one: a texel shadows the plane at its centre where it is nearer by more
   double u = 0.0, v = 0.0;       ///< the pixel
-  std::vector<Vec2> neighbours;  ///< pixels beside it
+  std::vector<Vec2> neighbours;  ///< pixels beside it, at most one in each third of a texel
 };
 /// Empty as above.
 std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const PixelStory& story, int texels);

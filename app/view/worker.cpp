@@ -8,7 +8,6 @@
 #include "app/view/map_pictures.h"
 #include "app/view/priority.h"
 #include "compare/outputs.h"
-#include "compare/report/shown_materials.h"
 #include "scene/exposure.h"
 
 namespace gnomon::app {
@@ -38,6 +37,22 @@ void draw_pictures(ComparisonOutcome& outcome) {
   outcome.gap = gap_picture(record, light);
   outcome.texels = texel_picture(compare::raster_picture(comparison), record, light);
   outcome.depth = compare::depth_map_picture(comparison.raster.lights.front().map);
+}
+
+ShownSurfaces shown_surfaces(const compare::Comparison& comparison) {
+  const compare::ShownMaterials materials(*comparison.world);
+  ShownSurfaces shown;
+  if (materials.empty()) return shown;
+  const auto& receiver = comparison.raytraced.receiver;
+  const raster::LightRecord& record = comparison.raster.lights.front();
+  shown.list = materials.list();
+  shown.material = shown.stored_glass = Image<std::uint32_t>(receiver.size);
+  for (std::size_t i = 0; i < receiver.data.size(); ++i) {
+    const std::uint32_t primitive = receiver.data[i].primitive;
+    shown.material.data[i] = materials.of(primitive);
+    shown.stored_glass.data[i] = materials.stored_glass(record, i, primitive);
+  }
+  return shown;
 }
 
 }  // namespace
@@ -160,10 +175,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
-  outcome.adds_more = Image<std::uint8_t>(comparison.raytraced.receiver.size);
-  const compare::ShownMaterials shown(*world_);
-  for (std::size_t i = 0; i < outcome.adds_more.data.size(); ++i)
-    outcome.adds_more.data[i] = shown.of(comparison.raytraced.receiver.data[i].primitive) != 0 ? 1 : 0;
+  outcome.shown = shown_surfaces(comparison);
   comparison.raytraced.receiver = {};
   return Expected<ComparisonOutcome>(std::move(outcome));
 }

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "compare/compare.h"
+#include "compare/report/shown_materials.h"
 #include "scene/effects.h"
 #include "scene/expected.h"
 #include "scene/world.h"
@@ -29,6 +30,14 @@ struct ComparisonRequest {
   raster::RasterFrame drawn;  ///< with the records of the one light to compare
 };
 
+/// Where the pictures show more than what is compared: places in the list from 1 on, 0 elsewhere. Empty for a scene
+/// without mirrors and glass.
+struct ShownSurfaces {
+  std::vector<compare::ShownMaterial> list;
+  Image<std::uint32_t> material;      ///< the surface's own, where it mirrors or transmits
+  Image<std::uint32_t> stored_glass;  ///< what its texel holds, where that is other glass
+};
+
 struct ComparisonOutcome {
   std::uint64_t revision = 0;
   bool preview = false;
@@ -37,8 +46,8 @@ struct ComparisonOutcome {
   Light light;                     ///< the one compared
   compare::Comparison comparison;  ///< without the receivers, by far its largest part
   Image<Vec3f> normals;            ///< of the receivers: geometric, on the viewer's side
-  Image<std::uint8_t> adds_more;   ///< 1 where the surface mirrors or transmits
-  std::string verdict;             ///< compare's sentence
+  ShownSurfaces shown;
+  std::string verdict;  ///< compare's sentence
   Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
 };
 

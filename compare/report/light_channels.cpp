@@ -262,15 +262,8 @@ void add_decisions(Channels& channels, const raster::LightRecord& record) {
 void add_stored_glass(Channels& channels, const raster::LightRecord& record, const PixelSurfaces& surfaces,
                       const ShownMaterials& materials) {
   if (!materials.any_glass()) return;
-  channels.add("stored_glass", surfaces.primitives.size(), {2, From::previous}, [&](std::size_t i) {
-    const Vec2f at = glm::floor(record.texel_uv.data[i]);
-    const auto size = static_cast<float>(record.map.view.size);
-    if (surfaces.primitives[i] == no_id || !(at.x >= 0.0f && at.y >= 0.0f && at.x < size && at.y < size))
-      return 0u;
-    const std::uint32_t stored = record.map.primitive[record.map.texel_index(
-        record.face.data[i], static_cast<int>(at.x), static_cast<int>(at.y))];
-    return stored == surfaces.primitives[i] ? 0u : materials.glass_of(stored);
-  });
+  channels.add("stored_glass", surfaces.primitives.size(), {2, From::previous},
+               [&](std::size_t i) { return materials.stored_glass(record, i, surfaces.primitives[i]); });
 }
 
 }  // namespace

@@ -106,6 +106,13 @@ Json rays_json(const PixelRays& rays) {
           {"down", vector3(rays.down)}};
 }
 
+Json materials_json(const ShownMaterials& materials) {
+  Json list = Json::array();
+  for (const ShownMaterial& m : materials.list())
+    list.push_back({{"name", m.name}, {"mirror", m.mirror}, {"transmission", m.transmission}});
+  return list;
+}
+
 // What all lights share: what is seen at each pixel, and both pictures.
 Json pixels_json(const Comparison& c, Packer& packer, const PixelSurfaces& surfaces,
                  const ShownMaterials& materials) {
@@ -217,7 +224,7 @@ PageData page_data(const PageInput& in) {
   const PixelSurfaces surfaces = pixel_surfaces(c, normal_steps);
   const ShownMaterials materials(*c.world);
   head["rays"] = rays_json(surfaces.rays);
-  head["materials"] = materials.list();
+  head["materials"] = materials_json(materials);
   out.head = head.dump();
   add("pixels", [&] { return pixels_json(c, packer, surfaces, materials); });
   add("geometry", [&] { return geometry_json(*c.world, mesh, packer); });

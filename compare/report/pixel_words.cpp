@@ -41,6 +41,11 @@ std::string number(double value) {
   return fmt::format("{:.3g}", value);
 }
 
+std::string named(const ShownMaterial& material, const char* kind) {
+  if (material.name.empty()) return say(kind);
+  return say("named_material", {{"kind", say(kind)}, {"name", material.name}});
+}
+
 struct Story {
   const Comparison& comparison;
   const LightComparison& light;
@@ -59,12 +64,12 @@ struct Story {
                               {"what", what()}});
   }
   std::string brightness(double v) const {
-    return pixel.adds_more ? say(v > 0.5 ? "light_reaches" : "light_does_not_reach")
-                           : say(v > 0.5 ? "lit" : "in_shadow");
+    return pixel.material ? say(v > 0.5 ? "light_reaches" : "light_does_not_reach")
+                          : say(v > 0.5 ? "lit" : "in_shadow");
   }
   std::string gives(bool dark) const {
-    return pixel.adds_more ? say(dark ? "gives_no_light" : "gives_light")
-                           : say(dark ? "draws_in_shadow" : "draws_lit");
+    return pixel.material ? say(dark ? "gives_no_light" : "gives_light")
+                          : say(dark ? "draws_in_shadow" : "draws_lit");
   }
 
   /// What the bias is made of besides its constant.
@@ -159,6 +164,17 @@ int deciding_rung(const PixelFacts& pixel) {
 
 std::string pixel_words(const Comparison& comparison, const LightComparison& light, const PixelFacts& pixel) {
   return Story{comparison, light, pixel}.whole();
+}
+
+std::vector<std::string> pixel_remarks(const PixelFacts& pixel) {
+  std::vector<std::string> list;
+  if (!pixel.seen) return list;
+  if (const auto& own = pixel.material)
+    list.push_back(own->is_glass() ? say("shown_glass", {{"material", named(*own, "glass")}})
+                                   : say("shown_mirror", {{"material", named(*own, "mirror")}}));
+  if (const auto& stored = pixel.stored_glass)
+    list.push_back(say("stored_glass", {{"material", named(*stored, "glass")}}));
+  return list;
 }
 
 }  // namespace gnomon::compare

@@ -1,13 +1,20 @@
 // Materials that the two pictures show differently: what mirrors or lets light through is matte grey to the
-// rasterizer, and glass is opaque to the map and to the comparison. The page says so where it is looked at.
+// rasterizer, and glass is opaque to the map and to the comparison. The page and the lab say so where it is looked at.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "raster/frame.h"
 #include "scene/world.h"
 
 namespace gnomon::compare {
+
+struct ShownMaterial {
+  std::string name;
+  float mirror = 0.0f, transmission = 0.0f;  ///< shares in [0, 1]
+  bool is_glass() const { return transmission > 0.0f; }
+};
 
 class ShownMaterials {
  public:
@@ -15,17 +22,18 @@ class ShownMaterials {
   bool empty() const { return list_.empty(); }
   /// Some of them transmit.
   bool any_glass() const { return any_glass_; }
-  /// For the script: [{name, mirror, transmission}], shares in [0, 1].
-  const nlohmann::ordered_json& list() const { return list_; }
+  const std::vector<ShownMaterial>& list() const { return list_; }
   /// The place in the list of what the primitive (or no_id) is made of, from 1 on; 0: of none of them.
   std::uint32_t of(std::uint32_t primitive) const;
-  /// The same, of glass alone.
-  std::uint32_t glass_of(std::uint32_t primitive) const;
+  /// The same of what the map stores in the texel that a pixel looks up, where that is glass and not the pixel's own
+  /// surface (`primitive`, or no_id).
+  std::uint32_t stored_glass(const raster::LightRecord& record, std::size_t pixel,
+                             std::uint32_t primitive) const;
 
  private:
   const World& world_;
   std::vector<std::uint32_t> place_;  ///< for each material of the scene
-  nlohmann::ordered_json list_ = nlohmann::ordered_json::array();
+  std::vector<ShownMaterial> list_;
   bool any_glass_ = false;
 };
 

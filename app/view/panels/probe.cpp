@@ -179,6 +179,7 @@ void probe_panel(PanelContext& context) {
           .c_str());
   wrapped(story.words);
   if (!story.cure.empty()) wrapped("What helps: " + story.cure);
+  for (const std::string& remark : story.remarks) wrapped(remark);
   if (!story.seen) return;
   if (compare::is_compared(story.label)) ladder(context, story);
   static constexpr int texels = 4;

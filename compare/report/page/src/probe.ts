@@ -94,7 +94,7 @@ export class Probe {
     swatch.style.background = words.colour;
     this.words.replaceChildren(html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
       html("p", { class: "story" }, story(this.light, pixel, bias)),
-      ...(pixel.seen ? remarks(pixel).map((text) => html("p", { class: "remark" }, text)) : []), ...(pixel.seen && known ? [ladder(pixel), facts(this.light, pixel)] : []));
+      ...remarks(pixel).map((text) => html("p", { class: "remark" }, text)), ...(pixel.seen && known ? [ladder(pixel), facts(this.light, pixel)] : []));
     this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
     const section = () => this.below.replaceChildren(drawable && this.scene

@@ -97,17 +97,13 @@ export function story(light: Light, pixel: Pixel, bias: number): string {
   return pixel.label < 0 ? say("not_compared", { what: wordsOf(pixel.label).what }) : compared(light, pixel, bias);
 }
 
-const named = ({ name }: ShownMaterial, kind: string): string => (name === "" ? kind : `${kind} (material “${name}”)`);
+const named = ({ name }: ShownMaterial, kind: string): string => (name === "" ? kind : say("named_material", { kind, name }));
 
 /** What the pictures show here beside what is compared: mirrors and glass; empty for a plain surface in plain light. */
-export function remarks(pixel: Pixel): string[] {
-  const { material, storedGlass } = pixel, out: string[] = [];
-  if (material) {
-    const glass = material.transmission > 0, shows = glass ? "what is seen through it and mirrored in it" : "what is mirrored in it";
-    out.push(`This surface is ${named(material, glass ? "glass" : "a mirror")}. The ray-traced picture adds ${shows}, so it may be bright here without any light of its own; ` +
-      `the rasterizer draws matte grey in place of that.${glass ? " The map takes it for opaque." : ""} Compared is only the shadow on the surface itself.`);
-  }
-  if (storedGlass)
-    out.push(`The texel looked up holds ${named(storedGlass, "glass")}, which the map and the comparison take for opaque. In the ray-traced picture light passes through it, so this pixel may be bright there though its shadow is counted as full.`);
+export function remarks({ seen, material, storedGlass }: Pixel): string[] {
+  if (!seen) return [];
+  const glass = (of: ShownMaterial) => ({ material: named(of, say("glass")) }), out: string[] = [];
+  if (material) out.push(material.transmission > 0 ? say("shown_glass", glass(material)) : say("shown_mirror", { material: named(material, say("mirror")) }));
+  if (storedGlass) out.push(say("stored_glass", glass(storedGlass)));
   return out;
 }
