@@ -22,7 +22,7 @@ void darker_panels() {
   ImGui::StyleColorsDark();
   ImVec4* colours = ImGui::GetStyle().Colors;
   colours[ImGuiCol_WindowBg] = {0.11f, 0.12f, 0.14f, 1.0f};
-  colours[ImGuiCol_PopupBg] = {0.14f, 0.15f, 0.18f, 0.98f};
+  colours[ImGuiCol_PopupBg] = {0.14f, 0.15f, 0.18f, 1.0f};
   colours[ImGuiCol_MenuBarBg] = {0.15f, 0.16f, 0.19f, 1.0f};
   colours[ImGuiCol_FrameBg] = {0.20f, 0.22f, 0.26f, 1.0f};
   colours[ImGuiCol_FrameBgHovered] = {0.26f, 0.29f, 0.34f, 1.0f};
@@ -38,6 +38,7 @@ void lighter_panels() {
   ImGui::StyleColorsLight();
   ImVec4* colours = ImGui::GetStyle().Colors;
   colours[ImGuiCol_WindowBg] = {0.97f, 0.97f, 0.96f, 1.0f};
+  colours[ImGuiCol_PopupBg] = {1.0f, 1.0f, 1.0f, 1.0f};
   colours[ImGuiCol_FrameBg] = {0.87f, 0.88f, 0.90f, 1.0f};
   colours[ImGuiCol_SliderGrab] = {0.42f, 0.68f, 0.88f, 1.0f};  // black numbers are read on it
   colours[ImGuiCol_SliderGrabActive] = {0.30f, 0.60f, 0.84f, 1.0f};

@@ -1,6 +1,8 @@
 // The two columns beside the pictures, or the one that holds both as tabs.
 #include <imgui/imgui.h>
 
+#include <utility>
+
 #include "app/view/panels/panels.h"
 
 namespace gnomon::app {
@@ -17,26 +19,34 @@ bool begin_at(const char* name, const Box& box) {
   return ImGui::Begin(name, nullptr, fixed);
 }
 
+/// Whether another pixel was chosen since the last frame: then it is to be seen.
+bool another_pixel(const PanelContext& context) {
+  const auto& probe = context.state.look.probe;
+  const int now = probe ? 1 + probe->x + probe->y * context.layout.picture.width : 0;
+  int& before = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("pixel"));
+  return std::exchange(before, now) != now && now != 0;
+}
+
+void tab(PanelContext& context, const char* name, bool first, void (*panel)(PanelContext&)) {
+  const ImGuiTabItemFlags flags = first ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+  if (!ImGui::BeginTabItem(name, nullptr, flags)) return;
+  ImGui::BeginChild(name);
+  panel(context);
+  ImGui::EndChild();
+  ImGui::EndTabItem();
+}
+
 }  // namespace
 
 void left_column(PanelContext& context) {
   if (context.layout.settings.width == 0) return;
   if (begin_at("Settings", context.layout.settings)) {
+    const bool shows_pixel = another_pixel(context);
     if (!context.layout.tabs) {
       settings_panel(context);
     } else if (ImGui::BeginTabBar("column")) {
-      if (ImGui::BeginTabItem("Settings")) {
-        ImGui::BeginChild("settings");
-        settings_panel(context);
-        ImGui::EndChild();
-        ImGui::EndTabItem();
-      }
-      if (ImGui::BeginTabItem("Results")) {
-        ImGui::BeginChild("results");
-        results_panel(context);
-        ImGui::EndChild();
-        ImGui::EndTabItem();
-      }
+      tab(context, "Settings", false, settings_panel);
+      tab(context, "Results", shows_pixel, results_panel);
       ImGui::EndTabBar();
     }
   }

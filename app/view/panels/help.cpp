@@ -1,9 +1,49 @@
 // The window of keys.
 #include <imgui/imgui.h>
 
+#include <span>
+#include <string>
+
 #include "app/view/panels/panels.h"
 
 namespace gnomon::app {
+
+namespace {
+
+constexpr float keys_width = 13.0f, column_width = 36.0f;  // in heights of the font
+
+void group_table(const KeyGroup& group) {
+  ImGui::TextDisabled("%.*s", static_cast<int>(group.title.size()), group.title.data());
+  if (!ImGui::BeginTable(std::string(group.title).c_str(), 2, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, keys_width * ImGui::GetFontSize());
+  for (const KeyHelp& key : group.keys) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(key.keys.data(), key.keys.data() + key.keys.size());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(key.what.data(), key.what.data() + key.what.size());
+  }
+  ImGui::EndTable();
+}
+
+/// In two columns where there is room, so that nothing has to be scrolled.
+void all_groups(float width) {
+  const std::span<const KeyGroup> groups = key_groups();
+  const bool two = width > 2.0f * column_width * ImGui::GetFontSize();
+  constexpr std::size_t at_left = 2;  // half of all keys
+  ImGui::BeginGroup();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (two && i == at_left) {
+      ImGui::EndGroup();
+      ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
+      ImGui::BeginGroup();
+    }
+    group_table(groups[i]);
+  }
+  ImGui::EndGroup();
+}
+
+}  // namespace
 
 void help_window(PanelContext& context) {
   if (!context.state.look.help) return;
@@ -11,23 +51,9 @@ void help_window(PanelContext& context) {
   ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {0.95f * screen.x, 0.9f * screen.y});
   bool open = true;
-  if (ImGui::Begin(
-          "Keys and mouse", &open,
-          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse)) {
-    for (const KeyGroup& group : key_groups()) {
-      ImGui::TextDisabled("%.*s", static_cast<int>(group.title.size()), group.title.data());
-      if (!ImGui::BeginTable(std::string(group.title).c_str(), 2, ImGuiTableFlags_SizingFixedFit)) continue;
-      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 13.0f * ImGui::GetFontSize());
-      for (const KeyHelp& key : group.keys) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(key.keys.data(), key.keys.data() + key.keys.size());
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(key.what.data(), key.what.data() + key.what.size());
-      }
-      ImGui::EndTable();
-    }
-  }
+  if (ImGui::Begin("Keys and mouse", &open,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse))
+    all_groups(screen.x);
   ImGui::End();
   if (!open) context.ask(Change{SetFlag{&Look::help, false}});
 }

@@ -11,6 +11,7 @@ namespace gnomon::app {
 namespace {
 
 void scene_menu(PanelContext& context) {
+  if (context.opens_menu) ImGui::OpenPopup("Scene");
   if (!ImGui::BeginMenu("Scene")) return;
   const std::string& open = context.shown.scene->argument.name;
   if (ImGui::BeginMenu("Built-in scenes")) {

@@ -24,6 +24,7 @@ struct PanelContext {
   const JobStatus& job;
   std::string note;  ///< the last thing done, for the status bar
   std::vector<Action>& actions;
+  bool opens_menu = false;  ///< by the key for it
 
   void ask(Action action) { actions.push_back(std::move(action)); }
   /// The comparison to read numbers from; null: none yet.

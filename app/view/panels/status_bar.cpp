@@ -17,6 +17,22 @@ std::string progress(const PanelContext& context) {
   return context.is_current() ? "comparing in full (a quarter of the size is shown)" : "comparing";
 }
 
+/// As much as there is room for; all of it where the pointer rests.
+void fitted_text(const std::string& text, float room) {
+  const auto width = [&](std::size_t length) {
+    return ImGui::CalcTextSize(text.data(), text.data() + length).x;
+  };
+  if (width(text.size()) <= room) return ImGui::TextUnformatted(text.c_str());
+  std::size_t length = text.size();
+  const float left = room - ImGui::CalcTextSize("…").x;
+  while (length > 0 && (width(length) > left || (text[length] & 0xc0) == 0x80)) --length;
+  ImGui::TextUnformatted((text.substr(0, length) + "…").c_str());
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  wrapped(text, 0.6f * ImGui::GetIO().DisplaySize.x);
+  ImGui::EndTooltip();
+}
+
 }  // namespace
 
 void status_bar(PanelContext& context) {
@@ -34,18 +50,14 @@ void status_bar(PanelContext& context) {
                                                   : progress(context);
     const float width = ImGui::CalcTextSize(right.c_str()).x;
     const float end = ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX();
-    ImGui::PushClipRect(ImGui::GetWindowPos(),
-                        {ImGui::GetWindowPos().x + end - width - ImGui::GetFontSize(),
-                         ImGui::GetWindowPos().y + ImGui::GetWindowHeight()},
-                        true);
+    const float room = ImGui::GetContentRegionAvail().x - width - ImGui::GetFontSize();
     if (context.shown.unreadable) {
       ImGui::PushStyleColor(ImGuiCol_Text, context.ink.warning);
-      ImGui::TextUnformatted(one_line(context.shown.unreadable->message()).c_str());
+      fitted_text(one_line(context.shown.unreadable->message()), room);
       ImGui::PopStyleColor();
     } else {
-      ImGui::TextUnformatted(context.note.c_str());
+      fitted_text(context.note, room);
     }
-    ImGui::PopClipRect();
     ImGui::SameLine(end - width);
     ImGui::TextDisabled("%s", right.c_str());
   }
