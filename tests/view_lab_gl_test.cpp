@@ -197,6 +197,81 @@ TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {
   EXPECT_EQ(run({"compare", "saved.json", "--size", "64x48", "--json", "-", "--runs", "1"}).exit_code, 0);
 }
 
+/// What each key of a list leaves on the screen or in the printed command, one after the other.
+std::string press_all(const Words& keys, const std::string& then) {
+  std::string script;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    script += fmt::format("key {}\nwait done\n{}\n", keys[i], fmt::vformat(then, fmt::make_format_args(i)));
+  return script;
+}
+
+TEST_F(ViewLab, EveryKeyThatSetsSomethingSetsIt) {
+  const Words keys{"left", "up", "pagedown", "ctrl+left", "ctrl+up", "[",          ";",         "=",
+                   "0",    "8",  ",",        "D",         "K",       "F6",         "F7",        "F8",
+                   "F9",   "R",  "right",    "down",      "pageup",  "ctrl+right", "ctrl+down", "]",
+                   "'",    "-",  "9",        ".",         "space"};
+  const ProcessResult result =
+      drive("floating-box",
+            "set panels off\nset size 96x64\nset map-size 128\nset slope-bias 1\nset film sun\nprint\n" +
+                press_all(Words(keys.begin(), keys.end() - 1), "print") +
+                "key space\nwait 30\nkey space\nwait done\nprint\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto commands = lines_of(result.out);
+  ASSERT_EQ(commands.size(), keys.size() + 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_NE(commands[i], commands[i + 1]) << keys[i];
+}
+
+// The first key of each pair changes what the window shows, and the second brings it back.
+TEST_F(ViewLab, EveryKeyThatShowsSomethingShowsIt) {
+  const std::pair<const char*, const char*> pairs[] = {
+      {"2", "1"},   {"3", "tab"},     {"4", "1"},           {"5", "1"},     {"6", "1"},      {"G", "1"},
+      {"T", "1"},   {"Z", "shift+Z"}, {"ctrl+=", "ctrl+-"}, {"F1", "esc"},  {"H", "F1"},     {"F2", "F2"},
+      {"F3", "F3"}, {"F4", "F4"},     {"F5", "F5"},         {"F11", "F11"}, {"ctrl+K", "X"}, {"F10", "esc"}};
+  Words keys;
+  for (const auto& [there, back] : pairs) keys.insert(keys.end(), {there, back});
+  const ProcessResult result =
+      drive("floating-box",
+            "set size 800x600\nset results off\nset bias 0texel\nwait done\nscreenshot start.png\n" +
+                press_all(keys, "screenshot {}.png") +
+                "key V\nwait done\nscreenshot swipe.png\nkey ctrl+,\nscreenshot line.png\n"
+                "key V\nwait done\nscreenshot quad.png\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto start = texels("start.png");
+  for (std::size_t i = 0; i < keys.size(); i += 2) {
+    EXPECT_NE(texels(fmt::format("{}.png", i)), start) << keys[i];
+    EXPECT_EQ(texels(fmt::format("{}.png", i + 1)), start) << keys[i] << ", " << keys[i + 1];
+  }
+  EXPECT_NE(texels("swipe.png"), start);
+  EXPECT_NE(texels("line.png"), texels("swipe.png"));
+  EXPECT_NE(texels("quad.png"), texels("line.png"));
+}
+
+// Into the menus, down to "Save as scene", and the key that presses it.
+TEST_F(ViewLab, MenusObeyTheKeys) {
+  const ProcessResult menu =
+      drive("floating-box",
+            "set size 800x600\nset map-size 64\nwait done\nkey F10\nkey down\nkey down\n"
+            "key down\nkey space\nwait done\nprint\n");
+  ASSERT_EQ(menu.exit_code, 0) << menu.err;
+  EXPECT_EQ(menu.out.find("--camera-orbit"), std::string::npos) << menu.out;  // no key went to the picture
+  const auto entries = folder_.entries();
+  EXPECT_NE(std::find(entries.begin(), entries.end(), "floating-box-scene-001.json"), entries.end());
+}
+
+TEST_F(ViewLab, KeysThatWriteFilesWriteThem) {
+  const ProcessResult result =
+      drive("floating-box",
+            "set size 300x200\nset panels off\nset map-size 64\nkey P\nwait done\n"
+            "key ctrl+P\nwait done\nkey ctrl+S\nwait done\nkey C\nkey Q\nscreenshot never.png\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("gnomon compare"), std::string::npos);
+  std::string names;
+  for (const std::string& entry : folder_.entries()) names += entry + "\n";
+  for (const char* kind : {"box-raster-001.png", "box-raster-picture-001.png", "box-scene-001.json"})
+    EXPECT_NE(names.find(kind), std::string::npos) << kind << " of " << names;
+  EXPECT_EQ(names.find("never"), std::string::npos);
+}
+
 TEST_F(ViewLab, AReportIsWrittenBesideTheWindow) {
   const ProcessResult result =
       drive("floating-box", "set size 300x200\nset panels off\nset map-size 64\nkey ctrl+R\nwait done\n");

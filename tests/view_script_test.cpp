@@ -1,7 +1,15 @@
 // The script language: what is accepted, and where a mistake is said to be.
 #include "app/view/script.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "app/view/script_keys.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app {
 namespace {
@@ -158,6 +166,37 @@ TEST(ViewScript, IncompleteOrExcessiveLinesAreErrors) {
                            "set receiver-plane perhaps"}) {
     EXPECT_NE(message(line), "accepted") << line;
   }
+}
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(test::source_dir() + "/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The first word of everything between backticks.
+std::set<std::string> quoted_words(const std::string& text) {
+  const std::regex quoted("`([^` ]+)[^`]*`");
+  std::set<std::string> words;
+  for (std::sregex_iterator it(text.begin(), text.end(), quoted), end; it != end; ++it)
+    words.insert((*it)[1]);
+  return words;
+}
+
+/// The language, docs/lab.md and the manual, which is the program's own help, have the same words.
+TEST(ViewScript, EveryWordIsInTheManual) {
+  const std::string page = text_of("docs/lab.md"), manual = text_of("docs/manual/options.md");
+  const std::size_t scripts = page.find("## Scripts"), keys = page.find("\nKeys: ", scripts);
+  ASSERT_NE(keys, std::string::npos);
+  const std::set<std::string> steps = quoted_words(page.substr(scripts, keys - scripts)),
+                              names = quoted_words(page.substr(keys));
+  const std::size_t option = manual.find("- `--script FILE`");
+  ASSERT_NE(option, std::string::npos);
+  const std::string help = manual.substr(option, manual.find("\n- ", option) - option);
+  for (const std::string_view verb : script_verbs()) {
+    EXPECT_TRUE(steps.contains(std::string(verb))) << verb;
+    EXPECT_TRUE(std::regex_search(help, std::regex(fmt::format("\\b{}\\b", verb)))) << verb;
+  }
+  for (const std::string& name : script_key_names()) EXPECT_TRUE(names.contains(name)) << name;
 }
 
 TEST(ViewScript, NothingIsAnEmptyScript) {

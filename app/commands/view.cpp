@@ -1,6 +1,8 @@
 // gnomon view: the interactive window.
 #include "app/view/view.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <memory>
 
@@ -9,17 +11,18 @@
 #include "app/options.h"
 #include "app/strongest_lights.h"
 #include "app/technique_options.h"
+#include "app/values.h"
 
 namespace gnomon::app {
 
 namespace {
 
 constexpr const char* script_help =
-    "drive the window by a file with one step a line, such as set KEY VALUE, open SCENE, show acne, drag X Y "
-    "X Y, "
-    "wait N (frames), wait done (until the comparison is shown), screenshot FILE.png, print, quit; # starts "
-    "a "
-    "comment; docs/lab.md lists every step and key [default off]";
+    "drive the window by a file with one step a line: set KEY VALUE, open SCENE, show PRESET, drag X Y X Y, "
+    "click X Y, drop FILE, key NAME, wait N (frames), wait done (until the comparison is shown), screenshot "
+    "FILE.png, save-scene FILE.json, print, quit; # starts a comment; docs/lab.md explains every step and "
+    "key "
+    "[default off]";
 constexpr std::pair<std::string_view, Theme> themes[] = {{"dark", Theme::dark}, {"light", Theme::light}};
 
 void add_look(CLI::App& app, ViewOptions& options) {
@@ -29,6 +32,14 @@ void add_look(CLI::App& app, ViewOptions& options) {
   app.add_flag("--large-type", options.large_type, "half as large again, for projectors [default off]");
   app.add_flag("--no-panels", options.no_panels,
                "begin with the pictures alone; F11 brings the panels [default off]");
+}
+
+void add_window_size(CLI::App& app, ImageSize& size) {
+  add_value(
+      app, "--size", "WxH",
+      describe("size of the window, panels and all", fmt::format("pixels, 1x1 to {0}x{0}", max_image_side),
+               fmt::format("{}x{}", size.width, size.height)),
+      [&size](const std::string& value) { return assign(size, parse_size(value)); });
 }
 
 }  // namespace
@@ -45,7 +56,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ViewOptions>();
   add_scene(*app, options->scene);
   add_camera(*app, options->camera);
-  add_size(*app, options->compare.raster.size);
+  add_window_size(*app, options->compare.raster.size);
   add_tessellate(*app, options->tessellate);
   add_map_options(*app, options->compare.raster.map);
   app->add_option("--light", options->light, "begin with this light [a light's name; default the first]")

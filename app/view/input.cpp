@@ -2,7 +2,6 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -15,6 +14,8 @@ constexpr double light_step = 2.0, fine_light_step = 0.25;        // degrees
 constexpr double bias_step = 1.0 / 16.0, coarse_bias_step = 1.0;  // texels
 constexpr double slope_step = 0.125, coarse_slope_step = 1.0;     // multiples of the texel's depth slope
 constexpr double offset_step = 0.125, coarse_offset_step = 1.0;   // texels
+constexpr double pan_step = 1.0 / 16.0, swipe_step = 1.0 / 32.0;  // of the picture
+constexpr int probe_step = 1, far_probe_step = 10;                // pixels
 constexpr double click_pixels = 3.0;                              // a hand is not quite still
 constexpr double degrees_per_pixel = 0.25;                        // of a drag
 
@@ -132,6 +133,39 @@ std::optional<Change> look_change(int key, bool shift) {
   }
 }
 
+/// With ctrl: what the mouse moves otherwise.
+std::optional<Change> moving_change(int key, bool shift) {
+  const int pixels = shift ? far_probe_step : probe_step;
+  const auto way = [shift](double right, double up) {
+    return shift ? Change{StepPicture{pan_step * right, -pan_step * up}}
+                 : Change{PanBy{pan_step * right, pan_step * up}};
+  };
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return way(-1.0, 0.0);
+    case GLFW_KEY_RIGHT:
+      return way(1.0, 0.0);
+    case GLFW_KEY_DOWN:
+      return way(0.0, -1.0);
+    case GLFW_KEY_UP:
+      return way(0.0, 1.0);
+    case GLFW_KEY_I:
+      return MoveProbe{0, -pixels};
+    case GLFW_KEY_J:
+      return MoveProbe{-pixels, 0};
+    case GLFW_KEY_K:
+      return MoveProbe{0, pixels};
+    case GLFW_KEY_L:
+      return MoveProbe{pixels, 0};
+    case GLFW_KEY_COMMA:
+      return SwipeBy{-swipe_step};
+    case GLFW_KEY_PERIOD:
+      return SwipeBy{swipe_step};
+    default:
+      return std::nullopt;
+  }
+}
+
 std::optional<Action> control_action(int key) {
   switch (key) {
     case GLFW_KEY_S:
@@ -164,6 +198,8 @@ std::optional<Command> command(int key) {
       return Command::save_screenshot;
     case GLFW_KEY_C:
       return Command::copy_command;
+    case GLFW_KEY_F10:
+      return Command::open_menu;
     case GLFW_KEY_ESCAPE:
       return Command::leave;
     case GLFW_KEY_Q:
@@ -176,8 +212,11 @@ std::optional<Command> command(int key) {
 }  // namespace
 
 std::optional<Action> action_for_key(const Key& key) {
-  if (key.held.control) return control_action(key.code);
   const bool shift = key.held.shift;
+  if (key.held.control) {
+    if (const auto change = moving_change(key.code, shift)) return *change;
+    return control_action(key.code);
+  }
   if (const auto change = view_change(key.code)) return *change;
   if (const auto change = turning_change(key.code, shift)) return *change;
   if (const auto change = map_change(key.code, shift)) return *change;
@@ -188,6 +227,11 @@ std::optional<Action> action_for_key(const Key& key) {
   if (key.code == GLFW_KEY_F9) return UsePreset{3};
   if (const auto asked = command(key.code)) return *asked;
   return std::nullopt;
+}
+
+bool is_panel_key(const Key& key) {
+  if (key.held.control) return key.code == GLFW_KEY_TAB;
+  return key.code == GLFW_KEY_ENTER;
 }
 
 std::optional<Key> key_of_name(std::string_view name) {
@@ -204,7 +248,8 @@ std::optional<Key> key_of_name(std::string_view name) {
       {"up", GLFW_KEY_UP},          {"down", GLFW_KEY_DOWN},
       {"pageup", GLFW_KEY_PAGE_UP}, {"pagedown", GLFW_KEY_PAGE_DOWN},
       {"F10", GLFW_KEY_F10},        {"F11", GLFW_KEY_F11},
-      {"F12", GLFW_KEY_F12},        {"space", GLFW_KEY_SPACE}};
+      {"F12", GLFW_KEY_F12},        {"space", GLFW_KEY_SPACE},
+      {"enter", GLFW_KEY_ENTER}};
   for (const auto& [text, code] : named)
     if (text == name) key.code = code;
   if (name.size() == 2 && name[0] == 'F' && name[1] >= '1' && name[1] <= '9')
@@ -267,11 +312,14 @@ constexpr KeyHelp view_keys[] = {{"1 2 3", "shadow map, ray traced, difference"}
                                  {"Tab", "the view before"},
                                  {"V", "one view, two with a line between, four"},
                                  {"Z, shift+Z", "enlarge the pictures, and back"},
-                                 {"click", "explain this pixel; X: no longer"}};
+                                 {"ctrl+ ,  .", "move the line between"},
+                                 {"click, ctrl+I J K L", "explain a pixel, go up left down right"},
+                                 {"X", "explain none"}};
 constexpr KeyHelp move_keys[] = {{"left drag, arrows", "turn the camera (shift: finer)"},
-                                 {"middle or shift+drag", "move the camera"},
+                                 {"middle or shift+drag", "move the camera, as ctrl+arrows do"},
                                  {"wheel, page up/down", "come nearer, go away"},
                                  {"ctrl+wheel, ctrl+drag", "enlarge and move the pictures"},
+                                 {"ctrl+shift+arrows", "move the enlarged pictures"},
                                  {"right drag, [ ] ; '", "turn the light (shift: finer)"},
                                  {"L", "next light"},
                                  {"space", "play the film, or stop it"}};
@@ -293,7 +341,7 @@ constexpr KeyHelp window_keys[] = {{"F1, H", "this help"},
                                    {"F4  F5", "large type, dark or light"},
                                    {"ctrl+ = - 0", "larger, smaller, as the display says"},
                                    {"F11", "the pictures alone"},
-                                   {"alt, ctrl+tab", "menus and panels by keyboard"},
+                                   {"F10, ctrl+tab", "menus and panels by keyboard"},
                                    {"Esc", "leave the panel, stop a search, close"},
                                    {"Q", "quit"}};
 constexpr KeyGroup groups[] = {{"Views", view_keys},
@@ -306,13 +354,6 @@ constexpr KeyGroup groups[] = {{"Views", view_keys},
 
 std::span<const KeyGroup> key_groups() {
   return groups;
-}
-
-std::string key_help() {
-  std::string text;
-  for (const KeyGroup& group : groups)
-    for (const KeyHelp& key : group.keys) text += fmt::format("{:<24}{}\n", key.keys, key.what);
-  return text;
 }
 
 }  // namespace gnomon::app

@@ -30,6 +30,7 @@ enum class Command : std::uint8_t {
   write_report,
   find_best,
   stop_job,
+  open_menu,
   leave,
   quit
 };
@@ -45,6 +46,9 @@ using Action = std::variant<Change, Command, OpenScene, UsePreset>;
 
 /// Shift: coarse steps for the biases, fine ones for turning.
 std::optional<Action> action_for_key(const Key& key);
+
+/// Keys that move through menus and panels and do nothing else: enter, ctrl+tab.
+bool is_panel_key(const Key& key);
 
 /// "B", "5", "F6", "ctrl+B", "shift+Z", "tab", "esc", "left": nothing for other words.
 std::optional<Key> key_of_name(std::string_view name);
@@ -86,6 +90,5 @@ struct KeyGroup {
   std::span<const KeyHelp> keys;
 };
 std::span<const KeyGroup> key_groups();
-std::string key_help();
 
 }  // namespace gnomon::app

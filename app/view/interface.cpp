@@ -26,6 +26,49 @@ void move_pointer(const ScriptPointer& pointer) {
 #endif
 }
 
+#if IMGUI_VERSION_NUM >= 18700
+ImGuiKey interface_key(int key) {
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return ImGuiKey_LeftArrow;
+    case GLFW_KEY_RIGHT:
+      return ImGuiKey_RightArrow;
+    case GLFW_KEY_UP:
+      return ImGuiKey_UpArrow;
+    case GLFW_KEY_DOWN:
+      return ImGuiKey_DownArrow;
+    case GLFW_KEY_TAB:
+      return ImGuiKey_Tab;
+    case GLFW_KEY_SPACE:
+      return ImGuiKey_Space;
+    case GLFW_KEY_ENTER:
+      return ImGuiKey_Enter;
+    case GLFW_KEY_ESCAPE:
+      return ImGuiKey_Escape;
+    case GLFW_KEY_PAGE_UP:
+      return ImGuiKey_PageUp;
+    case GLFW_KEY_PAGE_DOWN:
+      return ImGuiKey_PageDown;
+    default:
+      return ImGuiKey_None;
+  }
+}
+#endif
+
+/// As the backend does it when a key goes down or up.
+void hold_key(const Key& key, bool down) {
+  ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddKeyEvent(ImGuiMod_Ctrl, down && key.held.control);
+  io.AddKeyEvent(ImGuiMod_Shift, down && key.held.shift);
+  if (const ImGuiKey code = interface_key(key.code); code != ImGuiKey_None) io.AddKeyEvent(code, down);
+#else
+  io.KeyCtrl = down && key.held.control;
+  io.KeyShift = down && key.held.shift;
+  io.KeysDown[key.code] = down;
+#endif
+}
+
 bool moves_through_panels(int key) {
   switch (key) {
     case GLFW_KEY_LEFT:
@@ -79,10 +122,13 @@ void Interface::use_type(const Look& look, const TypeSize& type) {
   }
 }
 
-void Interface::begin_frame(const std::optional<ScriptPointer>& pointer) {
+void Interface::begin_frame(const std::optional<ScriptPointer>& pointer, const std::optional<Key>& key) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   if (pointer) move_pointer(*pointer);
+  if (script_key_ && !key) hold_key(*script_key_, false);
+  if (key) hold_key(*key, true);
+  script_key_ = key;
   ImGui::NewFrame();
 }
 
@@ -97,7 +143,8 @@ bool Interface::wants_pointer() const {
 
 bool Interface::wants_key(int key) const {
   const ImGuiIO& io = ImGui::GetIO();
-  return io.WantTextInput || (io.NavVisible && moves_through_panels(key));
+  const bool menu = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
+  return io.WantTextInput || ((io.NavVisible || menu) && moves_through_panels(key));
 }
 
 bool Interface::leave_panels() {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/view/input.h"
 #include "app/view/layout.h"
 #include "app/view/look.h"
 #include "app/view/window.h"
@@ -28,8 +29,8 @@ class Interface {
 
   /// Between two frames: colours and sizes.
   void use_type(const Look& look, const TypeSize& type);
-  /// Before anything is drawn with Dear ImGui.
-  void begin_frame(const std::optional<ScriptPointer>& pointer);
+  /// Before anything is drawn with Dear ImGui. `key`: held down by a script.
+  void begin_frame(const std::optional<ScriptPointer>& pointer, const std::optional<Key>& key);
   /// Draws it all.
   void end_frame();
 
@@ -44,6 +45,7 @@ class Interface {
   Interface() = default;
   std::optional<std::pair<Theme, double>> styled_;
   double font_scale_ = 0.0;
+  std::optional<Key> script_key_;  ///< held down in the last frame
 };
 
 }  // namespace gnomon::app

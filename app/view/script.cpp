@@ -102,7 +102,7 @@ Expected<Step> parse_show(const Words& words) {
 Expected<Step> parse_key(const Words& words) {
   if (const auto complete = expect_count(words, 2, "key NAME"); !complete) return fail(complete.error());
   const std::optional<Key> key = key_of_name(words[1]);
-  if (!key || !action_for_key(*key))
+  if (!key || !(action_for_key(*key) || is_panel_key(*key)))
     return wrong(fmt::format(
         "a key that does nothing (got {}, allowed those of docs/lab.md, such as F6, tab, ctrl+B)", words[1]));
   return Step{PressKey{*key}};
@@ -183,6 +183,10 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
 }
 
 }  // namespace
+
+std::span<const std::string_view> script_verbs() {
+  return verbs;
+}
 
 Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std::string& file,
                                                const std::vector<Light>& lights) {

@@ -7,9 +7,9 @@
 //   drag X Y X Y [left|right|middle], click X Y      the pointer, in pixels of the window
 //   drag light X Y        the light's handle, to there
 //   drop FILE             a file let fall on the window
-//   key NAME              a key of docs/lab.md: F6, tab, ctrl+B
-//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown, and a search or
-//                         a report that was begun is done
+//   key NAME              a key of docs/lab.md: F6, tab, ctrl+B; enter, too, for menus and panels
+//   wait N | wait done    N frames, or until the comparison of what is set is finished and shown, and a search, a
+//                         report or a file that was begun is done
 //   screenshot FILE.png   what the window shows, once all that is set before has been drawn
 //   save-scene FILE.json  the scene as it is set
 //   print                 the compare command, on stdout; print clipboard: what was copied last
@@ -22,6 +22,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -70,6 +71,9 @@ struct ScriptStep {
                OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm>
       what;
 };
+
+/// The first words of steps.
+std::span<const std::string_view> script_verbs();
 
 /// Errors are ErrorKind::bad_input with file, line and field. Light names must be among the scene's.
 Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std::string& file,

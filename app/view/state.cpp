@@ -242,6 +242,7 @@ struct LookChange {
   void operator()(const SetFlag& c) const { s.look.*c.flag = c.on; }
   void operator()(const ToggleFlag& c) const { s.look.*c.flag = !(s.look.*c.flag); }
   void operator()(const SwipeTo& c) const { s.look.swipe = std::clamp(c.share, 0.0, 1.0); }
+  void operator()(const SwipeBy& c) const { (*this)(SwipeTo{s.look.swipe + c.share}); }
   void operator()(const SetPane& c) const { s.look.quad[c.pane] = c.picture; }
   void operator()(const ZoomPicture& c) const {
     Look& look = s.look;
@@ -258,7 +259,18 @@ struct LookChange {
     s.look.middle += Vec2{c.x, c.y};
     keep_in_picture(s.look);
   }
+  void operator()(const StepPicture& c) const { (*this)(MovePicture{c.x / s.look.zoom, c.y / s.look.zoom}); }
   void operator()(const ProbePixel& c) const { s.look.probe = c.pixel; }
+  void operator()(const MoveProbe& c) const {
+    const ImageSize size = s.setup.size;
+    std::optional<PixelPlace>& probe = s.look.probe;
+    if (!probe) {
+      probe = PixelPlace{size.width / 2, size.height / 2};
+    } else {
+      probe->x = std::clamp(probe->x + c.right, 0, size.width - 1);
+      probe->y = std::clamp(probe->y + c.down, 0, size.height - 1);
+    }
+  }
 };
 
 }  // namespace

@@ -185,6 +185,9 @@ struct NextTheme {};
 struct SwipeTo {
   double share;
 };
+struct SwipeBy {
+  double share;
+};
 /// What a pane of the four shows.
 struct SetPane {
   std::size_t pane;
@@ -202,8 +205,16 @@ struct ZoomPictureTo {
 struct MovePicture {
   double x, y;
 };
+/// The same by shares of what is seen of it.
+struct StepPicture {
+  double x, y;
+};
 struct ProbePixel {
   std::optional<PixelPlace> pixel;
+};
+/// To the pixel so many to the right and down; begins in the middle of the picture.
+struct MoveProbe {
+  int right, down;
 };
 
 using Change =
@@ -212,8 +223,8 @@ using Change =
                  HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap, SetPrecision, Resize, Reset,
                  PanBy, TargetTo, LightDistanceTo, PlaceLamp, LightSizeTo, PickFilm, FilmTo, FilmGoesOn,
                  SunHour, PlayFilm, TogglePlay, SetLayout, NextLayout, SetTheme, NextTheme, SetUiScale,
-                 ScaleUi, SetFlag, ToggleFlag, SwipeTo, SetPane, ZoomPicture, ZoomPictureTo, MovePicture,
-                 ProbePixel>;
+                 ScaleUi, SetFlag, ToggleFlag, SwipeTo, SwipeBy, SetPane, ZoomPicture, ZoomPictureTo,
+                 MovePicture, StepPicture, ProbePixel, MoveProbe>;
 
 void carry_out(ViewState& state, const Change& change);
 

@@ -65,15 +65,18 @@ Viewer::Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptSt
 
 void Viewer::listen() {
   WindowEvents events;
-  events.key = [this](const Key& key) {
-    if (interface_->wants_key(key.code)) return;
-    if (const auto action = action_for_key(key)) act(*action);
-  };
+  events.key = [this](const Key& key) { press_key(key); };
   events.button = [this](int button, bool down, const Modifiers& held) { press(button, down, held); };
   events.pointer = [this](double x, double y) { move(x, y); };
   events.scroll = [this](double notches, const Modifiers& held) { scroll(notches, held); };
   events.drop = [this](const std::string& path) { act(OpenScene{path}); };
   window_->listen(std::move(events));
+}
+
+void Viewer::press_key(const Key& key) {
+  busy_frames_ = 3;
+  if (interface_->wants_key(key.code)) return;
+  if (const auto action = action_for_key(key)) act(*action);
 }
 
 TypeSize Viewer::type() const {
@@ -119,10 +122,13 @@ void Viewer::carry_out_command(Command command) {
     case Command::stop_job:
       job_.reset();
       return note("stopped");
+    case Command::open_menu:
+      menu_asked_ = true;
+      return;
     case Command::leave:
+      if (state_.look.help) return app::carry_out(state_, SetFlag{&Look::help, false});
       if (interface_->leave_panels()) return;
       if (job_) return carry_out_command(Command::stop_job);
-      if (state_.look.help) return app::carry_out(state_, SetFlag{&Look::help, false});
       quit_ = true;
       return;
     case Command::quit:
@@ -290,11 +296,19 @@ Expected<void> Viewer::draw_pictures() {
 void Viewer::draw_panels() {
   interface_->use_type(state_.look, type());
   watch_.end(FramePart::font);
-  interface_->begin_frame(script_pointer_);
+  interface_->begin_frame(script_pointer_, script_key_);
   if (state_.look.panels && shown_->scene) {
     const JobStatus job = job_ ? job_->status() : JobStatus{};
     asked_.clear();
-    PanelContext context{state_, *shown_, layout_, type(), ink_of(state_.look.theme), job, note_, asked_};
+    PanelContext context{state_,
+                         *shown_,
+                         layout_,
+                         type(),
+                         ink_of(state_.look.theme),
+                         job,
+                         note_,
+                         asked_,
+                         std::exchange(menu_asked_, false)};
     overlay(context);
     menu_bar(context);
     left_column(context);

@@ -47,6 +47,7 @@ class Viewer {
   Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console);
   Expected<RenderThread::MakeContext> choose_context();
   void listen();
+  void press_key(const Key& key);
   void press(int button, bool down, const Modifiers& held);
   void move(double x, double y);
   void scroll(double notches, const Modifiers& held);
@@ -98,6 +99,7 @@ class Viewer {
   Expected<bool> pass_open(const std::function<void()>& ask);
   Expected<bool> pass_film(const NameFilm& wanted);
   Expected<bool> pass_drag(DragPointer drag);
+  bool pass_key(const Key& key);
   /// With the script's line, where there is one and the error does not name a place of its own.
   Error located(Error error, int line) const;
 
@@ -109,6 +111,7 @@ class Viewer {
   std::uint64_t scene_ = 0;        ///< OpenedScene::number
   bool quit_ = false;
   bool screenshot_asked_ = false;
+  bool menu_asked_ = false;
   int busy_frames_ = 3;  ///< to be drawn before the window sleeps: panels settle over several frames
   std::string note_;
 
@@ -120,6 +123,7 @@ class Viewer {
   std::optional<std::uint64_t> opening_after_;   ///< the scene that was there when the script opened another
   std::optional<std::string> shot_after_frame_;  ///< the script's, to be taken when this frame is drawn
   std::optional<ScriptPointer> script_pointer_;
+  std::optional<Key> script_key_;     ///< held down by the script
   std::optional<Vec2> dragged_from_;  ///< the light's handle, by a script
   Meter meter_;
   std::optional<Stopwatch> film_watch_;  ///< since the film's last moment

@@ -45,7 +45,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
         std::holds_alternative<WaitDone>(step.what) || std::holds_alternative<Screenshot>(step.what);
     if (waits) return false;
   }
-  if (std::holds_alternative<WaitDone>(step.what)) return job_ == nullptr;
+  if (std::holds_alternative<WaitDone>(step.what)) return job_ == nullptr && !saving_.valid();
   if (const auto* wait = std::get_if<WaitFrames>(&step.what)) return frames_waited_++ == wait->frames;
   if (const auto* shot = std::get_if<Screenshot>(&step.what)) {
     shot_after_frame_ = shot->path;
@@ -65,10 +65,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     return pass_open([this, drop] { window_->drop(drop->path); });
   if (const auto* film = std::get_if<NameFilm>(&step.what)) return pass_film(*film);
   changed_line_ = step.line;
-  if (const auto* press = std::get_if<PressKey>(&step.what)) {
-    act(*action_for_key(press->key));
-    return true;
-  }
+  if (const auto* press = std::get_if<PressKey>(&step.what)) return pass_key(press->key);
   if (const auto* save = std::get_if<SaveScene>(&step.what)) {
     const auto saved = write_scene(save->path, shown_->scene->argument, state_);
     return saved ? Expected<bool>(true) : fail(saved.error());
@@ -135,6 +132,15 @@ Expected<bool> Viewer::pass_drag(DragPointer drag) {
   if (frame == 2) pointer.down[button] = true, press(drag.button, true, {});
   if (frame == drag_frames + 1) pointer.down[button] = false, press(drag.button, false, {});
   return frame > drag_frames + 2;
+}
+
+/// A key goes down in one frame and up in the next, for the panels and the pictures alike.
+bool Viewer::pass_key(const Key& key) {
+  const std::int64_t frame = frames_waited_++;
+  if (frame == 0) press_key(key);
+  script_key_ = frame == 0 ? std::optional(key) : std::nullopt;
+  busy_frames_ = 3;
+  return frame == 2 || quit_;
 }
 
 /// A window gets its size from the display, in its own time.
