@@ -15,7 +15,7 @@ set layout swipe
 set swipe 0.45
 set view labels
 wait done
-click 747 573
+click 747 578
 wait done
 screenshot lab.png
 set theme light
