@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/technique_traits.h"
-#include "scene/light_view.h"
+#include "scene/light_window.h"
 
 namespace gnomon::app {
 
@@ -22,18 +22,6 @@ Camera moved_aside(Camera camera) {
   return camera;
 }
 
-/// Where the map puts a point of the world, texels.
-bool single_map_moves(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
-  const Camera& camera = world.scene->camera;
-  const auto here = fit_light_view(world, light, camera, aspect, map.size);
-  const auto there = fit_light_view(world, light, moved_aside(camera), aspect, map.size);
-  if (!here || !there) return false;
-  const Vec3 point = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
-  const TexelCoordinate a = project_to_texel(*here, point), b = project_to_texel(*there, point);
-  constexpr double rounding = 1e-6;  // texels: of the fit's doubles, in maps of up to 2^16
-  return std::abs(a.u - b.u) > rounding || std::abs(a.v - b.v) > rounding;
-}
-
 bool swims(const World& world, const Light& light, const raster::MapOptions& map, double aspect) {
   if (light.type != LightType::directional) return false;     // its map stays with the light
   if (!raster::compares_depths(map.technique)) return false;  // whatever the map, the answer is the same
@@ -46,7 +34,8 @@ bool swims(const World& world, const Light& light, const raster::MapOptions& map
     case raster::TexelShape::of_light:
       break;
   }
-  return single_map_moves(world, light, map, aspect);
+  const Camera& camera = world.scene->camera;
+  return window_moves(world, light, {camera, moved_aside(camera)}, aspect, map.size);
 }
 
 }  // namespace

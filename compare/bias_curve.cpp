@@ -5,7 +5,7 @@
 #include <set>
 
 #include "compare/pixel_list.h"
-#include "compare/sort_numbers.h"
+#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {

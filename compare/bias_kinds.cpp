@@ -10,11 +10,11 @@
 
 #include "compare/biased_test.h"
 #include "compare/pixel_list.h"
-#include "compare/sort_numbers.h"
 #include "compare/sweep/engine.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 #include "scene/paging.h"
+#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 #include "scene/paging.h"
 
 namespace gnomon::compare {
@@ -69,14 +71,12 @@ bool triangle_faces_light(const LadderInput& in, std::uint32_t primitive) {
 }
 
 // The lower rungs hang on sheets where the centre ray is stopped before the receiver's tangent plane, and by
-// another triangle than the receiver's. Triangles of two surfaces that nowhere hang together share no sheet.
-bool needs_sheets(const LadderInput& in, const Surfaces& surfaces, const TexelCentre& centre,
-                  std::uint32_t pixel) {
+// another triangle than the receiver's.
+bool is_stopped_before(const LadderInput& in, const TexelCentre& centre, std::uint32_t pixel) {
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   return centre.hit && centre.hit->primitive != receiver.primitive &&
          in.world.is_triangle(receiver.primitive) && in.world.is_triangle(centre.hit->primitive) &&
-         !meets_plane_unhindered(in, centre, receiver) &&
-         surfaces.same(receiver.primitive, centre.hit->primitive);
+         !meets_plane_unhindered(in, centre, receiver);
 }
 
 }  // namespace
@@ -100,9 +100,22 @@ ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
       kept_(groups.keys.size()),
       surfaces_(in.world, in.topology) {
   std::vector<char> needed(groups.keys.size(), 0);
-  tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
-    for (const std::uint32_t pixel : groups[g])
-      needed[g] |= static_cast<char>(needs_sheets(in, surfaces_, centres[g], pixel));
+  const auto mark = [&](const auto& is_needed) {
+    tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
+      for (const std::uint32_t pixel : groups[g]) needed[g] |= static_cast<char>(is_needed(g, pixel));
+    });
+  };
+  const auto stopped = [&](std::size_t g, std::uint32_t pixel) {
+    return is_stopped_before(in, centres[g], pixel);
+  };
+  mark(stopped);
+  if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return;
+  surfaces_.prepare();
+  std::fill(needed.begin(), needed.end(), 0);
+  // Triangles of two surfaces that nowhere hang together share no sheet.
+  mark([&](std::size_t g, std::uint32_t pixel) {
+    return stopped(g, pixel) &&
+           surfaces_.same(in.traced.receiver.data[pixel].primitive, centres[g].hit->primitive);
   });
   add(needed);
 }

@@ -1,37 +1,66 @@
 #include "compare/surfaces.h"
 
-#include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+
+#include "scene/paging.h"
 
 namespace gnomon::compare {
 namespace {
 
-// Union and find with path halving (Tarjan and van Leeuwen 1984); the lower index stands for both.
+// Union and find with path halving (Tarjan and van Leeuwen 1984), by several threads at a time: what is no root never
+// becomes one again, and every parent is lower than its child, so that the lowest vertex stands for all.
+using Parent = std::atomic_ref<std::uint32_t>;
+
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
+  for (;;) {
+    const std::uint32_t up = Parent(parent[v]).load(std::memory_order_relaxed);
+    if (up == v) return v;
+    const std::uint32_t above = Parent(parent[up]).load(std::memory_order_relaxed);
+    Parent(parent[v]).store(above, std::memory_order_relaxed);
+    v = above;
+  }
 }
 
 void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-  a = root_of(parent, a), b = root_of(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
+  for (;;) {
+    a = root_of(parent, a), b = root_of(parent, b);
+    if (a == b) return;
+    if (a < b) std::swap(a, b);
+    std::uint32_t root = a;
+    if (Parent(parent[a]).compare_exchange_weak(root, b, std::memory_order_relaxed)) return;
+  }
 }
 
 }  // namespace
 
 void Surfaces::connect() const {
-  parent_.resize(world_.vertex_count());
-  std::iota(parent_.begin(), parent_.end(), 0u);
-  for (std::uint32_t t = 0; t < world_.triangle_count(); ++t) {
+  parent_ = paged_vector<std::uint32_t>(world_.vertex_count());
+  const auto for_each = [](std::size_t count, const auto& work) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) work(static_cast<std::uint32_t>(i));
+    });
+  };
+  for_each(parent_.size(), [&](std::uint32_t v) { parent_[v] = v; });
+  for_each(world_.triangle_count(), [&](std::uint32_t t) {
     join(parent_, topology_.welded(t, 0), topology_.welded(t, 1));
     join(parent_, topology_.welded(t, 0), topology_.welded(t, 2));
-  }
+  });
   for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = parent_[parent_[v]];  // parents are lower
+}
+
+void Surfaces::prepare() const {
+  // Threads that wait for this one must not be given work that asks it.
+  std::call_once(once_, [this] { tbb::this_task_arena::isolate([this] { connect(); }); });
 }
 
 bool Surfaces::same(std::uint32_t a, std::uint32_t b) const {
   if (a == b) return true;
   if (!world_.is_triangle(a) || !world_.is_triangle(b)) return false;
-  std::call_once(once_, [this] { connect(); });
+  prepare();
   return parent_[topology_.welded(a, 0)] == parent_[topology_.welded(b, 0)];
 }
 

@@ -15,6 +15,8 @@ class Surfaces {
   /// Both must outlive this. Nothing is worked out before the first question.
   Surfaces(const World& world, const raytrace::Topology& topology) : world_(world), topology_(topology) {}
   bool same(std::uint32_t a, std::uint32_t b) const;
+  /// Works it out now, on every thread: a question asked by one of many threads leaves the others waiting.
+  void prepare() const;
 
  private:
   void connect() const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compare/pixel_list.h"
-#include "compare/sort_numbers.h"
+#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 

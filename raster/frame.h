@@ -99,7 +99,7 @@ struct LightRecord {
   /// up and takes every receiver for lit. What shade_pass takes beyond it is the shadows'.
   Times unshadowed_pass;
   double first_map_ms =
-      0.0;                 ///< the map's memory and its first drawing, which is not in map_pass; 0: not timed
+      0.0;  ///< the map's memory, what is compiled for it, and its first run, in map_pass too; 0: not timed
   double id_map_ms = 0.0;  ///< drawing the map once more with primitive ids, for the comparison alone
   /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.
   Image<std::uint16_t> lookups;

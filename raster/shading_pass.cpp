@@ -39,9 +39,6 @@ CameraBlock camera_block(const View& view, const World& world, const Vec3& refer
   return block;
 }
 
-/// Enough for a device to compile and set up what it draws triangles with.
-constexpr std::uint32_t few_triangles = 4096;
-
 }  // namespace
 
 ShadingPass::ShadingPass(Gl& gl, ProgramCache& programs)
@@ -136,9 +133,8 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   const float clear_depth = shaders::camera_clear_depth;
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-  world.draw_triangles(
-      *programs, clip_from_relative(view, world.world(), world.reference()),
-      {.culls = programs_->features().single_sided, .most = in_corner_ ? few_triangles : all_triangles});
+  world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
+                       programs_->features().single_sided);
   return draw_shapes(world, view);
 }
 
@@ -198,8 +194,9 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   return {};
 }
 
-Expected<void> ShadingPass::warm_up(const WorldBuffers& world, const View& view,
+Expected<void> ShadingPass::warm_up(WorldBuffers& world, const View& view,
                                     const ShadePermutation& permutation, bool trial) {
+  const FewTriangles few(world);
   in_corner_ = true;
   Expected<void> done = draw_visibility(world, view);
   if (done) done = draw_light(world, permutation, trial);

@@ -22,7 +22,7 @@ class ShadingPass {
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
   /// Both, into a corner of the images: whatever the device compiles or sets up at the first use is then
   /// there, without the time of a whole picture or of all triangles. Leaves the visibility buffer to be filled again.
-  Expected<void> warm_up(const WorldBuffers& world, const View& view, const ShadePermutation& permutation,
+  Expected<void> warm_up(WorldBuffers& world, const View& view, const ShadePermutation& permutation,
                          bool trial);
 
   void bind_visibility() const;

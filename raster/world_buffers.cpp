@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -130,6 +131,15 @@ constexpr std::uint32_t no_material = ~0u;
 
 std::uint32_t stored_material(const WorldPart& part, std::uint32_t triangle) {
   return part.kept() && part.mesh->triangle_materials.empty() ? no_material : part.material_of(triangle);
+}
+
+/// How many triangles from this one on have its material.
+std::uint32_t same_material(const WorldPart& part, std::uint32_t first) {
+  const auto& of_triangles = part.mesh->triangle_materials;
+  if (of_triangles.empty()) return part.triangle_count() - first;
+  const auto begin = of_triangles.begin() + first;
+  return static_cast<std::uint32_t>(
+      std::find_if(begin, of_triangles.end(), [&](std::uint32_t m) { return m != *begin; }) - begin);
 }
 
 PartData part_data(const WorldPart& part, const StoredMeshes::Place& at) {
@@ -294,15 +304,18 @@ void WorldBuffers::make_runs(const SceneFeatures& features) {
   const auto& materials = world_->scene->materials;
   for (std::uint32_t p = 0; p < world_->parts.size(); ++p) {
     const WorldPart& part = world_->parts[p];
-    for (std::uint32_t i = 0; i < part.triangle_count(); ++i) {
-      TriangleRun run{part.first_triangle + i, 1, meshes_.of_part[p].triangles + i, part.kept() ? p : no_id};
+    for (std::uint32_t i = 0; i < part.triangle_count();) {
+      const std::uint32_t alike = same_material(part, i);
+      TriangleRun run{part.first_triangle + i, alike, meshes_.of_part[p].triangles + i,
+                      part.kept() ? p : no_id};
       const Material& material = materials[part.material_of(i)];
       run.masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
       run.single_sided = features.single_sided && !shows_back(material);
       if (!runs_.empty() && run.follows(runs_.back()))
-        ++runs_.back().count;
+        runs_.back().count += alike;
       else
         runs_.push_back(run);
+      i += alike;
     }
   }
 }
@@ -368,12 +381,11 @@ void WorldBuffers::bind() const {
 }
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                                  const DrawnTriangles& drawn) const {
-  if (drawn.culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
+                                  bool culls) const {
+  if (culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;
-    std::array<std::uint32_t, 2> left{drawn.most,
-                                      drawn.most};  // of flattened triangles, and of kept instances
+    std::array<std::uint32_t, 2> left{most_, most_};  // of flattened triangles, and of kept instances
     for (const TriangleRun& run : runs_) {
       const bool kept = run.part != no_id;
       const std::uint32_t count = std::min(run.count, left[kept ? 1 : 0]);
@@ -384,13 +396,13 @@ void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& 
         program.use(), program.set_clip_from_relative(clip_from_relative), used = &program;
       program.set_first_primitive(run.first);
       if (kept) program.set_part(run.part);
-      if (drawn.culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
+      if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
       const auto offset = static_cast<std::uintptr_t>(run.at) * 3 * sizeof(std::uint32_t);
       (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(offset));
     }
   }
-  if (drawn.culls) (*gl_)->Disable(GL_CULL_FACE);
+  if (culls) (*gl_)->Disable(GL_CULL_FACE);
 }
 
 }  // namespace gnomon::raster

@@ -78,15 +78,6 @@ Vec3 reference_point(const World& world, const Vec3& eye);
 /// only share one depth.
 double near_distance(const World& world, const Vec3& eye);
 
-inline constexpr std::uint32_t all_triangles = ~0u;
-
-struct DrawnTriangles {
-  /// Single-sided triangles are not drawn where their back is seen (GL_CULL_FACE is off before and after); else the
-  /// caller's state holds for all.
-  bool culls = false;
-  std::uint32_t most = all_triangles;  ///< of the opaque ones, and of the others
-};
-
 class WorldBuffers {
  public:
   /// Error (graphics): more data than the context's buffers hold.
@@ -98,11 +89,13 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
-  /// Draws every run with the program of its kind; all get the matrix.
+  /// Draws every run with the program of its kind; all get the matrix. `culls`: single-sided triangles are not drawn
+  /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                      const DrawnTriangles& drawn = {}) const;
+                      bool culls = false) const;
 
  private:
+  friend class FewTriangles;
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
@@ -123,6 +116,21 @@ class WorldBuffers {
   BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,
       object_position_texels_;
   std::optional<TexelPages> texels_;
+  /// Triangles that are drawn, of opaque ones and of others, flattened and kept, each.
+  std::uint32_t most_ = ~0u;
+};
+
+/// While it lives, few triangles are drawn: what a device compiles or sets up at the first use is there then, without
+/// the time of all.
+class FewTriangles {
+ public:
+  explicit FewTriangles(WorldBuffers& world) : world_(world) { world_.most_ = 4096; }
+  ~FewTriangles() { world_.most_ = ~0u; }
+  FewTriangles(const FewTriangles&) = delete;
+  FewTriangles& operator=(const FewTriangles&) = delete;
+
+ private:
+  WorldBuffers& world_;
 };
 
 }  // namespace gnomon::raster

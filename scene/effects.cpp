@@ -15,7 +15,9 @@ std::set<std::uint32_t> used_materials(const Scene& scene) {
   for (const MeshInstance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (mesh.triangle_materials.empty()) used.insert(instance.material);
-    used.insert(mesh.triangle_materials.begin(), mesh.triangle_materials.end());
+    const auto& of_triangles = mesh.triangle_materials;
+    for (std::size_t i = 0; i < of_triangles.size(); ++i)
+      if (i == 0 || of_triangles[i] != of_triangles[i - 1]) used.insert(of_triangles[i]);
   }
   for (const Shape& shape : scene.shapes) used.insert(shape.material);
   return used;
@@ -29,9 +31,10 @@ constexpr Remark simulated{true, ""}, traced_only{true, "; only the ray tracer s
     plainly_drawn{true, "; only the ray tracer shows it, the rasterizer draws matte grey in its place"};
 
 // The first used material for which `needs` holds is the reason.
-EffectEntry from_materials(const Scene& scene, Effect effect, const Remark& remark, std::string_view property,
+EffectEntry from_materials(const Scene& scene, const std::set<std::uint32_t>& used, Effect effect,
+                           const Remark& remark, std::string_view property,
                            const std::function<bool(const Material&)>& needs) {
-  for (const std::uint32_t id : used_materials(scene)) {
+  for (const std::uint32_t id : used) {
     const Material& material = scene.materials[id];
     if (!needs(material)) continue;
     return {effect, true, remark.supported,
@@ -83,8 +86,9 @@ std::string_view effect_name(Effect effect) {
 
 EffectPlan plan_effects(const Scene& scene) {
   const auto any = [](const Vec3f& v) { return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f; };
+  const std::set<std::uint32_t> used = used_materials(scene);
   const auto material = [&](Effect e, const Remark& remark, std::string_view property, auto needs) {
-    return from_materials(scene, e, remark, property, needs);
+    return from_materials(scene, used, e, remark, property, needs);
   };
   using M = const Material&;
   const int per_pixel = scene.camera.samples_per_pixel;

@@ -2,10 +2,15 @@
 // the camera frustum projected along the light (a shadow has the light-space position of its caster, so
 // nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot
 // and point: the light's own cone or cube, with the tightest depth range that clips nothing.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "scene/light_fit_parts.h"
+#include "scene/light_window.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -94,18 +99,35 @@ Aabb extent_of(const WorldPart& part, const LightFace& face, const Vec3& referen
   return {box.min - margin, box.max + margin};
 }
 
-// Calls use(rect, z_min, z_max) for the light-space extent of every finite primitive, but for parts of whose boxes
-// makes_no_difference(box) says so.
-template <class Makes, class Use>
-void for_each_extent(const World& world, const LightFace& face, const Vec3& reference,
-                     const Makes& makes_no_difference, const Use& use) {
+struct Extent {
+  Rect rect;
+  double z_min, z_max;
+};
+
+// Adds up the light-space extents of all finite primitives, by add(sum, extent) and join(sum, other sum), on every
+// thread; but for kept parts of whose boxes makes_no_difference(sum, box) says so.
+template <class Sum, class Makes, class Add, class Join>
+Sum over_extents(const World& world, const LightFace& face, const Vec3& reference, const Sum& none,
+                 const Makes& makes_no_difference, const Add& add, const Join& join) {
+  constexpr std::size_t at_a_time = 8192;
+  Sum sum = none;
   for (const WorldPart& part : world.parts) {
-    if (part.kept() && makes_no_difference(extent_of(part, face, reference))) continue;
-    for (std::uint32_t t = 0; t < part.triangle_count(); ++t) {
-      Aabb box;
-      for (const Vec3& corner : part.corners(t)) box.grow(to_light_space(face, corner - reference));
-      use(Rect{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z);
-    }
+    if (part.kept() && makes_no_difference(sum, extent_of(part, face, reference))) continue;
+    join(sum, tbb::parallel_reduce(
+                  tbb::blocked_range<std::size_t>(0, part.triangle_count(), at_a_time), none,
+                  [&](const auto& range, Sum some) {
+                    for (std::size_t t = range.begin(); t != range.end(); ++t) {
+                      Aabb box;
+                      for (const Vec3& corner : part.corners(t))
+                        box.grow(to_light_space(face, corner - reference));
+                      add(some, Extent{{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z});
+                    }
+                    return some;
+                  },
+                  [&](Sum some, const Sum& more) {
+                    join(some, more);
+                    return some;
+                  }));
   }
   for (const Shape& shape : world.shapes) {
     if (std::holds_alternative<Plane>(shape.geometry)) continue;
@@ -116,8 +138,9 @@ void for_each_extent(const World& world, const LightFace& face, const Vec3& refe
     };
     const Vec3 c = to_light_space(face, center - reference);
     const Vec3 half(reach(face.right), reach(face.up), reach(face.forward));
-    use(Rect{Vec2(c - half), Vec2(c + half)}, c.z - half.z, c.z + half.z);
+    add(sum, Extent{{Vec2(c - half), Vec2(c + half)}, c.z - half.z, c.z + half.z});
   }
+  return sum;
 }
 
 // Where the pixel rays of a coarse grid meet the infinite planes, within 50 camera distances.
@@ -140,110 +163,72 @@ Rect visible_plane_part(const World& world, const LightFace& face, const Vec3& r
   return rect;
 }
 
-Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size) {
-  LightView out;
-  out.size = size;
-  const LightFace face = face_along(light.direction);
-  const bool finite = !world.finite_bounds.empty();
-  const Vec3 reference = finite ? world.finite_bounds.center() : view.eye;
+/// What a directional light's map is fitted to, whatever the camera.
+struct Casters {
+  LightFace face;
+  std::optional<Vec3> middle;  ///< of what is finite
   Rect rect;
-  if (finite) {
-    rect = light_fit::casters_rect(world, face, reference);
-    rect = visible_part(rect, face, reference, view, view_reach(world, view));
-  } else {
-    rect = visible_plane_part(world, face, reference, view);
+  Casters(const World& world, const Light& light) : face(face_along(light.direction)) {
+    if (world.finite_bounds.empty()) return;
+    middle = world.finite_bounds.center();
+    rect = light_fit::casters_rect(world, face, *middle);
   }
+  Vec3 reference(const View& view) const { return middle.value_or(view.eye); }
+};
+
+/// The part of it that the camera sees.
+Expected<Rect> fit_rect(const World& world, const Casters& casters, const View& view) {
+  const Vec3 reference = casters.reference(view);
+  const Rect rect = casters.middle
+                        ? visible_part(casters.rect, casters.face, reference, view, view_reach(world, view))
+                        : visible_plane_part(world, casters.face, reference, view);
   if (rect.empty())
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the camera sees no surface");
+  return rect;
+}
 
-  const Interval z = light_fit::depths_over(world, face, reference, rect, rect);
-  // One texel of margin on each side, so that no caster's silhouette falls on the border.
-  const double widest = std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
-  const Vec2 half =
-      glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest)) * (size / std::max(1.0, size - 2.0));
-  if (!(widest > 0.0))
-    return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
-  const Vec2 middle = 0.5 * (rect.min + rect.max);
-  const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest);
+double widest(const Rect& rect) {
+  return std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
+}
+
+/// The map over the rectangle, without depths.
+LightView window_over(const Casters& casters, const Rect& rect, const View& view, int size) {
+  LightView out;
+  out.size = size;
   out.projection = LightProjection::orthographic;
-  out.faces[0] = face;
-  out.origin = reference + middle.x * face.right + middle.y * face.up;
-  out.set_extent(half, z.min - margin, z.max + margin);
+  out.faces[0] = casters.face;
+  const Vec2 middle = rect.middle();
+  out.origin = casters.reference(view) + middle.x * casters.face.right + middle.y * casters.face.up;
+  // One texel of margin on each side, so that no caster's silhouette falls on the border.
+  const Vec2 half =
+      glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest(rect))) * (size / std::max(1.0, size - 2.0));
+  out.set_extent(half, 0.0, 1.0);
   return out;
 }
 
-// Ericson 2005, Real-Time Collision Detection, section 5.1.5.
-double distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const auto& [a, b, c] = t;
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return glm::length(ap);
-  const Vec3 bp = p - b;
-  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0.0 && d4 <= d3) return glm::length(bp);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return glm::length(ap - ab * (d1 / (d1 - d3)));
-  const Vec3 cp = p - c;
-  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0.0 && d5 <= d6) return glm::length(cp);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return glm::length(ap - ac * (d2 / (d2 - d6)));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return glm::length(bp - (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
-  const Vec3 n = glm::cross(ab, ac);
-  return std::abs(glm::dot(n, ap)) / glm::length(n);
+View view_of(const Camera& camera, double aspect) {
+  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
 }
 
-// To the solid's box: less than to the solid.
-double distance_to_box(const Vec3& p, const ShapeGeometry& solid) {
-  const Aabb box = local_box(solid);
-  const Vec3 local = to_local(frame_of(solid), p);
-  return glm::length(local - glm::clamp(local, box.min, box.max));
-}
-
-double closest_distance(const World& world, const Vec3& p) {
-  double closest = infinity;
-  for (const WorldPart& part : world.parts) {
-    const double to_box = glm::length(p - glm::clamp(p, part.bounds.min, part.bounds.max));
-    if (part.kept() && 0.999 * to_box > closest) continue;
-    for (std::uint32_t i = 0; i < part.triangle_count(); ++i)
-      closest = std::min(closest, distance_to_triangle(p, part.corners(i)));
-  }
-  for (const Shape& shape : world.shapes) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-      closest = std::min(closest, std::abs(glm::length(sphere->center - p) - sphere->radius));
-    else if (is_solid(shape.geometry))
-      closest = std::min(closest, distance_to_box(p, shape.geometry));
-    else {
-      const auto& plane = std::get<Plane>(shape.geometry);
-      closest = std::min(closest, std::abs(glm::dot(plane.normal, plane.point - p)));
-    }
-  }
-  return closest;
-}
-
-double farthest_distance(const World& world, const Vec3& p) {
-  double farthest = 0.0;
-  for (const WorldPart& part : world.parts)
-    for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
-      farthest = std::max(farthest, glm::length(part.position(v) - p));
-  for (const Shape& shape : world.shapes) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-      farthest = std::max(farthest, glm::length(sphere->center - p) + sphere->radius);
-    else if (is_solid(shape.geometry))
-      farthest = std::max(farthest, glm::length(solid_center(shape.geometry) - p) +
-                                        0.5 * local_box(shape.geometry).diagonal());
-  }
-  return farthest;
+Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size) {
+  const Casters casters(world, light);
+  const auto rect = fit_rect(world, casters, view);
+  if (!rect) return fail(rect.error());
+  if (!(widest(*rect) > 0.0))
+    return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
+  const Interval z = light_fit::depths_over(world, casters.face, casters.reference(view), *rect, *rect);
+  const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest(*rect));
+  LightView out = window_over(casters, *rect, view, size);
+  out.set_extent(out.faces[0].half_extent, z.min - margin, z.max + margin);
+  return out;
 }
 
 // Depth range of a perspective map: nothing closer than `near` exists; finite things end before `far`, and an
 // infinite plane is kept until the shadow of anything finite has left it (ten times the scene, or 50
 // heights).
 void fit_depth(const World& world, const Vec2& half_extent, LightView& view) {
-  const double closest = closest_distance(world, view.origin);
-  double far_depth = farthest_distance(world, view.origin);
+  const double closest = light_fit::closest_distance(world, view.origin);
+  double far_depth = light_fit::farthest_distance(world, view.origin);
   for (const Shape& shape : world.shapes) {
     if (const auto* plane = std::get_if<Plane>(&shape.geometry))
       far_depth = std::max({10.0 * far_depth, far_depth,
@@ -274,27 +259,33 @@ Vec3 to_light_space(const LightFace& f, const Vec3& d) {
 }
 
 Rect casters_rect(const World& world, const LightFace& face, const Vec3& reference) {
-  Rect rect;
-  const auto inside = [&](const Aabb& box) {
+  const auto inside = [](const Rect& rect, const Aabb& box) {
     return box.min.x > rect.min.x && box.min.y > rect.min.y && box.max.x < rect.max.x &&
            box.max.y < rect.max.y;
   };
-  for_each_extent(world, face, reference, inside,
-                  [&](const Rect& r, double, double) { rect.grow(r.min), rect.grow(r.max); });
-  return rect;
+  const auto grow = [](Rect& rect, const Rect& more) { rect.grow(more.min), rect.grow(more.max); };
+  return over_extents(
+      world, face, reference, Rect{}, inside, [&](Rect& rect, const Extent& e) { grow(rect, e.rect); },
+      [&](Rect& rect, const Rect& more) {
+        if (!more.empty()) grow(rect, more);
+      });
 }
 
 Interval depths_over(const World& world, const LightFace& face, const Vec3& reference, const Rect& casters,
                      const Rect& rect) {
-  Interval z{infinity, -infinity};
-  const auto beside_or_inside = [&](const Aabb& box) {
+  const auto beside_or_inside = [&](const Interval& z, const Aabb& box) {
     return (!box.empty() && !Rect{Vec2(box.min), Vec2(box.max)}.overlaps(casters)) ||
            (box.min.z > z.min && box.max.z < z.max);
   };
-  for_each_extent(world, face, reference, beside_or_inside, [&](const Rect& r, double z_min, double z_max) {
-    if (!r.overlaps(casters)) return;
-    z.min = std::min(z.min, z_min), z.max = std::max(z.max, z_max);
-  });
+  const auto grow = [](Interval& z, double min, double max) {
+    z.min = std::min(z.min, min), z.max = std::max(z.max, max);
+  };
+  Interval z = over_extents(
+      world, face, reference, Interval{infinity, -infinity}, beside_or_inside,
+      [&](Interval& sum, const Extent& e) {
+        if (e.rect.overlaps(casters)) grow(sum, e.z_min, e.z_max);
+      },
+      [&](Interval& sum, const Interval& more) { grow(sum, more.min, more.max); });
   for (const Shape& shape : world.shapes) {
     const auto* plane = std::get_if<Plane>(&shape.geometry);
     if (plane == nullptr) continue;
@@ -333,10 +324,8 @@ double finite_reach(const World& world, const View& view) {
 
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
                                    double aspect, int size) {
-  if (light.type == LightType::directional) {
-    const View view = make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
-    return fit_directional(world, light, view, size);
-  }
+  if (light.type == LightType::directional)
+    return fit_directional(world, light, view_of(camera, aspect), size);
   LightView out;
   out.size = size;
   out.projection = LightProjection::perspective;
@@ -353,6 +342,21 @@ Expected<LightView> fit_light_view(const World& world, const Light& light, const
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the scene has no surface");
   fit_depth(world, half_extent, out);
   return out;
+}
+
+bool window_moves(const World& world, const Light& light, const std::array<Camera, 2>& cameras, double aspect,
+                  int size) {
+  const Casters casters(world, light);
+  const Vec3 point = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
+  std::array<TexelCoordinate, 2> at;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const View view = view_of(cameras[i], aspect);
+    const auto rect = fit_rect(world, casters, view);
+    if (!rect || !(widest(*rect) > 0.0)) return false;
+    at[i] = project_to_texel(window_over(casters, *rect, view, size), point);
+  }
+  constexpr double rounding = 1e-6;  // texels: of the fit's doubles, in maps of up to 2^16
+  return std::abs(at[0].u - at[1].u) > rounding || std::abs(at[0].v - at[1].v) > rounding;
 }
 
 }  // namespace gnomon

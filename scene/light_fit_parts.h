@@ -38,6 +38,10 @@ Interval depths_over(const World& world, const LightFace& face, const Vec3& refe
 /// The convex polygon around `points`, cut with the rectangle.
 std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect);
 
+/// From a point to the nearest surface, at most, and to the farthest finite one, at least; 0 where there is none.
+double closest_distance(const World& world, const Vec3& p);
+double farthest_distance(const World& world, const Vec3& p);
+
 /// The largest depth along the view direction at which the camera can see anything finite.
 double finite_reach(const World& world, const View& view);
 

@@ -3,6 +3,7 @@
 // picture does.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -20,6 +21,15 @@ std::vector<T> paged_vector(std::size_t count) {
   page_in(out.data(), count * sizeof(T));
   out.resize(count);
   return out;
+}
+
+/// Appends the value so many times.
+template <class T>
+void extend_paged(std::vector<T>& values, std::size_t count, const T& value = {}) {
+  const std::size_t before = values.size();
+  if (values.capacity() < before + count) values.reserve(std::max(before + count, 2 * before));
+  page_in(values.data() + before, count * sizeof(T));
+  values.resize(before + count, value);
 }
 
 /// Filled with Pixel{}.

@@ -9,8 +9,8 @@
 
 #include "compare/biased_test.h"
 #include "compare/pixel_list.h"
-#include "compare/sort_numbers.h"
 #include "compare/texel_groups.h"
+#include "scene/sort_numbers.h"
 #include "tests/every_target.h"
 
 namespace gnomon::compare {

@@ -8,9 +8,9 @@
 #include "compare/cascades.h"
 #include "compare/flip.h"
 #include "compare/shadow_cost.h"
-#include "compare/sort_numbers.h"
 #include "compare/ssim.h"
 #include "compare/ssim_rows.h"
+#include "scene/sort_numbers.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {

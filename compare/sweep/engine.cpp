@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "compare/shimmer/shimmer.h"
-#include "compare/sort_numbers.h"
 #include "compare/sweep/engine_impl.h"
 #include "raster/technique_traits.h"
 #include "scene/exposure.h"
+#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {

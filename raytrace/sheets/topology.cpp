@@ -4,10 +4,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <tuple>
 
+#include "raytrace/choose_tracer.h"
+#include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
+#include "scene/paging.h"
+#include "scene/sort_numbers.h"
 #include "scene/stages.h"
 
 namespace gnomon::raytrace {
@@ -59,31 +65,71 @@ class Soup {
   std::span<const Vec3> positions_;
 };
 
-/// The lowest vertex at each vertex's position (-0 equals 0).
-std::vector<std::uint32_t> weld(std::span<const Vec3> positions) {
-  std::vector<std::uint32_t> order(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  const auto key = [&](std::uint32_t i) {
-    const Vec3& p = positions[i];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
-  std::vector<std::uint32_t> welded(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
+std::uint64_t hash_of(const Vec3& p) {
+  std::uint64_t hash = 0;
+  for (int a = 0; a < 3; ++a) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(p[a] + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 becomes 0
+    hash ^= hash >> 32;
   }
-  return welded;
+  return hash;
 }
+
+/// The lowest vertex at each vertex's position (-0 equals 0).
+class Weld {
+ public:
+  explicit Weld(std::span<const Vec3> positions)
+      : positions_(positions), order_(paged_vector<std::uint64_t>(positions.size())) {}
+
+  std::vector<std::uint32_t> run() {
+    const std::size_t count = positions_.size();
+    tbb::parallel_for(std::size_t{0}, count,
+                      [&](std::size_t i) { order_[i] = hash_of(positions_[i]) << 32 | i; });
+    sort_numbers(std::span(order_));
+    auto welded = paged_vector<std::uint32_t>(count);
+    const auto hash_at = [&](std::size_t i) { return order_[i] >> 32; };
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t first) {
+      if (first > 0 && hash_at(first) == hash_at(first - 1)) return;
+      std::size_t end = first + 1;
+      while (end < count && hash_at(end) == hash_at(first)) ++end;
+      join(std::span(order_).subspan(first, end - first), welded);
+    });
+    return welded;
+  }
+
+ private:
+  static std::uint32_t vertex(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
+  const Vec3& at(std::uint64_t entry) const { return positions_[vertex(entry)]; }
+
+  /// Vertices of one hash, ascending: nearly always at one position.
+  void join(std::span<const std::uint64_t> run, std::vector<std::uint32_t>& welded) const {
+    if (std::all_of(run.begin(), run.end(), [&](std::uint64_t e) { return at(e) == at(run[0]); })) {
+      for (const std::uint64_t entry : run) welded[vertex(entry)] = vertex(run[0]);
+      return;
+    }
+    std::vector<std::uint64_t> sorted(run.begin(), run.end());
+    std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
+      const auto ka = std::tie(at(a).x, at(a).y, at(a).z), kb = std::tie(at(b).x, at(b).y, at(b).z);
+      return ka != kb ? ka < kb : a < b;
+    });
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      const bool same = i > 0 && at(sorted[i]) == at(sorted[i - 1]);
+      welded[vertex(sorted[i])] = same ? welded[vertex(sorted[i - 1])] : vertex(sorted[i]);
+    }
+  }
+
+  std::span<const Vec3> positions_;
+  std::vector<std::uint64_t> order_;  ///< hashes of positions, and in the lower half the vertices
+};
 
 /// A triangle's edge, kept with its lower vertex.
 struct HalfEdge {
   std::uint32_t high;
-  std::uint32_t place;  // 3 * triangle + edge
-  bool operator<(const HalfEdge& b) const { return std::tie(high, place) < std::tie(b.high, b.place); }
+  std::uint32_t
+      tagged;  // twice its place, 3 * triangle + edge, and 1 where it leads from the lower vertex to the higher
+  std::uint32_t place() const { return tagged / 2; }
+  std::uint32_t triangle() const { return place() / 3; }
+  bool is_forwards() const { return (tagged & 1) != 0; }
+  bool operator<(const HalfEdge& b) const { return std::tie(high, tagged) < std::tie(b.high, b.tagged); }
 };
 
 /// Finds what lies across the edges of a soup's triangles.
@@ -101,26 +147,22 @@ class Pairing {
       for (std::size_t first = 0; first < edges.size();) {
         std::size_t end = first + 1;
         while (end < edges.size() && edges[end].high == edges[first].high) ++end;
-        pair(static_cast<std::uint32_t>(v), edges.subspan(first, end - first));
+        pair(v, edges.subspan(first, end - first));
         first = end;
       }
     });
   }
 
  private:
-  std::array<std::uint32_t, 2> ends_of(std::uint32_t triangle, std::uint32_t edge) const {
-    const auto t = soup_.triangle(triangle);
-    return {welded_[t[edge]], welded_[t[(edge + 1) % 3]]};
-  }
-
   // A counting sort: each thread counts, then each fills from the end of the vertex's run.
   void sort_by_lower_vertex() {
     ends_.assign(welded_.size() + 1, 0);
     const auto each_edge = [&](const auto& use) {
       tbb::parallel_for(std::uint32_t{0}, soup_.triangle_count(), [&](std::uint32_t t) {
+        const auto corners = soup_.triangle(t);
         for (std::uint32_t k = 0; k < 3; ++k) {
-          const auto [a, b] = ends_of(t, k);
-          use(std::min(a, b), HalfEdge{std::max(a, b), 3 * t + k});
+          const std::uint32_t a = welded_[corners[k]], b = welded_[corners[(k + 1) % 3]];
+          use(std::min(a, b), HalfEdge{std::max(a, b), 2 * (3 * t + k) + (a < b ? 1 : 0)});
         }
       });
     };
@@ -128,39 +170,32 @@ class Pairing {
       std::atomic_ref(ends_[low]).fetch_add(1, std::memory_order_relaxed);
     });
     for (std::size_t v = 1; v < ends_.size(); ++v) ends_[v] += ends_[v - 1];
-    edges_.resize(ends_.back());
+    edges_ = HugeArray<HalfEdge>(ends_.back());
     each_edge([&](std::uint32_t low, const HalfEdge& edge) {
       edges_[std::atomic_ref(ends_[low]).fetch_sub(1, std::memory_order_relaxed) - 1] = edge;
     });
   }
 
   /// All edges between two vertices.
-  void pair(std::uint32_t low, std::span<const HalfEdge> edges) const {
+  void pair(std::size_t low, std::span<const HalfEdge> edges) const {
     if (edges.size() < 2) return;
-    const std::uint32_t a = edges[0].place, b = edges[1].place;
-    const auto forwards = [&](std::uint32_t place) { return ends_of(place / 3, place % 3)[0] == low; };
-    if (edges.size() == 2 && low != edges[0].high && forwards(a) != forwards(b) && a / 3 != b / 3) {
-      across_[a] = soup_.world_triangle(b / 3), across_[b] = soup_.world_triangle(a / 3);
+    const HalfEdge &a = edges[0], &b = edges[1];
+    if (edges.size() == 2 && low != a.high && a.is_forwards() != b.is_forwards() &&
+        a.triangle() != b.triangle()) {
+      across_[a.place()] = soup_.world_triangle(b.triangle());
+      across_[b.place()] = soup_.world_triangle(a.triangle());
       return;
     }
-    for (const HalfEdge& edge : edges) across_[edge.place] = Topology::non_manifold;
+    for (const HalfEdge& edge : edges) across_[edge.place()] = Topology::non_manifold;
   }
 
+  static_assert(std::uint64_t{6} * most_primitives < 0xffffffffu, "an edge's place and its direction");
   const Soup& soup_;
   const std::vector<std::uint32_t>& welded_;
   std::span<std::uint32_t> across_;
   std::vector<std::uint32_t> ends_;  // of the vertices' runs of edges; filled, their beginnings
-  std::vector<HalfEdge> edges_;
+  HugeArray<HalfEdge> edges_;
 };
-
-std::uint64_t hash_of(const Vec3& p) {
-  std::uint64_t hash = 0;
-  for (int a = 0; a < 3; ++a) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(p[a] + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 becomes 0
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
 
 /// Which parts have a vertex where another part has one, or where another one of their own came to lie; what is
 /// flattened counts as such. A part too many does no harm.
@@ -249,8 +284,8 @@ Topology::Topology(const World& world) : triangles_(world.triangle_ranges), part
 Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   const Soup soup(parts);
   const Place place{across_.size(), welded_.size()};
-  std::vector<std::uint32_t> welded = weld(soup.positions());
-  across_.resize(place.across + 3 * std::size_t{soup.triangle_count()}, boundary);
+  std::vector<std::uint32_t> welded = Weld(soup.positions()).run();
+  extend_paged(across_, 3 * std::size_t{soup.triangle_count()}, boundary);
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
   tbb::parallel_for(std::size_t{0}, welded.size(),
                     [&](std::size_t v) { welded[v] = soup.world_vertex(welded[v]); });

@@ -9,6 +9,7 @@
 #include "scene/closed_mesh.h"
 #include "scene/files/image_io.h"
 #include "scene/files/interior.h"
+#include "scene/files/placed_triangles.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -24,37 +25,29 @@ struct Footprint {
 };
 
 template <class Visit>
-void for_each_triangle(const Scene& scene, const Visit& visit) {
-  for (const MeshInstance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    std::vector<Vec3> world;
-    world.reserve(mesh.positions.size());
-    for (const Vec3& p : mesh.positions) world.push_back(Vec3(instance.world_from_object * Vec4(p, 1.0)));
-    const double side = glm::determinant(Mat3(instance.world_from_object)) < 0.0 ? -1.0 : 1.0;
-    for (const auto& t : mesh.triangles) visit(world[t[0]], world[t[1]], world[t[2]], side);
-  }
-}
-
-template <class Visit>
 void for_each_corner(const Aabb& box, const Visit& visit) {
   for (int corner = 0; corner < 8; ++corner)
     visit(Vec3((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
                (corner & 4) ? box.max.z : box.min.z));
 }
 
-// Points whose hull holds all that is finite: corners of triangles, and of the boxes around spheres.
-template <class Visit>
-void for_each_point(const Scene& scene, const Visit& visit) {
-  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double) {
-    visit(a);
-    visit(b);
-    visit(c);
-  });
+// Adds up, with add(sum, point), points whose hull holds all that is finite: corners of triangles, and of the boxes
+// around spheres.
+template <class Sum, class Add, class Join>
+Sum over_points(const Scene& scene, const Sum& none, const Add& add, const Join& join) {
+  Sum sum = over_placed_triangles(
+      scene, none,
+      [&](Sum& of_triangles, const PlacedTriangle& t) {
+        add(of_triangles, t.a), add(of_triangles, t.b), add(of_triangles, t.c);
+      },
+      join);
+  const auto visit = [&](const Vec3& p) { add(sum, p); };
   for (const Shape& shape : scene.shapes)
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       for_each_corner({sphere->center - Vec3(sphere->radius), sphere->center + Vec3(sphere->radius)}, visit);
     else if (is_solid(shape.geometry))
       for_each_corner(world_box(shape.geometry), visit);
+  return sum;
 }
 
 Footprint footprint(const Scene& scene, const Aabb& bounds) {
@@ -63,16 +56,18 @@ Footprint footprint(const Scene& scene, const Aabb& bounds) {
   constexpr double coplanar_share = 1e-6;  // of the diagonal
   const double floor_top = bounds.min.y + floor_share * bounds.extent().y;
   const double lowest = bounds.min.y + coplanar_share * bounds.diagonal();
-  Footprint out;
-  for_each_triangle(scene, [&](const Vec3& a, const Vec3& b, const Vec3& c, double side) {
-    const Vec3 n = 0.5 * side * glm::cross(b - a, c - a);
+  const auto add = [&](Footprint& out, const PlacedTriangle& t) {
+    const Vec3 n = 0.5 * t.normal();
     (n.y > 0.0 ? out.up : out.down) += std::abs(n.y);
-    const double top = std::max({a.y, b.y, c.y});
+    const double top = std::max({t.a.y, t.b.y, t.c.y});
     if (n.y <= 0.0 || top > floor_top || n.y < flat * glm::length(n)) return;
     out.floor += n.y;
     if (top <= lowest) out.lowest_faces_up = true;
+  };
+  return over_placed_triangles(scene, Footprint{}, add, [](Footprint& out, const Footprint& more) {
+    out.up += more.up, out.down += more.down, out.floor += more.floor;
+    out.lowest_faces_up = out.lowest_faces_up || more.lowest_faces_up;
   });
-  return out;
 }
 
 // A floor covers half of the ground plan near the bottom; an open sheet (a terrain) covers most of it from
@@ -155,9 +150,9 @@ bool holds(const Aabb& box, const Vec3& p) {
 }  // namespace
 
 Aabb scene_bounds(const Scene& scene) {
-  Aabb bounds;
-  for_each_point(scene, [&](const Vec3& p) { bounds.grow(p); });
-  return bounds;
+  return over_points(
+      scene, Aabb{}, [](Aabb& bounds, const Vec3& p) { bounds.grow(p); },
+      [](Aabb& bounds, const Aabb& more) { bounds.grow(more); });
 }
 
 Camera default_camera(const Scene& scene, const Aabb& bounds) {
@@ -168,15 +163,16 @@ Camera default_camera(const Scene& scene, const Aabb& bounds) {
   const Vec3 right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
   const Vec3 up = glm::cross(back, right);
   const double tangent = std::tan(0.5 * default_fov) / margin;
-  double distance = 0.0;
-  const auto include = [&](const Vec3& p) {
+  const auto include = [&](double& distance, const Vec3& p) {
     const Vec3 offset = p - center;
     const double across =
         std::max(std::abs(glm::dot(offset, right)) / narrowest_aspect, std::abs(glm::dot(offset, up)));
     distance = std::max(distance, across / tangent + glm::dot(offset, back));
   };
-  for_each_point(scene, include);
-  if (distance == 0.0) for_each_corner(bounds, include);  // planes alone
+  double distance =
+      over_points(scene, 0.0, include, [](double& most, double more) { most = std::max(most, more); });
+  if (distance == 0.0)  // planes alone
+    for_each_corner(bounds, [&](const Vec3& p) { include(distance, p); });
   Camera camera;
   camera.target = center;
   camera.eye = center + back * (distance > 0.0 ? distance : 1.0);

@@ -4,10 +4,11 @@
 #include <tiny_gltf.h>
 
 #include <atomic>
-#include <numeric>
 
+#include "scene/files/first_where.h"
 #include "scene/files/gltf_accessor.h"
 #include "scene/files/validate.h"
+#include "scene/paging.h"
 
 namespace gnomon {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 // glTF 2.0, section 3.7.2.1; a strip's every other triangle is turned round, and its stitches are dropped.
 template <class Visit>
 void for_each_triangle(int mode, const std::vector<std::uint32_t>& v, const Visit& visit) {
-  if (mode == TINYGLTF_MODE_TRIANGLES)
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3) visit(v[i], v[i + 1], v[i + 2]);
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
     for (std::size_t i = 1; i + 1 < v.size(); ++i) visit(v[i], v[i + 1], v[0]);
   if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
@@ -58,6 +57,14 @@ Vec3 vec3(const double* v) {
   return {v[0], v[1], v[2]};
 }
 
+/// Of primitives that do not have what others of the mesh have.
+void fill_up(Mesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  if (!mesh.normals.empty()) mesh.normals.resize(count, Vec3f(0.0f));
+  if (!mesh.uvs.empty()) mesh.uvs.resize(count, Vec2f(0.0f));
+  if (!mesh.colors.empty()) mesh.colors.resize(count, Vec4f(1.0f));
+}
+
 void drop_empty(Mesh& mesh) {
   const auto is_zero = [](const auto& v) { return v == std::decay_t<decltype(v)>(0.0f); };
   if (std::all_of(mesh.normals.begin(), mesh.normals.end(), is_zero)) mesh.normals.clear();
@@ -83,6 +90,7 @@ Expected<Mesh> GltfMeshReader::read(std::size_t index, const GltfPose& pose) {
             add_primitive(mesh, from.primitives[p], pose, fmt::format("meshes[{}].primitives[{}]", index, p));
         !added)
       return fail(added.error());
+  fill_up(mesh);
   drop_empty(mesh);
   return mesh;
 }
@@ -113,6 +121,8 @@ Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const tinygltf::Primiti
   add_normals(mesh, part);
   add_uvs(mesh, part);
   add_colors(mesh, part);
+  if (!pose.weights.empty() || !pose.joints.empty())  // which change normals as well
+    mesh.normals.resize(part.first + part.count, Vec3f(0.0f));
   apply_targets(mesh, part, pose.weights);
   apply_skin(mesh, part, pose.joints);
   if (const auto sound = check_positions(mesh, part); !sound) return sound;
@@ -123,7 +133,7 @@ Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const
   if (part.first + part.count >= no_id)
     return error(part.path, fmt::format("the mesh has too many vertices (got {}, allowed {})",
                                         part.first + part.count, no_id - 1));
-  mesh.positions.resize(part.first + part.count);
+  extend_paged(mesh.positions, part.count);
   accessor(attribute(part.primitive, "POSITION")).for_each([&](std::size_t i, const double* v) {
     mesh.positions[part.first + i] = vec3(v);
   });
@@ -131,19 +141,20 @@ Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const
 }
 
 Expected<void> GltfMeshReader::check_positions(const Mesh& mesh, const Part& part) const {
-  const auto begin = mesh.positions.begin() + static_cast<std::ptrdiff_t>(part.first);
-  const auto bad = std::find_if_not(begin, mesh.positions.end(), is_placeable);
-  if (bad == mesh.positions.end()) return {};
-  return error(fmt::format("{}.attributes.POSITION[{}]", part.path, bad - begin),
-               fmt::format("position (got [{:g}, {:g}, {:g}], allowed up to {:g} in magnitude)", bad->x,
-                           bad->y, bad->z, max_coordinate));
+  const std::size_t bad =
+      first_where(part.count, [&](std::size_t i) { return !is_placeable(mesh.positions[part.first + i]); });
+  if (bad == part.count) return {};
+  const Vec3& p = mesh.positions[part.first + bad];
+  return error(fmt::format("{}.attributes.POSITION[{}]", part.path, bad),
+               fmt::format("position (got [{:g}, {:g}, {:g}], allowed up to {:g} in magnitude)", p.x, p.y,
+                           p.z, max_coordinate));
 }
 
 // Normals and texture coordinates that are missing or not finite are zero: flat, and the texture's corner.
 void GltfMeshReader::add_normals(Mesh& mesh, const Part& part) {
-  mesh.normals.resize(part.first + part.count, Vec3f(0.0f));
   const int index = attribute(part.primitive, "NORMAL");
   if (index < 0) return;
+  mesh.normals.resize(part.first + part.count, Vec3f(0.0f));
   std::atomic<std::size_t> bad = 0;
   accessor(index).for_each([&](std::size_t i, const double* v) {
     const Vec3f n(vec3(v));
@@ -157,11 +168,11 @@ void GltfMeshReader::add_normals(Mesh& mesh, const Part& part) {
 }
 
 void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
-  mesh.uvs.resize(part.first + part.count, Vec2f(0.0f));
   const int material = part.primitive.material;
   const int set = material < 0 ? 0 : sets_[static_cast<std::size_t>(material)];
   const int index = attribute(part.primitive, fmt::format("TEXCOORD_{}", set));
   if (index < 0) return;
+  mesh.uvs.resize(part.first + part.count, Vec2f(0.0f));
   std::atomic<std::size_t> bad = 0;
   accessor(index).for_each([&](std::size_t i, const double* v) {
     const Vec2f uv(static_cast<float>(v[0]), static_cast<float>(v[1]));
@@ -176,9 +187,9 @@ void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
 
 // glTF 2.0, section 3.7.2.1: linear, of three or four components in [0, 1]. What is missing or not finite is white.
 void GltfMeshReader::add_colors(Mesh& mesh, const Part& part) {
-  mesh.colors.resize(part.first + part.count, Vec4f(1.0f));
   const int index = attribute(part.primitive, "COLOR_0");
   if (index < 0) return;
+  mesh.colors.resize(part.first + part.count, Vec4f(1.0f));
   const GltfAccessor from = accessor(index);
   std::atomic<std::size_t> bad = 0;
   from.for_each([&](std::size_t i, const double* v) {
@@ -252,35 +263,52 @@ void GltfMeshReader::apply_skin(Mesh& mesh, const Part& part, const std::vector<
       std::count_if(blends.begin(), blends.end(), [](const Blend& b) { return !(b.weight > 0.0); }));
 }
 
-Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int mode) {
-  std::vector<std::uint32_t> vertices(part.count);
-  std::iota(vertices.begin(), vertices.end(), 0u);
-  if (part.primitive.indices >= 0) {
-    const GltfAccessor indices = accessor(part.primitive.indices);
-    vertices.resize(indices.count());
-    FirstBad bad;
-    indices.for_each([&](std::size_t i, const double* index) {
-      if (*index >= 0.0 && *index < static_cast<double>(part.count))
-        vertices[i] = static_cast<std::uint32_t>(*index);
-      else
-        bad.report(i);
-    });
-    if (const auto first = bad.get()) {
-      std::array<double, 16> got{};
-      indices.read(*first, *first + 1, got.data());
-      return error(fmt::format("{}.indices[{}]", part.path, *first),
-                   fmt::format("vertex index out of range (got {:g}, allowed 0 to {})", got[0],
-                               static_cast<std::int64_t>(part.count) - 1));
-    }
+/// Calls put(i, vertex) for every vertex in the order of the primitive's indices, or without these in its own.
+template <class Put>
+Expected<void> GltfMeshReader::for_each_index(const Part& part, const Put& put) const {
+  if (part.primitive.indices < 0) {
+    for (std::size_t i = 0; i < part.count; ++i) put(i, static_cast<std::uint32_t>(i));
+    return {};
   }
-  if (mode == TINYGLTF_MODE_TRIANGLES) lost_vertices_ += vertices.size() % 3;
+  const GltfAccessor indices = accessor(part.primitive.indices);
+  FirstBad bad;
+  indices.for_each([&](std::size_t i, const double* index) {
+    if (*index >= 0.0 && *index < static_cast<double>(part.count))
+      put(i, static_cast<std::uint32_t>(*index));
+    else
+      bad.report(i);
+  });
+  const auto first = bad.get();
+  if (!first) return {};
+  std::array<double, 16> got{};
+  indices.read(*first, *first + 1, got.data());
+  return error(fmt::format("{}.indices[{}]", part.path, *first),
+               fmt::format("vertex index out of range (got {:g}, allowed 0 to {})", got[0],
+                           static_cast<std::int64_t>(part.count) - 1));
+}
+
+Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int mode) {
+  const std::size_t count =
+      part.primitive.indices < 0 ? part.count : accessor(part.primitive.indices).count();
+  const auto base = static_cast<std::uint32_t>(part.first);
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    const std::size_t first = mesh.triangles.size(), whole = count / 3 * 3;
+    extend_paged(mesh.triangles, count / 3);
+    const auto read = for_each_index(part, [&](std::size_t i, std::uint32_t v) {
+      if (i < whole) mesh.triangles[first + i / 3][i % 3] = base + v;
+    });
+    if (!read) return read;
+    lost_vertices_ += count % 3;
+  } else {
+    std::vector<std::uint32_t> vertices(count);
+    const auto read = for_each_index(part, [&](std::size_t i, std::uint32_t v) { vertices[i] = base + v; });
+    if (!read) return read;
+    for_each_triangle(mode, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.triangles.push_back({a, b, c});
+    });
+  }
   const std::uint32_t material =
       part.primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(part.primitive.material);
-  const auto base = static_cast<std::uint32_t>(part.first);
-  if (mode == TINYGLTF_MODE_TRIANGLES) mesh.triangles.reserve(mesh.triangles.size() + vertices.size() / 3);
-  for_each_triangle(mode, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    mesh.triangles.push_back({base + a, base + b, base + c});
-  });
   mesh.triangle_materials.resize(mesh.triangles.size(), material);
   return {};
 }

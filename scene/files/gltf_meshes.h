@@ -54,6 +54,8 @@ class GltfMeshReader {
   void add_colors(Mesh& mesh, const Part& part);
   void apply_targets(Mesh& mesh, const Part& part, const std::vector<double>& weights) const;
   void apply_skin(Mesh& mesh, const Part& part, const std::vector<Mat4>& joints);
+  template <class Put>
+  Expected<void> for_each_index(const Part& part, const Put& put) const;
   Expected<void> add_triangles(Mesh& mesh, const Part& part, int mode);
 
   const tinygltf::Model& model_;

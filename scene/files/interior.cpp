@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/files/placed_triangles.h"
+
 namespace gnomon {
 namespace {
 
@@ -11,40 +13,19 @@ constexpr double near_share = 0.1;    // of the room's extent: walls have some t
 constexpr double flat = 0.95;         // |n| along the axis of a face that lies in a side
 constexpr double closed_share = 0.7;  // of a side: the rest may be windows and doors
 
-struct Corners {
-  Vec3 a, b, c;
-  Vec3 normal;  ///< by the right-hand rule, with twice the area
-  std::uint32_t material;
-};
-
-template <class Visit>
-void for_each_triangle(const Scene& scene, const Visit& visit) {
-  for (const MeshInstance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const auto place = [&](std::uint32_t v) {
-      return Vec3(instance.world_from_object * Vec4(mesh.positions[v], 1.0));
-    };
-    const double turn = glm::determinant(Mat3(instance.world_from_object)) < 0.0 ? -1.0 : 1.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const auto& t = mesh.triangles[i];
-      const Vec3 a = place(t[0]), b = place(t[1]), c = place(t[2]);
-      const std::uint32_t material =
-          mesh.triangle_materials.empty() ? instance.material : mesh.triangle_materials[i];
-      visit(Corners{a, b, c, turn * glm::cross(b - a, c - a), material});
-    }
-  }
-}
-
 /// One side of the box: which cells of it some face covers, and which one that faces inwards.
 class Side {
  public:
   Side(const Aabb& box, int axis, bool high) : box_(box), axis_(axis), high_(high) {}
 
   /// Counts the triangle, which lies flat across the axis, if it lies in the side.
-  void add(const Corners& t) {
+  void add(const PlacedTriangle& t) {
     for (const Vec3& p : {t.a, t.b, t.c})
       if (depth(p) > near_share) return;
-    draw(t, (t.normal[axis_] > 0.0) != high_);
+    draw(t, (t.normal()[axis_] > 0.0) != high_);
+  }
+  void add(const Side& more) {
+    for (std::size_t i = 0; i < cell_.size(); ++i) cell_[i] = static_cast<char>(cell_[i] | more.cell_[i]);
   }
   double covered() const { return share(1); }
   double covered_inwards() const { return share(2); }
@@ -60,7 +41,7 @@ class Side {
   }
 
   /// The cells whose middles the triangle covers.
-  void draw(const Corners& t, bool inwards) {
+  void draw(const PlacedTriangle& t, bool inwards) {
     const std::array<Vec2, 3> p{in_cells(t.a), in_cells(t.b), in_cells(t.c)};
     const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
     const auto first = [](double least) { return std::max(0, static_cast<int>(std::floor(least))); };
@@ -100,36 +81,49 @@ bool shines_inside(const Scene& scene, const Aabb& box) {
   });
 }
 
-bool is_room(const Scene& scene, const Aabb& box) {
+/// What of the scene is a room's.
+struct Walls {
   std::vector<Side> sides;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const bool high : {false, true}) sides.emplace_back(box, axis, high);
-  bool glows = false;
-  for_each_triangle(scene, [&](const Corners& t) {
-    const double least = flat * glm::length(t.normal);
+  bool glow = false;
+  void add(const Scene& scene, const PlacedTriangle& t) {
+    const Vec3 normal = t.normal();
+    const double least = flat * glm::length(normal);
     for (int axis = 0; axis < 3 && least > 0.0; ++axis)
-      if (std::abs(t.normal[axis]) >= least)
+      if (std::abs(normal[axis]) >= least)
         for (const int side : {2 * axis, 2 * axis + 1}) sides[static_cast<std::size_t>(side)].add(t);
-    const Material& material = scene.materials[t.material];
-    glows = glows || material.emission != Vec3f(0.0f);
-  });
-  const bool closed =
-      std::all_of(sides.begin(), sides.end(), [](const Side& s) { return s.covered() >= closed_share; });
-  const bool inwards = std::all_of(sides.begin(), sides.end(),
-                                   [](const Side& s) { return s.covered_inwards() >= closed_share; });
-  return closed && (inwards || glows || shines_inside(scene, box));
+    glow = glow || scene.materials[t.material].emission != Vec3f(0.0f);
+  }
+  void join(const Walls& more) {
+    for (std::size_t i = 0; i < sides.size(); ++i) sides[i].add(more.sides[i]);
+    glow = glow || more.glow;
+  }
+};
+
+bool is_room(const Scene& scene, const Aabb& box) {
+  Walls none;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool high : {false, true}) none.sides.emplace_back(box, axis, high);
+  const Walls walls = over_placed_triangles(
+      scene, none, [&](Walls& sum, const PlacedTriangle& t) { sum.add(scene, t); },
+      [](Walls& sum, const Walls& more) { sum.join(more); });
+  const auto all = [&](double (Side::*share)() const) {
+    return std::all_of(walls.sides.begin(), walls.sides.end(),
+                       [&](const Side& side) { return (side.*share)() >= closed_share; });
+  };
+  return all(&Side::covered) && (all(&Side::covered_inwards) || walls.glow || shines_inside(scene, box));
 }
 
 /// The part of the way from one point to another that is free of the triangle, up to 1.
-double free_part(const Corners& t, const Vec3& from, const Vec3& to) {
+double free_part(const PlacedTriangle& t, const Vec3& from, const Vec3& to) {
   const Vec3 way = to - from;
-  const double along = glm::dot(t.normal, way);
+  const Vec3 normal = t.normal();
+  const double along = glm::dot(normal, way);
   if (along == 0.0) return 1.0;
-  const double at = glm::dot(t.normal, t.a - from) / along;
+  const double at = glm::dot(normal, t.a - from) / along;
   if (!(at >= 0.0 && at < 1.0)) return 1.0;
   const Vec3 p = from + at * way;
   for (const auto& [a, b] : {std::pair{t.a, t.b}, {t.b, t.c}, {t.c, t.a}})
-    if (!(glm::dot(glm::cross(b - a, p - a), t.normal) >= 0.0)) return 1.0;
+    if (!(glm::dot(glm::cross(b - a, p - a), normal) >= 0.0)) return 1.0;
   return at;
 }
 
@@ -141,14 +135,16 @@ Vec3 clearest(const Scene& scene, const std::vector<Vec3>& points, const Vec3& t
   for (const MeshInstance& instance : scene.instances) count += scene.meshes[instance.mesh].triangles.size();
   const std::size_t step = std::max<std::size_t>(1, count / enough);
   std::vector<double> near(points.size(), clear), free(points.size(), 0.5);
-  for_each_triangle(scene, [&](const Corners& t) {
+  const auto look = [&](const PlacedTriangle& t) {
     if (at++ % step != 0) return;
     const Vec3 low = glm::min(t.a, glm::min(t.b, t.c)), high = glm::max(t.a, glm::max(t.b, t.c));
     for (std::size_t i = 0; i < points.size(); ++i) {
       near[i] = std::min(near[i], glm::distance(points[i], glm::clamp(points[i], low, high)));
       free[i] = std::min(free[i], free_part(t, points[i], target));
     }
-  });
+  };
+  for (const MeshInstance& instance : scene.instances)
+    visit_placed(scene, instance, 0, scene.meshes[instance.mesh].triangles.size(), look);
   std::size_t best = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
     if (near[i] * free[i] > near[best] * free[best]) best = i;

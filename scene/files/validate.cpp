@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "scene/files/first_where.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -42,9 +45,11 @@ Defect position_defect(std::string field, const Vec3& v) {
 
 Defect mesh_defect(const Mesh& mesh, const std::string& path, std::size_t materials) {
   const std::size_t count = mesh.positions.size();
-  for (std::size_t i = 0; i < count; ++i)
-    if (!coordinates(mesh.positions[i]))
-      return position_defect(fmt::format("{}.positions[{}]", path, i), mesh.positions[i]);
+  const auto first_bad = [](const auto& values, const auto& is_good) {
+    return first_where(values.size(), [&](std::size_t i) { return !is_good(values[i]); });
+  };
+  if (const std::size_t i = first_bad(mesh.positions, coordinates); i < count)
+    return position_defect(fmt::format("{}.positions[{}]", path, i), mesh.positions[i]);
   if (!mesh.normals.empty() && mesh.normals.size() != count)
     return defect(path + ".normals",
                   fmt::format("one per vertex is needed (got {}, allowed {})", mesh.normals.size(), count));
@@ -54,24 +59,29 @@ Defect mesh_defect(const Mesh& mesh, const std::string& path, std::size_t materi
   if (!mesh.colors.empty() && mesh.colors.size() != count)
     return defect(path + ".colors",
                   fmt::format("one per vertex is needed (got {}, allowed {})", mesh.colors.size(), count));
-  for (std::size_t i = 0; i < mesh.colors.size(); ++i)
-    if (!radiance(Vec3f(mesh.colors[i])) || !fraction(mesh.colors[i].a))
-      return defect(fmt::format("{}.colors[{}]", path, i), "is not finite and >= 0 with an alpha of 0 to 1");
-  for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-    if (!finite(mesh.normals[i])) return defect(fmt::format("{}.normals[{}]", path, i), "is not finite");
-  for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
-    if (!std::isfinite(mesh.uvs[i].x) || !std::isfinite(mesh.uvs[i].y))
-      return defect(fmt::format("{}.uvs[{}]", path, i), "is not finite");
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (const std::uint32_t index : mesh.triangles[i])
-      if (index >= count)
-        return defect(fmt::format("{}.triangles[{}]", path, i),
-                      fmt::format("vertex index out of range (got {}, allowed 0 to {})", index,
-                                  static_cast<std::int64_t>(count) - 1));
-  if (!mesh.triangle_materials.empty() && mesh.triangle_materials.size() != mesh.triangles.size())
+  const auto is_color = [](const Vec4f& c) { return radiance(Vec3f(c)) && fraction(c.a); };
+  if (const std::size_t i = first_bad(mesh.colors, is_color); i < mesh.colors.size())
+    return defect(fmt::format("{}.colors[{}]", path, i), "is not finite and >= 0 with an alpha of 0 to 1");
+  if (const std::size_t i = first_bad(mesh.normals, finite); i < mesh.normals.size())
+    return defect(fmt::format("{}.normals[{}]", path, i), "is not finite");
+  const auto is_uv = [](const Vec2f& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); };
+  if (const std::size_t i = first_bad(mesh.uvs, is_uv); i < mesh.uvs.size())
+    return defect(fmt::format("{}.uvs[{}]", path, i), "is not finite");
+  const auto is_triangle = [&](const std::array<std::uint32_t, 3>& t) {
+    return t[0] < count && t[1] < count && t[2] < count;
+  };
+  if (const std::size_t i = first_bad(mesh.triangles, is_triangle); i < mesh.triangles.size()) {
+    const auto& t = mesh.triangles[i];
+    const auto index = *std::find_if(t.begin(), t.end(), [&](std::uint32_t v) { return v >= count; });
+    return defect(fmt::format("{}.triangles[{}]", path, i),
+                  fmt::format("vertex index out of range (got {}, allowed 0 to {})", index,
+                              static_cast<std::int64_t>(count) - 1));
+  }
+  const auto& of_triangles = mesh.triangle_materials;
+  if (!of_triangles.empty() && of_triangles.size() != mesh.triangles.size())
     return defect(path + ".triangle_materials", "one per triangle is needed");
-  for (const std::uint32_t material : mesh.triangle_materials)
-    if (material >= materials) return defect(path + ".triangle_materials", "material index out of range");
+  if (first_bad(of_triangles, [&](std::uint32_t m) { return m < materials; }) < of_triangles.size())
+    return defect(path + ".triangle_materials", "material index out of range");
   return std::nullopt;
 }
 
@@ -129,10 +139,13 @@ Defect instance_defect(const Scene& scene, const MeshInstance& instance, const s
                       fmt::format("is not finite or above {:g} in magnitude", max_coordinate));
   if (is_singular(Mat3(instance.world_from_object)))
     return defect(path + ".matrix", "is singular: it flattens the mesh");
-  for (const Vec3& p : mesh.positions) {
-    const Vec3 world = Vec3(instance.world_from_object * Vec4(p, 1.0));
-    if (!coordinates(world)) return position_defect(path, world);
-  }
+  const auto placed = [&](std::size_t i) {
+    return Vec3(instance.world_from_object * Vec4(mesh.positions[i], 1.0));
+  };
+  const std::size_t count = mesh.positions.size();
+  if (const std::size_t i = first_where(count, [&](std::size_t v) { return !coordinates(placed(v)); });
+      i < count)
+    return position_defect(path, placed(i));
   return std::nullopt;
 }
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
-namespace gnomon::compare {
+namespace gnomon {
 
 /// Ascending; NaNs, in any order, behind all numbers.
 void sort_numbers(std::span<float> values);
 void sort_numbers(std::span<std::uint64_t> values);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon

@@ -1,4 +1,4 @@
-#include "compare/sort_numbers.h"
+#include "scene/sort_numbers.h"
 
 #include <hwy/contrib/sort/vqsort.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::compare {
+namespace gnomon {
 namespace {
 
 constexpr std::uint32_t sign = 0x80000000u;
@@ -37,4 +37,4 @@ void sort_numbers(std::span<std::uint64_t> values) {
   sort(values.data(), values.size(), hwy::SortAscending());
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon

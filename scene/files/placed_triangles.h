@@ -1,0 +1,62 @@
+// All triangles of a scene where they lie in the world, gone through on every thread. What comes of them is the same
+// for any number of threads: the scene is cut into the same blocks, and what these give is joined in their order.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace gnomon {
+
+struct PlacedTriangle {
+  Vec3 a, b, c;
+  double turn;  ///< -1 where the instance mirrors its mesh, else 1
+  std::uint32_t material;
+  /// By the right-hand rule, with twice the area.
+  Vec3 normal() const { return turn * glm::cross(b - a, c - a); }
+};
+
+/// Those of one instance that have these numbers in its mesh.
+template <class Visit>
+void visit_placed(const Scene& scene, const MeshInstance& instance, std::size_t first, std::size_t last,
+                  const Visit& visit) {
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  const auto place = [&](std::uint32_t v) {
+    return Vec3(instance.world_from_object * Vec4(mesh.positions[v], 1.0));
+  };
+  const double turn = glm::determinant(Mat3(instance.world_from_object)) < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const auto& t = mesh.triangles[i];
+    visit(PlacedTriangle{place(t[0]), place(t[1]), place(t[2]), turn,
+                         mesh.triangle_materials.empty() ? instance.material : mesh.triangle_materials[i]});
+  }
+}
+
+/// The sum of `none` and what add(sum, triangle) makes of all triangles; join(sum, more) adds up two sums.
+template <class Sum, class Add, class Join>
+Sum over_placed_triangles(const Scene& scene, const Sum& none, const Add& add, const Join& join) {
+  std::vector<std::uint64_t> first{0};
+  for (const MeshInstance& instance : scene.instances)
+    first.push_back(first.back() + scene.meshes[instance.mesh].triangles.size());
+  constexpr std::size_t at_a_time = 8192;
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::uint64_t>(0, first.back(), at_a_time), none,
+      [&](const auto& range, Sum sum) {
+        auto i = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), range.begin()) -
+                                          first.begin() - 1);
+        for (std::uint64_t at = range.begin(); at < range.end(); at = first[++i])
+          visit_placed(scene, scene.instances[i], at - first[i],
+                       std::min(range.end(), first[i + 1]) - first[i],
+                       [&](const PlacedTriangle& t) { add(sum, t); });
+        return sum;
+      },
+      [&](Sum sum, const Sum& more) {
+        join(sum, more);
+        return sum;
+      });
+}
+
+}  // namespace gnomon
