@@ -19,6 +19,11 @@ target_include_directories(compare_solids_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE
 
 # The same scene in other numbers: the same labels. GNOMON_INVARIANCE=N: N scenes, every technique under every light.
 gnomon_test(compare_invariance_gl_test SOURCES compare_invariance_gl_test.cpp LIBS gnomon::verify gnomon::compare gnomon::hybrid)
+# Instances of glTF files, kept and flattened.
+gnomon_test(gltf_instances_gl_test
+  SOURCES gltf_instances_gl_test.cpp
+  LIBS gnomon::compare nlohmann_json::nlohmann_json)
+target_include_directories(gltf_instances_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 # A comparison in bands against the whole.
 gnomon_test(compare_bands_gl_test TIMEOUT 900
   SOURCES compare_bands_gl_test.cpp
