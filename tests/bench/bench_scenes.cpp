@@ -114,6 +114,16 @@ BenchScene million_scene() {
   return {"million", over_terrain(std::move(meshes))};
 }
 
+std::optional<BenchScene> forest_scene() {
+  Expected<Scene> scene = load_scene("forest");
+  if (!scene) return std::nullopt;
+  scene->lights.insert(scene->lights.begin(), test::point_light({6.0, 14.0, 8.0}));
+  round_to_float(*scene);
+  for (MeshInstance& instance : scene->instances)
+    instance.world_from_object = Mat4(Mat4f(instance.world_from_object));
+  return BenchScene{"forest", std::move(*scene)};
+}
+
 BenchScene terrain_scene(const std::string& name, int cells) {
   return {name, over_terrain({terrain(cells, 2.5, 0.6)})};
 }

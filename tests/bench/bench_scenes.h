@@ -1,4 +1,4 @@
-// The scenes of the speed figures: a teapot, the bunny, and a million triangles, each over a ground; and terrains.
+// The scenes of the speed figures: a teapot, the bunny, and a million triangles, each over a ground; terrains, and a forest.
 // All positions are floats, so that every tracer sees the same geometry.
 #pragma once
 
@@ -19,6 +19,9 @@ BenchScene teapot_scene();
 std::optional<BenchScene> bunny_scene();
 /// A terrain with seven bunnies; teapots where there is no bunny.
 BenchScene million_scene();
+/// The built-in forest under a point above the ride, and its sun: 20 million triangles by 2,000 instances, which are
+/// kept.
+std::optional<BenchScene> forest_scene();
 /// Of 2 cells^2 triangles, under the million's lights and camera.
 BenchScene terrain_scene(const std::string& name, int cells);
 

@@ -122,23 +122,60 @@ Embree::Embree(const World& world, const std::string& settings)
       },
       bytes_.get());
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), world.vertex_count()));
-  for (const Vec3& p : positions_of(world))
-    for (int a = 0; a < 3; ++a) *v++ = static_cast<float>(p[a]);
-  auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                                RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                                                world.triangle_count()));
-  const auto triangles = triangles_of(world);
-  std::memcpy(t, triangles.data(), triangles.size() * sizeof triangles[0]);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
-  rtcReleaseGeometry(geometry);
+  if (world.keeps_instances())
+    add_instances(world);
+  else
+    attach(scene_, triangles(positions_of(world), triangles_of(world)));
   rtcCommitScene(scene_);
 }
 Embree::~Embree() {
-  rtcReleaseScene(scene_), rtcReleaseDevice(device_);
+  rtcReleaseScene(scene_);
+  for (const auto& [mesh, scene] : meshes_) rtcReleaseScene(scene);
+  rtcReleaseDevice(device_);
+}
+
+void Embree::attach(RTCScene scene, RTCGeometry geometry) const {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+RTCGeometry Embree::triangles(std::span<const Vec3> positions,
+                              std::span<const std::array<std::uint32_t, 3>> triangles) const {
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), positions.size()));
+  for (const Vec3& p : positions)
+    for (int a = 0; a < 3; ++a) *v++ = static_cast<float>(p[a]);
+  auto* t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+  std::memcpy(t, triangles.data(), triangles.size_bytes());
+  return geometry;
+}
+
+/// A scene for each mesh that is kept, and the instances of it; what is flattened besides.
+void Embree::add_instances(const World& world) {
+  for (const WorldPart& part : world.parts) {
+    if (!part.kept()) {
+      attach(scene_, triangles({part.positions, part.vertex_count()}, part.mesh->triangles));
+      continue;
+    }
+    const auto [known, is_new] = meshes_.try_emplace(part.mesh);
+    if (is_new) {
+      known->second = rtcNewScene(device_);
+      rtcSetSceneBuildQuality(known->second, RTC_BUILD_QUALITY_MEDIUM);
+      attach(known->second, triangles(part.mesh->positions, part.mesh->triangles));
+      rtcCommitScene(known->second);
+    }
+    RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, known->second);
+    std::array<float, 12> columns{};
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i] =
+          static_cast<float>(part.world_from_object[static_cast<int>(i / 3)][static_cast<int>(i % 3)]);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    attach(scene_, instance);
+  }
 }
 
 void Embree::closest_single(const PeerRays& rays, PeerHits& hits) const {

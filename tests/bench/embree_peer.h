@@ -3,9 +3,12 @@
 // beforehand: their making is not in its times.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +40,8 @@ struct PeerHits {
 
 class Embree {
  public:
-  /// `settings` as rtcNewDevice takes them: "isa=avx2"; empty: the best that the machine has.
+  /// `settings` as rtcNewDevice takes them: "isa=avx2"; empty: the best that the machine has. Instances that the
+  /// world keeps are Embree's instances.
   Embree(const World& world, const std::string& settings);
   ~Embree();
   Embree(const Embree&) = delete;
@@ -51,9 +55,16 @@ class Embree {
   void occluded_packets(const PeerRays& rays, std::vector<std::uint8_t>& occluded) const;
 
  private:
+  /// Takes the geometry over.
+  void attach(RTCScene scene, RTCGeometry geometry) const;
+  RTCGeometry triangles(std::span<const Vec3> positions,
+                        std::span<const std::array<std::uint32_t, 3>> triangles) const;
+  void add_instances(const World& world);
+
   std::unique_ptr<std::atomic<ssize_t>> bytes_;
   RTCDevice device_;
   RTCScene scene_;
+  std::map<const Mesh*, RTCScene> meshes_;  ///< of kept instances
 };
 
 }  // namespace gnomon::bench

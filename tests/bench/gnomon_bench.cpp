@@ -76,8 +76,9 @@ class Bench {
   }
 
   std::vector<BenchRow> run() {
-    fmt::print("{}: {} triangles, {} x {}\n", scene_.name, world_.triangle_count(), settings_.size.width,
-               settings_.size.height);
+    fmt::print("{}: {} triangles{}, {} x {}\n", scene_.name, world_.triangle_count(),
+               world_.keeps_instances() ? " by kept instances, as Embree's instances" : "",
+               settings_.size.width, settings_.size.height);
     check_hits();
     for (std::size_t i = 0; i < 2; ++i) check_shadows(i);
     for (const int threads : {1, 2}) {
@@ -354,6 +355,8 @@ int run(const Settings& settings) {
   }
   if (wanted("million")) bench(million_scene());
   const auto named = [&](const std::string& name) { return !settings.scenes.empty() && wanted(name); };
+  if (named("forest"))
+    if (const auto scene = forest_scene()) bench(*scene);
   if (named("terrain-5M")) bench(terrain_scene("terrain-5M", 1582));
   if (named("terrain-20M")) bench(terrain_scene("terrain-20M", 3163));
   fmt::print("Instruction set in use: {}\n", raytrace::packet_target());
@@ -371,9 +374,10 @@ int run(const Settings& settings) {
 int main(int argc, char** argv) {
   gnomon::bench::Settings settings;
   CLI::App app("Gnomon's tracer against Embree 3: equal rays, in turn, in one process");
-  app.add_option("--scene", settings.scenes,
-                 "teapot, bunny, million (default: these three), terrain-5M, terrain-20M")
-      ->check(CLI::IsMember({"teapot", "bunny", "million", "terrain-5M", "terrain-20M"}));
+  app.add_option(
+         "--scene", settings.scenes,
+         "teapot, bunny, million (default: these three), terrain-5M, terrain-20M, forest (instances kept)")
+      ->check(CLI::IsMember({"teapot", "bunny", "million", "terrain-5M", "terrain-20M", "forest"}));
   app.add_option("--runs", settings.runs, "timed repetitions, the median counts (default 5)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--width", settings.size.width, "pixels (default 1920)")->check(CLI::Range(16, 16384));
