@@ -8,16 +8,6 @@
 namespace gnomon::raster {
 namespace {
 
-/// Run by run; what some band ran less often counts as often as there.
-void add_times(const Times& band, Times& sum) {
-  if (sum.runs.empty()) {
-    sum = band;
-    return;
-  }
-  sum.runs.resize(std::min(sum.runs.size(), band.runs.size()));
-  for (std::size_t i = 0; i < sum.runs.size(); ++i) sum.runs[i] += band.runs[i];
-}
-
 /// A band's costs hold the runs of those before it, too.
 Times whole_of(const Times& runs) {
   return Times{{std::accumulate(runs.runs.begin(), runs.runs.end(), 0.0)}};
@@ -75,8 +65,8 @@ void add_costs(const RasterFrame& band, RasterFrame& sum) {
     const LightRecord& part = band.lights[i];
     LightRecord& light = sum.lights[i];
     if (first) take_light(part, light);
-    add_times(part.shade_pass, light.shade_pass);
-    add_times(part.unshadowed_pass, light.unshadowed_pass);
+    light.shade_pass.add_part(part.shade_pass);
+    light.unshadowed_pass.add_part(part.unshadowed_pass);
     if (part.external) add_external(*part.external, light.external);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <vector>
 
 namespace gnomon {
@@ -19,6 +20,16 @@ struct Times {
   }
   /// What else the machine does can only add: the least holds the least of it. 0 when there are no runs.
   double least() const { return runs.empty() ? 0.0 : *std::min_element(runs.begin(), runs.end()); }
+  /// Adds the times of a further part of the work (a band of the picture), run by run. A pass that some part ran less
+  /// often counts as often as there.
+  void add_part(const Times& part) {
+    if (runs.empty()) {
+      runs = part.runs;
+      return;
+    }
+    runs.resize(std::min(runs.size(), part.runs.size()));
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i] += part.runs[i];
+  }
 };
 
 /// Milliseconds since construction.

@@ -46,10 +46,10 @@ inline raster::RasterOptions small_options(int map_size = 256) {
   return options;
 }
 
-inline Drawn make_drawn(Scene scene) {
+inline Drawn make_drawn(Scene scene, InstanceChoice instances = InstanceChoice::automatic) {
   Drawn drawn;
   drawn.scene = std::make_unique<Scene>(std::move(scene));
-  drawn.world = std::make_unique<World>(make_world(*drawn.scene));
+  drawn.world = std::make_unique<World>(make_world(*drawn.scene, instances));
   auto context = software_context();
   if (context == nullptr) return drawn;
   auto renderer = raster::Renderer::create(std::move(context), *drawn.world, plan_effects(*drawn.scene));
@@ -61,8 +61,9 @@ inline Drawn make_drawn(Scene scene) {
   return drawn;
 }
 
-inline Drawn draw(Scene scene, const raster::RasterOptions& options = small_options()) {
-  Drawn drawn = make_drawn(std::move(scene));
+inline Drawn draw(Scene scene, const raster::RasterOptions& options = small_options(),
+                  InstanceChoice instances = InstanceChoice::automatic) {
+  Drawn drawn = make_drawn(std::move(scene), instances);
   if (drawn.renderer != nullptr) drawn.render(options);
   return drawn;
 }

@@ -7,22 +7,6 @@
 namespace gnomon::test {
 namespace {
 
-Drawn drawn_with(const Scene& scene, InstanceChoice choice, const raster::RasterOptions& options) {
-  Drawn drawn;
-  drawn.scene = std::make_unique<Scene>(scene);
-  drawn.world = std::make_unique<World>(make_world(*drawn.scene, choice));
-  auto context = software_context();
-  if (context == nullptr) return drawn;
-  auto renderer = raster::Renderer::create(std::move(context), *drawn.world, plan_effects(*drawn.scene));
-  if (!renderer) {
-    ADD_FAILURE() << renderer.error().message();
-    return drawn;
-  }
-  drawn.renderer = std::move(*renderer);
-  drawn.render(options);
-  return drawn;
-}
-
 Mesh with_normals(Mesh mesh) {
   for (const Vec3& p : mesh.positions) {
     mesh.normals.emplace_back(glm::normalize(p + Vec3(0.01)));
@@ -69,8 +53,8 @@ void expect_same(const Drawn& kept, const Drawn& flat) {
 TEST(KeptInstances, AreDrawnAsFlattenedOnes) {
   for (const Vec3& away : {Vec3(0.0), Vec3(1e5, -3e4, 2e5)}) {
     const Scene scene = boxes(away);
-    expect_same(drawn_with(scene, InstanceChoice::keep, small_options()),
-                drawn_with(scene, InstanceChoice::flatten, small_options()));
+    expect_same(draw(scene, small_options(), InstanceChoice::keep),
+                draw(scene, small_options(), InstanceChoice::flatten));
   }
 }
 
@@ -83,8 +67,8 @@ TEST(KeptInstances, WithHolesAndTexturesToo) {
   scene.materials[2].alpha_mode = AlphaMode::mask, scene.materials[2].diffuse_texture = 0;
   scene.materials[1].diffuse_texture = 0;
   scene.lights.push_back(lamp(LightType::point, Vec3(-3.0, 6.0, 2.0), Vec3(0.0)));
-  expect_same(drawn_with(scene, InstanceChoice::keep, small_options()),
-              drawn_with(scene, InstanceChoice::flatten, small_options()));
+  expect_same(draw(scene, small_options(), InstanceChoice::keep),
+              draw(scene, small_options(), InstanceChoice::flatten));
 }
 
 TEST(KeptInstances, AreRefusedByTheIrregularZBuffer) {
