@@ -44,7 +44,7 @@ std::string option_names(const CLI::App& command) {
   return names;
 }
 
-std::string command_names(const CLI::App& program) {
+std::string words_of_commands(const CLI::App& program) {
   std::string names;
   for (const CLI::App* command : commands_of(program))
     names += (names.empty() ? "" : " ") + command->get_name();
@@ -60,7 +60,7 @@ std::string scene_names() {
 }
 
 /// What may follow an option.
-struct OptionValues {
+struct OptionChoices {
   std::vector<std::string> words;  ///< "hard", "pcf" …
   bool files = false;
 };
@@ -70,8 +70,8 @@ bool is_word(const std::string& text) {
 }
 
 /// From the help itself, "what [hard or pcf or vsm; default hard]", and the value's type, "off|on" or "FILE".
-OptionValues values_of(const CLI::Option& option) {
-  OptionValues values;
+OptionChoices values_of(const CLI::Option& option) {
+  OptionChoices values;
   const std::string type = option.get_type_name();
   for (const char* name : {"FILE", "DIR", "IMAGE"}) values.files = values.files || type.starts_with(name);
   if (type == "off|on") values.words = {"off", "on"};
@@ -101,7 +101,7 @@ std::string bash_values(const CLI::App& program) {
   for (const CLI::App* command : commands_of(program)) {
     for (const CLI::Option* option : command->get_options()) {
       if (!takes_value(*option) || option->get_positional()) continue;
-      const OptionValues values = values_of(*option);
+      const OptionChoices values = values_of(*option);
       const std::string offer =
           values.files ? "files=1" : fmt::format("files= values=\"{}\"", fmt::join(values.words, " "));
       std::vector<std::string> names = option->get_lnames();
@@ -142,11 +142,11 @@ std::string bash_script(const CLI::App& program) {
       "-f -- \"$word\")\n"
       "}}\n"
       "complete -o filenames -F _gnomon gnomon\n",
-      command_names(program), option_names(program), cases, bash_values(program));
+      words_of_commands(program), option_names(program), cases, bash_values(program));
 }
 
 std::string zsh_action(const CLI::Option& option) {
-  const OptionValues values = values_of(option);
+  const OptionChoices values = values_of(option);
   if (values.files) return "_files";
   if (values.words.empty()) return " ";
   const std::string words = fmt::format("{}", fmt::join(values.words, " "));
@@ -179,7 +179,7 @@ std::string zsh_script(const CLI::App& program) {
 
 std::string fish_argument(const CLI::Option& option) {
   if (!takes_value(option)) return {};
-  const OptionValues values = values_of(option);
+  const OptionChoices values = values_of(option);
   if (values.files) return " -r -F";
   if (values.words.empty()) return " -x";
   const std::string words = fmt::format("{}", fmt::join(values.words, takes_list(option) ? "," : " "));

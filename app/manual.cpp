@@ -29,7 +29,7 @@ std::string list_item(const std::string& text) {
   return "- " + wrap(text, 2, page_width).substr(2);
 }
 
-std::string option_entry(const CLI::Option& option) {
+std::string option_item(const CLI::Option& option) {
   std::string names = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
   for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2))
     names.replace(comma, 1, ", ");
@@ -42,7 +42,7 @@ std::string command_chapter(const CLI::App& command) {
   std::string text = fmt::format("\n## gnomon {}\n\n{}\n```sh\n{}\n```\n\n", command.get_name(),
                                  wrap(command.get_description(), 0, page_width), command.get_footer());
   for (const CLI::Option* option : command.get_options())
-    if (option->get_name() != "--help") text += option_entry(*option);
+    if (option->get_name() != "--help") text += option_item(*option);
   return text;
 }
 
@@ -52,7 +52,7 @@ std::string options_chapter(const CLI::App& program) {
       "--help` "
       "prints them.\n\n",
       written_by_the_program);
-  for (const CLI::Option* option : program.get_options()) text += option_entry(*option);
+  for (const CLI::Option* option : program.get_options()) text += option_item(*option);
   for (const CLI::App* command : program.get_subcommands({})) text += command_chapter(*command);
   return text;
 }

@@ -52,8 +52,8 @@ Expected<Vec3> parse_up(const std::string& text) {
 }
 
 template <class Value, class Parse>
-void add_value(CLI::App& command, const std::string& name, const char* type, std::optional<Value>& field,
-               const std::string& text, const Parse& parse) {
+void add_pose_value(CLI::App& command, const std::string& name, const char* type, std::optional<Value>& field,
+                    const std::string& text, const Parse& parse) {
   command
       .add_option_function<std::string>(
           name,
@@ -68,8 +68,8 @@ void add_value(CLI::App& command, const std::string& name, const char* type, std
 
 void add_number(CLI::App& command, const std::string& name, const char* type, std::optional<double>& field,
                 const NumberRange& range, const std::string& what, const char* unit) {
-  add_value(command, name, type, field, fmt::format("{} [{}, {}", what, unit, range_text(range)),
-            [range](const std::string& value) { return parse_number(value, range); });
+  add_pose_value(command, name, type, field, fmt::format("{} [{}, {}", what, unit, range_text(range)),
+                 [range](const std::string& value) { return parse_number(value, range); });
 }
 
 /// The light that is to be turned.
@@ -89,7 +89,7 @@ Expected<std::uint32_t> chosen_light(const std::string& name, const Scene& scene
 }  // namespace
 
 void add_pose_options(CLI::App& command, PoseOptions& poses) {
-  add_value(
+  add_pose_value(
       command, "--camera-orbit", "AZIMUTH,ELEVATION", poses.camera_orbit,
       fmt::format(
           "where the eye stands, seen from the camera's target: azimuth 0 is +z and 90 is +x, elevation is "
@@ -98,14 +98,14 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
       parse_orbit);
   add_number(command, "--camera-distance", "D", poses.camera_distance, distance_range,
              "distance of the eye from the camera's target", "world units");
-  add_value(
+  add_pose_value(
       command, "--camera-target", "X,Y,Z", poses.camera_target,
       fmt::format("what the camera looks at and turns about [world units, {}", range_text(coordinate_range)),
       parse_vector);
-  add_value(command, "--camera-up", "X,Y,Z", poses.camera_up,
-            fmt::format("the camera's up vector, about which --camera-orbit turns [{}, not 0,0,0",
-                        range_text(coordinate_range)),
-            parse_up);
+  add_pose_value(command, "--camera-up", "X,Y,Z", poses.camera_up,
+                 fmt::format("the camera's up vector, about which --camera-orbit turns [{}, not 0,0,0",
+                             range_text(coordinate_range)),
+                 parse_up);
   add_number(
       command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
       "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",

@@ -9,7 +9,9 @@ target_compile_options(gnomon_flags INTERFACE -ffp-contract=off)
 target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
 
 add_library(gnomon_warnings INTERFACE)
-target_compile_options(gnomon_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+target_compile_options(gnomon_warnings INTERFACE -Wall -Wextra -Wpedantic
+  # Of files compiled together one's constant would be shadowed by another's variable; the other presets look for shadows.
+  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>
   -Wnon-virtual-dtor -Wcast-align -Woverloaded-virtual -Wnull-dereference
   $<$<BOOL:${GNOMON_WARNINGS_AS_ERRORS}>:-Werror>
   # GCC 12 reports false null dereferences inside libstdc++ and glm when it inlines at -O3.
@@ -39,4 +41,32 @@ function(gnomon_library name)
   add_library(gnomon::${name} ALIAS gnomon_${name})
   target_link_libraries(gnomon_${name} PUBLIC gnomon_flags ${ARG_DEPENDS}
     PRIVATE $<BUILD_INTERFACE:gnomon_warnings> ${ARG_PRIVATE_DEPENDS})
+endfunction()
+
+# gnomon_compile_together(TARGET), once all its sources are known: with GNOMON_UNITY (the release preset) the files of a
+# folder are compiled together, up to sixteen at a time (CMake's unity builds), for most of what a file costs is its
+# headers and the templates in them. So names in the unnamed namespaces of one folder must differ. Files that Highway
+# compiles once per instruction set include themselves and stand alone.
+function(gnomon_compile_together target)
+  if(NOT GNOMON_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(path "${source}" ABSOLUTE)
+    file(RELATIVE_PATH path "${CMAKE_CURRENT_SOURCE_DIR}" "${path}")
+    if(path MATCHES "^[.][.]/" OR NOT path MATCHES "[.]cpp$")  # generated, or a header
+      continue()
+    endif()
+    get_filename_component(folder "${path}" DIRECTORY)
+    file(STRINGS "${CMAKE_CURRENT_SOURCE_DIR}/${path}" itself REGEX "define HWY_TARGET_INCLUDE" LIMIT_COUNT 1)
+    if(itself)
+      continue()
+    endif()
+    string(MAKE_C_IDENTIFIER "in_${folder}" folder)
+    math(EXPR count_${folder} "${count_${folder}} + 1")
+    math(EXPR part "(${count_${folder}} - 1) / 16")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_${part}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -10,8 +10,7 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double few_fraction = 1e-4;  // below 0.01 % a count says more than a share
-constexpr double clear_gain = 0.05;    // of the wrong pixels, so as to be worth another bias
+constexpr double clear_gain = 0.05;  // of the wrong pixels, so as to be worth another bias
 
 std::string bias_text(const LightComparison& light, double bias) {
   const std::string world = plain_number(bias) + " world units";

@@ -12,6 +12,8 @@ std::string grouped(std::uint64_t count);
 /// A share in [0, 1] with two or three significant digits: "4.1 %", "0.043 %", "43.6 %". Never rounds a share
 /// that is neither none nor all to "0 %" or "100 %": those are "less than 0.001 %" and "more than 99.99 %".
 std::string percent(double fraction);
+/// Below this share, 0.01 %, a count says more than a percentage.
+inline constexpr double few_fraction = 1e-4;
 /// Three significant digits, no exponent between 1e-4 and 1e6; "unlimited" for infinities.
 std::string plain_number(double value);
 /// With its sign, four decimals or as many as its first digit needs, and a true zero: "+0.0120", "0",

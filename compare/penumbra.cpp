@@ -7,9 +7,9 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr int window = 3;        // half-width of the gradient's window, pixels
-constexpr double step = 0.5;     // of a walk, pixels
-constexpr double reach = 256.0;  // of a walk, pixels
+constexpr int gradient_window = 3;    // half-width of the gradient's window, pixels
+constexpr double walk_step = 0.5;     // of a walk, pixels
+constexpr double walk_reach = 256.0;  // of a walk, pixels
 constexpr double dark = 0.1, bright = 0.9;
 
 // Where a walk came to a level of visibility: pixels, and world units on the receiver.
@@ -37,8 +37,8 @@ class PenumbraMeasure::Walker {
   Vec2 towards_light(int x, int y) const {
     const std::uint32_t own = object(labels_.index(x, y));
     Vec2 slope(0.0);
-    for (int dy = -window; dy <= window; ++dy)
-      for (int dx = -window; dx <= window; ++dx)
+    for (int dy = -gradient_window; dy <= gradient_window; ++dy)
+      for (int dx = -gradient_window; dx <= gradient_window; ++dx)
         if (same_object(x + dx, y + dy, own))
           slope += Vec2(dx, dy) * (2.0 * double{truth_.at(x + dx, y + dy)} - 1.0);
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
@@ -77,14 +77,14 @@ class PenumbraMeasure::Walker {
   std::optional<Crossing> walk(const Image<float>& v, Vec2 from, Vec2 direction, std::uint32_t own,
                                double level, bool rising) const {
     std::optional<Place> before;
-    for (double s = 0.0; s <= reach; s += step) {
+    for (double s = 0.0; s <= walk_reach; s += walk_step) {
       const Vec2 p = from + s * direction;
       const auto here = place(v, p, own);
       if (!here) return std::nullopt;
       if (rising ? here->visibility >= level : here->visibility <= level) {
         if (!before) return Crossing{p, here->world};
         const double back = (here->visibility - level) / (here->visibility - before->visibility);
-        return Crossing{p - back * step * direction, glm::mix(here->world, before->world, back)};
+        return Crossing{p - back * walk_step * direction, glm::mix(here->world, before->world, back)};
       }
       before = here;
     }

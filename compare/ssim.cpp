@@ -15,13 +15,11 @@ namespace {
 
 constexpr double sigma = 1.5;                         // pixels
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;  // (K1 L)^2 and (K2 L)^2 with L = 1
-constexpr std::size_t window = ssim_window;
-
-std::array<double, window> gaussian() {
-  std::array<double, window> weights{};
-  constexpr std::size_t middle = window / 2;
+std::array<double, ssim_window> gaussian() {
+  std::array<double, ssim_window> weights{};
+  constexpr std::size_t middle = ssim_window / 2;
   double sum = 0.0;
-  for (std::size_t i = 0; i < window; ++i) {
+  for (std::size_t i = 0; i < ssim_window; ++i) {
     const double x = static_cast<double>(i) - static_cast<double>(middle);
     weights[i] = std::exp(-x * x / (2.0 * sigma * sigma));
     sum += weights[i];
@@ -50,8 +48,8 @@ Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
   Image<float> map(out_size);
   tbb::parallel_for(0, out_size.height, [&](int y) {
     thread_local MomentRows sums;
-    std::array<const float*, window> first{}, second{};
-    for (std::size_t k = 0; k < window; ++k)
+    std::array<const float*, ssim_window> first{}, second{};
+    for (std::size_t k = 0; k < ssim_window; ++k)
       first[k] = &reference.at(0, y + static_cast<int>(k)), second[k] = &test.at(0, y + static_cast<int>(k));
     window_moments(first, second, weights, size.width, sums);
     for (int x = 0; x < out_size.width; ++x) {

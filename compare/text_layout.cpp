@@ -59,4 +59,10 @@ std::string right_padded(std::string_view text, std::size_t width) {
   return std::string(text) + (own < width ? std::string(width - own, ' ') : std::string());
 }
 
+std::string spoken(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 }  // namespace gnomon::compare

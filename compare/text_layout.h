@@ -15,5 +15,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 /// Filled with spaces to `width` on the left or the right side.
 std::string left_padded(std::string_view text, std::size_t width);
 std::string right_padded(std::string_view text, std::size_t width);
+/// A name of a result file as people read it: "receiver_motion" -> "receiver motion".
+std::string spoken(std::string_view name);
 
 }  // namespace gnomon::compare

@@ -15,9 +15,7 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double few_fraction = 1e-4;  // below 0.01 % a count says more than a share
-
-std::string spoken(Label label) {
+std::string spoken_label(Label label) {
   std::string name(label_name(label));
   std::replace(name.begin(), name.end(), '_', label == Label::peter_panning ? '-' : ' ');
   return name;
@@ -29,7 +27,7 @@ std::string main_reasons(const LightComparison& light) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return light.classes[a] > light.classes[b]; });
-  const auto name = [&](std::size_t rank) { return spoken(static_cast<Label>(order[rank] + 1)); };
+  const auto name = [&](std::size_t rank) { return spoken_label(static_cast<Label>(order[rank] + 1)); };
   const auto count = [&](std::size_t rank) { return light.classes[order[rank]]; };
   const std::uint64_t wrong = light.error.wrong;
   if (count(0) == wrong) return wrong == 1 ? name(0) : "all of them " + name(0);

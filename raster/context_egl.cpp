@@ -32,7 +32,7 @@ constexpr unsigned egl_opengl_api = 0x30A2;
 constexpr unsigned egl_platform_device = 0x313F;
 constexpr unsigned egl_platform_surfaceless_mesa = 0x31DD;
 
-struct Functions {
+struct EglFunctions {
   Context::Procedure (*get_procedure)(const char*) = nullptr;
   EglInt (*get_error)() = nullptr;
   unsigned (*initialize)(Handle, EglInt*, EglInt*) = nullptr;
@@ -77,7 +77,7 @@ struct Candidate {
 
 class EglContext final : public Context {
  public:
-  EglContext(DynamicLibrary library, const Functions& functions, Handle display, Handle context,
+  EglContext(DynamicLibrary library, const EglFunctions& functions, Handle display, Handle context,
              bool hardware)
       : library_(std::move(library)),
         functions_(functions),
@@ -102,13 +102,13 @@ class EglContext final : public Context {
 
  private:
   DynamicLibrary library_;
-  Functions functions_;
+  EglFunctions functions_;
   Handle display_;
   Handle context_;
   bool hardware_;
 };
 
-std::vector<Handle> devices(const Functions& egl) {
+std::vector<Handle> devices(const EglFunctions& egl) {
   EglInt count = 0;
   if (egl.query_devices == nullptr || !egl.query_devices(0, nullptr, &count)) return {};
   std::vector<Handle> found(static_cast<std::size_t>(std::max(count, 0)));
@@ -117,14 +117,14 @@ std::vector<Handle> devices(const Functions& egl) {
   return found;
 }
 
-bool is_software(const Functions& egl, Handle device) {
+bool is_software(const EglFunctions& egl, Handle device) {
   const char* text =
       egl.query_device_string == nullptr ? nullptr : egl.query_device_string(device, egl_extensions);
   return text != nullptr && std::string_view(text).find("EGL_MESA_device_software") != std::string_view::npos;
 }
 
 /// By the name of what draws, which holds for Mesa's surfaceless platform too. The context is current.
-bool is_in_software(const Functions& egl) {
+bool is_in_software(const EglFunctions& egl) {
   constexpr unsigned gl_renderer = 0x1F01;
   const auto get_string =
       reinterpret_cast<const unsigned char* (*)(unsigned)>(egl.get_procedure("glGetString"));
@@ -132,7 +132,7 @@ bool is_in_software(const Functions& egl) {
   return draws_in_software(text == nullptr ? "" : reinterpret_cast<const char*>(text));
 }
 
-std::vector<Candidate> candidates(const Functions& egl) {
+std::vector<Candidate> candidates(const EglFunctions& egl) {
   std::vector<Candidate> hardware, software;
   const std::vector<Handle> all = devices(egl);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -145,7 +145,7 @@ std::vector<Candidate> candidates(const Functions& egl) {
 }
 
 // The context of one candidate, or why not.
-Expected<Handle> open_context(const Functions& egl, Handle display) {
+Expected<Handle> open_context(const EglFunctions& egl, Handle display) {
   const auto why = [&](const char* call) {
     return fail(ErrorKind::graphics,
                 fmt::format("{} failed (0x{:x})", call, static_cast<unsigned>(egl.get_error())));
@@ -167,7 +167,7 @@ Expected<Handle> open_context(const Functions& egl, Handle display) {
   return error;
 }
 
-Expected<Handle> open_display(const Functions& egl, const Candidate& candidate) {
+Expected<Handle> open_display(const EglFunctions& egl, const Candidate& candidate) {
   const Handle display = egl.get_platform_display(candidate.platform, candidate.native, nullptr);
   if (display == nullptr) return fail(ErrorKind::graphics, "no display");
   if (!egl.initialize(display, nullptr, nullptr)) return fail(ErrorKind::graphics, "eglInitialize failed");
@@ -180,7 +180,7 @@ Expected<std::unique_ptr<Context>> create_egl_context(EglDevices devices) {
   constexpr std::array names{"libEGL.so.1", "libEGL.so"};
   auto library = DynamicLibrary::open(names);
   if (!library) return fail(library.error());
-  Functions egl;
+  EglFunctions egl;
   if (!egl.load(*library)) return fail(ErrorKind::graphics, "libEGL lacks functions of EGL 1.4");
   if (egl.get_platform_display == nullptr)
     return fail(ErrorKind::graphics, "libEGL has no eglGetPlatformDisplayEXT");

@@ -18,7 +18,7 @@ constexpr int osmesa_major_version = 0x36;
 constexpr int osmesa_minor_version = 0x37;
 constexpr unsigned gl_unsigned_byte = 0x1401;
 
-struct Functions {
+struct OsmesaFunctions {
   void* (*create)(const int*, void*) = nullptr;
   void (*destroy)(void*) = nullptr;
   unsigned char (*make_current)(void*, void*, unsigned, int, int) = nullptr;
@@ -33,7 +33,7 @@ struct Functions {
 
 class OsmesaContext final : public Context {
  public:
-  OsmesaContext(DynamicLibrary library, const Functions& functions, void* context)
+  OsmesaContext(DynamicLibrary library, const OsmesaFunctions& functions, void* context)
       : library_(std::move(library)), functions_(functions), context_(context) {}
   OsmesaContext(const OsmesaContext&) = delete;
   OsmesaContext& operator=(const OsmesaContext&) = delete;
@@ -49,7 +49,7 @@ class OsmesaContext final : public Context {
   static constexpr int side =
       16;  ///< the window that OSMesa insists on; all drawing goes to framebuffer objects
   DynamicLibrary library_;
-  Functions functions_;
+  OsmesaFunctions functions_;
   void* context_;
   std::array<unsigned char, std::size_t{4} * side * side> pixels_{};
 };
@@ -60,7 +60,7 @@ Expected<std::unique_ptr<Context>> create_osmesa_context() {
   constexpr std::array names{"libOSMesa.so.8", "libOSMesa.so"};
   auto library = DynamicLibrary::open(names);
   if (!library) return fail(library.error());
-  Functions functions;
+  OsmesaFunctions functions;
   if (!functions.load(*library))
     return fail(ErrorKind::graphics, "libOSMesa lacks OSMesaCreateContextAttribs");
   constexpr std::array attributes{osmesa_format,

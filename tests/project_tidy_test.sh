@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# clang-tidy 14 (.clang-tidy) over the project's own sources, or over the files named, compiled as build/release (or
-# GNOMON_BUILD_DIR) compiles them. The whole project takes long; what ctest gives it is told in project_tests.cmake.
-# Exit 77 (skipped) without clang-tidy or without a build that tells how files are compiled.
+# clang-tidy 14 (.clang-tidy) over the project's own sources, or over the files named, each compiled by itself: the release
+# preset compiles the files of a folder together, so build/tidy is configured to tell how one alone is compiled. The whole
+# project takes long; what ctest gives it is told in project_tests.cmake. Exit 77 (skipped) without clang-tidy.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
 
-build=${GNOMON_BUILD_DIR:-build/release}
 command -v run-clang-tidy >/dev/null || { echo "SKIPPED: clang-tidy is not here"; exit 77; }
-[[ -f $build/compile_commands.json ]] || { echo "SKIPPED: no compile_commands.json in $build"; exit 77; }
+build=${GNOMON_TIDY_DIR:-build/tidy}
+mkdir -p "$(dirname -- "$build")"
+cmake --preset release -B "$build" -DGNOMON_UNITY=OFF -DGNOMON_TESTS=ON >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+ninja -C "$build" raster/glad/include/glad/gl.h >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
 
 files=("$@")
 ((${#files[@]})) || files=('/(app|compare|hybrid|raster|raytrace|scene|tests)/.*\.cpp$')

@@ -36,7 +36,7 @@ struct Wrong {
   }
 };
 
-struct Measured {
+struct MeasuredPrecision {
   Precision precision;
   Speed rendered, single;
   Wrong primary, shadow;
@@ -149,7 +149,7 @@ Wrong wrong_shadow(Precision precision, std::uint64_t rays, std::uint64_t seed) 
   });
 }
 
-std::string table(const BenchInput& input, std::uint64_t rays, std::span<const Measured> all) {
+std::string table(const BenchInput& input, std::uint64_t rays, std::span<const MeasuredPrecision> all) {
   std::string text = fmt::format(
       "{}: {} primitives, {} x {}, {} threads; wrong of {} aimed rays of each kind, scaled to 1e8\n"
       "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>13}{:>16}{:>12}\n"
@@ -158,7 +158,7 @@ std::string table(const BenchInput& input, std::uint64_t rays, std::span<const M
       rays, "", "rendered", "shadow", "one by one", "shadow", "triangles wrong", "by rounding",
       "shadows wrong", "uncertain", "precision", "primary Mray/s", "Mray/s", "primary", "Mray/s", "per 1e8",
       "per 1e8", "per 1e8", "per 1e8");
-  for (const Measured& m : all)
+  for (const MeasuredPrecision& m : all)
     text +=
         fmt::format("{:<10}{:>15.2f}{:>9.2f}{:>12.2f}{:>9.2f}{:>18.0f}{:>13.0f}{:>16.0f}{:>12.0f}\n",
                     precision_name(m.precision), m.rendered.primary, m.rendered.shadow, m.single.primary,
@@ -170,8 +170,8 @@ std::string table(const BenchInput& input, std::uint64_t rays, std::span<const M
          "fast has no packets: rendered, its rays go one by one as well.\n";
 }
 
-void add_rows(const BenchInput& input, const Measured& m, const Measured* base, std::optional<double> goal,
-              std::vector<BenchRow>& rows) {
+void add_rows(const BenchInput& input, const MeasuredPrecision& m, const MeasuredPrecision* base,
+              std::optional<double> goal, std::vector<BenchRow>& rows) {
   const auto add = [&](const char* what, double value, const char* unit) -> BenchRow& {
     rows.push_back({.name = fmt::format("{}, {}", precision_name(m.precision), what),
                     .scene = input.scene,
@@ -181,16 +181,16 @@ void add_rows(const BenchInput& input, const Measured& m, const Measured* base, 
                     .more_is_better = std::string_view(unit) == "Mrays/s"});
     return rows.back();
   };
-  const auto speed = [&](const char* what, const Speed Measured::*which, double Speed::*kind) {
+  const auto speed = [&](const char* what, const Speed MeasuredPrecision::*which, double Speed::*kind) {
     BenchRow& row = add(what, m.*which.*kind, "Mrays/s");
     if (base == nullptr) return;
     row.peer = BenchPeer{std::string(precision_name(base->precision)), base->*which.*kind};
     row.goal = goal;
   };
-  speed("primary rays", &Measured::rendered, &Speed::primary);
-  speed("shadow rays", &Measured::rendered, &Speed::shadow);
-  speed("primary rays one by one", &Measured::single, &Speed::primary);
-  speed("shadow rays one by one", &Measured::single, &Speed::shadow);
+  speed("primary rays", &MeasuredPrecision::rendered, &Speed::primary);
+  speed("shadow rays", &MeasuredPrecision::rendered, &Speed::shadow);
+  speed("primary rays one by one", &MeasuredPrecision::single, &Speed::primary);
+  speed("shadow rays one by one", &MeasuredPrecision::single, &Speed::shadow);
   add("wrong triangles per 1e8", m.primary.per_1e8(m.primary.wrong), "rays");
   add("edges by rounding per 1e8", m.primary.per_1e8(m.primary.open), "rays");
   add("wrong shadows per 1e8", m.shadow.per_1e8(m.shadow.wrong), "rays");
@@ -199,11 +199,11 @@ void add_rows(const BenchInput& input, const Measured& m, const Measured* base, 
 }  // namespace
 
 BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::uint64_t seed) {
-  std::vector<Measured> all;
+  std::vector<MeasuredPrecision> all;
   for (const Precision precision : {Precision::fast, Precision::robust, Precision::exact}) {
     input.progress(std::string(precision_name(precision)), static_cast<double>(all.size()) / 3.0);
     const Tracer tracer(*input.loaded.world, raytrace::Accel::bvh, precision);
-    Measured m{.precision = precision, .rendered = {}, .single = {}, .primary = {}, .shadow = {}};
+    MeasuredPrecision m{.precision = precision, .rendered = {}, .single = {}, .primary = {}, .shadow = {}};
     m.rendered = speed_rendered(input, tracer), m.single = speed_single(input, tracer);
     m.primary = wrong_primary(precision, rays, seed), m.shadow = wrong_shadow(precision, rays, seed);
     all.push_back(m);

@@ -57,7 +57,7 @@ bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
   return a->t == b->t && a->primitive == b->primitive;
 }
 
-struct Measured {
+struct MeasuredStructure {
   Accel accel;
   double build_ms = 0.0, megabytes = 0.0;
   double primary_mrays = 0.0, shadow_mrays = 0.0;  // per second
@@ -78,7 +78,7 @@ Times time_passes(int runs, const Pass& pass) {
 }
 
 /// The nodes of sixteen that the rays go through: made now, so that their making and their bytes count too.
-void add_collapsed_tree(const Tracer& tracer, Measured& m) {
+void add_collapsed_tree(const Tracer& tracer, MeasuredStructure& m) {
   const Stopwatch watch;
   prepare_single_rays(tracer);
   if (single_ray_bytes(tracer) == 0) return;
@@ -87,11 +87,11 @@ void add_collapsed_tree(const Tracer& tracer, Measured& m) {
 }
 
 /// The counted and checked pass comes first: it warms the caches for the timed ones.
-Measured measure(const BenchInput& input, const Rays& rays, Accel accel) {
+MeasuredStructure measure(const BenchInput& input, const Rays& rays, Accel accel) {
   const Tracer tracer(*input.loaded.world, accel);
-  Measured m{.accel = accel,
-             .build_ms = tracer.stats().build_ms,
-             .megabytes = static_cast<double>(tracer.stats().bytes) / 1048576.0};
+  MeasuredStructure m{.accel = accel,
+                      .build_ms = tracer.stats().build_ms,
+                      .megabytes = static_cast<double>(tracer.stats().bytes) / 1048576.0};
   add_collapsed_tree(tracer, m);
   const double tests = static_cast<double>(rays.primary.size()) * input.loaded.world->primitive_count();
   const std::size_t step =
@@ -129,12 +129,12 @@ Measured measure(const BenchInput& input, const Rays& rays, Accel accel) {
   return m;
 }
 
-std::string table_row(const Measured& m) {
+std::string table_row(const MeasuredStructure& m) {
   return fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11.1f}{:>15.1f}{:>18.3f}{:>17.3f}\n", accel_name(m.accel),
                      m.build_ms, m.megabytes, m.boxes, m.triangles, m.primary_mrays, m.shadow_mrays);
 }
 
-std::string table(const BenchInput& input, const Rays& rays, std::span<const Measured> all) {
+std::string table(const BenchInput& input, const Rays& rays, std::span<const MeasuredStructure> all) {
   std::string text = fmt::format(
       "{}: {} primitives, {} primary rays ({} hit), {} shadow rays; every structure sees the same\n"
       "{:<14}{:>10}{:>9}{:>11}{:>15}{:>18}{:>17}\n",
@@ -142,13 +142,15 @@ std::string table(const BenchInput& input, const Rays& rays, std::span<const Mea
       std::count_if(rays.hits.begin(), rays.hits.end(), [](const auto& h) { return h.has_value(); }),
       rays.shadow.size(), "structure", "build ms", "MiB", "boxes/ray", "triangles/ray", "primary Mrays/s",
       "shadow Mrays/s");
-  for (const Measured& m : all) text += table_row(m);
+  for (const MeasuredStructure& m : all) text += table_row(m);
   return text;
 }
 
 /// The peer of every structure is the default one.
-void add_rows(const BenchInput& input, const Measured& m, const Measured* base, std::vector<BenchRow>& rows) {
-  const auto add = [&](const char* what, double Measured::*field, const char* unit, bool more_is_better) {
+void add_rows(const BenchInput& input, const MeasuredStructure& m, const MeasuredStructure* base,
+              std::vector<BenchRow>& rows) {
+  const auto add = [&](const char* what, double MeasuredStructure::*field, const char* unit,
+                       bool more_is_better) {
     BenchRow row{fmt::format("{} {}", accel_name(m.accel), what),
                  input.scene,
                  input.threads,
@@ -158,12 +160,12 @@ void add_rows(const BenchInput& input, const Measured& m, const Measured* base, 
     if (base != nullptr && base != &m) row.peer = {std::string(accel_name(base->accel)), base->*field};
     rows.push_back(std::move(row));
   };
-  add("build", &Measured::build_ms, "ms", false);
-  add("memory", &Measured::megabytes, "MiB", false);
-  add("boxes per ray", &Measured::boxes, "boxes", false);
-  add("triangles per ray", &Measured::triangles, "triangles", false);
-  add("primary rays", &Measured::primary_mrays, "Mrays/s", true);
-  add("shadow rays", &Measured::shadow_mrays, "Mrays/s", true);
+  add("build", &MeasuredStructure::build_ms, "ms", false);
+  add("memory", &MeasuredStructure::megabytes, "MiB", false);
+  add("boxes per ray", &MeasuredStructure::boxes, "boxes", false);
+  add("triangles per ray", &MeasuredStructure::triangles, "triangles", false);
+  add("primary rays", &MeasuredStructure::primary_mrays, "Mrays/s", true);
+  add("shadow rays", &MeasuredStructure::shadow_mrays, "Mrays/s", true);
 }
 
 }  // namespace
@@ -171,7 +173,7 @@ void add_rows(const BenchInput& input, const Measured& m, const Measured* base, 
 Expected<BenchResult> bench_structures(const BenchInput& input) {
   const Tracer reference(*input.loaded.world, Accel::bvh);
   const Rays rays = make_rays(reference, *input.loaded.scene, input.size);
-  std::vector<Measured> all;
+  std::vector<MeasuredStructure> all;
   for (const Accel accel : input.accels) {
     input.progress(std::string(accel_name(accel)),
                    static_cast<double>(all.size()) / static_cast<double>(input.accels.size()));
@@ -182,8 +184,9 @@ Expected<BenchResult> bench_structures(const BenchInput& input) {
   }
   BenchResult result{table(input, rays, all), {}};
   const auto base =
-      std::find_if(all.begin(), all.end(), [](const Measured& m) { return m.accel == Accel::bvh; });
-  for (const Measured& m : all) add_rows(input, m, base == all.end() ? nullptr : &*base, result.rows);
+      std::find_if(all.begin(), all.end(), [](const MeasuredStructure& m) { return m.accel == Accel::bvh; });
+  for (const MeasuredStructure& m : all)
+    add_rows(input, m, base == all.end() ? nullptr : &*base, result.rows);
   return result;
 }
 

@@ -49,7 +49,7 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
   return ExitCode::done;
 }
 
-Expected<ExitCode> run_tune(const BenchCommand& command) {
+Expected<ExitCode> run_tune_rows(const BenchCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads, console);
   TuneBench bench = command.tune;
@@ -68,7 +68,7 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
     return fail(ErrorKind::usage,
                 fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
   if (!command.techniques.scenes.empty()) return run_techniques(command);
-  if (!command.tune.scenes.empty()) return run_tune(command);
+  if (!command.tune.scenes.empty()) return run_tune_rows(command);
   if (command.scene.name.empty() && command.precision)
     return fail(ErrorKind::usage, "--precision: needs a SCENE");
   if (command.scene.name.empty())

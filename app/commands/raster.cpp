@@ -23,7 +23,7 @@ struct RasterCommand : PictureCommand {
   std::string shader_folder;
 };
 
-constexpr BytesPerPixel bytes_per_pixel{.png = raster_png, .exr = raster_exr};
+constexpr BytesPerPixel raster_bytes_per_pixel{.png = raster_png, .exr = raster_exr};
 
 struct Drawing {
   const RasterCommand& command;
@@ -63,7 +63,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command, "raster");
   if (!files) return fail(files.error());
-  auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
+  auto loaded = open_scene(command, *files, command.options.size, raster_bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);
   if (!lights) return fail(lights.error());
@@ -76,7 +76,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   console.progress("shadow maps", 0.5);
   command.options.runs = command.json.empty() ? 0 : 1;
   command.options.analysis = command.wants_records() || !command.shader_folder.empty();
-  const auto bands = plan_bands(command.memory, command.options.size, bytes_per_pixel.of(command),
+  const auto bands = plan_bands(command.memory, command.options.size, raster_bytes_per_pixel.of(command),
                                 raster::most_pixels(**renderer, command.options.map));
   if (!bands) return fail(bands.error());
   raster::RasterFrame frame;

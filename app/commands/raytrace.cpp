@@ -29,7 +29,7 @@ struct RaytraceCommand : PictureCommand {
   PictureSamples samples;
 };
 
-constexpr BytesPerPixel bytes_per_pixel{.png = raytrace_png, .exr = raytrace_exr};
+constexpr BytesPerPixel raytrace_bytes_per_pixel{.png = raytrace_png, .exr = raytrace_exr};
 
 struct Tracing {
   const RaytraceCommand& command;
@@ -72,7 +72,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!files) return fail(files.error());
   if (command.heatmap && !command.json.empty())
     return fail(ErrorKind::usage, "--json: a heat map has none (give one of --heatmap and --json)");
-  auto loaded = open_scene(command, *files, command.options.size, bytes_per_pixel, console);
+  auto loaded = open_scene(command, *files, command.options.size, raytrace_bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);
   const auto lights = choose_lights(*loaded->scene, command.light);
@@ -86,7 +86,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const raytrace::Tracer tracer(*loaded->world, command.accel, command.precision);
   const Camera& camera = loaded->scene->camera;
   if (command.heatmap) return draw_heatmap(command, tracer, camera, console);
-  const auto bands = plan_bands(command.memory, command.options.size, bytes_per_pixel.of(command));
+  const auto bands = plan_bands(command.memory, command.options.size, raytrace_bytes_per_pixel.of(command));
   if (!bands) return fail(bands.error());
   raytrace::RayTracedFrame frame;
   PictureBands picture(command.image, *loaded->world, command.options.size,

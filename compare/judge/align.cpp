@@ -17,7 +17,7 @@ constexpr double least_gain = 0.03, most_left = 0.5;
 constexpr double good_shadows = 0.95, no_shadows = 0.6;
 constexpr std::size_t few_samples = 50;
 
-std::string percent(double share) {
+std::string hundredths_of_percent(double share) {
   return fmt::format("{:.2f} %", 100.0 * share);
 }
 
@@ -103,10 +103,10 @@ class Aligner {
 
 Expected<void> Aligner::mend(const Mended& mended, const Suspect* suspect) {
   if (!in_.fix)
-    return capture_error(
-        in_.capture, "",
-        fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)", mended.what,
-                    percent(mended.before), mended.evidence, percent(mended.after)));
+    return capture_error(in_.capture, "",
+                         fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)",
+                                     mended.what, hundredths_of_percent(mended.before), mended.evidence,
+                                     hundredths_of_percent(mended.after)));
   judged_.mended.push_back(mended);
   if (suspect == nullptr) {
     for (float& v : pictures_.visibility.data) v = linear_from_srgb(v);
@@ -139,8 +139,8 @@ Expected<void> Aligner::check_geometry() {
       in_.capture, "",
       fmt::format("the picture does not show this scene as Gnomon sees it: {} of the {} agree, and no usual "
                   "difference of conventions mends that (nearest: {}, {})",
-                  percent(now->share), now->what, best ? best->suspect.what : "none",
-                  best ? percent(best->share) : "-"));
+                  hundredths_of_percent(now->share), now->what, best ? best->suspect.what : "none",
+                  best ? hundredths_of_percent(best->share) : "-"));
 }
 
 Expected<void> Aligner::check_shadows() {
@@ -155,7 +155,7 @@ Expected<void> Aligner::check_shadows() {
   const std::string words = fmt::format(
       "the shadows agree with the truth no better than chance would ({}), and no usual difference "
       "of conventions mends that",
-      percent(*now.visibility));
+      hundredths_of_percent(*now.visibility));
   if (alone) return capture_error(in_.capture, "", words + ": is it this scene, camera and light?");
   judged_.notes.push_back(words);
   return {};

@@ -26,10 +26,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_map_texels = std::size_t{1} << 21;  // larger maps are reduced
 constexpr std::uint32_t nothing_stored = 0xffffffffu, endless = 0x80000000u;
 
-Json vector3(const Vec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
 double depth_step(const LightView& view) {
   const Interval range = view.depth_range();
   return std::exp2(std::ceil(std::log2(range.max - range.min)) - 22.0);

@@ -27,10 +27,6 @@ using Json = nlohmann::ordered_json;
 constexpr double normal_steps = 32767.0;
 constexpr double corner_bits = 20.0;
 
-Json vector3(const Vec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
 // --- words ---
 
 Json labels_json() {

@@ -9,6 +9,7 @@
 #include "compare/report/html.h"
 #include "compare/report/sections.h"
 #include "compare/result_parts.h"
+#include "compare/text_layout.h"
 #include "scene/files/image_io.h"
 
 namespace gnomon::compare {
@@ -16,12 +17,6 @@ namespace {
 
 std::string key_of(std::size_t light, std::string_view rest) {
   return fmt::format("lights.{}.{}", light, rest);
-}
-
-std::string spoken(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
 }
 
 std::string label_swatch(std::size_t label) {

@@ -11,12 +11,6 @@
 namespace gnomon::compare {
 namespace {
 
-std::string spoken(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
 std::string movement(const ShimmerOptions& o) {
   const bool camera = o.path.camera != CameraPath::still, light = o.path.light != LightPath::still;
   std::string text = camera ? fmt::format("camera {}", camera_path_name(o.path.camera)) : std::string();

@@ -37,11 +37,6 @@ tl::unexpected<Error> bad_line(const std::string& path, std::size_t line, std::s
   return fail(Error{ErrorKind::bad_input, std::move(reason), path, static_cast<int>(line)});
 }
 
-std::string read_all(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Lines with their breaks; what follows the last break is dropped.
 std::vector<std::string> whole_lines(const std::string& bytes) {
   std::vector<std::string> lines;
@@ -54,7 +49,7 @@ std::vector<std::string> whole_lines(const std::string& bytes) {
   return lines;
 }
 
-std::size_t byte_count(const std::vector<std::string>& lines) {
+std::size_t size_of_lines(const std::vector<std::string>& lines) {
   std::size_t count = 0;
   for (const std::string& line : lines) count += line.size();
   return count;
@@ -267,9 +262,9 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   if (auto fine = check_times((*times)->path, journal.times_, keep); !fine) return fail(fine.error());
   journal.lines_.resize(keep);
   journal.times_.resize(keep);
-  journal.torn_ = byte_count(journal.lines_) != bytes.size();
-  if (auto cut = (*lines)->cut(byte_count(journal.lines_)); !cut) return fail(cut.error());
-  if (auto cut = (*times)->cut(byte_count(journal.times_)); !cut) return fail(cut.error());
+  journal.torn_ = size_of_lines(journal.lines_) != bytes.size();
+  if (auto cut = (*lines)->cut(size_of_lines(journal.lines_)); !cut) return fail(cut.error());
+  if (auto cut = (*times)->cut(size_of_lines(journal.times_)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
   journal.time_file_ = std::move(*times);
   journal.table_file_ = std::move(*table);

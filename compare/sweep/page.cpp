@@ -188,11 +188,6 @@ std::string beside_line(const SweepPageInput& in) {
              : "";
 }
 
-std::string read_all(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::map<std::string, std::string> read_truths(const std::string& folder) {
   std::map<std::string, std::string> truths;
   std::error_code error;

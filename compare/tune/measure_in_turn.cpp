@@ -12,18 +12,11 @@ namespace {
 // Of the best price: wider than what single times are off on a busy machine, and what two of them are off.
 constexpr double near_the_best = 2.5, still_near = 1.25;
 
-Attempt& attempt_of(FamilyResult& family) {
-  return family.answer ? *family.answer : family.closest;
-}
-const Attempt& attempt_of(const FamilyResult& family) {
-  return family.answer ? *family.answer : family.closest;
-}
-
 }  // namespace
 
 bool Tuner::better(const FamilyResult& a, const FamilyResult& b) const {
   if (a.answer.has_value() != b.answer.has_value()) return a.answer.has_value();
-  const Attempt &x = attempt_of(a), &y = attempt_of(b);
+  const Attempt &x = a.attempt(), &y = b.attempt();
   const bool answered = a.answer.has_value();
   const double first_x = answered ? price(x) : shortfall(x), first_y = answered ? price(y) : shortfall(y);
   return first_x != first_y ? first_x < first_y : x.cost < y.cost;
@@ -38,7 +31,7 @@ std::size_t Tuner::best_of(const TuneResult& result) const {
 
 // At its own bias: what is promised from the gaps is what is drawn.
 Expected<void> Tuner::confirm(FamilyResult& result) {
-  Attempt& answer = attempt_of(result);
+  Attempt& answer = result.attempt();
   const raster::Bias bias = with_constant(result.family.map, answer.bias_world, answer.texel_world);
   auto drawn = draw(result.family, answer.size, bias, nullptr);
   if (!drawn) return fail(drawn.error());
@@ -50,7 +43,7 @@ Expected<void> Tuner::confirm(FamilyResult& result) {
 }
 
 Expected<void> Tuner::draw_again(FamilyResult& result) {
-  Attempt& answer = attempt_of(result);
+  Attempt& answer = result.attempt();
   const raster::Bias bias = with_constant(result.family.map, answer.bias_world, answer.texel_world);
   const auto ms = engine_.time_drawing(setting_of(result.family, answer.size, bias));
   if (!ms) return fail(ms.error());
@@ -63,14 +56,13 @@ Expected<void> Tuner::measure_in_turn(const std::vector<FamilyResult*>& finalist
     if (auto confirmed = confirm(*finalist); !confirmed) return confirmed;
   for (int round = 1; round < base_.raster.runs; ++round) {
     double least = std::numeric_limits<double>::infinity();
-    for (const FamilyResult* finalist : finalists)
-      least = std::min(least, attempt_of(*finalist).times.least());
+    for (const FamilyResult* finalist : finalists) least = std::min(least, finalist->attempt().times.least());
     for (FamilyResult* finalist : finalists)
-      if (attempt_of(*finalist).times.least() <= still_near * least)
+      if (finalist->attempt().times.least() <= still_near * least)
         if (auto drawn = draw_again(*finalist); !drawn) return drawn;
   }
   for (FamilyResult* finalist : finalists) {
-    Attempt& answer = attempt_of(*finalist);
+    Attempt& answer = finalist->attempt();
     answer.time_ms = answer.times.least();
     if (!options_.cost) answer.cost = answer.time_ms;
     if (finalist->answer && !good(*finalist->answer)) {  // cheap enough in the search, not now
@@ -91,7 +83,7 @@ Expected<void> Tuner::measure_best(TuneResult& result) {
     for (FamilyResult& family : result.families) {
       const bool near = &family == &best || (best.answer && family.answer &&
                                              price(*family.answer) <= near_the_best * price(*best.answer));
-      const bool measured = !attempt_of(family).times.runs.empty();
+      const bool measured = !family.attempt().times.runs.empty();
       if (near || measured) finalists.push_back(&family);
       all_measured = all_measured && (measured || !near);
     }

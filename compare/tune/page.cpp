@@ -12,10 +12,6 @@
 namespace gnomon::compare {
 namespace {
 
-const Attempt& attempt_of(const FamilyResult& family) {
-  return family.answer ? *family.answer : family.closest;
-}
-
 std::string goal_text(const TuneGoal& goal) {
   return goal.max_error ? limit_words(*goal.max_error)
                         : "at most " + milliseconds(*goal.max_time_ms) + " for map and shading";
@@ -27,7 +23,7 @@ bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
 
 std::string verdict(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
-  const Attempt& a = attempt_of(winner);
+  const Attempt& a = winner.attempt();
   const std::string answer = fmt::format(
       "{}, {} \u00d7 {} texels{}. Compared as below it gives {}, in {}.", winner.family.name, a.size, a.size,
       reads_bias(winner.family, a) ? ", bias " + plain_number(a.bias_world) : std::string(),
@@ -40,7 +36,7 @@ std::string verdict(const TunePageInput& in) {
 
 // Why no constant bias can be right everywhere, with the two sets of pixels.
 std::string proof(const TunePageInput& in) {
-  const BestBias& best = attempt_of(in.result.families[in.result.winner]).best;
+  const BestBias& best = in.result.families[in.result.winner].attempt().best;
   if (in.result.feasible || best.feasible || best.lit_pixels_above == 0) return {};
   return fmt::format(
       R"(<p class="lead">No constant bias is right everywhere with this map: {} lit pixel{} {} or more,
@@ -72,7 +68,7 @@ std::string figure_heads(ErrorMeasure measure) {
 
 std::string family_row(const TunePageInput& in, std::size_t i) {
   const FamilyResult& family = in.result.families[i];
-  const Attempt& a = attempt_of(family);
+  const Attempt& a = family.attempt();
   const bool winner = i == in.result.winner;
   return fmt::format(
       R"(<tr{}><th scope="row">{}{}<small>{}</small></th><td class="n">{}</td><td

@@ -94,6 +94,10 @@ struct FamilyResult {
   std::vector<std::string> as_fast;
   bool by_cost = false;
   std::string why;  ///< why it lost, or won
+
+  /// The answer, or what comes nearest to one.
+  const Attempt& attempt() const { return answer ? *answer : closest; }
+  Attempt& attempt() { return answer ? *answer : closest; }
 };
 
 /// A setting that would be more accurate than the answer, but for a time that may be within the limit or not.

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int level = 6;
+constexpr int deflate_level = 6;
 
 std::string big_endian(std::uint32_t value, int bytes) {
   std::string out;
@@ -49,7 +49,7 @@ void AnimatedPng::add(const Rgb8Image& picture) {
     at[0] = static_cast<char>(c.r), at[1] = static_cast<char>(c.g), at[2] = static_cast<char>(c.b);
     at[3] = static_cast<char>(0xff);
   }
-  frames_.push_back(deflate(rows, level));
+  frames_.push_back(deflate(rows, deflate_level));
   last_ = picture;
 }
 

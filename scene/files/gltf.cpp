@@ -35,7 +35,7 @@ Error gltf_error(const std::string& file, std::string field, std::string reason)
 // ---- nodes ----
 
 // What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
-Vec3 unit(const Vec3& v) {
+Vec3 unit_vector(const Vec3& v) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   return std::abs(glm::dot(v, v) - 1.0) <= rounding ? v : glm::normalize(v);
 }
@@ -206,8 +206,8 @@ class SceneBuilder {
                  : !from.name.empty() ? from.name
                                       : fmt::format("camera-{}", loaded_.cameras.size());
     named.camera.eye = Vec3(world[3]);
-    named.camera.target = named.camera.eye + unit(forward);
-    named.camera.up = unit(up);
+    named.camera.target = named.camera.eye + unit_vector(forward);
+    named.camera.up = unit_vector(up);
     named.camera.vertical_fov = from.perspective.yfov;
     loaded_.cameras.push_back(std::move(named));
     gltf_cameras_.push_back(static_cast<std::size_t>(node.camera));
@@ -236,7 +236,7 @@ class SceneBuilder {
       return note(fmt::format("A light of unknown type '{}' was skipped.", from.type));
     const Vec3 direction = Vec3(world * Vec4(0.0, 0.0, -1.0, 0.0));
     if (!(glm::length(direction) > 0.0)) return note("A light whose node flattens it was skipped.");
-    light.direction = unit(direction);
+    light.direction = unit_vector(direction);
     light.position = Vec3(world[3]);
     const Vec3 tint = from.color.size() >= 3 ? Vec3(from.color[0], from.color[1], from.color[2]) : Vec3(1.0);
     light.intensity = Vec3f(tint * from.intensity);

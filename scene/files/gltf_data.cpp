@@ -9,16 +9,11 @@
 #include "scene/files/base64.h"
 #include "scene/files/gltf_container.h"
 #include "scene/files/gltf_meshopt.h"
+#include "scene/files/hex_digit.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
 namespace {
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  const char lower = static_cast<char>(c | 0x20);
-  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
-}
 
 /// RFC 3986, section 2.1.
 std::string decode_percent(std::string_view uri) {

@@ -14,14 +14,14 @@ Json wrapped(Json gnomon) {
   return {{"gnomon", std::move(gnomon)}};
 }
 
-constexpr NumberRange radius_range{0.0, max_coordinate};
+constexpr NumberRange light_radius_range{0.0, max_coordinate};
 
 int whole(const JsonObject& object, std::string_view key, int otherwise, NumberRange range) {
   range.whole = true;
   return static_cast<int>(object.number(key, otherwise, range));
 }
 
-LightExtent read_extent(const JsonObject& object, const Light& light) {
+LightExtent extent_of_extras(const JsonObject& object, const Light& light) {
   if (light.type == LightType::directional) {
     for (const std::string_view key : {"sphere", "disc", "rectangle"})
       object.forbid(key, "does not apply to a directional light");
@@ -30,11 +30,11 @@ LightExtent read_extent(const JsonObject& object, const Light& light) {
   }
   object.forbid("angular_diameter", "applies to a directional light only");
   if (const auto node = object.find("sphere"))
-    return SphereLight{JsonObject(*node, {"radius"}).number("radius", 0.0, radius_range)};
+    return SphereLight{JsonObject(*node, {"radius"}).number("radius", 0.0, light_radius_range)};
   if (const auto node = object.find("disc")) {
     const JsonObject disc(*node, {"radius", "normal"});
     const auto normal = disc.require("normal");
-    return DiscLight{disc.number("radius", 0.0, radius_range),
+    return DiscLight{disc.number("radius", 0.0, light_radius_range),
                      normal ? normal->as_vec3() : Vec3(0.0, -1.0, 0.0)};
   }
   const auto node = object.find("rectangle");
@@ -150,7 +150,7 @@ void GltfExtras::read_light(std::size_t index, Light& light) const {
   const auto node = of_item(lights_, index);
   if (!node) return;
   const JsonObject object(*node, {"angular_diameter", "sphere", "disc", "rectangle", "shadow_samples"});
-  light.extent = read_extent(object, light);
+  light.extent = extent_of_extras(object, light);
   light.shadow_samples = whole(object, "shadow_samples", light.shadow_samples, {1.0, max_shadow_samples});
 }
 

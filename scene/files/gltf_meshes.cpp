@@ -15,7 +15,7 @@ namespace {
 
 // glTF 2.0, section 3.7.2.1; a strip's every other triangle is turned round, and its stitches are dropped.
 template <class Visit>
-void for_each_triangle(int mode, const std::vector<std::uint32_t>& v, const Visit& visit) {
+void for_each_triangle_of_mode(int mode, const std::vector<std::uint32_t>& v, const Visit& visit) {
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
     for (std::size_t i = 1; i + 1 < v.size(); ++i) visit(v[i], v[i + 1], v[0]);
   if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
@@ -303,7 +303,7 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
     std::vector<std::uint32_t> vertices(count);
     const auto read = for_each_index(part, [&](std::size_t i, std::uint32_t v) { vertices[i] = base + v; });
     if (!read) return read;
-    for_each_triangle(mode, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for_each_triangle_of_mode(mode, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       mesh.triangles.push_back({a, b, c});
     });
   }

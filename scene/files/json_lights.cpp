@@ -65,7 +65,7 @@ void read_spot(const JsonObject& object, Light& light) {
 
 constexpr NumberRange extent_range{0.0, max_coordinate};
 
-SphereLight read_sphere(const JsonNode& node) {
+SphereLight read_sphere_light(const JsonNode& node) {
   const JsonObject object(node, {"radius"});
   const auto radius = object.require("radius");
   return {radius ? radius->as_number(extent_range) : 0.0};
@@ -114,7 +114,7 @@ LightExtent read_extent(const JsonObject& object, const Light& light) {
   if (std::none_of(keys.begin(), keys.end(), [&](std::string_view key) { return object.has(key); }))
     return {};
   const std::string_view given = object.exactly_one(keys);
-  if (given == "sphere") return read_sphere(*object.find(given));
+  if (given == "sphere") return read_sphere_light(*object.find(given));
   if (given == "disc") return read_disc(*object.find(given), light);
   if (given == "rectangle") return read_rectangle(*object.find(given), light);
   return {};

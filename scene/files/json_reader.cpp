@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "scene/files/hex_digit.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 
@@ -30,13 +31,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return d[a.size()][b.size()];
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
 }
 
 std::optional<Vec3f> hex_color(std::string_view text) {

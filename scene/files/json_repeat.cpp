@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-constexpr NumberRange count_range{1.0, 256.0, false, false, true};
+constexpr NumberRange copies_range{1.0, 256.0, false, false, true};
 constexpr NumberRange seed_range{0.0, 4294967295.0, false, false, true};
 
 struct Repeat {
@@ -26,7 +26,7 @@ Repeat read(const JsonObject& object) {
   if (const auto count = object.require("count")) {
     const auto items = count->as_array(2);
     for (std::size_t i = 0; i < items.size(); ++i)
-      r.count[i] = static_cast<int>(std::max(1.0, items[i].as_number(count_range)));
+      r.count[i] = static_cast<int>(std::max(1.0, items[i].as_number(copies_range)));
   }
   if (const auto spacing = object.require("spacing")) {
     r.spacing = spacing->as_scale2();

@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr NumberRange length_range{0.0, max_coordinate, true};
-constexpr NumberRange radius_range{0.0, max_coordinate};
+constexpr NumberRange solid_radius_range{0.0, max_coordinate};
 
 double require_length(const JsonObject& object, std::string_view key,
                       const NumberRange& range = length_range) {
@@ -59,8 +59,8 @@ Quadric read_cylinder(const JsonNode& node) {
 Quadric read_cone(const JsonNode& node) {
   const JsonObject object(node, {"base", "axis", "rotate", "radius", "top_radius", "height", "closed"});
   const ShapeFrame frame = read_frame(object, "base");
-  const double radius = require_length(object, "radius", radius_range);
-  const double top = object.number("top_radius", 0.0, radius_range);
+  const double radius = require_length(object, "radius", solid_radius_range);
+  const double top = object.number("top_radius", 0.0, solid_radius_range);
   if (!node.errors().first && radius == 0.0 && top == 0.0)
     node.error("the cone has no width (got radius 0 and top_radius 0, allowed one of them > 0)");
   return make_cone(frame, radius, top, require_length(object, "height"), object.boolean("closed", true));

@@ -43,7 +43,7 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
@@ -82,7 +82,7 @@ std::string plain_statement(std::string_view key, std::string_view rest, std::se
       unused.insert(fmt::format("{} {}", key, word));
     }
   }
-  return fmt::format("{} {}", out, trimmed(rest));
+  return fmt::format("{} {}", out, without_blanks(rest));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::string_view schema_name = "gnomon/path/1";
+constexpr std::string_view path_schema = "gnomon/path/1";
 
 std::optional<KeyedVector> read_keys(const JsonObject& parent, std::string_view key) {
   const auto node = parent.find(key);
@@ -84,7 +84,7 @@ Expected<KeyedPath> read_path(const std::string& file) {
   const JsonObject object(root, {"schema", "camera", "lights"});
   KeyedPath path;
   if (const auto schema = object.require("schema"))
-    if (schema->as_string() != schema_name) schema->wrong("unknown schema", std::string(schema_name));
+    if (schema->as_string() != path_schema) schema->wrong("unknown schema", std::string(path_schema));
   read_path_keys(object, path);
   if (errors.first) return fail(*errors.first);
   return path;

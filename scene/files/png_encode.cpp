@@ -17,7 +17,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int level = 3, palette_level = 7;
+constexpr int colour_level = 3, palette_level = 7;
 
 /// Each row after the byte that names its filter: 0, none. `bytes`: of a pixel.
 std::string rows_of(const char* pixels, const ImageSize& size, std::size_t bytes) {
@@ -108,8 +108,9 @@ Expected<std::string> encode_png(const Rgb8Image& image) {
   if (const std::optional<Paletted> few = paletted(image))
     return contain(image.size, PNG_COLOR_TYPE_PALETTE, few->colours,
                    deflate(rows_of(few->places.data(), image.size, 1), palette_level));
-  return contain(image.size, PNG_COLOR_TYPE_RGB, {},
-                 deflate(rows_of(reinterpret_cast<const char*>(image.data.data()), image.size, 3), level));
+  return contain(
+      image.size, PNG_COLOR_TYPE_RGB, {},
+      deflate(rows_of(reinterpret_cast<const char*>(image.data.data()), image.size, 3), colour_level));
 }
 
 Expected<std::string> encode_png(const Texture& texture) {

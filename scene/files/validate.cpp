@@ -33,7 +33,7 @@ bool radiance(const Vec3f& v) {
 bool fraction(float v) {
   return v >= 0.0f && v <= 1.0f;
 }
-bool unit(const Vec3& v) {
+bool is_unit(const Vec3& v) {
   return std::abs(glm::length(v) - 1.0) < 1e-9;
 }
 
@@ -172,7 +172,7 @@ Defect shape_defect(const Shape& shape, const std::string& path, std::size_t mat
   if (is_solid(shape.geometry)) return solid_defect(shape.geometry, path);
   const Plane& plane = std::get<Plane>(shape.geometry);
   if (!coordinates(plane.point)) return position_defect(path + ".plane.point", plane.point);
-  if (!unit(plane.normal)) return defect(path + ".plane.normal", "is not of unit length");
+  if (!is_unit(plane.normal)) return defect(path + ".plane.normal", "is not of unit length");
   return std::nullopt;
 }
 
@@ -193,7 +193,7 @@ Defect extent_defect(const Light& light, const std::string& path) {
     if (!size(sphere->radius)) return bad("sphere.radius", ">= 0");
   if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
     if (!size(disc->radius)) return bad("disc.radius", ">= 0");
-    if (!unit(disc->normal)) return bad("disc.normal", "unit length");
+    if (!is_unit(disc->normal)) return bad("disc.normal", "unit length");
   }
   if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent))
     if (!coordinates(rectangle->half_width) || !coordinates(rectangle->half_height))
@@ -205,7 +205,7 @@ Defect light_defect(const Light& light, const std::string& path) {
   if (!radiance(light.intensity)) return defect(path + ".intensity", "out of range (allowed finite, >= 0)");
   if (light.type != LightType::directional && !coordinates(light.position))
     return position_defect(path + ".position", light.position);
-  if (light.type != LightType::point && !unit(light.direction))
+  if (light.type != LightType::point && !is_unit(light.direction))
     return defect(path + ".direction", "is not of unit length");
   const bool cone =
       light.inner_angle >= 0.0 && light.inner_angle < light.outer_angle && light.outer_angle < 0.5 * pi;

@@ -9,11 +9,9 @@
 namespace gnomon {
 namespace {
 
-constexpr double overlap = 0.004;  // metres that stones run into each other
-
 // The turned body between plinth and abacus. All in units of the radius at the foot, heights from the ground.
 std::vector<ProfilePoint> column_profile(double radius, double plinth_top, double abacus_bottom) {
-  const double r = radius, y0 = plinth_top - overlap, y1 = abacus_bottom + overlap;
+  const double r = radius, y0 = plinth_top - stone_overlap, y1 = abacus_bottom + stone_overlap;
   std::vector<ProfilePoint> p{{0.0, y0}};
   const auto bulge = [&](double inner, double bottom, double height) {  // a half round
     for (const Vec2& q : arc({inner, bottom + 0.5 * height}, 0.5 * height, -0.5 * pi, 0.5 * pi, 6))
@@ -42,7 +40,7 @@ std::vector<ProfilePoint> column_profile(double radius, double plinth_top, doubl
 void add_column(MeshBuilder& b, double height, double radius, int segments, const Vec3& foot) {
   const double r = radius, plinth = 0.35 * r, abacus = 0.32 * r;
   MeshBuilder column;
-  column.box({-1.36 * r, -overlap, -1.36 * r}, {1.36 * r, plinth, 1.36 * r}, 0.03 * r);
+  column.box({-1.36 * r, -stone_overlap, -1.36 * r}, {1.36 * r, plinth, 1.36 * r}, 0.03 * r);
   column.lathe(column_profile(r, plinth, height - abacus), segments);
   column.box({-1.34 * r, height - abacus, -1.34 * r}, {1.34 * r, height, 1.34 * r}, 0.03 * r);
   b.append(column.take(), glm::translate(Mat4(1.0), foot));
@@ -99,9 +97,9 @@ Mesh spandrel_wall(const ArcadeShape& a, double end) {
 // A band around each arch that stands out of the wall on both sides, and a keystone.
 Mesh archivolts(const ArcadeShape& a, double width) {
   MeshBuilder b;
-  const double z = 0.5 * a.depth + 0.03, inner = a.arch - overlap, outer = a.arch + width;
+  const double z = 0.5 * a.depth + 0.03, inner = a.arch - stone_overlap, outer = a.arch + width;
   for (int bay = 0; bay < a.bays; ++bay) {
-    const Vec2 c{(bay + 0.5) * a.bay, a.column - 0.5 * overlap};
+    const Vec2 c{(bay + 0.5) * a.bay, a.column - 0.5 * stone_overlap};
     const auto in = arc(c, inner, 0.0, pi, a.arch_segments), out = arc(c, outer, 0.0, pi, a.arch_segments);
     std::vector<std::vector<Vec3>> rings;
     for (std::size_t i = 0; i < in.size(); ++i) {
@@ -126,8 +124,8 @@ Mesh cornice(const ArcadeShape& a, double end) {
     b.box({x0 - out, a.top + low, -0.5 * a.depth - out}, {x1 + out, a.top + high, 0.5 * a.depth + out}, 0.01);
   }
   // The uppermost course caps the wall.
-  b.box({x0 - 0.15, a.top - overlap, -0.5 * a.depth - 0.15}, {x1 + 0.15, a.top + 0.04, 0.5 * a.depth + 0.15},
-        0.01);
+  b.box({x0 - 0.15, a.top - stone_overlap, -0.5 * a.depth - 0.15},
+        {x1 + 0.15, a.top + 0.04, 0.5 * a.depth + 0.15}, 0.01);
   return b.take();
 }
 
@@ -146,7 +144,7 @@ Expected<GeneratedModel> make_arcade(const Values& v) {
   const double end = v.number("end");
   MeshBuilder columns;
   for (int i = v.flag("first_column") ? 0 : 1; i <= a.bays - (v.flag("last_column") ? 0 : 1); ++i) {
-    add_column(columns, a.column + overlap, a.radius, v.count("segments"), Vec3(i * a.bay, 0.0, 0.0));
+    add_column(columns, a.column + stone_overlap, a.radius, v.count("segments"), Vec3(i * a.bay, 0.0, 0.0));
   }
   GeneratedModel model;
   if (!columns.empty()) model.parts.push_back({"column", columns.take()});

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-constexpr double overlap = 0.002;  // metres that touching timbers run into each other
+constexpr double timber_overlap = 0.002;  // metres that touching timbers run into each other
 
 std::vector<Vec2> picket_outline(double width, double height, const std::string& top, double top_height) {
   const double w = 0.5 * width, shoulder = height - top_height;
@@ -38,7 +38,8 @@ Mesh pickets(const Values& v, double length) {
     const double lean = jitter * random.between(-0.012, 0.012);
     const double turn = jitter * random.between(-0.03, 0.03);
     const double shift = jitter * random.between(-0.004, 0.004);
-    Mat4 place = glm::translate(Mat4(1.0), Vec3(start + i * pitch + shift, v.number("ground_gap"), -overlap));
+    Mat4 place =
+        glm::translate(Mat4(1.0), Vec3(start + i * pitch + shift, v.number("ground_gap"), -timber_overlap));
     place = glm::rotate(place, turn, Vec3(0.0, 1.0, 0.0));
     place = glm::rotate(place, lean, Vec3(0.0, 0.0, 1.0));
     const auto outline = picket_outline(width, height, v.text("top"), v.number("top_height"));
@@ -63,7 +64,7 @@ Mesh rails(const Values& v, double length) {
 Mesh posts(const Values& v, double length) {
   const double width = v.number("post_width"), height = v.number("post_height");
   const int spans = std::max(1, static_cast<int>(std::lround(length / v.number("post_spacing"))));
-  const double front = -4.0 * overlap, back = front - width, eave = 0.015;
+  const double front = -4.0 * timber_overlap, back = front - width, eave = 0.015;
   MeshBuilder b;
   for (int i = v.flag("first_post") ? 0 : 1; i <= spans - (v.flag("last_post") ? 0 : 1); ++i) {
     const double x0 = (length - width) * i / spans, x1 = x0 + width;
@@ -75,7 +76,7 @@ Mesh posts(const Values& v, double length) {
     };
     const std::array shaft{ring(0.0, 0.0), ring(height, 0.0)};
     b.loft(shaft);
-    const std::array cap{ring(height - overlap, eave), ring(height + 0.025, eave),
+    const std::array cap{ring(height - timber_overlap, eave), ring(height + 0.025, eave),
                          ring(height + 0.07, -0.35 * width)};
     b.loft(cap);
   }
@@ -99,9 +100,9 @@ Expected<GeneratedModel> make_fence(const Values& v) {
   return model;
 }
 
-const std::array<std::string_view, 3> parts{"picket", "rail", "post"};
+const std::array<std::string_view, 3> fence_parts{"picket", "rail", "post"};
 const std::array<std::string_view, 3> tops{"pointed", "round", "flat"};
-const std::array<ParameterInfo, 19> parameters{{
+const std::array<ParameterInfo, 19> fence_parameters{{
     length_parameter("length", 4.0, 0.1, 1000.0, "from the first post's outer side to the last one's"),
     length_parameter("height", 1.0, 0.05, 10.0, "of a picket, without the gap under it"),
     length_parameter("picket_width", 0.075, 0.005, 1.0, "of a picket"),
@@ -152,11 +153,11 @@ Expected<GeneratedModel> make_bench(const Values& v) {
   }
   for (int i = 0; i < frames; ++i) {
     const double x = (half - 0.08) * (2.0 * i / (frames - 1) - 1.0), w = 0.03, top = seat - 0.009;
-    wood.box({x - w, -overlap, 0.17}, {x + w, top, 0.23}, 0.004);                       // front leg
+    wood.box({x - w, -timber_overlap, 0.17}, {x + w, top, 0.23}, 0.004);                // front leg
     wood.box({x - 0.8 * w, top - 0.07, -0.2}, {x + 0.8 * w, top - 0.004, 0.2}, 0.004);  // seat bearer
     const double leg = seat + 0.46;  // the back leg leans as the back does
-    const Mat4 lean_back =
-        glm::rotate(glm::translate(Mat4(1.0), Vec3(x, -overlap, -0.125)), lean - 0.5 * pi, Vec3(1, 0, 0));
+    const Mat4 lean_back = glm::rotate(glm::translate(Mat4(1.0), Vec3(x, -timber_overlap, -0.125)),
+                                       lean - 0.5 * pi, Vec3(1, 0, 0));
     MeshBuilder back;
     back.box({-0.9 * w, 0.0, -0.055}, {0.9 * w, leg, 0.0}, 0.004);
     wood.append(back.take(), lean_back);
@@ -182,7 +183,8 @@ const std::array<ParameterInfo, 2> bench_parameters{{
 std::span<const MeshGenerator> fence_generators() {
   static const std::array<MeshGenerator, 2> list{{
       {{"bench", "A garden bench of slats, its back towards -z.", bench_parameters, bench_parts}, make_bench},
-      {{"fence", "A picket fence along x with rails and capped posts.", parameters, parts}, make_fence},
+      {{"fence", "A picket fence along x with rails and capped posts.", fence_parameters, fence_parts},
+       make_fence},
   }};
   return list;
 }

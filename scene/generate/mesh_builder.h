@@ -12,6 +12,9 @@
 
 namespace gnomon {
 
+/// Metres that stones run into each other, so that no two faces coincide.
+inline constexpr double stone_overlap = 0.004;
+
 /// A point of a turned profile: distance from the axis and height. `crease` splits the normals there.
 struct ProfilePoint {
   double radius = 0.0;

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double overlap = 0.004;  // metres that stones run into each other
-
 // ---- balustrade along x, from 0 to length: pedestals, turned balusters, a base and a hand rail
 
 // A vase-shaped baluster of unit height, its widest radius 0.16: pairs of radius and height from foot to
@@ -51,20 +49,20 @@ Expected<GeneratedModel> make_balustrade(const Values& v) {
   MeshBuilder pedestals, rails, balusters;
   for (int i = 0; i <= spans; ++i) {
     const double x = 0.5 * pedestal + i * pitch, w = 0.5 * pedestal;
-    pedestals.box({x - w, -overlap, -w}, {x + w, height, w}, bevel);
-    pedestals.box({x - 1.14 * w, height - overlap, -1.14 * w},
+    pedestals.box({x - w, -stone_overlap, -w}, {x + w, height, w}, bevel);
+    pedestals.box({x - 1.14 * w, height - stone_overlap, -1.14 * w},
                   {x + 1.14 * w, height + 0.06 * height, 1.14 * w}, bevel);
-    pedestals.box({x - 1.1 * w, -2.0 * overlap, -1.1 * w}, {x + 1.1 * w, 0.1 * height, 1.1 * w}, bevel);
+    pedestals.box({x - 1.1 * w, -2.0 * stone_overlap, -1.1 * w}, {x + 1.1 * w, 0.1 * height, 1.1 * w}, bevel);
   }
-  const Mesh one = one_baluster(height - rail - base + 2.0 * overlap, v.count("segments"));
+  const Mesh one = one_baluster(height - rail - base + 2.0 * stone_overlap, v.count("segments"));
   for (int i = 0; i < spans; ++i) {
-    const double x0 = pedestal + i * pitch - overlap, x1 = x0 + clear + 2.0 * overlap;
-    rails.box({x0, -1.5 * overlap, -0.45 * depth}, {x1, base, 0.45 * depth}, bevel);
+    const double x0 = pedestal + i * pitch - stone_overlap, x1 = x0 + clear + 2.0 * stone_overlap;
+    rails.box({x0, -1.5 * stone_overlap, -0.45 * depth}, {x1, base, 0.45 * depth}, bevel);
     rails.box({x0, height - rail, -0.5 * depth}, {x1, height - 0.02 * height, 0.5 * depth}, bevel);
     const int count = std::max(1, static_cast<int>(std::floor(clear / v.number("spacing"))));
     for (int k = 0; k < count; ++k) {
       const double x = pedestal + i * pitch + clear * (k + 0.5) / count;
-      balusters.append(one, glm::translate(Mat4(1.0), Vec3(x, base - overlap, 0.0)));
+      balusters.append(one, glm::translate(Mat4(1.0), Vec3(x, base - stone_overlap, 0.0)));
     }
   }
   GeneratedModel model;
@@ -93,8 +91,8 @@ Mesh stair_body(int steps, double rise, double tread, double width, double drop)
   const double x = 0.5 * width;
   for (int i = 0; i < steps; ++i) {
     const double z0 = -i * tread, z1 = -(i + 1) * tread;
-    const double below = i == 0 ? -overlap : i * rise - drop, y = (i + 1) * rise - drop;
-    const double foot = -overlap;
+    const double below = i == 0 ? -stone_overlap : i * rise - drop, y = (i + 1) * rise - drop;
+    const double foot = -stone_overlap;
     const auto quad = [&](const std::array<Vec3, 4>& c) { b.polygon(c); };
     quad({Vec3(-x, below, z0), Vec3(x, below, z0), Vec3(x, y, z0), Vec3(-x, y, z0)});
     quad({Vec3(-x, y, z0), Vec3(x, y, z0), Vec3(x, y, z1), Vec3(-x, y, z1)});
@@ -109,7 +107,8 @@ Mesh stair_body(int steps, double rise, double tread, double width, double drop)
     b.polygon(left);
   }
   const double z = -steps * tread, y = steps * rise - drop;
-  const std::array<Vec3, 4> back{Vec3(x, -overlap, z), Vec3(-x, -overlap, z), Vec3(-x, y, z), Vec3(x, y, z)};
+  const std::array<Vec3, 4> back{Vec3(x, -stone_overlap, z), Vec3(-x, -stone_overlap, z), Vec3(-x, y, z),
+                                 Vec3(x, y, z)};
   b.polygon(back);
   return b.take();
 }
@@ -123,7 +122,7 @@ Expected<GeneratedModel> make_stairs(const Values& v) {
     const double y = (i + 1) * rise, z0 = -i * tread + nose;
     // The next tread's riser stands on this slab; the last one ends with the body.
     const double z1 = -(i + 1) * tread - (i + 1 < steps ? 0.25 * tread : 0.0);
-    treads.box({-0.5 * width - nose, y - slab, z1 - overlap}, {0.5 * width + nose, y, z0}, 0.06 * rise);
+    treads.box({-0.5 * width - nose, y - slab, z1 - stone_overlap}, {0.5 * width + nose, y, z0}, 0.06 * rise);
   }
   GeneratedModel model;
   model.parts.push_back({"riser", stair_body(steps, rise, tread, width, 0.5 * slab)});
@@ -156,17 +155,18 @@ void add_shutter(MeshBuilder& b, double left, double right, double height) {
     const double y = 0.05 + (height - 0.1) * (i + 0.5) / slats;
     const std::array<Vec2, 4> section{
         {{0.016, y - 0.02}, {0.020, y - 0.02}, {0.010, y + 0.02}, {0.006, y + 0.02}}};
-    b.prism(section, -(right - stile + overlap), -(left + stile - overlap), 0.0, place);
+    b.prism(section, -(right - stile + stone_overlap), -(left + stile - stone_overlap), 0.0, place);
   }
 }
 
 void add_window_frame(MeshBuilder& b, double w, double h, double f, double proud) {
   const double bevel = 0.1 * std::min(f, proud), ledge = w + 1.4 * f;
-  b.box({-w - f, h - overlap, -overlap}, {w + f, h + f, proud}, bevel);                  // lintel
-  b.box({-ledge, h + f - overlap, -overlap}, {ledge, h + 1.5 * f, 1.5 * proud}, bevel);  // drip mould
-  b.box({-ledge, -0.7 * f, -overlap}, {ledge, 0.0, 1.6 * proud}, bevel);                 // sill
-  b.box({-w - f, -overlap, -overlap}, {-w, h, 0.96 * proud}, bevel);                     // jambs
-  b.box({w, -overlap, -overlap}, {w + f, h, 0.96 * proud}, bevel);
+  b.box({-w - f, h - stone_overlap, -stone_overlap}, {w + f, h + f, proud}, bevel);  // lintel
+  b.box({-ledge, h + f - stone_overlap, -stone_overlap}, {ledge, h + 1.5 * f, 1.5 * proud},
+        bevel);                                                                   // drip mould
+  b.box({-ledge, -0.7 * f, -stone_overlap}, {ledge, 0.0, 1.6 * proud}, bevel);    // sill
+  b.box({-w - f, -stone_overlap, -stone_overlap}, {-w, h, 0.96 * proud}, bevel);  // jambs
+  b.box({w, -stone_overlap, -stone_overlap}, {w + f, h, 0.96 * proud}, bevel);
 }
 
 Expected<GeneratedModel> make_window(const Values& v) {
@@ -177,7 +177,8 @@ Expected<GeneratedModel> make_window(const Values& v) {
   }
   MeshBuilder frame, pane, shutters;
   add_window_frame(frame, w, h, f, proud);
-  pane.box({-w - overlap, -overlap, -overlap}, {w + overlap, h + 0.5 * overlap, 0.25 * proud});
+  pane.box({-w - stone_overlap, -stone_overlap, -stone_overlap},
+           {w + stone_overlap, h + 0.5 * stone_overlap, 0.25 * proud});
   if (v.flag("shutters")) {
     add_shutter(shutters, -hinge - shutter, -hinge, h);
     add_shutter(shutters, hinge, hinge + shutter, h);

@@ -51,8 +51,8 @@ Expected<GeneratedModel> make_teapot(const Values& values) {
   return model;
 }
 
-const std::array<std::string_view, 4> parts{"body", "lid", "handle", "spout"};
-const std::array<ParameterInfo, 2> parameters{{
+const std::array<std::string_view, 4> teapot_parts{"body", "lid", "handle", "spout"};
+const std::array<ParameterInfo, 2> teapot_parameters{{
     length_parameter("height", 0.315, 1e-6, 1e6, "from the foot to the knob's top; the spout points to +x"),
     count_parameter("divisions", 16, 2, 256, "segments along each side of the 32 patches"),
 }};
@@ -63,7 +63,7 @@ std::span<const MeshGenerator> teapot_generators() {
   static const std::array<MeshGenerator, 1> list{{
       {{"teapot",
         "Newell's teapot: 32 bicubic patches, tessellated; texture coordinates run 0 to 1 on each patch.",
-        parameters, parts},
+        teapot_parameters, teapot_parts},
        make_teapot},
   }};
   return list;

@@ -112,7 +112,7 @@ Expected<Texture> make_paving_texture(const Values& v) {
   });
 }
 
-const std::array<ParameterInfo, 10> paving_parameters{{
+const std::array<ParameterInfo, 10> paving_texture_parameters{{
     count_parameter("columns", 4, 1, 256, "flags along u"),
     count_parameter("rows", 4, 1, 256, "flags along v; an even number where rows are shifted"),
     {"aspect", "", 1.0, 0.05, 20.0, "a flag's width over its height"},
@@ -168,7 +168,10 @@ std::span<const TextureGenerator> all_texture_generators() {
       {{"checker", "Two by two squares of two colours.", checker_parameters, {}}, make_checker},
       {{"noise", "A fractal mixture of two colours: lawn, gravel, plaster.", noise_parameters, {}},
        make_noise},
-      {{"paving", "Rows of flags or bricks with joints, each of its own shade.", paving_parameters, {}},
+      {{"paving",
+        "Rows of flags or bricks with joints, each of its own shade.",
+        paving_texture_parameters,
+        {}},
        make_paving_texture},
       {{"wood", "Wood with its grain along v.", wood_parameters, {}}, make_wood},
   }};

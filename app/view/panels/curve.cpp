@@ -24,10 +24,6 @@ struct Plot {
   }
 };
 
-ImU32 colour(const glm::u8vec3& c) {
-  return IM_COL32(c.r, c.g, c.b, 255);
-}
-
 void line(const Plot& plot, const compare::LightComparison& light, ImU32 ink,
           std::uint64_t (*count)(const compare::BiasCurvePoint&)) {
   std::vector<ImVec2> points;

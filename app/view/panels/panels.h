@@ -2,6 +2,8 @@
 // change nothing themselves.
 #pragma once
 
+#include <cstdint>
+#include <glm/gtc/type_precision.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,5 +54,7 @@ void curve_panel(PanelContext& context);
 /// Text that wraps at the panel's edge, or at a width of its own.
 void wrapped(std::string_view text, float width = 0.0f);
 void faint(const std::string& text);
+/// A colour of the palette as Dear ImGui takes it.
+std::uint32_t colour(const glm::u8vec3& c);
 
 }  // namespace gnomon::app

@@ -16,10 +16,6 @@ namespace gnomon::app {
 
 namespace {
 
-ImU32 colour(const glm::u8vec3& c) {
-  return IM_COL32(c.r, c.g, c.b, 255);
-}
-
 void ladder(const PanelContext& context, const PixelStory& story) {
   if (!ImGui::BeginTable("ladder", 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerH))
     return;

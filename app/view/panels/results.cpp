@@ -17,10 +17,6 @@ namespace {
 
 using compare::LightComparison;
 
-ImU32 colour(const glm::u8vec3& c) {
-  return IM_COL32(c.r, c.g, c.b, 255);
-}
-
 /// Of the steps that a wrong pixel is charged to.
 ImU32 step_colour(std::size_t step) {
   constexpr compare::Label labels[] = {compare::Label::light_size,    compare::Label::aliasing,

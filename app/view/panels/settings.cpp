@@ -312,6 +312,10 @@ void faint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+std::uint32_t colour(const glm::u8vec3& c) {
+  return IM_COL32(c.r, c.g, c.b, 255);
+}
+
 void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
