@@ -10,6 +10,7 @@
 #include <random>
 
 #include "app/help.h"
+#include "app/memory_limit.h"
 #include "app/suggest.h"
 #include "scene/exposure.h"
 
@@ -159,6 +160,23 @@ TEST(Exposure, IsTheSortedListsPercentile) {
     std::sort(sorted.begin(), sorted.end());
     const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1;
     EXPECT_EQ(auto_exposure(image), 0.8 / static_cast<double>(sorted[rank])) << width;
+  }
+}
+
+TEST(Bytes, TakeUnitsOf1024) {
+  EXPECT_EQ(*parse_bytes("1048576"), 1048576.0);
+  EXPECT_EQ(*parse_bytes("500M"), 500.0 * 1024.0 * 1024.0);
+  EXPECT_EQ(*parse_bytes("1.5k"), 1536.0);
+  EXPECT_EQ(*parse_bytes("2G"), 2.0 * 1024.0 * 1024.0 * 1024.0);
+  EXPECT_EQ(*parse_bytes("1t"), std::ldexp(1.0, 40));
+}
+
+TEST(Bytes, AreRefusedWithWhatWasGiven) {
+  for (const std::string text : {"", "G", "-1", "nan", "1e400", "12Q", "2GB", "2 G", "1,5G"}) {
+    const auto bytes = parse_bytes(text);
+    ASSERT_FALSE(bytes) << text;
+    EXPECT_EQ(bytes.error().kind, ErrorKind::usage) << text;
+    EXPECT_NE(bytes.error().message().find("got " + text), std::string::npos) << bytes.error().message();
   }
 }
 
