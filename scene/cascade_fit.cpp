@@ -216,10 +216,6 @@ LightFace face_of(const Fit& fit, const Rect& rect, const Interval& depths) {
   return face;
 }
 
-View view_of(const Camera& camera, double aspect) {
-  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
-}
-
 LightView orthographic_view(const Fit& fit, int size) {
   LightView out;
   out.size = size;
@@ -299,7 +295,8 @@ Warp stepped_width(const std::vector<Vec2>& polygon, const Rect& rect, double wa
 Expected<LightView> fit_cascades(const World& world, const Light& light, const Camera& camera, double aspect,
                                  int size, const CascadeOptions& options, std::span<const Vec3> visible) {
   if (world.finite_bounds.empty()) return fit_light_view(world, light, camera, aspect, size);
-  const Fit fit = make_fit(world, light, view_of(camera, aspect), light_fit::face_along(light.direction));
+  const Fit fit =
+      make_fit(world, light, light_fit::view_of(camera, aspect), light_fit::face_along(light.direction));
   if (!(fit.casters.extent().x > 0.0))
     return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
   const Interval seen =
@@ -321,7 +318,7 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
 
 Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
                                int size, bool snap) {
-  const View view = view_of(camera, aspect);
+  const View view = light_fit::view_of(camera, aspect);
   const double sine = glm::length(glm::cross(view.forward, light.direction));
   if (world.finite_bounds.empty() || sine < least_sine)
     return fit_light_view(world, light, camera, aspect, size);

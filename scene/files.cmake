@@ -18,5 +18,5 @@ target_link_libraries(gnomon_images PRIVATE gnomon_flags gnomon_warnings OpenIma
 target_include_directories(gnomon_images PRIVATE ${PROJECT_SOURCE_DIR})
 set_target_properties(gnomon_images PROPERTIES CXX_VISIBILITY_PRESET hidden)
 add_dependencies(gnomon_scene gnomon_images)
-set_source_files_properties(files/image_library.cpp files/interior.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(files/image_library.cpp PROPERTIES COMPILE_DEFINITIONS
   "GNOMON_IMAGE_MODULE=\"$<TARGET_FILE:gnomon_images>\";GNOMON_IMAGE_MODULE_FROM_BIN=\"../lib/gnomon\"")

@@ -206,10 +206,6 @@ LightView window_over(const Casters& casters, const Rect& rect, const View& view
   return out;
 }
 
-View view_of(const Camera& camera, double aspect) {
-  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
-}
-
 Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size) {
   const Casters casters(world, light);
   const auto rect = fit_rect(world, casters, view);
@@ -320,12 +316,16 @@ double finite_reach(const World& world, const View& view) {
   return reach;
 }
 
+View view_of(const Camera& camera, double aspect) {
+  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
+}
+
 }  // namespace light_fit
 
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
                                    double aspect, int size) {
   if (light.type == LightType::directional)
-    return fit_directional(world, light, view_of(camera, aspect), size);
+    return fit_directional(world, light, light_fit::view_of(camera, aspect), size);
   LightView out;
   out.size = size;
   out.projection = LightProjection::perspective;
@@ -350,7 +350,7 @@ bool window_moves(const World& world, const Light& light, const std::array<Camer
   const Vec3 point = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
   std::array<TexelCoordinate, 2> at;
   for (std::size_t i = 0; i < 2; ++i) {
-    const View view = view_of(cameras[i], aspect);
+    const View view = light_fit::view_of(cameras[i], aspect);
     const auto rect = fit_rect(world, casters, view);
     if (!rect || !(widest(*rect) > 0.0)) return false;
     at[i] = project_to_texel(window_over(casters, *rect, view, size), point);

@@ -42,6 +42,9 @@ std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect);
 double closest_distance(const World& world, const Vec3& p);
 double farthest_distance(const World& world, const Vec3& p);
 
+/// A picture's view for the fit, 1024 pixels high; `aspect` is width over height.
+View view_of(const Camera& camera, double aspect);
+
 /// The largest depth along the view direction at which the camera can see anything finite.
 double finite_reach(const World& world, const View& view);
 
