@@ -206,10 +206,10 @@ std::string press_all(const Words& keys, const std::string& then) {
 }
 
 TEST_F(ViewLab, EveryKeyThatSetsSomethingSetsIt) {
-  const Words keys{"left", "up", "pagedown", "ctrl+left", "ctrl+up", "[",          ";",         "=",
-                   "0",    "8",  ",",        "D",         "K",       "F6",         "F7",        "F8",
-                   "F9",   "R",  "right",    "down",      "pageup",  "ctrl+right", "ctrl+down", "]",
-                   "'",    "-",  "9",        ".",         "space"};
+  const Words keys{"left", "up",    "pagedown", "ctrl+left", "ctrl+up",    "[",         ";",  "=",
+                   "0",    "8",     ",",        "D",         "K",          "F6",        "F7", "F8",
+                   "F9",   "right", "down",     "pageup",    "ctrl+right", "ctrl+down", "]",  "'",
+                   "-",    "9",     ".",        "R",         "space"};
   const ProcessResult result =
       drive("floating-box",
             "set panels off\nset size 96x64\nset map-size 128\nset slope-bias 1\nset film sun\nprint\n" +
