@@ -124,8 +124,8 @@ class Weld {
 /// A triangle's edge, kept with its lower vertex.
 struct HalfEdge {
   std::uint32_t high;
-  std::uint32_t
-      tagged;  // twice its place, 3 * triangle + edge, and 1 where it leads from the lower vertex to the higher
+  /// 2 * place, and 1 more where the edge leads from its lower vertex to the higher; place = 3 * triangle + edge.
+  std::uint32_t tagged;
   std::uint32_t place() const { return tagged / 2; }
   std::uint32_t triangle() const { return place() / 3; }
   bool is_forwards() const { return (tagged & 1) != 0; }
