@@ -2,13 +2,14 @@
 """Writes the section "Growth" of docs/performance.md and its chart: what `gnomon compare` takes of time and memory
 for more triangles and for more pixels.
 
-Usage: docs/make_growth.py BUILD [--triangles 0.1,1,5,20] [--pixels 0.25,1,4,16,64] [--runs 3] [--to FOLDER]
+Usage: docs/make_growth.py BUILD [--triangles 0.1,1,5,20] [--pixels 0.25,1,4,16,64] [--runs 3] [--machine WORDS] [--to FOLDER]
 
 BUILD is a folder in which the program is built (build/release). Counts are in millions. The scenes are terrains of the
 same ground in ever finer triangles, which the script makes (20 M triangles: 360 MB in the folder for temporary files).
 Triangles grow at 1280x720, pixels on the terrain of 1 M (or the nearest there is). Each point is the median of the
-runs, each a process of its own, loading and report included. The machine should do nothing else meanwhile: some 20
-minutes on two cores. --to: where performance.md and images/ are (default: the script's own folder).
+runs, each a process of its own, loading and report included. The machine should do nothing else meanwhile: some 10
+minutes on two cores. --machine: what it is measured on, in a few words.
+--to: where performance.md and images/ are (default: the script's own folder).
 """
 import argparse
 import array
@@ -182,14 +183,14 @@ def table(what, points):
     return '\n'.join(rows)
 
 
-def section(by_triangles, by_pixels, terrain, runs):
+def section(by_triangles, by_pixels, terrain, wanted):
     return f'''{BEGIN}
 ## Growth
 
-`gnomon compare` on terrains of the same ground in ever finer triangles, loading and report included; medians of {runs}
-runs (docs/make_growth.py). A power is the slope of the straight line through a column's points on logarithmic axes:
-below 1 where a part does not grow. A picture that would take more than `--memory` is worked through in bands, which
-is where its memory stops growing with all that a pixel needs.
+`gnomon compare` on terrains of the same ground in ever finer triangles, loading and report included; medians of {wanted.runs}
+runs{f' on {wanted.machine}' if wanted.machine else ''} (docs/make_growth.py). A power is the slope of the straight line through
+a column's points on logarithmic axes: below 1 where a part does not grow. A picture that would take more than `--memory`
+is worked through in bands, which is where its memory stops growing with all that a pixel needs.
 
 ![Time and peak memory over triangles and pixels](images/growth.svg)
 
@@ -220,6 +221,7 @@ def main():
     parser.add_argument('--triangles', type=counts, default=counts('0.1,1,5,20'))
     parser.add_argument('--pixels', type=counts, default=counts('0.25,1,4,16,64'))
     parser.add_argument('--runs', type=int, default=3)
+    parser.add_argument('--machine', default='')
     parser.add_argument('--to', default=DOCS)
     wanted = parser.parse_args()
     program = os.path.join(os.path.abspath(wanted.build), 'app', 'gnomon')
@@ -239,7 +241,7 @@ def main():
     os.makedirs(os.path.join(wanted.to, 'images'), exist_ok=True)
     with open(os.path.join(wanted.to, 'images', 'growth.svg'), 'w', encoding='utf-8') as file:
         file.write(chart(by_triangles, by_pixels))
-    put_section(os.path.join(wanted.to, 'performance.md'), section(by_triangles, by_pixels, middle, wanted.runs))
+    put_section(os.path.join(wanted.to, 'performance.md'), section(by_triangles, by_pixels, middle, wanted))
 
 
 if __name__ == '__main__':
