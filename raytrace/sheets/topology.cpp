@@ -284,15 +284,13 @@ Topology::Topology(const World& world) : triangles_(world.triangle_ranges), part
 Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   const Soup soup(parts);
   const Place place{across_.size(), welded_.size()};
-  std::vector<std::uint32_t> welded = Weld(soup.positions()).run();
+  const std::vector<std::uint32_t> welded = Weld(soup.positions()).run();
   extend_paged(across_, 3 * std::size_t{soup.triangle_count()}, boundary);
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
-  tbb::parallel_for(std::size_t{0}, welded.size(),
-                    [&](std::size_t v) { welded[v] = soup.world_vertex(welded[v]); });
-  if (welded_.empty())
-    welded_ = std::move(welded);
-  else
-    welded_.insert(welded_.end(), welded.begin(), welded.end());
+  extend_paged(welded_, welded.size());
+  tbb::parallel_for(std::size_t{0}, welded.size(), [&](std::size_t v) {
+    welded_[place.welded + v] = soup.world_vertex(welded[v]);
+  });
   return place;
 }
 
