@@ -288,9 +288,8 @@ Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   extend_paged(across_, 3 * std::size_t{soup.triangle_count()}, boundary);
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
   extend_paged(welded_, welded.size());
-  tbb::parallel_for(std::size_t{0}, welded.size(), [&](std::size_t v) {
-    welded_[place.welded + v] = soup.world_vertex(welded[v]);
-  });
+  tbb::parallel_for(std::size_t{0}, welded.size(),
+                    [&](std::size_t v) { welded_[place.welded + v] = soup.world_vertex(welded[v]); });
   return place;
 }
 
