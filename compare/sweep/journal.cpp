@@ -127,7 +127,7 @@ Expected<SweepHeader> read_header(const std::string& folder) {
     Shard shard{json.at("shard").at("part").get<int>(), json.at("shard").at("of").get<int>()};
     SweepHeader header =
         make_header(json.at("configuration").dump(), json.at("cells").get<std::size_t>(), shard);
-    if (header.hash != json.at("configuration_sha256")) return bad("the configuration was changed by hand");
+    if (json.at("configuration_sha256") != header.hash) return bad("the configuration was changed by hand");
     return header;
   } catch (const Json::exception& error) {
     return bad(error.what());
