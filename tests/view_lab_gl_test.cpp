@@ -14,36 +14,10 @@
 namespace gnomon::app_test {
 namespace {
 
-class ViewLab : public testing::Test {
- protected:
-  static void SetUpTestSuite() { display_ = new VirtualDisplay; }
-  static void TearDownTestSuite() {
-    delete display_;
-    display_ = nullptr;
-  }
-  void SetUp() override {
-    if (!display_->missing().empty()) GTEST_SKIP() << display_->missing();
-  }
-  ProcessResult run(const std::vector<std::string>& words) const {
-    ProcessOptions options;
-    options.folder = folder_.path();
-    options.environment = {display_->variable(), "WAYLAND_DISPLAY="};
-    return run_gnomon(words, options);
-  }
-  ProcessResult drive(const std::string& scene, const std::string& script) const {
-    write_text(folder_ / "script.txt", script);
-    return run({"view", scene, "--script", "script.txt"});
-  }
-  std::vector<glm::u8vec4> texels(const std::string& name) const {
-    const auto texture = read_texture(folder_ / name, true);
-    EXPECT_TRUE(texture) << name;
-    return texture ? texture->texels : std::vector<glm::u8vec4>{};
-  }
-  TemporaryFolder folder_;
-  static VirtualDisplay* display_;
+/// A part of the window.
+struct Box {
+  int x, y, width, height;
 };
-
-VirtualDisplay* ViewLab::display_ = nullptr;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
@@ -59,6 +33,68 @@ Words words_of(const std::string& command) {
   for (std::string word; stream >> word;) words.push_back(word);
   return words.empty() ? words : Words(words.begin() + 1, words.end());
 }
+
+/// One display for all tests, a folder for each.
+class ViewLab : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { display_ = new VirtualDisplay; }
+  static void TearDownTestSuite() {
+    delete display_;
+    display_ = nullptr;
+  }
+  void SetUp() override {
+    if (!display_->missing().empty()) GTEST_SKIP() << display_->missing();
+  }
+  ProcessResult run(const Words& words) const {
+    ProcessOptions options;
+    options.folder = folder_.path();
+    options.environment = {display_->variable(), "WAYLAND_DISPLAY="};
+    return run_gnomon(words, options);
+  }
+  ProcessResult drive(const std::string& scene, const std::string& script, const Words& more = {}) const {
+    write_text(folder_ / "script.txt", script);
+    return run(Words{"view", scene, "--script", "script.txt"} + more);
+  }
+  /// What a script prints that must end well, line by line.
+  Words printed(const std::string& scene, const std::string& script, const Words& more = {}) const {
+    const ProcessResult result = drive(scene, script, more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("OpenGL"), std::string::npos) << result.err;
+    return lines_of(result.out);
+  }
+  /// The screenshot shows the labels that the printed command writes.
+  void expect_labels(const std::string& screenshot, const std::string& command) const {
+    const Words more{"-o", "compared", "--runs", "1", "--no-report", "--quiet"};
+    EXPECT_EQ(run(words_of(command) + more).exit_code, 0) << command;
+    EXPECT_EQ(texels(screenshot), texels("compared/labels.png")) << command;
+  }
+  /// Pixels that differ between two screenshots of one size, in a part of them.
+  std::size_t differing(const std::string& a, const std::string& b, const Box& part) const {
+    const auto first = read_texture(folder_ / a, true), second = read_texture(folder_ / b, true);
+    EXPECT_TRUE(first && second && first->size == second->size) << a << ", " << b;
+    std::size_t count = 0;
+    for (int y = part.y; y < part.y + part.height; ++y)
+      for (int x = part.x; x < part.x + part.width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(first->size.width) +
+                              static_cast<std::size_t>(x);
+        count += first->texels[i] != second->texels[i];
+      }
+    return count;
+  }
+  bool wrote(const std::string& name) const {
+    const Words entries = folder_.entries();
+    return std::find(entries.begin(), entries.end(), name) != entries.end();
+  }
+  std::vector<glm::u8vec4> texels(const std::string& name) const {
+    const auto texture = read_texture(folder_ / name, true);
+    EXPECT_TRUE(texture) << name;
+    return texture ? texture->texels : std::vector<glm::u8vec4>{};
+  }
+  TemporaryFolder folder_;
+  static VirtualDisplay* display_;
+};
+
+VirtualDisplay* ViewLab::display_ = nullptr;
 
 /// Some setting, light and camera.
 std::string random_state(std::mt19937& random) {
@@ -76,44 +112,35 @@ std::string random_state(std::mt19937& random) {
 }
 
 TEST_F(ViewLab, LabelsOnTheScreenAreThoseOfThePrintedCommand) {
-  constexpr int states = 4;  // view_thread_gl_test goes through more of them
+  constexpr std::size_t states = 4;  // view_thread_gl_test goes through more of them
   std::mt19937 random(7);
   std::string script = "set panels off\nset size 96x64\nset view labels\n";
-  for (int i = 0; i < states; ++i)
+  for (std::size_t i = 0; i < states; ++i)
     script += random_state(random) + fmt::format("wait done\nscreenshot {}.png\nprint\n", i);
-  const ProcessResult result = drive("floating-box", script);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::vector<std::string> commands = lines_of(result.out);
-  ASSERT_EQ(commands.size(), std::size_t{states});
-  for (int i = 0; i < states; ++i) {
-    const std::string& command = commands[static_cast<std::size_t>(i)];
-    const Words more{"-o", fmt::format("r{}", i), "--runs", "1", "--no-report", "--quiet"};
-    ASSERT_EQ(run(words_of(command) + more).exit_code, 0) << command;
-    EXPECT_EQ(texels(fmt::format("{}.png", i)), texels(fmt::format("r{}/labels.png", i))) << command;
-  }
+  const Words commands = printed("floating-box", script);
+  ASSERT_EQ(commands.size(), states);
+  for (std::size_t i = 0; i < states; ++i) expect_labels(fmt::format("{}.png", i), commands[i]);
 }
 
 // The settings' column at its first size: its sliders lie one below the other, at heights that follow from the
 // size of the text alone.
 TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
-  const ProcessResult result =
-      drive("floating-box",
-            "set size 900x700\nset results off\nset bias 0texel\nset slope-bias 0\nwait 4\n"
-            "drag 20 343 150 343\nwait 2\nprint\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::size_t at = result.out.find("--bias ");
-  ASSERT_NE(at, std::string::npos) << result.out;
-  const double texels = std::stod(result.out.substr(at + 7));
-  EXPECT_GT(texels, 3.0) << result.out;  // half the slider, which ends at 10
-  EXPECT_LT(texels, 7.0) << result.out;
+  const Words commands =
+      printed("floating-box",
+              "set size 900x700\nset results off\nset bias 0texel\nset slope-bias 0\nwait 4\n"
+              "drag 20 343 150 343\nwait 2\nprint\n");
+  ASSERT_EQ(commands.size(), 1u);
+  const std::size_t at = commands[0].find("--bias ");
+  ASSERT_NE(at, std::string::npos) << commands[0];
+  const double texels = std::stod(commands[0].substr(at + 7));
+  EXPECT_GT(texels, 3.0) << commands[0];  // half the slider, which ends at 10
+  EXPECT_LT(texels, 7.0) << commands[0];
 }
 
 TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
-  const ProcessResult result = drive("floating-box",
-                                     "set size 900x700\nset results off\nwait 4\ndrag 150 367 200 "
-                                     "367\nprint\ndrag 700 600 760 600\nprint\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto commands = lines_of(result.out);
+  const Words commands = printed("floating-box",
+                                 "set size 900x700\nset results off\nwait 4\ndrag 150 367 200 "
+                                 "367\nprint\ndrag 700 600 760 600\nprint\n");
   ASSERT_EQ(commands.size(), 2u);
   EXPECT_EQ(commands[0].find("--camera-orbit"), std::string::npos) << commands[0];
   EXPECT_NE(commands[1].find("--camera-orbit"), std::string::npos) << commands[1];
@@ -121,12 +148,10 @@ TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
 
 TEST_F(ViewLab, TheLightsHandleFollowsThePointer) {
   for (const char* scene : {"floating-box", "whitted"}) {
-    const ProcessResult result =
-        drive(scene,
-              "set size 900x700\nset results off\nset camera-distance 40\nwait 4\nprint\n"
-              "drag light 700 250\nprint\ndrag light 500 200\nprint\n");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const auto commands = lines_of(result.out);
+    const Words commands =
+        printed(scene,
+                "set size 900x700\nset results off\nset camera-distance 40\nwait 4\nprint\n"
+                "drag light 700 250\nprint\ndrag light 500 200\nprint\n");
     ASSERT_EQ(commands.size(), 3u);
     EXPECT_EQ(commands[0].find("--light-azimuth"), std::string::npos) << commands[0];
     EXPECT_EQ(commands[1].find(commands[0] + " --light-azimuth"), 0u)
@@ -135,50 +160,57 @@ TEST_F(ViewLab, TheLightsHandleFollowsThePointer) {
   }
 }
 
+// The settings' column is 312 pixels wide; a note is wider.
+TEST_F(ViewLab, WhatThePointerRestsOnExplainsItself) {
+  printed("floating-box",
+          "set size 900x700\nset results off\nset map-size 64\nwait done\nscreenshot none.png\n"
+          "point 40 114\nscreenshot name.png\npoint 40 138\nscreenshot slider.png\n"
+          "key ctrl+tab\nkey down\nkey down\nscreenshot keyboard.png\nkey esc\n"
+          "set layout quad\nwait done\nscreenshot quad.png\npoint 450 200\nscreenshot cross.png\n");
+  EXPECT_GT(differing("none.png", "name.png", {320, 0, 580, 700}), 2000u);
+  EXPECT_EQ(differing("none.png", "slider.png", {320, 0, 580, 700}), 0u);
+  EXPECT_GT(differing("none.png", "keyboard.png", {320, 0, 580, 700}), 2000u);
+  for (const Box& pane : {Box{612, 60, 280, 280}, Box{312, 400, 280, 280}, Box{612, 400, 280, 280}})
+    EXPECT_GT(differing("quad.png", "cross.png", pane), 20u) << pane.x << " " << pane.y;
+}
+
 TEST_F(ViewLab, WhatIsCopiedIsWhatIsPrinted) {
-  const ProcessResult result = drive("floating-box", "set map-size 64\nkey C\nprint clipboard\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto said = lines_of(result.out);
+  const Words said = printed("floating-box", "set map-size 64\nkey C\nprint clipboard\n");
   ASSERT_EQ(said.size(), 2u);
   EXPECT_EQ(said[0], said[1]);
   EXPECT_NE(said[1].find("gnomon compare floating-box"), std::string::npos) << said[1];
 }
 
 TEST_F(ViewLab, AFileLetFallOnTheWindowIsOpened) {
-  ASSERT_EQ(drive("floating-box", "save-scene mine.json\n").exit_code, 0);
-  const ProcessResult result = drive("fence", "drop mine.json\nprint\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.find("gnomon compare mine.json"), 0u) << result.out;
+  printed("floating-box", "save-scene mine.json\n");
+  const Words said = printed("fence", "drop mine.json\nprint\n");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(said[0].starts_with("gnomon compare mine.json")) << said[0];
 }
 
 TEST_F(ViewLab, AMomentOfAFilmIsThePrintedCommands) {
-  const ProcessResult result =
-      drive("floating-box",
-            "set panels off\nset size 96x64\nset view labels\nset film sun\nset film-time 4\n"
-            "set light-size 3\nwait done\nscreenshot film.png\nprint\n"
-            "set film camera-orbit\nset film-play on\nwait 30\nset film-play off\nprint\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto commands = lines_of(result.out);
+  const Words commands =
+      printed("floating-box",
+              "set panels off\nset size 96x64\nset view labels\nset film sun\nset film-time 4\n"
+              "set light-size 3\nwait done\nscreenshot film.png\nprint\n"
+              "set film camera-orbit\nset film-play on\nwait 30\nset film-play off\nprint\n");
   ASSERT_EQ(commands.size(), 2u);
   for (const char* word : {"--light-azimuth", "--light-size 3"})
     EXPECT_NE(commands[0].find(word), std::string::npos) << commands[0];
-  const Words more{"-o", "film", "--runs", "1", "--no-report", "--quiet"};
-  ASSERT_EQ(run(words_of(commands[0]) + more).exit_code, 0) << commands[0];
-  EXPECT_EQ(texels("film.png"), texels("film/labels.png")) << commands[0];
+  expect_labels("film.png", commands[0]);
   EXPECT_NE(commands[1].find("--camera-orbit"), std::string::npos) << commands[1];
   EXPECT_EQ(drive("floating-box", "set film no-such\n").exit_code, 3);
 }
 
 TEST_F(ViewLab, ThePicturesCanComeFromAnotherBackend) {
-  write_text(folder_ / "script.txt", "set panels off\nset size 96x64\nwait done\nprint\n");
-  const ProcessResult result =
-      run({"view", "floating-box", "--backend", "egl-software", "--script", "script.txt"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("--backend egl-software"), std::string::npos) << result.out;
+  const std::string script = "set panels off\nset size 96x64\nwait done\nprint\n";
+  const Words said = printed("floating-box", script, {"--backend", "egl-software"});
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("--backend egl-software"), std::string::npos) << said[0];
   // Where there is no graphics card, both say so; where there is one, both draw.
   const Words hardware{"--backend", "egl-hardware"};
   EXPECT_EQ(
-      run(Words{"view", "floating-box", "--script", "script.txt"} + hardware).exit_code,
+      drive("floating-box", script, hardware).exit_code,
       run(Words{"raster", "floating-box", "--size", "16x16", "-o", "card.png", "-q"} + hardware).exit_code);
 }
 
@@ -190,9 +222,7 @@ TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {
                            "large-type on", "help on", "settings off", "results off", "panels off"})
     script += fmt::format("set {}\nwait 3\n", look);
   script += "open acne\nwait done\nkey F8\nkey V\nwait done\nscreenshot end.png\nsave-scene saved.json\n";
-  const ProcessResult result = drive("floating-box", script);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err.find("OpenGL"), std::string::npos) << result.err;
+  printed("floating-box", script);
   EXPECT_EQ(texels("end.png").size(), 800u * 600u);
   EXPECT_EQ(run({"compare", "saved.json", "--size", "64x48", "--json", "-", "--runs", "1"}).exit_code, 0);
 }
@@ -210,13 +240,11 @@ TEST_F(ViewLab, EveryKeyThatSetsSomethingSetsIt) {
                    "0",    "8",     ",",        "D",         "K",          "F6",        "F7", "F8",
                    "F9",   "right", "down",     "pageup",    "ctrl+right", "ctrl+down", "]",  "'",
                    "-",    "9",     ".",        "R",         "space"};
-  const ProcessResult result =
-      drive("floating-box",
-            "set panels off\nset size 96x64\nset map-size 128\nset slope-bias 1\nset film sun\nprint\n" +
-                press_all(Words(keys.begin(), keys.end() - 1), "print") +
-                "key space\nwait 30\nkey space\nwait done\nprint\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto commands = lines_of(result.out);
+  const Words commands =
+      printed("floating-box",
+              "set panels off\nset size 96x64\nset map-size 128\nset slope-bias 1\nset film sun\nprint\n" +
+                  press_all(Words(keys.begin(), keys.end() - 1), "print") +
+                  "key space\nwait 30\nkey space\nwait done\nprint\n");
   ASSERT_EQ(commands.size(), keys.size() + 1);
   for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_NE(commands[i], commands[i + 1]) << keys[i];
 }
@@ -229,13 +257,11 @@ TEST_F(ViewLab, EveryKeyThatShowsSomethingShowsIt) {
       {"F3", "F3"}, {"F4", "F4"},     {"F5", "F5"},         {"F11", "F11"}, {"ctrl+K", "X"}, {"F10", "esc"}};
   Words keys;
   for (const auto& [there, back] : pairs) keys.insert(keys.end(), {there, back});
-  const ProcessResult result =
-      drive("floating-box",
-            "set size 800x600\nset results off\nset bias 0texel\nwait done\nscreenshot start.png\n" +
-                press_all(keys, "screenshot {}.png") +
-                "key V\nwait done\nscreenshot swipe.png\nkey ctrl+,\nscreenshot line.png\n"
-                "key V\nwait done\nscreenshot quad.png\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  printed("floating-box",
+          "set size 800x600\nset results off\nset bias 0texel\nwait done\nscreenshot start.png\n" +
+              press_all(keys, "screenshot {}.png") +
+              "key V\nwait done\nscreenshot swipe.png\nkey ctrl+,\nscreenshot line.png\n"
+              "key V\nwait done\nscreenshot quad.png\n");
   const auto start = texels("start.png");
   for (std::size_t i = 0; i < keys.size(); i += 2) {
     EXPECT_NE(texels(fmt::format("{}.png", i)), start) << keys[i];
@@ -248,36 +274,29 @@ TEST_F(ViewLab, EveryKeyThatShowsSomethingShowsIt) {
 
 // Into the menus, down to "Save as scene", and the key that presses it.
 TEST_F(ViewLab, MenusObeyTheKeys) {
-  const ProcessResult menu =
-      drive("floating-box",
-            "set size 800x600\nset map-size 64\nwait done\nkey F10\nkey down\nkey down\n"
-            "key down\nkey space\nwait done\nprint\n");
-  ASSERT_EQ(menu.exit_code, 0) << menu.err;
-  EXPECT_EQ(menu.out.find("--camera-orbit"), std::string::npos) << menu.out;  // no key went to the picture
-  const auto entries = folder_.entries();
-  EXPECT_NE(std::find(entries.begin(), entries.end(), "floating-box-scene-001.json"), entries.end());
+  const Words said = printed("floating-box",
+                             "set size 800x600\nset map-size 64\nwait done\nkey F10\nkey down\nkey down\n"
+                             "key down\nkey space\nwait done\nprint\n");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].find("--camera-orbit"), std::string::npos) << said[0];  // no key went to the picture
+  EXPECT_TRUE(wrote("floating-box-scene-001.json"));
 }
 
 TEST_F(ViewLab, KeysThatWriteFilesWriteThem) {
-  const ProcessResult result =
-      drive("floating-box",
-            "set size 300x200\nset panels off\nset map-size 64\nkey P\nwait done\n"
-            "key ctrl+P\nwait done\nkey ctrl+S\nwait done\nkey C\nkey Q\nscreenshot never.png\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("gnomon compare"), std::string::npos);
-  std::string names;
-  for (const std::string& entry : folder_.entries()) names += entry + "\n";
-  for (const char* kind : {"box-raster-001.png", "box-raster-picture-001.png", "box-scene-001.json"})
-    EXPECT_NE(names.find(kind), std::string::npos) << kind << " of " << names;
-  EXPECT_EQ(names.find("never"), std::string::npos);
+  const Words said =
+      printed("floating-box",
+              "set size 300x200\nset panels off\nset map-size 64\nkey P\nwait done\n"
+              "key ctrl+P\nwait done\nkey ctrl+S\nwait done\nkey C\nkey Q\nscreenshot never.png\n");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(said[0].starts_with("gnomon compare")) << said[0];
+  for (const char* name : {"raster-001.png", "raster-picture-001.png", "scene-001.json"})
+    EXPECT_TRUE(wrote(std::string("floating-box-") + name)) << name;
+  EXPECT_FALSE(wrote("never.png"));
 }
 
 TEST_F(ViewLab, AReportIsWrittenBesideTheWindow) {
-  const ProcessResult result =
-      drive("floating-box", "set size 300x200\nset panels off\nset map-size 64\nkey ctrl+R\nwait done\n");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto entries = folder_.entries();
-  ASSERT_NE(std::find(entries.begin(), entries.end(), "floating-box-report-001/"), entries.end());
+  printed("floating-box", "set size 300x200\nset panels off\nset map-size 64\nkey ctrl+R\nwait done\n");
+  ASSERT_TRUE(wrote("floating-box-report-001/"));
   EXPECT_NE(read_file(folder_ / "floating-box-report-001/result.json").find("\"size\": 64"),
             std::string::npos);
 }

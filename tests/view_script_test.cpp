@@ -85,7 +85,7 @@ TEST(ViewScript, EveryKeySets) {
 TEST(ViewScript, StepsBesideSet) {
   const auto steps = parse_script(
       "drag 1 2 30 40 right\nclick 5 6\nshow leak\nsave-scene a.json\nprint\nopen fence\n"
-      "set light sun\ndrag light 7 8\ndrop acne\nprint clipboard\nset film camera-walk\n",
+      "set light sun\ndrag light 7 8\ndrop acne\nprint clipboard\nset film camera-walk\npoint 9 10\n",
       "s.txt", lights());
   ASSERT_TRUE(steps) << steps.error().message();
   const auto& drag = std::get<DragPointer>((*steps)[0].what);
@@ -101,6 +101,7 @@ TEST(ViewScript, StepsBesideSet) {
   EXPECT_EQ(std::get<DropFile>((*steps)[8].what).path, "acne");
   EXPECT_TRUE(std::holds_alternative<PrintClipboard>((*steps)[9].what));
   EXPECT_EQ(std::get<NameFilm>((*steps)[10].what).name, "camera-walk");
+  EXPECT_EQ(std::get<PointAt>((*steps)[11].what).at, Vec2(9.0, 10.0));
 }
 
 TEST(ViewScript, LightsAreThoseOfTheSceneOpenedLast) {
@@ -139,6 +140,8 @@ TEST(ViewScript, IncompleteOrExcessiveLinesAreErrors) {
                            "drag 1 2 3",
                            "drag 1 2 3 4 upper",
                            "click 1",
+                           "point 1",
+                           "point here 1",
                            "show",
                            "show shadows",
                            "open",

@@ -1,8 +1,10 @@
 // What each action does to the state; no display is needed for any of it.
 #include "app/view/state.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "app/view/map_pictures.h"
 #include "tests/view_fixture.h"
 
 namespace gnomon::app {
@@ -204,6 +206,16 @@ TEST(ViewState, PictureNamesReadBack) {
     EXPECT_EQ(picture_name(*picture), name);
   }
   EXPECT_NE(parse_picture("label").error().reason.find("did you mean labels?"), std::string::npos);
+}
+
+TEST(ViewState, EveryViewThatIsNoPhotographSaysWhatItsColoursStandFor) {
+  for (std::size_t i = 0; i < picture_count; ++i) {
+    const auto picture = static_cast<Picture>(i);
+    const bool photograph = picture == Picture::raster || picture == Picture::raytrace;
+    EXPECT_EQ(picture_legend(picture).empty(), photograph) << picture_name(picture);
+  }
+  const std::string scale = fmt::format("full colour at {} texels", gap_scale_texels);
+  EXPECT_NE(picture_legend(Picture::gap).find(scale), std::string_view::npos) << scale;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@ gnomon_test(view_test SOURCES view_pose_test.cpp view_state_test.cpp view_input_
   view_rows_test.cpp view_status_test.cpp view_film_test.cpp view_text_test.cpp
   LIBS gnomon::app gnomon::scene glfw)
 
-gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp app_process.cpp
+gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_test.cpp app_process.cpp
   LIBS gnomon::app gnomon::compare gnomon::raster gnomon::scene)
 
 gnomon_test(view_window_gl_test SOURCES view_window_gl_test.cpp view_lab_gl_test.cpp view_display.cpp app_process.cpp

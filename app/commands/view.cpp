@@ -19,10 +19,9 @@ namespace {
 
 constexpr const char* script_help =
     "drive the window by a file with one step a line: set KEY VALUE, open SCENE, show PRESET, drag X Y X Y, "
-    "click X Y, drop FILE, key NAME, wait N (frames), wait done (until the comparison is shown), screenshot "
-    "FILE.png, save-scene FILE.json, print, quit; # starts a comment; docs/lab.md explains every step and "
-    "key "
-    "[default off]";
+    "click X Y, point X Y, drop FILE, key NAME, wait N (frames), wait done (until the comparison is shown), "
+    "screenshot FILE.png, save-scene FILE.json, print, quit; # starts a comment; docs/lab.md explains every "
+    "step and key [default off]";
 constexpr std::pair<std::string_view, Theme> themes[] = {{"dark", Theme::dark}, {"light", Theme::light}};
 
 void add_look(CLI::App& app, ViewOptions& options) {

@@ -14,6 +14,15 @@ constexpr std::array<std::string_view, picture_count> picture_names{
 constexpr std::array<std::string_view, picture_count> picture_titles{
     "Shadow map",  "Ray traced", "Difference",          "Labels",
     "True shadow", "Gap",        "Texels on receivers", "Depth map from the light"};
+constexpr std::array<std::string_view, picture_count> picture_legends{
+    "",
+    "",
+    "orange: shadow where light should be; blue: light where shadow should be",
+    "white, light grey: rightly lit, rightly in shadow; darker: not compared; colours: wrong",
+    "white: lit; black: in shadow; dark grey: not compared",
+    "orange: what the map holds is nearer to the light, blue: farther; full colour at 4 texels",
+    "each square is a texel; yellow lines: the edges of what the map covers",
+    "the brighter, the nearer to the light"};
 constexpr std::array<std::string_view, 3> layout_names{"single", "swipe", "quad"};
 constexpr std::array<std::string_view, 2> theme_names{"dark", "light"};
 
@@ -33,6 +42,9 @@ std::string_view picture_name(Picture picture) {
 }
 std::string_view picture_title(Picture picture) {
   return picture_titles[static_cast<std::size_t>(picture)];
+}
+std::string_view picture_legend(Picture picture) {
+  return picture_legends[static_cast<std::size_t>(picture)];
 }
 Expected<Picture> parse_picture(std::string_view name) {
   return parse<Picture>(name, picture_names, "view");

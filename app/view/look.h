@@ -17,6 +17,8 @@ inline constexpr std::size_t picture_count = 8;
 std::string_view picture_name(Picture picture);
 /// What people call it: "ray traced".
 std::string_view picture_title(Picture picture);
+/// What its colours and lines stand for; empty where it is a picture as the eye sees it.
+std::string_view picture_legend(Picture picture);
 /// Unknown names are ErrorKind::usage, with a suggestion.
 Expected<Picture> parse_picture(std::string_view name);
 

@@ -24,8 +24,9 @@ using Step = decltype(ScriptStep::what);
 
 constexpr std::int64_t max_wait_frames = 1'000'000;
 constexpr NumberRange pixel_range{-1e6, 1e6};
-constexpr std::array<std::string_view, 12> verbs{"set",  "key",  "open",       "show",       "drag",  "click",
-                                                 "drop", "wait", "screenshot", "save-scene", "print", "quit"};
+constexpr std::array<std::string_view, 13> verbs{"set",        "key",   "open", "show", "drag",
+                                                 "click",      "point", "drop", "wait", "screenshot",
+                                                 "save-scene", "print", "quit"};
 constexpr std::array<std::string_view, 4> preset_names{"acne", "peter-panning", "aliasing", "leak"};
 
 Words words_of(const std::string& line) {
@@ -108,12 +109,27 @@ Expected<Step> parse_key(const Words& words) {
   return Step{PressKey{*key}};
 }
 
+/// Of two words of a line.
+Expected<Vec2> parse_place(const Words& words, std::size_t first) {
+  const Expected<double> x = parse_number(words[first], pixel_range);
+  const Expected<double> y = parse_number(words[first + 1], pixel_range);
+  if (!x || !y) return fail(x ? y.error() : x.error());
+  return Vec2{*x, *y};
+}
+
 Expected<Step> parse_light_drag(const Words& words) {
   if (const auto complete = expect_count(words, 4, "drag light X Y"); !complete)
     return fail(complete.error());
-  const Expected<double> x = parse_number(words[2], pixel_range), y = parse_number(words[3], pixel_range);
-  if (!x || !y) return fail(x ? y.error() : x.error());
-  return Step{DragPointer{Vec2(0.0), {*x, *y}, 0, true}};
+  const Expected<Vec2> to = parse_place(words, 2);
+  if (!to) return fail(to.error());
+  return Step{DragPointer{Vec2(0.0), *to, 0, true}};
+}
+
+Expected<Step> parse_point(const Words& words) {
+  if (const auto complete = expect_count(words, 3, "point X Y"); !complete) return fail(complete.error());
+  const Expected<Vec2> at = parse_place(words, 1);
+  if (!at) return fail(at.error());
+  return Step{PointAt{*at}};
 }
 
 Expected<Step> parse_drag(const Words& words) {
@@ -125,13 +141,9 @@ Expected<Step> parse_drag(const Words& words) {
                                          click ? "click X Y" : "drag X Y X Y [left|right|middle]");
       !complete)
     return fail(complete.error());
-  std::array<double, 4> at{};
-  for (std::size_t i = 0; i < numbers; ++i) {
-    const Expected<double> value = parse_number(words[1 + i], pixel_range);
-    if (!value) return fail(value.error());
-    at[i] = *value;
-  }
-  DragPointer drag{{at[0], at[1]}, click ? Vec2{at[0], at[1]} : Vec2{at[2], at[3]}, 0, false};
+  const Expected<Vec2> from = parse_place(words, 1), to = click ? from : parse_place(words, 3);
+  if (!from || !to) return fail(from ? to.error() : from.error());
+  DragPointer drag{*from, *to, 0, false};
   if (!has_button) return Step{drag};
   constexpr std::array<std::string_view, 3> buttons{"left", "right", "middle"};
   const auto found = std::find(buttons.begin(), buttons.end(), words.back());
@@ -164,6 +176,7 @@ Expected<Step> parse_step(const Words& words, const std::vector<Light>& lights) 
   if (verb == "show") return parse_show(words);
   if (verb == "key") return parse_key(words);
   if (verb == "drag" || verb == "click") return parse_drag(words);
+  if (verb == "point") return parse_point(words);
   if (verb == "wait") return parse_wait(words);
   if (verb == "screenshot" || verb == "save-scene") {
     const auto path = parse_file(words, verb == "screenshot" ? ".png" : ".json");

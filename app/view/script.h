@@ -4,7 +4,7 @@
 //                         0.5texel)
 //   open SCENE            a file, a built-in scene or a lesson
 //   show PRESET           acne, peter-panning, aliasing or leak
-//   drag X Y X Y [left|right|middle], click X Y      the pointer, in pixels of the window
+//   drag X Y X Y [left|right|middle], click X Y, point X Y      the pointer, in pixels of the window
 //   drag light X Y        the light's handle, to there
 //   drop FILE             a file let fall on the window
 //   key NAME              a key of docs/lab.md: F6, tab, ctrl+B; enter, too, for menus and panels
@@ -65,10 +65,15 @@ struct DragPointer {
   bool light = false;       ///< from where the light's handle is
 };
 
+/// The pointer rests there: what it is on explains itself.
+struct PointAt {
+  Vec2 at{0.0};  ///< pixels of the window
+};
+
 struct ScriptStep {
   int line = 0;  ///< from 1
-  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PressKey,
-               OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm>
+  std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PointAt,
+               PressKey, OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm>
       what;
 };
 

@@ -99,6 +99,8 @@ class Viewer {
   Expected<bool> pass_open(const std::function<void()>& ask);
   Expected<bool> pass_film(const NameFilm& wanted);
   Expected<bool> pass_drag(DragPointer drag);
+  bool pass_point(Vec2 at);
+  ScriptPointer& move_script_pointer(Vec2 to);
   bool pass_key(const Key& key);
   /// With the script's line, where there is one and the error does not name a place of its own.
   Error located(Error error, int line) const;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double resize_patience_ms = 5000.0;  // for a window manager to grant a size
 constexpr std::int64_t drag_frames = 8;        // from the press to the release
+constexpr std::int64_t point_frames = 3;
 
 }  // namespace
 
@@ -60,6 +61,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     return true;
   }
   if (const auto* drag = std::get_if<DragPointer>(&step.what)) return pass_drag(*drag);
+  if (const auto* point = std::get_if<PointAt>(&step.what)) return pass_point(point->at);
   if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open([this, open] { act(*open); });
   if (const auto* drop = std::get_if<DropFile>(&step.what))
     return pass_open([this, drop] { window_->drop(drop->path); });
@@ -121,17 +123,25 @@ Expected<bool> Viewer::pass_drag(DragPointer drag) {
     drag.from = *handle;
   }
   const std::int64_t frame = frames_waited_++;
-  if (!script_pointer_) script_pointer_.emplace();
-  ScriptPointer& pointer = *script_pointer_;
   const double share = std::clamp(double(frame - 2) / double(drag_frames - 2), 0.0, 1.0);
-  pointer.x = drag.from.x + share * (drag.to.x - drag.from.x);
-  pointer.y = drag.from.y + share * (drag.to.y - drag.from.y);
-  move(pointer.x, pointer.y);
-  busy_frames_ = 3;
+  ScriptPointer& pointer = move_script_pointer(drag.from + share * (drag.to - drag.from));
   const auto button = static_cast<std::size_t>(drag.button);
   if (frame == 2) pointer.down[button] = true, press(drag.button, true, {});
   if (frame == drag_frames + 1) pointer.down[button] = false, press(drag.button, false, {});
   return frame > drag_frames + 2;
+}
+
+/// Menus and notes need a frame to open and one to find their place.
+bool Viewer::pass_point(Vec2 at) {
+  move_script_pointer(at);
+  return frames_waited_++ == point_frames;
+}
+
+ScriptPointer& Viewer::move_script_pointer(Vec2 to) {
+  if (!script_pointer_) script_pointer_.emplace();
+  script_pointer_->x = to.x, script_pointer_->y = to.y;
+  move(to.x, to.y);
+  return *script_pointer_;
 }
 
 /// A key goes down in one frame and up in the next, for the panels and the pictures alike.

@@ -217,7 +217,7 @@ std::string effects_section(const PageInput& in) {
   }
   std::string notes;
   for (const std::string& note : c.world->scene->notes) notes += "<li>" + escaped(note) + "</li>\n";
-  if (!notes.empty()) notes = "<h3>Notes on the scene file</h3>\n<ul class=\"notes\">\n" + notes + "</ul>\n";
+  if (!notes.empty()) notes = "<h3>Notes</h3>\n<ul class=\"notes\">\n" + notes + "</ul>\n";
   const std::string table =
       R"(<table class="effects"><thead><tr><th scope="col">effect</th><th scope="col">here</th>
 <th scope="col">because</th></tr></thead><tbody>

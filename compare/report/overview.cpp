@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/bands/bands.h"
 #include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
@@ -123,13 +124,23 @@ std::string setting_line(const PageInput& in) {
 pictures and data lie beside it, in its folder and in <code>report-data</code>. Keep them together.</p>
 )"
                 : "";
+  const int step = image_step(size);
+  const std::string reduced =
+      step == 1
+          ? std::string()
+          : fmt::format(
+                R"(<p class="setting">This page shows one pixel of every {0} × {0} (a place is counted in these); its numbers, and the
+pictures in its folder, are of all pixels.</p>
+)",
+                step);
   return fmt::format(
       R"(<p class="setting">{} × {} pixels <span aria-hidden="true">·</span> {} <span
 aria-hidden="true">·</span> {} triangle{}, {} shape{}</p>
-{})",
+{}{})",
       size.width, size.height, escaped(map_text(c)),
       keyed_count("scene.triangles", c.world->triangle_count()), c.world->triangle_count() == 1 ? "" : "s",
-      keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s", beside);
+      keyed_count("scene.shapes", c.world->shapes.size()), c.world->shapes.size() == 1 ? "" : "s", reduced,
+      beside);
 }
 
 // A step's name in words.

@@ -24,15 +24,21 @@ struct Overlay {
   ImDrawList& draw;
   float em;
 
-  void name(const Box& pane, Picture picture, bool right = false) const {
+  /// The view's name and what its colours stand for, no wider than `most`.
+  void name(const Box& pane, Picture picture, double most, bool right = false) const {
     const std::string text(picture_title(picture));
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const std::string legend = most > 12.0 * double(em)
+                                   ? broken_to_width(picture_legend(picture), most - double(em))
+                                   : std::string();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), more = ImGui::CalcTextSize(legend.c_str());
+    const ImVec2 all{std::max(size.x, more.x), size.y + (legend.empty() ? 0.0f : more.y)};
     const float x =
-        static_cast<float>(right ? pane.x + pane.width : pane.x) + (right ? -size.x - 0.9f * em : 0.5f * em);
+        static_cast<float>(right ? pane.x + pane.width : pane.x) + (right ? -all.x - 0.9f * em : 0.5f * em);
     const float y = static_cast<float>(pane.y) + 0.4f * em;
-    draw.AddRectFilled({x - 0.2f * em, y - 0.1f * em}, {x + size.x + 0.3f * em, y + size.y + 0.1f * em},
-                       black, 0.2f * em);
+    draw.AddRectFilled({x - 0.2f * em, y - 0.1f * em}, {x + all.x + 0.3f * em, y + all.y + 0.1f * em}, black,
+                       0.2f * em);
     draw.AddText({x, y}, white, text.c_str());
+    draw.AddText({x, y + size.y}, white, legend.c_str());
   }
 
   void line(Vec2 a, Vec2 b, ImU32 colour) const {
@@ -101,6 +107,7 @@ void pane_choice(PanelContext& context, std::size_t pane, const Box& box) {
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(at(box.x + 0.3 * double(em), box.y + 0.3 * double(em)));
   const std::string name = fmt::format("pane {}", pane + 1);
+  bool asked = false;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
   if (ImGui::Begin(name.c_str(), nullptr,
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -118,10 +125,16 @@ void pane_choice(PanelContext& context, std::size_t pane, const Box& box) {
           context.ask(Change{SetPane{pane, picture}});
       }
       ImGui::EndCombo();
+    } else {
+      asked = ImGui::IsItemHovered() && !picture_legend(now).empty();
     }
   }
   ImGui::End();
   ImGui::PopStyleVar();
+  if (!asked) return;
+  ImGui::BeginTooltip();
+  wrapped(picture_legend(context.state.look.quad[pane]), 26.0f * em);
+  ImGui::EndTooltip();
 }
 
 }  // namespace
@@ -139,13 +152,13 @@ void overlay(PanelContext& context) {
   }
   const Box& pane = layout.panes.front();
   over.pane(pane, state.picture);
-  if (state.look.layout != PaneLayout::swipe) return over.name(pane, state.picture);
+  if (state.look.layout != PaneLayout::swipe) return over.name(pane, state.picture, pane.width);
   const double x = pane.x + state.look.swipe * pane.width, middle = pane.y + 0.5 * pane.height;
   over.line({x, double(pane.y)}, {x, double(pane.y + pane.height)}, white);
   over.draw.AddCircleFilled(at(x, middle), 0.6f * over.em, black);
   over.draw.AddCircleFilled(at(x, middle), 0.45f * over.em, white);
-  over.name(pane, state.previous);
-  over.name(pane, state.picture, true);
+  over.name(pane, state.previous, 0.5 * pane.width);
+  over.name(pane, state.picture, 0.5 * pane.width, true);
 }
 
 }  // namespace gnomon::app

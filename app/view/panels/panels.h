@@ -51,6 +51,8 @@ void results_panel(PanelContext& context);
 void probe_panel(PanelContext& context);
 void curve_panel(PanelContext& context);
 
+/// The text in lines that are no wider than this on the screen.
+std::string broken_to_width(std::string_view text, double width);
 /// Text that wraps at the panel's edge, or at a width of its own.
 void wrapped(std::string_view text, float width = 0.0f);
 void faint(const std::string& text);

@@ -64,10 +64,10 @@ void budget(const PanelContext& context, const LightComparison& light) {
     swatch(step_colour(i));
     ImGui::TextUnformatted(std::string(words.name).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(words.what).c_str());
-    right_aligned(fmt::format("{} ({})", compare::percent(step.absolute_mean),
-                              compare::signed_number(step.signed_mean)));
+    right_aligned(fmt::format("{} ({} %)", compare::percent(step.absolute_mean),
+                              compare::signed_number(100.0 * step.signed_mean)));
   }
-  ImGui::TextDisabled("mean |step| (and with its sign)");
+  faint("How much each step changes the light, on the mean (and which way: \u2212 darker).");
 }
 
 void labels(const LightComparison& light) {

@@ -14,32 +14,58 @@ namespace gnomon::app {
 
 namespace {
 
-void tooltip(const MapRow& row) {
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  const float width = ImGui::GetFontSize() * 26.0f;
-  wrapped(row.what, width);
-  ImGui::Spacing();
-  wrapped(fmt::format("Acne: {}", row.acne), width);
-  wrapped(fmt::format("Peter-panning: {}", row.peter_panning), width);
-  ImGui::TextDisabled("--%.*s", static_cast<int>(row.option.size()), row.option.data());
-  ImGui::EndTooltip();
-}
+/// What an option does, and what it is called on the command line.
+struct Note {
+  std::string_view what, acne, peter_panning;
+  std::string options;
 
-/// The row's name above its control, with the unit at the right.
+  explicit Note(const MapRow& row)
+      : what(row.what),
+        acne(row.acne),
+        peter_panning(row.peter_panning),
+        options(fmt::format("--{}", row.option)) {}
+  Note(std::string_view what, std::string_view acne, std::string_view peter_panning, const char* options)
+      : what(what), acne(acne), peter_panning(peter_panning), options(options) {}
+
+  void show() const {
+    ImGui::BeginTooltip();
+    const float width = ImGui::GetFontSize() * 26.0f;
+    wrapped(what, width);
+    ImGui::Spacing();
+    wrapped(fmt::format("Acne: {}", acne), width);
+    wrapped(fmt::format("Peter-panning: {}", peter_panning), width);
+    ImGui::TextDisabled("%s", options.c_str());
+    ImGui::EndTooltip();
+  }
+  /// After an option's name, or a control with the name on it.
+  void of_name() const {
+    if (ImGui::IsItemHovered()) show();
+  }
+  /// After a control whose name stands above: for those who came to it by keyboard, to whom a name is no place.
+  void of_control() const {
+    if (ImGui::GetIO().NavVisible && ImGui::IsItemFocused() && ImGui::IsItemHovered()) show();
+  }
+};
+
+/// The row's name above its control, with the unit at the right; below it in a narrow column.
 void title_of(const MapRow& row, std::string_view unit) {
   ImGui::TextUnformatted(row.title.data(), row.title.data() + row.title.size());
-  tooltip(row);
+  Note(row).of_name();
   if (unit.empty()) return;
   const float width = ImGui::CalcTextSize(unit.data(), unit.data() + unit.size()).x;
-  ImGui::SameLine(std::max(0.0f, ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width));
+  const float left = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width;
+  const float name = ImGui::GetItemRectSize().x + ImGui::GetStyle().ItemSpacing.x;
+  if (left >= ImGui::GetCursorPosX() + name) ImGui::SameLine(left);
   ImGui::TextDisabled("%.*s", static_cast<int>(unit.size()), unit.data());
 }
 
-bool slider(const char* id, double& value, double from, double to, bool logarithmic) {
+bool slider(const Note& note, double& value, double from, double to, bool logarithmic) {
   ImGui::SetNextItemWidth(-FLT_MIN);
-  return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, "%.4g",
-                             logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  const bool changed =
+      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &from, &to, "%.4g",
+                          logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  note.of_control();
+  return changed;
 }
 
 struct RowControl {
@@ -50,7 +76,7 @@ struct RowControl {
   bool operator()(const NumberRow& number) const {
     title_of(row, number.unit);
     double value = number.get(map);
-    if (!slider("##value", value, number.from, number.to, number.logarithmic)) return false;
+    if (!slider(Note(row), value, number.from, number.to, number.logarithmic)) return false;
     number.set(map, value);
     return true;
   }
@@ -59,23 +85,25 @@ struct RowControl {
     ImGui::SetNextItemWidth(-FLT_MIN);
     int value = integer.get(map);
     if (!integer.powers_of_two) {
-      if (!ImGui::SliderInt("##value", &value, integer.from, integer.to)) return false;
-      integer.set(map, std::clamp(value, integer.from, integer.to));
-      return true;
+      const bool changed = ImGui::SliderInt("##value", &value, integer.from, integer.to);
+      Note(row).of_control();
+      if (changed) integer.set(map, std::clamp(value, integer.from, integer.to));
+      return changed;
     }
     const int limit = context.shown.max_map_size > 0 ? context.shown.max_map_size : integer.to;
     int power = static_cast<int>(std::lround(std::log2(std::max(1, value))));
     const std::string text = fmt::format("{} x {}", value, value);
     const int most = static_cast<int>(std::log2(std::min(limit, integer.to)));
-    if (!ImGui::SliderInt("##value", &power, 4, most, text.c_str(), ImGuiSliderFlags_NoInput)) return false;
-    integer.set(map, 1 << std::clamp(power, 4, most));
-    return true;
+    const bool changed = ImGui::SliderInt("##value", &power, 4, most, text.c_str(), ImGuiSliderFlags_NoInput);
+    Note(row).of_control();
+    if (changed) integer.set(map, 1 << std::clamp(power, 4, most));
+    return changed;
   }
   bool operator()(const SwitchRow& flag) const {
     bool on = flag.get(map);
     const std::string label = fmt::format("{}##value", row.title);
     const bool changed = ImGui::Checkbox(label.c_str(), &on);
-    tooltip(row);
+    Note(row).of_name();
     if (changed) flag.set(map, on);
     return changed;
   }
@@ -84,8 +112,12 @@ struct RowControl {
     const int now = choice.get(map);
     ImGui::SetNextItemWidth(-FLT_MIN);
     bool changed = false;
-    if (!ImGui::BeginCombo("##value", std::string(choice.names[static_cast<std::size_t>(now)]).c_str()))
+    const bool open =
+        ImGui::BeginCombo("##value", std::string(choice.names[static_cast<std::size_t>(now)]).c_str());
+    if (!open) {
+      Note(row).of_control();
       return false;
+    }
     for (std::size_t i = 0; i < choice.names.size(); ++i) {
       const bool chosen = static_cast<int>(i) == now;
       if (ImGui::Selectable(std::string(choice.names[i]).c_str(), chosen) && !chosen) {
@@ -101,9 +133,9 @@ struct RowControl {
     const LivePicture& live = context.shown.live;
     title_of(row, "texels");
     double texels = bias_texels(map.bias, live.bias_world, live.texel_world);
-    bool changed = slider("##value", texels, 0.0, 10.0, false);
+    bool changed = slider(Note(row), texels, 0.0, 10.0, false);
     if (changed) set_bias_texels(map.bias, texels, live.texel_world);
-    ImGui::TextDisabled("= %.4g world units along the ray", live.bias_world);
+    faint(fmt::format("= {:.4g} world units along the ray", live.bias_world));
     changed |= unit();
     return changed;
   }
@@ -152,30 +184,21 @@ void choose(raster::MapOptions& map, raster::Technique technique) {
   if (!technique_reads("snap", map)) map.snap = false;
 }
 
-void note_on(std::string_view what, std::string_view acne, std::string_view peter_panning,
-             const char* option) {
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  const float width = ImGui::GetFontSize() * 26.0f;
-  wrapped(what, width);
-  ImGui::Spacing();
-  wrapped(fmt::format("Acne: {}", acne), width);
-  wrapped(fmt::format("Peter-panning: {}", peter_panning), width);
-  ImGui::TextDisabled("%s", option);
-  ImGui::EndTooltip();
-}
-
 bool technique(PanelContext& context, raster::MapOptions& map) {
   const LightType type = context.state.given.lights[context.state.setup.light].type;
+  const Note note(
+      "What the map stores and how it is looked up.",
+      "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid and izb "
+      "have none.",
+      "As much as the bias; hybrid and izb have none.", "--technique");
   ImGui::TextUnformatted("Technique");
-  note_on("What the map stores and how it is looked up.",
-          "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid and izb "
-          "have none.",
-          "As much as the bias; hybrid and izb have none.", "--technique");
+  note.of_name();
   ImGui::SetNextItemWidth(-FLT_MIN);
   bool changed = false;
-  if (!ImGui::BeginCombo("##technique", std::string(raster::technique_name(map.technique)).c_str()))
+  if (!ImGui::BeginCombo("##technique", std::string(raster::technique_name(map.technique)).c_str())) {
+    note.of_control();
     return false;
+  }
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
     if (!traits.lights.has(type)) continue;
     const bool chosen = traits.technique == map.technique;
@@ -189,11 +212,16 @@ bool technique(PanelContext& context, raster::MapOptions& map) {
 }
 
 /// Of the light: a number on a slider below its name.
-bool light_number(const char* title, const char* id, double& value, double from, double to,
+bool light_number(const char* title, const Note& note, double& value, double from, double to,
                   const char* format) {
   ImGui::TextUnformatted(title);
+  note.of_name();
+  ImGui::PushID(title);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &from, &to, format);
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &from, &to, format);
+  note.of_control();
+  ImGui::PopID();
+  return changed;
 }
 
 /// A sun's up to twenty times the real one's; a lamp's up to a quarter of the way to the middle of the scene.
@@ -203,14 +231,13 @@ void light_extent(PanelContext& context, const Light& given) {
   const double own = glm::length(given.position - context.state.given.centre);
   const double most = sun ? largest_sun : largest_lamp * (own > 0.0 ? own : 1.0);
   double size = light_size(posed_light(context.state));
-  if (light_number("Size", "##size", size, 0.0, std::max(most, light_size(given)),
+  const Note note(
+      "A light with a size casts soft shadows; at 0 it is a point, and its shadows are sharp. Of the "
+      "techniques only pcss follows it: what the others miss is charged to the light's size.",
+      "None; pcss reads a wider part of the map, which needs more bias.", "None.", "--light-size");
+  if (light_number("Size", note, size, 0.0, std::max(most, light_size(given)),
                    sun ? "%.2f degrees across" : "radius %.3g"))
     context.ask(Change{LightSizeTo{size}});
-  note_on(
-      "A light with a size casts soft shadows; at 0 it is a point, and its shadows are sharp. Of the "
-      "techniques only "
-      "pcss follows it: what the others miss is charged to the light's size.",
-      "None; pcss reads a wider part of the map, which needs more bias.", "None.", "--light-size");
 }
 
 void film(PanelContext& context) {
@@ -236,11 +263,20 @@ void film(PanelContext& context) {
   context.ask(Change{FilmTo{seconds}});
 }
 
-void note_on_place(const char* option) {
-  note_on(
+Note note_on_place(const char* options) {
+  return {
       "Where the light is.",
       "The more the light grazes a surface, the more depth lies within a texel, and the more bias it needs.",
-      "Under grazing light the same bias moves a shadow farther along the surface.", option);
+      "Under grazing light the same bias moves a shadow farther along the surface.", options};
+}
+
+/// A sun that was put elsewhere by hand stands there at no hour.
+std::string hour_words(double hours, const LightPose& pose) {
+  constexpr double as_near = 1.0;  // degrees
+  if (std::abs(sun_at(hours).elevation_degrees - pose.elevation_degrees) > as_near)
+    return "no hour of an equinox";
+  const int minutes = static_cast<int>(std::lround(60.0 * hours));
+  return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
 
 void lights(PanelContext& context) {
@@ -258,25 +294,26 @@ void lights(PanelContext& context) {
   const Light& light = state.given.lights[state.setup.light];
   const LightPose pose = current_light(state);
   double azimuth = pose.azimuth_degrees, elevation = pose.elevation_degrees;
-  if (light_number("Comes from", "##azimuth", azimuth, -180.0, 180.0, "%.1f degrees"))
+  if (light_number("Comes from", note_on_place("--light-azimuth"), azimuth, -180.0, 180.0, "%.1f degrees"))
     context.ask(Change{LightAzimuthTo{azimuth}});
-  note_on_place("--light-azimuth");
-  if (light_number("Height", "##elevation", elevation, -90.0, 90.0, "%.1f degrees"))
+  if (light_number("Height", note_on_place("--light-elevation"), elevation, -90.0, 90.0, "%.1f degrees"))
     context.ask(Change{LightElevationTo{elevation}});
-  note_on_place("--light-elevation");
   if (light.type != LightType::directional) {
     const double own = glm::length(light.position - state.given.centre);
     double distance = pose.distance.value_or(own);
-    if (own > 0.0 && light_number("Distance", "##distance", distance, 0.1 * own, 5.0 * own, "%.3g"))
+    const Note note = note_on_place("--light-distance");
+    if (own > 0.0 && light_number("Distance", note, distance, 0.1 * own, 5.0 * own, "%.3g"))
       context.ask(Change{LightDistanceTo{distance}});
-    note_on_place("--light-distance");
     return light_extent(context, light);
   }
   double hours = sun_hour(pose);
-  if (light_number("Time of day", "##hour", hours, 6.0, 18.0,
-                   fmt::format("{:02}:{:02}", int(hours), int(60.0 * (hours - int(hours)))).c_str()))
+  const Note note(
+      "Puts the sun where it stands at that hour of an equinox, 45 degrees north; +z is south, +x is east.",
+      "The lower the sun, the more bias the ground needs.",
+      "The lower the sun, the farther the same bias moves a shadow along the ground.",
+      "--light-azimuth, --light-elevation");
+  if (light_number("Time of day", note, hours, 6.0, 18.0, hour_words(hours, pose).c_str()))
     context.ask(Change{SunHour{hours}});
-  note_on_place("--light-azimuth, --light-elevation");
   light_extent(context, light);
 }
 
@@ -284,25 +321,31 @@ void precision(PanelContext& context) {
   if (!ImGui::CollapsingHeader("Ray tracer")) return;
   constexpr const char* names[] = {"fast", "robust", "exact"};
   int now = static_cast<int>(context.state.setup.precision);
-  ImGui::TextUnformatted("Arithmetic of the rays");
-  note_on(
+  const Note note(
       "What the truth is computed with: fast is float, robust has error bounds, exact has no rounding at "
       "all.",
       "None: it is the map's. Rays that round start on the wrong side of their own surface, which is acne of "
       "the truth.",
       "None.", "--precision");
+  ImGui::TextUnformatted("Arithmetic of the rays");
+  note.of_name();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::Combo("##precision", &now, names, 3))
     context.ask(Change{SetPrecision{static_cast<raytrace::Precision>(now)}});
+  note.of_control();
 }
 
 }  // namespace
 
-void wrapped(std::string_view text, float width) {
-  const float wide = width > 0.0f ? width : ImGui::GetContentRegionAvail().x;
-  const std::string lines = broken_at_blanks(text, static_cast<double>(wide), [](std::string_view part) {
+std::string broken_to_width(std::string_view text, double width) {
+  return broken_at_blanks(text, width, [](std::string_view part) {
     return static_cast<double>(ImGui::CalcTextSize(part.data(), part.data() + part.size()).x);
   });
+}
+
+void wrapped(std::string_view text, float width) {
+  const float wide = width > 0.0f ? width : ImGui::GetContentRegionAvail().x;
+  const std::string lines = broken_to_width(text, static_cast<double>(wide));
   ImGui::TextUnformatted(lines.c_str(), lines.c_str() + lines.size());
 }
 
