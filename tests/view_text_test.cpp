@@ -3,6 +3,7 @@
 
 #include "app/view/frame_watch.h"
 #include "app/view/text_wrap.h"
+#include "scene/timing.h"
 
 namespace gnomon::app {
 namespace {
@@ -29,6 +30,18 @@ TEST(TextWrap, WhatIsTooWideHasALineOfItsOwn) {
 
 TEST(TextWrap, TheTextsOwnBreaksStay) {
   EXPECT_EQ(broken("a b\nc d", 3.0), "a b\nc d");
+}
+
+TEST(FrameWatch, ThePiecesOfAPartAddUp) {
+  FrameWatch watch;
+  for (const Stopwatch busy; busy.elapsed_ms() < 2.0;) {
+  }
+  watch.end(FramePart::panels);
+  const double first = watch[FramePart::panels].wall_ms;
+  EXPECT_GE(first, 2.0);
+  watch.end(FramePart::swap);
+  watch.end(FramePart::panels);
+  EXPECT_GE(watch[FramePart::panels].wall_ms, first);
 }
 
 TEST(FrameWatch, ItsPartsAreAllOfIt) {

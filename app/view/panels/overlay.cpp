@@ -112,7 +112,7 @@ void pane_choice(PanelContext& context, std::size_t pane, const Box& box) {
   if (ImGui::Begin(name.c_str(), nullptr,
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBackground |
-                       ImGuiWindowFlags_NoBringToFrontOnFocus)) {
+                       ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing)) {
     const Picture now = context.state.look.quad[pane];
     const float free = static_cast<float>(box.width) - 0.6f * em;
     const bool narrow = free < 14.0f * em;  // the longest title has no room beside an arrow
