@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "raster/impostors.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -21,10 +22,6 @@ GLenum gl_format(DepthFormat format) {
   }
   return GL_DEPTH_COMPONENT32F;
 }
-
-}  // namespace
-
-namespace {
 
 bool face_warps(const LightView& view) {
   return view.face(0).warp != 0.0;
@@ -122,33 +119,18 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
 
 Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Drawing& drawing, int face) {
   const LightView& view = drawing.view;
-  const World& world = buffers.world();
-  const bool perspective = view.projection == LightProjection::perspective;
   const Projection projection = face_projection(view, face);
-  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
-    const Shape& shape = world.shapes[i];
-    const auto bounds = shape_bounds(projection, shape);
-    if (!bounds) continue;
-    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
-    const auto program = programs_->impostor(world, i,
-                                             {.camera = false,
-                                              .perspective = perspective,
-                                              .warp = face_warps(view),
-                                              .reversed = view.reversed,
-                                              .peel = drawing.peel,
-                                              .primitive_ids = drawing.with_ids,
-                                              .alpha_mask = masked && programs_->features().alpha_mask});
-    if (!program) return fail(program.error());
-    (*program)->use();
-    (*program)->set_shape(static_cast<int>(i), *bounds,
-                          shape_in_frame(projection.origin, projection.frame, shape));
-    if (is_solid(shape.geometry))
-      (*program)->set_solid(solid_from_frame(projection.origin, projection.frame, shape.geometry));
-    (*program)->set_face(face, drawing.cull);
-    if (drawing.peel) (*program)->set_peel(face, format_step());
-    (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  }
-  return {};
+  return draw_impostors(*gl_, *programs_, buffers.world(), projection, projection.frame,
+                        {.camera = false,
+                         .perspective = view.projection == LightProjection::perspective,
+                         .warp = face_warps(view),
+                         .reversed = view.reversed,
+                         .peel = drawing.peel,
+                         .primitive_ids = drawing.with_ids},
+                        [&](const ImpostorProgram& program) {
+                          program.set_face(face, drawing.cull);
+                          if (drawing.peel) program.set_peel(face, format_step());
+                        });
 }
 
 void DepthMapPass::read(ShadowMap& map, bool with_ids) const {

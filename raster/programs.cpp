@@ -215,7 +215,9 @@ Expected<TrianglePrograms> ProgramCache::triangles(TriangleProgram::Permutation 
 
 Expected<const ImpostorProgram*> ProgramCache::impostor(const World& world, std::size_t shape,
                                                         ImpostorProgram::Permutation key) {
+  const Material& material = world.scene->materials[world.shapes[shape].material];
   key.textures = features_.textures;
+  key.alpha_mask = features_.alpha_mask && material.alpha_mode == AlphaMode::mask;
   key.kind = impostor_kind(world.shapes[shape]);
   key.function = features_.functions.of_shape[shape];
   return find_or_link(impostors_, key, [&] { return ImpostorProgram::link(*gl_, key, features_.functions); });

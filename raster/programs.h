@@ -115,7 +115,7 @@ class ProgramCache {
   /// For opaque and masked triangles, of flattened parts and of kept ones; `textures`, `alpha_mask`, `instances` and
   /// `kept` of the permutation are filled in here.
   Expected<TrianglePrograms> triangles(TriangleProgram::Permutation permutation);
-  /// For the world's i-th shape; `permutation.textures`, `kind` and `function` are filled in here.
+  /// For the world's i-th shape; `textures`, `alpha_mask`, `kind` and `function` of the permutation are filled in here.
   Expected<const ImpostorProgram*> impostor(const World& world, std::size_t shape,
                                             ImpostorProgram::Permutation permutation);
   Expected<const Program*> shade(const ShadePermutation& permutation);

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "raster/impostors.h"
 #include "scene/paging.h"
 #include "shaders/shared_constants.h"
 
@@ -139,29 +140,12 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
 }
 
 Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {
-  const World& world = buffers.world();
   const Projection projection{view.eye, axes(view.right, view.up, view.forward),
                               Vec2(view.tan_half_x, view.tan_half_y), true,
                               Vec2(2.0 / size_.width, 2.0 / size_.height)};
   const LightFace world_axes = axes(Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
-  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
-    const Shape& shape = world.shapes[i];
-    const auto bounds = shape_bounds(projection, shape);
-    if (!bounds) continue;
-    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
-    const auto program = programs_->impostor(world, i,
-                                             {.camera = true,
-                                              .perspective = true,
-                                              .primitive_ids = true,
-                                              .alpha_mask = masked && programs_->features().alpha_mask});
-    if (!program) return fail(program.error());
-    (*program)->use();
-    (*program)->set_shape(static_cast<int>(i), *bounds, shape_in_frame(view.eye, world_axes, shape));
-    if (is_solid(shape.geometry))
-      (*program)->set_solid(solid_from_frame(view.eye, world_axes, shape.geometry));
-    (*gl_)->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  }
-  return {};
+  return draw_impostors(*gl_, *programs_, buffers.world(), projection, world_axes,
+                        {.camera = true, .perspective = true, .primitive_ids = true});
 }
 
 Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePermutation& permutation,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "raster/programs.h"
+#include "raster/stored_meshes.h"
 #include "raster/texel_pages.h"
 #include "scene/camera.h"
 #include "scene/world.h"
@@ -43,32 +44,6 @@ struct TriangleRun {
     return masked == run.masked && single_sided == run.single_sided && part == run.part &&
            first == run.first + run.count && at == run.at + run.count;
   }
-};
-
-/// Twin of shaders/instances.glsl: what comes before the parts, and a part.
-struct alignas(32) PartsHeader {
-  glm::dvec4 reference{0.0};
-  std::uint32_t part_count = 0, flat_vertices = 0;
-};
-struct alignas(32) PartData {
-  glm::dvec4 column[4], normal_column[3];
-  std::uint32_t first_triangle, triangles_at, material, kept;
-};
-
-/// Where a world's meshes lie in the buffers: flattened parts one after the other, then each mesh that kept parts
-/// share.
-struct StoredMeshes {
-  struct Place {
-    std::uint32_t vertices = 0, triangles = 0;
-  };
-  struct Stored {
-    std::uint32_t part;  ///< one of those that share it
-    Place at;
-  };
-  std::vector<Stored> stored;
-  std::vector<Place> of_part;  ///< by part
-  Place flat, all;             ///< how many vertices and triangles are of flattened parts, and in all
-  explicit StoredMeshes(const World& world);
 };
 
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
