@@ -2,6 +2,7 @@
 // on a plane, the gap that a bias tears between a wall and its shadow; and the sums that must hold for any
 // scene.
 #include "support/compare_support.h"
+#include "support/one_world.h"
 
 namespace gnomon::test {
 namespace {
@@ -39,18 +40,18 @@ struct AcneCase {
 
 class AcneClosedForm : public ::testing::TestWithParam<AcneCase> {};
 
-// 0.005: the tolerance that the project set itself; an image of 1280x720 samples each texel at few, evenly
-// spread places, so the fraction's sampling error is about 0.0005.
+// 0.005: the tolerance that the project set itself; an image of 640x360 samples each texel at few, evenly
+// spread places, so the fraction is sampled to 0.003.
 TEST_P(AcneClosedForm, FractionOfLitFloorPixels) {
   const AcneCase& c = GetParam();
-  const LightView view =
-      run_comparison(empty_floor(c.sun), test_options({64, 36}, c.map_size)).result.raster.lights[0].map.view;
+  OneWorld floor(empty_floor(c.sun));
+  const LightView view = floor.compare(test_options({64, 36}, c.map_size)).raster.lights[0].map.view;
   const HalfTexelSlopes slopes = floor_slopes(view);
   const double larger = std::max(slopes.a, slopes.b);
   for (const double factor : {0.0, 0.25, 0.5, 0.75, 1.1}) {
     const double bias = factor * larger;
-    const Compared run = run_comparison(empty_floor(c.sun), test_options({1280, 720}, c.map_size, bias));
-    const auto& light = run.light();
+    const compare::Comparison run = floor.compare(test_options({640, 360}, c.map_size, bias));
+    const auto& light = run.lights[0];
     const double measured = double(count(light, Label::acne)) / double(light.pixels.compared);
     const double predicted = acne_fraction(slopes.a, slopes.b, bias);
     EXPECT_NEAR(measured, predicted, 0.005) << "map " << c.map_size << " bias " << factor << " a";
@@ -105,27 +106,30 @@ TEST(SphereOverPlane, TruthIsTheClosedForm) {
 TEST(WallOnFloor, DetachmentIsTheClosedForm) {
   const double w = 0.05;
   for (const double theta : {0.6, 0.9}) {
+    Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-w, -0.5, -3}, {0, 1.5, 3})},
+                               {std::sin(theta), -std::cos(theta), 0});
+    scene.camera = {{2.5, 3.0, 1.0}, {0.4, 0, 0}, {0, 1, 0}, 0.6};
+    OneWorld world(std::move(scene));
     for (const double bias : {0.02, 0.12, 0.3}) {
-      Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-w, -0.5, -3}, {0, 1.5, 3})},
-                                 {std::sin(theta), -std::cos(theta), 0});
-      scene.camera = {{2.5, 3.0, 1.0}, {0.4, 0, 0}, {0, 1, 0}, 0.6};
-      const Compared run = run_comparison(scene, test_options({960, 540}, 1024, bias));
+      const compare::Comparison run = world.compare(test_options({960, 540}, 1024, bias));
       const double expected = std::max(0.0, bias * std::sin(theta) - w);
-      const double texel = run.light().texel_world[1] / std::cos(theta);
-      EXPECT_NEAR(run.light().detachment.max_world, expected, texel) << "theta " << theta << " bias " << bias;
+      const double texel = run.lights[0].texel_world[1] / std::cos(theta);
+      EXPECT_NEAR(run.lights[0].detachment.max_world, expected, texel)
+          << "theta " << theta << " bias " << bias;
       if (expected > texel) {
-        EXPECT_GT(count(run.light(), Label::peter_panning), 100u);
+        EXPECT_GT(count(run.lights[0], Label::peter_panning), 100u);
       }
       std::printf("  theta %.1f  bias %.2f  detachment %.4f  closed form %.4f  texel %.4f\n", theta, bias,
-                  run.light().detachment.max_world, expected, texel);
+                  run.lights[0].detachment.max_world, expected, texel);
     }
   }
 }
 
 TEST(Sums, StepsAddUpAndLabelsAddUp) {
+  OneWorld world(boxes_under_three_lights());
   for (const double bias : {0.0, 0.01, 0.2}) {
-    const Compared run = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, bias));
-    for (const auto& light : run.result.lights) {
+    const compare::Comparison run = world.compare(test_options({640, 360}, 256, bias));
+    for (const auto& light : run.lights) {
       double steps = 0.0;
       for (const auto& step : light.budget) steps += step.signed_mean;
       double difference = 0.0;
@@ -144,24 +148,25 @@ TEST(Sums, StepsAddUpAndLabelsAddUp) {
 
 // The exact count of another constant bias must be what a render at that bias shows.
 TEST(BiasCurve, EqualsTheRenderAtThatBias) {
-  const Compared base = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, 0.0));
+  OneWorld world(boxes_under_three_lights());
+  const compare::Comparison base = world.compare(test_options({640, 360}, 256, 0.0));
   for (const double bias : {0.0, 0.003, 0.0171, 0.05, 0.23}) {
-    const Compared render = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, bias));
-    for (std::size_t i = 0; i < base.result.lights.size(); ++i) {
-      const auto& record = base.result.raster.lights[i];
+    const compare::Comparison render = world.compare(test_options({640, 360}, 256, bias));
+    for (std::size_t i = 0; i < base.lights.size(); ++i) {
+      const auto& record = base.raster.lights[i];
       std::uint64_t false_shadow = 0;
       std::uint64_t missed_shadow = 0;
-      for (std::size_t p = 0; p < base.light(i).labels.data.size(); ++p) {
-        if (!compare::is_compared(base.light(i).labels.data[p])) continue;
+      for (std::size_t p = 0; p < base.lights[i].labels.data.size(); ++p) {
+        if (!compare::is_compared(base.lights[i].labels.data[p])) continue;
         const bool drawn_lit = !(record.gap.data[p] > static_cast<float>(bias));
-        const bool truly_lit = base.light(i).rungs[0].data[p] > 0.5f;
+        const bool truly_lit = base.lights[i].rungs[0].data[p] > 0.5f;
         false_shadow += truly_lit && !drawn_lit;
         missed_shadow += !truly_lit && drawn_lit;
       }
-      EXPECT_EQ(false_shadow, render.light(i).error.false_shadow);
-      EXPECT_EQ(missed_shadow, render.light(i).error.missed_shadow);
+      EXPECT_EQ(false_shadow, render.lights[i].error.false_shadow);
+      EXPECT_EQ(missed_shadow, render.lights[i].error.missed_shadow);
       bool on_curve = false;
-      for (const auto& point : render.light(i).bias_curve) {
+      for (const auto& point : render.lights[i].bias_curve) {
         if (point.bias != bias) continue;
         on_curve = true;
         EXPECT_EQ(point.false_shadow, false_shadow);
@@ -174,12 +179,13 @@ TEST(BiasCurve, EqualsTheRenderAtThatBias) {
 
 // No bias is better than the one called best, and a render at it leaves exactly what was promised.
 TEST(BiasCurve, BestBiasIsBest) {
-  const Compared base = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, 0.0));
-  for (std::size_t i = 0; i < base.result.lights.size(); ++i) {
-    const auto& light = base.light(i);
+  OneWorld world(boxes_under_three_lights());
+  const compare::Comparison base = world.compare(test_options({640, 360}, 256, 0.0));
+  for (std::size_t i = 0; i < base.lights.size(); ++i) {
+    const auto& light = base.lights[i];
     const double best = light.best_bias.constant_world;
-    const Compared render = run_comparison(boxes_under_three_lights(), test_options({640, 360}, 256, best));
-    EXPECT_DOUBLE_EQ(render.light(i).error.wrong_fraction, light.best_bias.wrong_fraction);
+    const compare::Comparison render = world.compare(test_options({640, 360}, 256, best));
+    EXPECT_DOUBLE_EQ(render.lights[i].error.wrong_fraction, light.best_bias.wrong_fraction);
     for (const auto& point : light.bias_curve)
       EXPECT_GE(double(point.false_shadow + point.missed_shadow) / double(light.pixels.compared),
                 light.best_bias.wrong_fraction);
@@ -189,19 +195,22 @@ TEST(BiasCurve, BestBiasIsBest) {
 // What is said of the other kinds of bias from one drawing is what they draw, but for the pixels in which the
 // shader's floats and the doubles that it is said from part: as below, at most one in a thousand.
 TEST(BiasKinds, AreWhatTheyDraw) {
+  OneWorld world(boxes_under_three_lights());
   const auto options = test_options({640, 360}, 256, 0.01);
-  const Compared said = run_comparison(boxes_under_three_lights(), options);
-  for (std::size_t i = 0; i < said.result.lights.size(); ++i) {
-    const auto& kinds = said.result.lights[i].bias_kinds;
+  auto thorough = options;
+  thorough.perceptual = true;
+  const compare::Comparison said = world.compare(thorough);
+  for (std::size_t i = 0; i < said.lights.size(); ++i) {
+    const auto& kinds = said.lights[i].bias_kinds;
     ASSERT_EQ(kinds.size(), 5u);
     for (const compare::BiasKind& kind : kinds) {
       auto drawing = options;
       drawing.raster.map.bias = kind.bias;
-      const Compared drawn = run_comparison(boxes_under_three_lights(), drawing);
-      EXPECT_NEAR(drawn.result.lights[i].error.wrong_fraction, kind.wrong_fraction, 1e-3)
+      const compare::Comparison drawn = world.compare(drawing);
+      EXPECT_NEAR(drawn.lights[i].error.wrong_fraction, kind.wrong_fraction, 1e-3)
           << kind.name << " light " << i;
     }
-    EXPECT_LE(kinds.front().wrong_fraction, said.result.lights[i].error.wrong_fraction + 1e-3);
+    EXPECT_LE(kinds.front().wrong_fraction, said.lights[i].error.wrong_fraction + 1e-3);
   }
 }
 
@@ -222,13 +231,14 @@ TEST(Units, ATexelGivenIsATexelReported) {
 // V5 is computed in double from the exact receiver, V6 is what float shaders drew: they may part only where a
 // receiver falls on a texel's border or a gap on the bias, at most one pixel in a thousand.
 TEST(Ladder, DrawnEqualsBiasedForHard) {
+  OneWorld world(boxes_under_three_lights());
   for (const double slope : {0.0, 1.0}) {
     for (const double offset : {0.0, 1.0}) {
       auto options = test_options({640, 360}, 512, 0.01);
       options.raster.map.bias.slope = slope;
       options.raster.map.bias.normal_offset_texels = offset;
-      const Compared run = run_comparison(boxes_under_three_lights(), options);
-      for (const auto& light : run.result.lights) {
+      const compare::Comparison run = world.compare(options);
+      for (const auto& light : run.lights) {
         std::uint64_t apart = 0;
         for (std::size_t i = 0; i < light.labels.data.size(); ++i)
           apart +=

@@ -36,6 +36,7 @@ compare::CompareOptions test_options(ImageSize size, int map_size, double bias_w
   options.raster.map.bias = {bias_world, raster::BiasUnit::world};
   options.raster.runs = 0;
   options.raytrace.picture = false;
+  options.perceptual = false;
   return options;
 }
 
