@@ -43,15 +43,19 @@ function(gnomon_library name)
     PRIVATE $<BUILD_INTERFACE:gnomon_warnings> ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
-# gnomon_compile_together(TARGET), once all its sources are known: with GNOMON_UNITY (the release preset) the files of a
-# folder are compiled together, up to sixteen at a time (CMake's unity builds), for most of what a file costs is its
-# headers and the templates in them. So names in the unnamed namespaces of one folder must differ. Files that Highway
-# compiles once per instruction set include themselves and stand alone.
+# gnomon_compile_together(TARGET), once all its sources are known: with GNOMON_UNITY (the presets release and asan) the files
+# of a folder are compiled together, up to sixteen at a time (CMake's unity builds), for most of what a file costs is its
+# headers and the templates in them. So names in the unnamed namespaces of one folder, or of one test program, must differ.
+# Files that Highway compiles once per instruction set include themselves and stand alone.
 function(gnomon_compile_together target)
   if(NOT GNOMON_UNITY)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  if(count LESS 2)
+    return()
+  endif()
   foreach(source IN LISTS sources)
     get_filename_component(path "${source}" ABSOLUTE)
     file(RELATIVE_PATH path "${CMAKE_CURRENT_SOURCE_DIR}" "${path}")

@@ -1,21 +1,17 @@
 gnomon_test(compare_lists_test SOURCES compare_lists_test.cpp LIBS gnomon::compare hwy::hwy)
 
 gnomon_test(compare_closed_form_gl_test TIMEOUT 900
-  SOURCES compare_closed_form_gl_test.cpp compare_filter_gl_test.cpp compare_units_test.cpp support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare nlohmann_json::nlohmann_json)
-target_include_directories(compare_closed_form_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES compare_closed_form_gl_test.cpp compare_filter_gl_test.cpp compare_units_test.cpp
+  LIBS compare_support nlohmann_json::nlohmann_json)
 gnomon_test(compare_confusion_gl_test TIMEOUT 900
-  SOURCES compare_confusion_gl_test.cpp support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
-target_include_directories(compare_confusion_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES compare_confusion_gl_test.cpp
+  LIBS compare_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(compare_models_gl_test TIMEOUT 1200
-  SOURCES compare_models_gl_test.cpp support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare embree TBB::tbb nlohmann_json::nlohmann_json)
-target_include_directories(compare_models_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES compare_models_gl_test.cpp
+  LIBS compare_support embree TBB::tbb nlohmann_json::nlohmann_json)
 gnomon_test(compare_solids_gl_test TIMEOUT 900
   SOURCES compare_solids_gl_test.cpp compare_surfaces_gl_test.cpp
   LIBS gnomon::raster gnomon::raytrace)
-target_include_directories(compare_solids_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 # The same scene in other numbers: the same labels. GNOMON_INVARIANCE=N: N scenes, every technique under every light.
 gnomon_test(compare_invariance_gl_test SOURCES compare_invariance_gl_test.cpp LIBS gnomon::verify gnomon::compare gnomon::hybrid)
@@ -23,7 +19,6 @@ gnomon_test(compare_invariance_gl_test SOURCES compare_invariance_gl_test.cpp LI
 gnomon_test(gltf_instances_gl_test
   SOURCES gltf_instances_gl_test.cpp
   LIBS gnomon::compare nlohmann_json::nlohmann_json)
-target_include_directories(gltf_instances_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 # A comparison in bands against the whole.
 gnomon_test(compare_bands_gl_test TIMEOUT 900
   SOURCES compare_bands_gl_test.cpp

@@ -11,20 +11,6 @@
 namespace gnomon {
 namespace {
 
-class Lcg {
- public:
-  double operator()(double low, double high) {
-    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
-    return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
-  }
-  Vec3 point(double extent) {
-    return {(*this)(-extent, extent), (*this)(-extent, extent), (*this)(-extent, extent)};
-  }
-
- private:
-  std::uint64_t state_ = 42;
-};
-
 Scene scene_with(Light light) {
   Scene scene =
       test::sunlit_scene({test::floor_mesh(5, 4), test::box_mesh({-1, 0, -1}, {1, 1.5, 0.5})}, {1, -2, 0.5});
@@ -58,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(All, LightViews,
 
 TEST_P(LightViews, TexelRayReturnsToItsTexel) {
   const LightView view = fitted(GetParam(), 64);
-  Lcg random;
+  test::Lcg random(42);
   for (int i = 0; i < 20000; ++i) {
     const int face = static_cast<int>(random(0, view.face_count));
     const double u = random(0.01, 63.99), v = random(0.01, 63.99);
@@ -74,7 +60,7 @@ TEST_P(LightViews, TexelRayReturnsToItsTexel) {
 TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
   const LightView view = fitted(GetParam(), 256);
   const Vec3 reference(3.0, -2.0, 11.0);
-  Lcg random;
+  test::Lcg random(42);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = random.point(6.0);
     const TexelCoordinate t = project_to_texel(view, p);
@@ -90,7 +76,7 @@ TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
 
 TEST_P(LightViews, ColumnPlanesHoldExactlyTheirTexel) {
   const LightView view = fitted(GetParam(), 32);
-  Lcg random;
+  test::Lcg random(42);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = random.point(6.0);
     const TexelCoordinate t = project_to_texel(view, p);
@@ -109,7 +95,7 @@ TEST_P(LightViews, NothingThatTheCameraSeesIsCutOff) {
   const Scene scene = scene_with(light_of(GetParam()));
   const World world = make_world(scene);
   const LightView view = fitted(GetParam(), 512);
-  Lcg random;
+  test::Lcg random(42);
   for (int i = 0; i < 20000; ++i) {
     const auto c = world.corners(static_cast<std::uint32_t>(random(0, world.triangle_count())));
     double a = random(0, 1), b = random(0, 1);
@@ -155,7 +141,7 @@ TEST(CubeFaces, TiesGoToXThenY) {
 
 TEST(Camera, PixelRayAndProjectionAreInverse) {
   const View view = make_view({{1, 2, 3}, {-4, 0, 1}, {0.1, 1, 0}, 0.9}, {640, 360});
-  Lcg random;
+  test::Lcg random(42);
   for (int i = 0; i < 10000; ++i) {
     const double x = random(0, 640), y = random(0, 360), t = random(0.1, 100);
     const Vec3 p = pixel_ray(view, x, y).at(t);

@@ -3,16 +3,18 @@
 # series of mutations; with clang and -DGNOMON_FUZZ=ON they are libFuzzer programs as well:
 #   build/fuzz/tests/fuzz_json -rss_limit_mb=2048 -timeout=10 CORPUS
 
+gnomon_test_support(fuzz_inputs SOURCES fuzz/load_as.cpp LIBS gnomon::scene)
+gnomon_test_support(fuzz_replay SOURCES fuzz/fuzz_replay.cpp LIBS fuzz_inputs)
+
 function(gnomon_fuzz_target name)
-  set(sources fuzz/fuzz_${name}.cpp fuzz/load_as.cpp)
-  add_executable(fuzz_replay_${name} fuzz/fuzz_replay.cpp ${sources})
-  target_link_libraries(fuzz_replay_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace ${ARGN})
+  add_executable(fuzz_replay_${name} fuzz/fuzz_${name}.cpp)
+  target_link_libraries(fuzz_replay_${name} PRIVATE gnomon_flags gnomon_warnings fuzz_replay gnomon::raytrace ${ARGN})
   file(GLOB crashes CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/crashes/${name}/*)
   add_test(NAME fuzz_replay_${name} COMMAND fuzz_replay_${name} --mutations 400 ${crashes})
   set_tests_properties(fuzz_replay_${name} PROPERTIES TIMEOUT 900)
   if(GNOMON_FUZZ)
-    add_executable(fuzz_${name} ${sources})
-    target_link_libraries(fuzz_${name} PRIVATE gnomon_flags gnomon_warnings gnomon::scene gnomon::raytrace ${ARGN})
+    add_executable(fuzz_${name} fuzz/fuzz_${name}.cpp)
+    target_link_libraries(fuzz_${name} PRIVATE gnomon_flags gnomon_warnings fuzz_inputs gnomon::raytrace ${ARGN})
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
   endif()
 endfunction()

@@ -15,18 +15,18 @@ using hybrid::SoftLight;
 using raytrace::Verdict;
 using test::Stage;
 
-struct Outcome {
+struct SoftOutcome {
   SoftCounts soft;
   std::uint64_t asked = 0, different = 0, partly = 0;  ///< partly: of the truth, neither 0 nor 1
 };
 
-Outcome run(const Stage& stage, std::uint32_t light) {
+SoftOutcome run_soft(const Stage& stage, std::uint32_t light) {
   const Light& source = stage.scene.lights[light];
   LightCache cache(stage.tracer, stage.topology, source, stage.map(light, 512));
   Image<Verdict> verdicts;
   Image<Decision> decisions(stage.size);
   Image<float> visibility(stage.size);
-  Outcome out;
+  SoftOutcome out;
   out.asked = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
                                  &decisions)
                   .asked;
@@ -51,7 +51,7 @@ Outcome run(const Stage& stage, std::uint32_t light) {
 TEST(HybridSoftShadows, DiscOverTheBunny) {
   const auto stage = test::model_stage("/common_organic/stanford-bunny.obj", {320, 180}, true);
   if (!stage) GTEST_SKIP() << "no bunny";
-  const Outcome out = run(*stage, 0);
+  const SoftOutcome out = run_soft(*stage, 0);
   EXPECT_EQ(out.different, 0u);
   EXPECT_GT(out.partly, 0u);
   // Measured: 21 % of the receivers; most of the others would be wasted samples.
@@ -76,7 +76,7 @@ TEST(HybridSoftShadows, EveryKindOfLight) {
     }
     const Stage stage(std::move(*scene), {192, 108}, true);
     for (std::uint32_t light = 0; light < stage.scene.lights.size(); ++light)
-      EXPECT_EQ(run(stage, light).different, 0u);
+      EXPECT_EQ(run_soft(stage, light).different, 0u);
   }
 }
 

@@ -5,4 +5,3 @@ gnomon_test(hybrid_test
 gnomon_test(hybrid_gl_test
   SOURCES hybrid_gl_test.cpp
   LIBS gnomon::compare gnomon::hybrid)
-target_include_directories(hybrid_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -21,15 +21,6 @@ namespace {
 using compare::Capture;
 using raster::Technique;
 
-constexpr ImageSize picture{192, 108};
-
-std::string folder_for(const std::string& name) {
-  return testing::TempDir() + "/gnomon-judge-" + name;
-}
-
-// Pixels that fall on a texel's border may look up either: of 20,000 pixels a few.
-constexpr double border_share = 0.003;
-
 void expect_same_ladder(const Compared& drawn, const Verdict& judged) {
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
@@ -46,7 +37,7 @@ void expect_same_ladder(const Compared& drawn, const Verdict& judged) {
 }
 
 TEST(JudgeLadder, OfASunIsThatOfItsOwnMap) {
-  const Compared drawn = draw_builtin("courtyard", picture, hard_map(256));
+  const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   const Capture capture = self_capture(drawn, folder_for("sun"), {.map = true});
   expect_same_ladder(drawn, judge(capture));
   const auto read = compare::read_capture(write_json(capture, folder_for("sun")));
@@ -57,7 +48,7 @@ TEST(JudgeLadder, OfASunIsThatOfItsOwnMap) {
 // Distances are compared along the texel's ray, Gnomon's own depths along the receiver's: a texel of 128 is
 // 0.7 degrees wide, so that acne's stripes differ by a few pixels in a hundred.
 TEST(JudgeLadder, OfAPointLightsCubeToo) {
-  const Compared drawn = draw_builtin("sphere-plane", picture, hard_map(128));
+  const Compared drawn = draw_builtin("sphere-plane", small_picture, hard_map(128));
   const Verdict judged = judge(self_capture(drawn, folder_for("cube"), {.map = true}));
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_GT(judged.result->judged->biased_is_drawn, 0.95);
@@ -67,7 +58,7 @@ TEST(JudgeLadder, OfAPointLightsCubeToo) {
 }
 
 TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
-  const Compared drawn = draw_builtin("courtyard", picture, hard_map(128));
+  const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(128));
   const Verdict judged = judge(self_capture(drawn, folder_for("plain"), {}));
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::LightComparison& light = judged.result->lights[0];
@@ -81,7 +72,7 @@ TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
 TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
   std::ifstream file(source_dir() + "/compare/report/result.schema.json");
   const nlohmann::json schema = nlohmann::json::parse(file);
-  const Compared drawn = draw_builtin("courtyard", picture, hard_map(256));
+  const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   for (const bool map : {true, false}) {
     const Verdict judged = judge(self_capture(drawn, folder_for("outputs"), {.map = map}));
     ASSERT_TRUE(judged.result) << reason(judged);
@@ -106,7 +97,7 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
 
 // Thin wires under a sun: nearly every bias from a few hundredths on is as good as the best, which lies far out.
 TEST(JudgeAdvice, IsTheSmallestConstantThatIsHardlyWorseThanTheBest) {
-  const Compared drawn = draw_builtin("wires", picture, hard_map(512));
+  const Compared drawn = draw_builtin("wires", small_picture, hard_map(512));
   Capture capture = self_capture(drawn, folder_for("advice"), {.map = true});
   capture.bias->constant_depth = 0.0;
   const Verdict judged = judge(capture);
@@ -160,13 +151,13 @@ void map_places(const Capture& capture, const Mat3& captured_from_scene) {
 void show_places(const Capture& capture, const Compared& drawn, const View& view, double shift) {
   const raytrace::Tracer tracer(*drawn.world, raytrace::Accel::bvh);
   spoil(capture.position, [&](ChannelImage& image) {
-    for (int j = 0; j < picture.height; ++j)
-      for (int i = 0; i < picture.width; ++i) {
+    for (int j = 0; j < small_picture.height; ++j)
+      for (int i = 0; i < small_picture.width; ++i) {
         const Ray ray = pixel_ray(view, i + 0.5 + shift, j + 0.5 + shift);
         const auto hit = tracer.closest_hit(ray);
         const Vec3 p = hit ? ray.at(hit->t) : Vec3(0.0);
         for (Channel& channel : image.channels)
-          channel.values[std::size_t(j * picture.width + i)] =
+          channel.values[std::size_t(j * small_picture.width + i)] =
               channel.name == "A" ? (hit ? 1.0f : 0.0f) : static_cast<float>(p[channel.name[0] - 'X']);
       }
   });
@@ -177,7 +168,7 @@ Capture drawn_otherwise(const Compared& drawn, const std::string& name,
                         const std::function<void(Scene&)>& change, const CaptureParts& parts) {
   Scene scene = *drawn.scene;
   change(scene);
-  compare::CompareOptions options = test_options(picture, 512);
+  compare::CompareOptions options = test_options(small_picture, 512);
   options.raster.map = drawn.result.raster.options.map;
   options.perceptual = false;
   const Compared other = run_comparison(std::move(scene), options);
@@ -198,13 +189,15 @@ const std::vector<Convention>& conventions() {
        [](Capture& c, const Compared&) { flip(c.visibility, false, true); }},
       {"half a pixel",
        {},
-       [](Capture& c, const Compared& d) { show_places(c, d, make_view(d.scene->camera, picture), 0.5); }},
+       [](Capture& c, const Compared& d) {
+         show_places(c, d, make_view(d.scene->camera, small_picture), 0.5);
+       }},
       {"field of view",
        {.positions = false, .mask = true},
        [](Capture& c, const Compared& d) {
          c = drawn_otherwise(d, "fov",
                              [](Scene& s) {
-                               const double aspect = double(picture.width) / picture.height;
+                               const double aspect = double(small_picture.width) / small_picture.height;
                                s.camera.vertical_fov =
                                    2.0 * std::atan(std::tan(0.5 * s.camera.vertical_fov) / aspect);
                              },
@@ -213,7 +206,7 @@ const std::vector<Convention>& conventions() {
       {"aspect",
        {},
        [](Capture& c, const Compared& d) {
-         View view = make_view(d.scene->camera, picture);
+         View view = make_view(d.scene->camera, small_picture);
          view.tan_half_x = view.tan_half_y * 4.0 / 3.0;
          show_places(c, d, view, 0.0);
        }},
@@ -244,7 +237,7 @@ TEST_P(JudgeConventions, AreNamedAndMended) {
   raster::MapOptions soft = hard_map(256, Technique::pcf);
   soft.bias = {.constant = 1.0, .slope = 1.0};
   soft.filter.radius_texels = 2.5;
-  const Compared drawn = draw_builtin(GetParam(), picture, soft);
+  const Compared drawn = draw_builtin(GetParam(), small_picture, soft);
   for (const Convention& convention : conventions()) {
     Capture capture = self_capture(drawn, folder_for(std::string("wrong-") + GetParam()), convention.parts);
     convention.wrong(capture, drawn);
@@ -277,7 +270,7 @@ TEST(JudgeAlignment, DoesNotSuspectRightCaptures) {
          {Technique::hard, Technique::pcf, Technique::vsm, Technique::esm, Technique::second_depth}) {
       raster::MapOptions map = hard_map(judged % 2 == 0 ? 128 : 512, technique);
       if (judged % 3 == 0) map.bias = {.constant = 1.0, .slope = 1.0};
-      const Compared drawn = draw_builtin(scene, picture, map);
+      const Compared drawn = draw_builtin(scene, small_picture, map);
       CaptureParts parts{.positions = judged % 2 == 0, .mask = judged % 4 == 1};
       const Verdict verdict = judge(self_capture(drawn, folder_for("right"), parts));
       EXPECT_TRUE(verdict.result) << scene << ": " << reason(verdict);

@@ -13,14 +13,6 @@ using compare::RowOrder;
 using compare::StoredDepth;
 using raster::Technique;
 
-constexpr ImageSize picture{192, 108};
-// Pixels that fall on a texel's border may look up either, in floats and in doubles: of 20,000 pixels a few.
-constexpr double border_share = 0.003;
-
-std::string folder_for(const std::string& name) {
-  return testing::TempDir() + "/gnomon-judge-parts-" + name;
-}
-
 /// Floor and boxes under one light: "sun", "lamp" (spot) or "bulb" (point).
 Scene scene_under(const std::string& light) {
   Scene scene = boxes_under_three_lights();
@@ -58,7 +50,7 @@ Compared draw(const Kind& kind) {
   raster::MapOptions map = hard_map(128, kind.technique);
   map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 2.0};
   if (kind.stored == StoredDepth::reversed) map.depth_format = raster::DepthFormat::d32f_reversed;
-  return draw_scene(scene_under(kind.light), picture, map);
+  return draw_scene(scene_under(kind.light), small_picture, map);
 }
 
 double share_as_drawn(const Verdict& judged) {
@@ -197,7 +189,7 @@ using compare::CapturedDepth;
 
 class JudgeCameraDepths : public testing::Test {
  protected:
-  const Compared drawn_ = draw_scene(scene_under("sun"), picture, hard_map(256));
+  const Compared drawn_ = draw_scene(scene_under("sun"), small_picture, hard_map(256));
   Capture capture(const CapturedDepth& depth) const {
     return self_capture(drawn_, folder_for("depth"), {.positions = false, .map = true, .depth = &depth});
   }
@@ -241,7 +233,7 @@ TEST_F(JudgeCameraDepths, AlongTheRayForThoseAlongTheAxisAreNamed) {
 }
 
 TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
-  const Compared drawn = draw_scene(scene_under("sun"), picture, hard_map(256));
+  const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
   for (const bool positions : {true, false}) {
     const CaptureParts parts{.positions = positions, .map = true, .ratio = true};
     const Verdict judged = judge(self_capture(drawn, folder_for("ratio"), parts), *drawn.scene);
@@ -258,7 +250,7 @@ TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
 
 // Eight bits show nothing of a spot's rim, which fades out, and of surfaces that the light grazes.
 TEST(JudgeRatios, OfEightBitsAreNotSuspectedWhereLittleLightArrives) {
-  const Compared drawn = draw_scene(scene_under("lamp"), picture, hard_map(256));
+  const Compared drawn = draw_scene(scene_under("lamp"), small_picture, hard_map(256));
   const Capture capture =
       self_capture(drawn, folder_for("ratio-coarse"), {.positions = false, .ratio = true});
   const raytrace::RayTracedFrame& frame = drawn.result.raytraced;
@@ -284,7 +276,7 @@ TEST(JudgeRatios, OfEightBitsAreNotSuspectedWhereLittleLightArrives) {
 }
 
 TEST(JudgeRatios, UpsideDownAreNamedByWhatTheLightReaches) {
-  const Compared drawn = draw_scene(scene_under("sun"), picture, hard_map(256));
+  const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
   const Capture capture =
       self_capture(drawn, folder_for("ratio-flipped"), {.positions = false, .ratio = true});
   for (const std::string& file : {capture.shadowed, capture.unshadowed})

@@ -1,12 +1,10 @@
 gnomon_test(judge_gl_test
-  SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp support/capture_support.cpp support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
-target_include_directories(judge_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp
+  LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 gnomon_test(judge_identify_gl_test
-  SOURCES judge_identify_gl_test.cpp support/capture_support.cpp support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare fmt::fmt nlohmann_json::nlohmann_json)
-target_include_directories(judge_identify_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  SOURCES judge_identify_gl_test.cpp
+  LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 # The adapters on real engines, as far as they are installed.
 gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_browser")
 gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")

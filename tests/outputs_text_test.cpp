@@ -270,7 +270,7 @@ TEST(Csv, HasOneRowPerLightAndQuotesNames) {
             0u);
   for (const char* column : {"error_wrong_fraction", "error_mean_absolute", "edges_rms_texels",
                              "times_ms_map_pass_median", "times_ms_primary_rays_median"})
-    EXPECT_NE(("," + header + ",").find("," + std::string(column) + ","), std::string::npos) << column;
+    EXPECT_NE(("," + header + ",").find(std::string(1, ',') + column + ","), std::string::npos) << column;
   const std::string row =
       csv.substr(csv.find(",sun,"), csv.find('\r', csv.find(",sun,")) - csv.find(",sun,"));
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));

@@ -71,19 +71,19 @@ raster::RasterOptions floor_options(int map_size) {
 }
 
 const Vec3 level(0.0, 1.0, 0.0);
-const Vec3 tilted = glm::normalize(Vec3(0.3, 1.0, 0.2));
+const Vec3 tilted_normal = glm::normalize(Vec3(0.3, 1.0, 0.2));
 
-struct Case {
+struct FloorCase {
   const char* name;
   Vec3 sun_direction, normal;
   bool as_plane;
 };
 
-class Acne : public testing::TestWithParam<Case> {};
+class Acne : public testing::TestWithParam<FloorCase> {};
 
 // 250,000 pixels that sample the texels' phases without regard to them: 0.005 is what the issue allows.
 TEST_P(Acne, FractionIsTheClosedForm) {
-  const Case c = GetParam();
+  const FloorCase c = GetParam();
   Drawn drawn = make_drawn(floor_scene(sun(c.sun_direction), c.normal, c.as_plane));
   ASSERT_NE(drawn.renderer, nullptr);
   for (const int size : {256, 1024}) {
@@ -105,10 +105,10 @@ TEST_P(Acne, FractionIsTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Suns, Acne,
-                         testing::Values(Case{"aligned", {0.0, -1.0, -0.8}, level, false},
-                                         Case{"turned", {-0.7, -1.0, -0.4}, tilted, false},
-                                         Case{"low", {0.9, -0.5, 0.3}, tilted, false},
-                                         Case{"turned_plane", {-0.7, -1.0, -0.4}, tilted, true}),
+                         testing::Values(FloorCase{"aligned", {0.0, -1.0, -0.8}, level, false},
+                                         FloorCase{"turned", {-0.7, -1.0, -0.4}, tilted_normal, false},
+                                         FloorCase{"low", {0.9, -0.5, 0.3}, tilted_normal, false},
+                                         FloorCase{"turned_plane", {-0.7, -1.0, -0.4}, tilted_normal, true}),
                          [](const auto& chosen) { return std::string(chosen.param.name); });
 
 class AcneCure : public testing::TestWithParam<LightType> {
@@ -117,7 +117,7 @@ class AcneCure : public testing::TestWithParam<LightType> {
     const Light light = GetParam() == LightType::directional
                             ? sun({-0.7, -1.0, -0.4})
                             : lamp(GetParam(), {3.0, 7.0, 2.0}, {0.0, 0.0, 0.0});
-    drawn_ = make_drawn(floor_scene(light, tilted, true));
+    drawn_ = make_drawn(floor_scene(light, tilted_normal, true));
     ASSERT_NE(drawn_.renderer, nullptr);
     // Rounding: floats of this scene's size (ten units) err by a few 1e-6.
     options_ = floor_options(512);

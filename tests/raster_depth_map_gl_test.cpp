@@ -42,14 +42,14 @@ double quantum(DepthFormat format) {
   return std::exp2(-24);  // spacing of floats in [0.5, 1]
 }
 
-struct Case {
+struct DepthCase {
   const char* name;
   LightType light;
   bool as_plane;
   DepthFormat format;
 };
 
-class StoredDepth : public testing::TestWithParam<Case> {};
+class StoredDepth : public testing::TestWithParam<DepthCase> {};
 
 Light light_of(LightType type) {
   if (type == LightType::directional) return sun({-0.3, -1.0, -0.2});
@@ -59,7 +59,7 @@ Light light_of(LightType type) {
 // Half a quantum of rounding, and what single-precision interpolation of depth over a triangle may add (a few
 // units in the last place of 1): the wider of the two is the bound.
 TEST_P(StoredDepth, IsExactWithinOneQuantum) {
-  const Case c = GetParam();
+  const DepthCase c = GetParam();
   raster::RasterOptions options = small_options(128);
   options.map.depth_format = c.format;
   const Drawn drawn = draw(tilted(light_of(c.light), c.as_plane), options);
@@ -89,8 +89,8 @@ TEST_P(StoredDepth, IsExactWithinOneQuantum) {
       << worst / quantum(c.format) << " quanta";
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<DepthCase> cases() {
+  std::vector<DepthCase> all;
   for (const auto format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     for (const bool as_plane : {false, true}) {
       all.push_back({"directional", LightType::directional, as_plane, format});
@@ -101,7 +101,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& chosen) {
+std::string case_name(const testing::TestParamInfo<DepthCase>& chosen) {
   const char* formats[] = {"d16", "d24", "d32f"};
   return std::string(chosen.param.name) + (chosen.param.as_plane ? "_shapes_" : "_triangles_") +
          formats[static_cast<int>(chosen.param.format)];

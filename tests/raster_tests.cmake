@@ -7,6 +7,7 @@ gnomon_test(raster_gl_test
 # Each technique's frame against the same draw calls by hand; run by hand, not a test.
 add_executable(technique_bench bench/technique_bench.cpp bench/minimal_program.cpp)
 target_link_libraries(technique_bench PRIVATE gnomon_flags gnomon_warnings gnomon::raster gnomon_raster_private fmt::fmt)
+gnomon_compile_together(technique_bench)
 # Pictures made in bands, by both renderers.
 gnomon_test(bands_gl_test
   SOURCES bands_gl_test.cpp

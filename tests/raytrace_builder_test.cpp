@@ -22,8 +22,6 @@ using raytrace::Tracer;
 using test::Random;
 using test::TestWorld;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// The tree without the numbers of its nodes: boxes and leaves from the root on.
 struct Form {
   std::vector<float> bounds;
@@ -209,7 +207,7 @@ TEST(Builder, BrokenTrianglesAreDropped) {
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 7, ++broken) {
     const auto& t = mesh.triangles[i];
     if (i % 3 == 0)
-      mesh.positions[t[0]].y = nan;
+      mesh.positions[t[0]].y = std::numeric_limits<double>::quiet_NaN();
     else if (i % 3 == 1)
       mesh.positions[t[1]].x = infinity;
     else

@@ -13,7 +13,7 @@ using test::Random;
 using test::same;
 using test::TestWorld;
 
-constexpr std::array<Accel, 10> structures{
+constexpr std::array<Accel, 10> every_structure{
     Accel::bvh,  Accel::bvh_median,    Accel::kdtree, Accel::kdtree_cyclic, Accel::octree,
     Accel::grid, Accel::grid_textbook, Accel::bsp,    Accel::two_level,     Accel::brute};
 
@@ -86,7 +86,7 @@ TEST(Sides, EveryStructureSeesThroughTheSameBacks) {
     through += same(seen.back(), plain.closest_hit(ray)) ? 0 : 1;
   }
   EXPECT_GT(through, 50U);
-  for (const Accel accel : structures) {
+  for (const Accel accel : every_structure) {
     const Tracer tracer(w.world(), accel);
     std::size_t wrong = 0, shadows = 0, counted = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -1,6 +1,4 @@
-add_library(raytrace_support STATIC support/raytrace_support.cpp)
-target_link_libraries(raytrace_support PUBLIC gnomon_flags gnomon::small_world PRIVATE gnomon_warnings)
-target_include_directories(raytrace_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+gnomon_test_support(raytrace_support SOURCES support/raytrace_support.cpp LIBS gnomon::small_world)
 
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_verdict_test.cpp raytrace_frame_test.cpp
@@ -37,16 +35,18 @@ gnomon_test(raytrace_models_test
   LIBS raytrace_support embree TBB::tbb)
 
 # The speed figures; a short run of it is a test that it runs, not of how fast.
-add_executable(gnomon_bench bench/gnomon_bench.cpp bench/bench_scenes.cpp bench/ball_light.cpp bench/embree_peer.cpp
+gnomon_test_support(bench_scenes SOURCES bench/bench_scenes.cpp LIBS raytrace_support test_places)
+add_executable(gnomon_bench bench/gnomon_bench.cpp bench/ball_light.cpp bench/embree_peer.cpp
   ${PROJECT_SOURCE_DIR}/app/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
-target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support embree TBB::tbb hwy::hwy CLI11::CLI11
+target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_places bench_scenes embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
+gnomon_compile_together(gnomon_bench)
 add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
 
 # Whole processes against POV-Ray 3.7 and Blender's Cycles, where they are installed (they are no part of the set-up).
-add_executable(programs_bench bench/programs_bench.cpp bench/bench_scenes.cpp)
+add_executable(programs_bench bench/programs_bench.cpp)
 target_compile_definitions(programs_bench PRIVATE GNOMON_BENCH_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}/bench")
-target_link_libraries(programs_bench PRIVATE gnomon_flags gnomon_warnings test_places raytrace_support CLI11::CLI11 fmt::fmt
+target_link_libraries(programs_bench PRIVATE gnomon_flags gnomon_warnings test_places bench_scenes CLI11::CLI11 fmt::fmt
   nlohmann_json::nlohmann_json)
 find_program(GNOMON_POVRAY povray)
 mark_as_advanced(GNOMON_POVRAY)

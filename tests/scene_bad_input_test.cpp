@@ -12,30 +12,12 @@
 namespace gnomon {
 namespace {
 
-std::string big_endian(std::uint32_t value) {
-  std::string out;
-  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xffu);
-  return out;
-}
-
-std::uint32_t crc_of(std::string_view bytes) {
-  std::uint32_t c = 0xffffffffu;
-  for (const char byte : bytes) {
-    c ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) c = c & 1u ? 0xedb88320u ^ (c >> 1) : c >> 1;
-  }
-  return ~c;
-}
-
-std::string chunk(const std::string& type, const std::string& data) {
-  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc_of(type + data));
-}
-
 /// 8-bit RGBA with this stream as its data.
 std::string png(std::uint32_t width, std::uint32_t height, const std::string& stream) {
   return "\x89PNG\r\n\x1a\n" +
-         chunk("IHDR", big_endian(width) + big_endian(height) + std::string("\x08\x06\0\0\0", 5)) +
-         chunk("IDAT", stream) + chunk("IEND", "");
+         test::png_chunk(
+             "IHDR", test::big_endian(width) + test::big_endian(height) + std::string("\x08\x06\0\0\0", 5)) +
+         test::png_chunk("IDAT", stream) + test::png_chunk("IEND", "");
 }
 
 long peak_kilobytes() {

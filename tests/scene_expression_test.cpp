@@ -114,7 +114,7 @@ std::string complete_notes(const Scene& scene) {
   return all;
 }
 
-std::string message_of(const std::string& shape) {
+std::string message_on_shape(const std::string& shape) {
   const auto scene = load_json_scene(
       "{\"schema\": \"gnomon/scene/1\", \"materials\": [{\"name\": \"m\"}],\n\"shapes\": [{\"material\": "
       "\"m\", " +
@@ -133,7 +133,7 @@ TEST(SolidsInScenes, AreRead) {
         R"("hyperboloid": {"center": [0,0,0], "radius": 1, "gap": 0.5, "height": 2})",
         R"("torus": {"center": [0,0,0], "major_radius": 1, "minor_radius": 0.25})",
         R"("implicit": {"function": "x^2+y^2+z^2-1", "box": [[-1,-1,-1],[1,1,1]]})"})
-    EXPECT_EQ(message_of(shape), "loaded") << shape;
+    EXPECT_EQ(message_on_shape(shape), "loaded") << shape;
 }
 
 TEST(SolidsInScenes, OpenGlassIsNoted) {
@@ -185,7 +185,7 @@ TEST(SolidsInScenes, MistakesAreOneLine) {
       {R"("torsu": {})", "s.json:2:30: shapes[0].torsu: unknown key"},
   };
   for (const auto& [shape, start] : mistakes) {
-    const std::string message = message_of(shape);
+    const std::string message = message_on_shape(shape);
     EXPECT_EQ(message.find(start), 0u) << shape << "\n  " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }

@@ -8,27 +8,9 @@
 namespace gnomon {
 namespace {
 
-std::uint32_t crc32(std::string_view bytes) {
-  std::uint32_t crc = 0xffffffffu;
-  for (const char c : bytes) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1u ? 0xedb88320u : 0u);
-  }
-  return ~crc;
-}
-
-std::string big_endian(std::uint32_t v) {
-  return {static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8),
-          static_cast<char>(v)};
-}
-
-std::string png_chunk(const std::string& type, const std::string& data) {
-  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc32(type + data));
-}
-
 std::string png_header(std::uint32_t width, std::uint32_t height) {
-  return "\x89PNG\r\n\x1a\n" +
-         png_chunk("IHDR", big_endian(width) + big_endian(height) + std::string("\x08\x02\0\0\0", 5));
+  return "\x89PNG\r\n\x1a\n" + test::png_chunk("IHDR", test::big_endian(width) + test::big_endian(height) +
+                                                           std::string("\x08\x02\0\0\0", 5));
 }
 
 Rgb8Image gradient(int width, int height) {
@@ -112,12 +94,13 @@ TEST(Image, TruncatedJpegIsAnError) {
 TEST(Image, HugeHeaderIsRefusedBeforeAllocation) {
   for (const std::uint32_t side : {16385u, 100000u, 0x7fffffffu}) {
     const auto read = read_texture_bytes(
-        "huge.png", png_header(side, side) + png_chunk("IDAT", "") + png_chunk("IEND", ""), true);
+        "huge.png", png_header(side, side) + test::png_chunk("IDAT", "") + test::png_chunk("IEND", ""), true);
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().kind, ErrorKind::bad_input);
   }
   const auto named = read_texture_bytes(
-      "huge.png", png_header(100000, 100000) + png_chunk("IDAT", "") + png_chunk("IEND", ""), true);
+      "huge.png", png_header(100000, 100000) + test::png_chunk("IDAT", "") + test::png_chunk("IEND", ""),
+      true);
   EXPECT_EQ(named.error().message(),
             "huge.png: image size (got 100000 x 100000, allowed 1 x 1 to 16384 x 16384)");
 }

@@ -41,11 +41,6 @@ Scene loaded(const std::string& obj) {
   return {};
 }
 
-bool has_note(const Scene& scene, std::string_view part) {
-  return std::any_of(scene.notes.begin(), scene.notes.end(),
-                     [&](const std::string& n) { return n.find(part) != std::string::npos; });
-}
-
 TEST(Interior, ARoomIsSeenAndLitFromInside) {
   const Scene room = loaded(box(low, high, true));
   EXPECT_TRUE(is_inside(room.camera.eye));
@@ -53,8 +48,8 @@ TEST(Interior, ARoomIsSeenAndLitFromInside) {
   EXPECT_EQ(room.lights[0].type, LightType::point);
   EXPECT_TRUE(is_inside(room.lights[0].position));
   EXPECT_TRUE(room.shapes.empty());
-  EXPECT_TRUE(has_note(room, "inside the model, which is a closed room: the file has none."));
-  EXPECT_TRUE(has_note(room, "Made a point light 'lamp'"));
+  EXPECT_TRUE(test::has_note(room, "inside the model, which is a closed room: the file has none."));
+  EXPECT_TRUE(test::has_note(room, "Made a point light 'lamp'"));
 }
 
 TEST(Interior, TheEyeIsNotInTheFurniture) {

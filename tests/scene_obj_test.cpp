@@ -14,11 +14,6 @@ Expected<Scene> load_text(const TemporaryFolder& folder, std::string_view text) 
   return load_scene(folder.put("m.obj", text));
 }
 
-bool has_note(const Scene& scene, std::string_view part) {
-  return std::any_of(scene.notes.begin(), scene.notes.end(),
-                     [&](const std::string& n) { return n.find(part) != std::string::npos; });
-}
-
 TEST(Obj, GeometryAndTurnedTextureCoordinates) {
   const TemporaryFolder folder;
   const auto scene = load_text(
@@ -104,9 +99,10 @@ TEST(Obj, WhatIsSkippedIsNoted) {
   const auto scene = load_text(
       folder, "mtllib none.mtl\n" + std::string(quad) + "v 0 0 0 1 0 0\nf 1 2\nf 1 2 3\nl 1 2\np 1\n");
   ASSERT_TRUE(scene) << scene.error().message();
-  EXPECT_TRUE(has_note(*scene, "none.mtl cannot be used (no such file)"));
-  EXPECT_TRUE(has_note(*scene, "1 face(s) with fewer than three corners were skipped (the first in line 7)"));
-  EXPECT_TRUE(has_note(*scene, "1 point(s) and 1 line(s) were skipped"));
+  EXPECT_TRUE(test::has_note(*scene, "none.mtl cannot be used (no such file)"));
+  EXPECT_TRUE(
+      test::has_note(*scene, "1 face(s) with fewer than three corners were skipped (the first in line 7)"));
+  EXPECT_TRUE(test::has_note(*scene, "1 point(s) and 1 line(s) were skipped"));
 }
 
 // As three.js and Blender write them: behind the position, sRGB-encoded; a vertex without is white.
@@ -175,7 +171,7 @@ map_Kd missing.png
   EXPECT_EQ(material(4).texture_transform.scale, Vec2(2, 4));
   EXPECT_EQ(material(4).texture_transform.offset, Vec2(0.5, -3.25));  // 1 - 4 - 0.25, for v turned over
   EXPECT_EQ(material(5).diffuse_texture, no_id);
-  EXPECT_TRUE(has_note(*scene, "missing.png is not there"));
+  EXPECT_TRUE(test::has_note(*scene, "missing.png is not there"));
   EXPECT_EQ(material(6).name, "default");
 }
 

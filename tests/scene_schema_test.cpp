@@ -36,38 +36,39 @@ std::vector<std::string> loader_keys(const std::string& scene) {
   return keys;
 }
 
-std::string scene_with(const std::string& part) {
+std::string scene_with_part(const std::string& part) {
   return R"({"schema": "gnomon/scene/1", )" + part + "}";
 }
 
 TEST(Schema, ListsTheLoadersKeys) {
   const nlohmann::json all = schema();
   const nlohmann::json& defs = all.at("$defs");
-  EXPECT_EQ(loader_keys(scene_with(R"("zzz": 1)")), schema_keys(all));
-  EXPECT_EQ(loader_keys(scene_with(R"("camera": {"zzz": 1}, "materials": [{"name": "m"}],
+  EXPECT_EQ(loader_keys(scene_with_part(R"("zzz": 1)")), schema_keys(all));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("camera": {"zzz": 1}, "materials": [{"name": "m"}],
     "shapes": [{"sphere": {"center": [0,0,0], "radius": 1}, "material": "m"}])")),
             schema_keys(defs.at("camera")));
-  EXPECT_EQ(loader_keys(scene_with(R"("lights": [{"zzz": 1}])")), schema_keys(defs.at("light")));
-  EXPECT_EQ(loader_keys(scene_with(R"("materials": [{"zzz": 1}])")), schema_keys(defs.at("material")));
-  EXPECT_EQ(loader_keys(scene_with(R"("materials": [{"name": "m", "texture": {"zzz": 1}}])")),
+  EXPECT_EQ(loader_keys(scene_with_part(R"("lights": [{"zzz": 1}])")), schema_keys(defs.at("light")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("materials": [{"zzz": 1}])")), schema_keys(defs.at("material")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("materials": [{"name": "m", "texture": {"zzz": 1}}])")),
             schema_keys(defs.at("texture")));
-  EXPECT_EQ(loader_keys(scene_with(R"("meshes": [{"zzz": 1}])")), schema_keys(defs.at("mesh")));
-  EXPECT_EQ(loader_keys(scene_with(R"("instances": [{"zzz": 1}])")), schema_keys(defs.at("instance")));
-  EXPECT_EQ(loader_keys(scene_with(R"("materials": [{"name": "m"}],
+  EXPECT_EQ(loader_keys(scene_with_part(R"("meshes": [{"zzz": 1}])")), schema_keys(defs.at("mesh")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("instances": [{"zzz": 1}])")), schema_keys(defs.at("instance")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("materials": [{"name": "m"}],
     "meshes": [{"name": "t", "vertices": [[0,0,0], [1,0,0], [0,1,0]], "triangles": [[0,1,2]]}],
     "instances": [{"mesh": "t", "material": "m", "repeat": {"zzz": 1}}])")),
             schema_keys(defs.at("instance").at("properties").at("repeat")));
-  EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"zzz": 1}])")), schema_keys(defs.at("shape")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("shapes": [{"zzz": 1}])")), schema_keys(defs.at("shape")));
   const nlohmann::json& shapes = defs.at("shape").at("properties");
-  EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"sphere": {"zzz": 1}}])")),
+  EXPECT_EQ(loader_keys(scene_with_part(R"("shapes": [{"sphere": {"zzz": 1}}])")),
             schema_keys(shapes.at("sphere")));
-  EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{"plane": {"zzz": 1}}])")), schema_keys(shapes.at("plane")));
+  EXPECT_EQ(loader_keys(scene_with_part(R"("shapes": [{"plane": {"zzz": 1}}])")),
+            schema_keys(shapes.at("plane")));
   for (const std::string kind :
        {"ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloid", "torus", "implicit"})
-    EXPECT_EQ(loader_keys(scene_with(R"("shapes": [{")" + kind + R"(": {"zzz": 1}}])")),
+    EXPECT_EQ(loader_keys(scene_with_part(R"("shapes": [{")" + kind + R"(": {"zzz": 1}}])")),
               schema_keys(shapes.at(kind)))
         << kind;
-  EXPECT_EQ(loader_keys(scene_with(
+  EXPECT_EQ(loader_keys(scene_with_part(
                 R"("meshes": [{"name": "t", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]}],
     "instances": [{"mesh": "t", "rotate": {"zzz": 1}}])")),
             schema_keys(defs.at("rotation")));

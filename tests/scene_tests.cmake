@@ -3,9 +3,7 @@ gnomon_test(scene_files_test
     scene_obj_test.cpp scene_paths_test.cpp scene_ply_test.cpp scene_schema_test.cpp scene_sha256_test.cpp scene_tessellate_test.cpp scene_texture_test.cpp
     scene_write_file_test.cpp
   LIBS gnomon::scene fmt::fmt nlohmann_json::nlohmann_json)
-target_include_directories(scene_files_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 # Scenes written as glTF and read again; the ray tracer says whether their shadows are the same.
 gnomon_test(scene_gltf_writer_test SOURCES scene_gltf_writer_test.cpp
   LIBS gnomon::raytrace gnomon::scene nlohmann_json::nlohmann_json)
-target_include_directories(scene_gltf_writer_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

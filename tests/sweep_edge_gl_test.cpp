@@ -13,7 +13,7 @@
 namespace gnomon::test {
 namespace {
 
-constexpr ImageSize size{400, 400};  // square, so that texels are
+constexpr ImageSize square{400, 400};  // square, so that texels are
 constexpr double camera_height = 1.0, plate_height = 3.0;
 constexpr int plates = 8;  // at least five texels from edge to edge in every map below
 
@@ -21,7 +21,7 @@ double half_height() {
   return camera_height * std::tan(0.25);
 }
 double half_width() {
-  return half_height() * size.width / size.height;
+  return half_height() * square.width / square.height;
 }
 
 /// The edges' distances from the origin along (cos, sin) of the angle: about equally spaced, but not evenly.
@@ -82,9 +82,9 @@ struct Measured {
 
 /// `angle` is that of the edges to the texels: the map of a sun straight above lies along the world's axes.
 Measured measure(OneWorld& world, double angle, int map_size) {
-  const compare::Comparison run = world.compare(test_options(size, map_size, 0.01));
+  const compare::Comparison run = world.compare(test_options(square, map_size, 0.01));
   const auto& light = run.lights[0];
-  const double pixel = 2.0 * half_height() / size.height;
+  const double pixel = 2.0 * half_height() / square.height;
   const double area = double(light.error.wrong) * pixel * pixel / visible_edge_length(angle);
   return {area / light.texel_world[1], light.error.wrong_fraction};
 }
@@ -116,7 +116,7 @@ TEST(StraightEdge, OffsetOfTheEdgeIsUniformOverATexel) {
   double squares = 0.0, absolute = 0.0;
   std::uint64_t edges = 0;
   for (int map_size = 40; map_size < 80; ++map_size) {
-    const compare::Comparison run = world.compare(test_options(size, map_size, 0.01));
+    const compare::Comparison run = world.compare(test_options(square, map_size, 0.01));
     const compare::EdgeStats& stats = run.lights[0].edges;
     squares += stats.rms_texels * stats.rms_texels * double(stats.edges);
     edges += stats.edges;

@@ -38,16 +38,16 @@ double shadowed_share(const Drawn& drawn) {
   return double(shadowed) / double(inside);
 }
 
-struct Case {
+struct PlaneCase {
   LightType light;
   bool as_plane;
   raster::DepthFormat format;
 };
 
-class PlaneAtBiasZero : public testing::TestWithParam<Case> {};
+class PlaneAtBiasZero : public testing::TestWithParam<PlaneCase> {};
 
 TEST_P(PlaneAtBiasZero, ReceiverPlaneAndAdaptiveLeaveNoAcne) {
-  const Case c = GetParam();
+  const PlaneCase c = GetParam();
   const Light light = c.light == LightType::directional ? sun({-0.7, -1.0, -0.4})
                                                         : lamp(c.light, {3.0, 7.0, 2.0}, {0.0, 0.0, 0.0});
   Drawn drawn = make_drawn(floor_scene(light, c.as_plane));
@@ -73,12 +73,12 @@ TEST_P(PlaneAtBiasZero, ReceiverPlaneAndAdaptiveLeaveNoAcne) {
 
 using F = raster::DepthFormat;
 INSTANTIATE_TEST_SUITE_P(Lights, PlaneAtBiasZero,
-                         testing::Values(Case{LightType::directional, false, F::d32f},
-                                         Case{LightType::directional, true, F::d16},
-                                         Case{LightType::directional, false, F::d32f_reversed},
-                                         Case{LightType::point, false, F::d32f},
-                                         Case{LightType::point, true, F::d24},
-                                         Case{LightType::spot, false, F::d32f_reversed}));
+                         testing::Values(PlaneCase{LightType::directional, false, F::d32f},
+                                         PlaneCase{LightType::directional, true, F::d16},
+                                         PlaneCase{LightType::directional, false, F::d32f_reversed},
+                                         PlaneCase{LightType::point, false, F::d32f},
+                                         PlaneCase{LightType::point, true, F::d24},
+                                         PlaneCase{LightType::spot, false, F::d32f_reversed}));
 
 Mesh ball_mesh(double radius, int rings) {
   Mesh mesh;

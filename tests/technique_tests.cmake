@@ -1,6 +1,4 @@
 # The techniques that change the map's geometry or what it stores.
 gnomon_test(technique_gl_test TIMEOUT 900
   SOURCES technique_bias_gl_test.cpp technique_cascade_gl_test.cpp technique_izb_gl_test.cpp technique_twin_gl_test.cpp
-          support/compare_support.cpp support/small_scenes.cpp
-  LIBS gnomon::compare)
-target_include_directories(technique_gl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  LIBS compare_support)

@@ -12,7 +12,7 @@ namespace {
 using raster::DepthFormat;
 using raster::Technique;
 
-struct Case {
+struct TwinCase {
   const char* name;
   Technique technique;
   LightType light;
@@ -23,10 +23,10 @@ struct Case {
   double most_wrong = 0.03;  ///< a sanity check: acne and aliasing at this coarse map
 };
 
-class Twin : public testing::TestWithParam<Case> {};
+class Twin : public testing::TestWithParam<TwinCase> {};
 
 TEST_P(Twin, DrawnIsTheBiasedRung) {
-  const Case c = GetParam();
+  const TwinCase c = GetParam();
   Scene scene = still_life(c.light != LightType::spot);
   scene.lights = {c.light == LightType::directional ? sun({0.6, -1.0, 0.35})
                                                     : lamp(c.light, {1.5, 3.0, 2.0}, {0.0, 0.0, 0.0})};
@@ -56,25 +56,26 @@ TEST_P(Twin, DrawnIsTheBiasedRung) {
 constexpr LightType directional = LightType::directional, point = LightType::point, spot = LightType::spot;
 INSTANTIATE_TEST_SUITE_P(
     Techniques, Twin,
-    testing::Values(
-        Case{"csm", Technique::csm, directional},
-        Case{"csm_texel", Technique::csm, directional, DepthFormat::d32f, false, false, true},
-        Case{"lispsm_texel", Technique::lispsm, directional, DepthFormat::d32f, false, false, true},
-        Case{"csm_d16", Technique::csm, directional, DepthFormat::d16},
-        Case{"lispsm", Technique::lispsm, directional},
-        Case{"lispsm_reversed", Technique::lispsm, directional, DepthFormat::d32f_reversed},
-        Case{"lispsm_adaptive", Technique::lispsm, directional, DepthFormat::d32f, true},
-        Case{"lispsm_plane", Technique::lispsm, directional, DepthFormat::d32f, false, true},
-        Case{"cube", Technique::cube, point, DepthFormat::d32f, false, false, false, 0.3},
-        Case{"cube_adaptive", Technique::cube, point, DepthFormat::d32f, true},
-        Case{"second_depth", Technique::second_depth, directional},
-        Case{"second_depth_point", Technique::second_depth, point},
-        Case{"midpoint", Technique::midpoint, directional},
-        Case{"midpoint_spot", Technique::midpoint, spot, DepthFormat::d24},
-        Case{"midpoint_reversed", Technique::midpoint, point, DepthFormat::d32f_reversed},
-        Case{"hard_reversed", Technique::hard, point, DepthFormat::d32f_reversed, false, false, false, 0.3},
-        Case{"hard_adaptive", Technique::hard, spot, DepthFormat::d32f, true},
-        Case{"csm_plane", Technique::csm, directional, DepthFormat::d32f, false, true}),
+    testing::Values(TwinCase{"csm", Technique::csm, directional},
+                    TwinCase{"csm_texel", Technique::csm, directional, DepthFormat::d32f, false, false, true},
+                    TwinCase{"lispsm_texel", Technique::lispsm, directional, DepthFormat::d32f, false, false,
+                             true},
+                    TwinCase{"csm_d16", Technique::csm, directional, DepthFormat::d16},
+                    TwinCase{"lispsm", Technique::lispsm, directional},
+                    TwinCase{"lispsm_reversed", Technique::lispsm, directional, DepthFormat::d32f_reversed},
+                    TwinCase{"lispsm_adaptive", Technique::lispsm, directional, DepthFormat::d32f, true},
+                    TwinCase{"lispsm_plane", Technique::lispsm, directional, DepthFormat::d32f, false, true},
+                    TwinCase{"cube", Technique::cube, point, DepthFormat::d32f, false, false, false, 0.3},
+                    TwinCase{"cube_adaptive", Technique::cube, point, DepthFormat::d32f, true},
+                    TwinCase{"second_depth", Technique::second_depth, directional},
+                    TwinCase{"second_depth_point", Technique::second_depth, point},
+                    TwinCase{"midpoint", Technique::midpoint, directional},
+                    TwinCase{"midpoint_spot", Technique::midpoint, spot, DepthFormat::d24},
+                    TwinCase{"midpoint_reversed", Technique::midpoint, point, DepthFormat::d32f_reversed},
+                    TwinCase{"hard_reversed", Technique::hard, point, DepthFormat::d32f_reversed, false,
+                             false, false, 0.3},
+                    TwinCase{"hard_adaptive", Technique::hard, spot, DepthFormat::d32f, true},
+                    TwinCase{"csm_plane", Technique::csm, directional, DepthFormat::d32f, false, true}),
     [](const auto& chosen) { return std::string(chosen.param.name); });
 
 // The mix of two cascades' hard tests, in double precision; the lower rungs stay those of the receiver's own cascade.

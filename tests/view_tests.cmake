@@ -3,9 +3,11 @@ gnomon_test(view_test SOURCES view_pose_test.cpp view_state_test.cpp view_input_
   view_rows_test.cpp view_status_test.cpp view_film_test.cpp view_text_test.cpp
   LIBS gnomon::app gnomon::scene glfw)
 
-gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_test.cpp app_process.cpp
-  LIBS gnomon::app gnomon::compare gnomon::raster gnomon::scene)
+gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_test.cpp
+  LIBS app_process gnomon::app gnomon::compare gnomon::raster gnomon::scene)
 
-gnomon_test(view_window_gl_test SOURCES view_window_gl_test.cpp view_lab_gl_test.cpp view_display.cpp app_process.cpp
-  LIBS gnomon::compare gnomon::scene)
+gnomon_test(view_window_gl_test SOURCES view_window_gl_test.cpp view_lab_gl_test.cpp view_display.cpp
+  LIBS app_process gnomon::compare gnomon::scene)
 add_dependencies(view_window_gl_test gnomon_program)
+# Some of their files have names in common.
+set_target_properties(view_test view_thread_gl_test view_window_gl_test PROPERTIES UNITY_BUILD OFF)

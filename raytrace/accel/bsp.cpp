@@ -10,17 +10,17 @@
 namespace gnomon::raytrace {
 namespace {
 
-constexpr double traversal_cost = 3.0, intersection_cost = 4.0;  // of a plane and of a primitive's test
-constexpr std::size_t scored_items = 1024;  // larger nodes judge a plane by so many, evenly picked
-constexpr std::size_t leaf_size = 3;
+constexpr double plane_cost = 3.0, test_cost = 4.0;  // relative: of a plane, of a primitive's test
+constexpr std::size_t scored_items = 1024;           // larger nodes judge a plane by so many, evenly picked
+constexpr std::size_t bsp_leaf_size = 3;
 constexpr int walls_per_axis = 6;
 constexpr std::size_t triangles_tried = 4;
-constexpr std::size_t parallel_threshold = 1024;
+constexpr std::size_t bsp_parallel_threshold = 1024;
 constexpr int height_operations = 8;  // roundings of a corner's height over a plane
 
-struct BuildNode {
+struct BspBuildNode {
   CutPlane plane{Vec3(0.0), 0.0};
-  std::unique_ptr<BuildNode> below, above;  // none: leaf
+  std::unique_ptr<BspBuildNode> below, above;  // none: leaf
   std::vector<std::uint32_t> items;
 };
 
@@ -38,9 +38,9 @@ Vec3 corner_of(const std::array<float, 3>& p) {
   return {p[0], p[1], p[2]};
 }
 
-class Builder {
+class BspBuilder {
  public:
-  explicit Builder(const CellItems& items) : items_(items) {
+  explicit BspBuilder(const CellItems& items) : items_(items) {
     const Vec3 reach =
         glm::max(glm::abs(corner_of(items.bounds().min)), glm::abs(corner_of(items.bounds().max)));
     slack_ = error_gamma(height_operations) * 4.0 * glm::dot(reach, Vec3(1.0));
@@ -50,7 +50,7 @@ class Builder {
 
   double slack() const { return slack_; }
 
-  std::unique_ptr<BuildNode> build() {
+  std::unique_ptr<BspBuildNode> build() {
     std::vector<std::uint32_t> all(items_.count());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     return build(std::move(all), Polytope(items_.bounds()), 0, ReferenceBudget::for_items(items_.count()));
@@ -62,9 +62,9 @@ class Builder {
     double cost;
   };
 
-  std::unique_ptr<BuildNode> build(std::vector<std::uint32_t> items, const Polytope& cell, int depth,
-                                   ReferenceBudget budget) {
-    auto node = std::make_unique<BuildNode>();
+  std::unique_ptr<BspBuildNode> build(std::vector<std::uint32_t> items, const Polytope& cell, int depth,
+                                      ReferenceBudget budget) {
+    auto node = std::make_unique<BspBuildNode>();
     const Choice best = depth < max_depth_ ? choose(items, cell) : Choice{.cost = infinity};
     std::vector<std::uint32_t> below, above;
     if (best.plane.normal != Vec3(0.0)) partition(items, best.plane, below, above);
@@ -85,7 +85,7 @@ class Builder {
       node->above = build(std::move(above), cell.cut({-best.plane.normal, -best.plane.offset}), depth + 1,
                           above_budget);
     };
-    if (parent < parallel_threshold)
+    if (parent < bsp_parallel_threshold)
       build_below(), build_above();
     else
       tbb::parallel_invoke(build_below, build_above);
@@ -94,11 +94,11 @@ class Builder {
 
   /// A zero normal: better a leaf.
   Choice choose(std::span<const std::uint32_t> items, const Polytope& cell) const {
-    if (items.size() <= leaf_size) return {.cost = infinity};
+    if (items.size() <= bsp_leaf_size) return {.cost = infinity};
     std::vector<Extent> sample;
     const std::size_t step = (items.size() + scored_items - 1) / scored_items;
     for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(extent(items[i]));
-    Choice best{.cost = intersection_cost * static_cast<double>(sample.size())};
+    Choice best{.cost = test_cost * static_cast<double>(sample.size())};
     CutBuffers buffers;
     const auto report = [&](const CutPlane& plane) {
       const double cost = cost_of(plane, sample, cell, best.cost, buffers);
@@ -147,9 +147,9 @@ class Builder {
       const Sides sides = sides_of(e, plane);
       below += sides.below ? 1.0 : 0.0, above += sides.above ? 1.0 : 0.0;
     }
-    if (traversal_cost + intersection_cost * std::min(below, above) >= best) return infinity;
+    if (plane_cost + test_cost * std::min(below, above) >= best) return infinity;
     const auto [area_below, area_above] = cell.areas_of_parts(plane, buffers);
-    return traversal_cost + intersection_cost * (below * area_below + above * area_above) / cell.area();
+    return plane_cost + test_cost * (below * area_below + above * area_above) / cell.area();
   }
 
   void partition(std::span<const std::uint32_t> items, const CutPlane& plane,
@@ -180,7 +180,7 @@ class Builder {
   int max_depth_;
 };
 
-std::uint32_t flatten(const BuildNode& node, BspTree& tree) {
+std::uint32_t flatten(const BspBuildNode& node, BspTree& tree) {
   if (node.below == nullptr) {
     tree.leaves.push_back(
         {static_cast<std::uint32_t>(tree.items.size()), static_cast<std::uint32_t>(node.items.size())});
@@ -201,7 +201,7 @@ BspTree build_bsp(const CellItems& items) {
   BspTree tree;
   if (items.count() == 0) return tree;
   tree.bounds = items.bounds();
-  Builder builder(items);
+  BspBuilder builder(items);
   tree.plane_slack = builder.slack();
   tree.root = flatten(*builder.build(), tree);
   tree.nodes.shrink_to_fit(), tree.leaves.shrink_to_fit(), tree.items.shrink_to_fit();

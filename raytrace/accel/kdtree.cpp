@@ -15,17 +15,17 @@ constexpr std::size_t bin_count = 64;
 constexpr std::size_t textbook_leaf = 5;
 constexpr std::size_t textbook_growth =
     3;  // halves: a median that makes more than 3/2 of its items tells too little apart
-constexpr std::size_t parallel_threshold = 4096;
+constexpr std::size_t kd_parallel_threshold = 4096;
 
 struct Reference {
   CellBox box;  // the part inside the cell
   std::uint32_t item;
 };
 
-struct BuildNode {
+struct KdBuildNode {
   int axis = -1;  // -1: leaf
   float split = 0.0f;
-  std::unique_ptr<BuildNode> left, right;
+  std::unique_ptr<KdBuildNode> left, right;
   std::vector<std::uint32_t> items;
 };
 
@@ -84,23 +84,23 @@ void try_bins(std::span<const Reference> refs, const CellBox& cell, std::size_t 
   }
 }
 
-class Builder {
+class KdBuilder {
  public:
-  Builder(const CellItems& items, KdSplit rule) : items_(items), rule_(rule) {
+  KdBuilder(const CellItems& items, KdSplit rule) : items_(items), rule_(rule) {
     const double levels = std::log2(std::max(1.0, static_cast<double>(items.count())));
     max_depth_ = std::min(KdTree::max_depth, static_cast<int>(8.0 + 1.3 * levels));  // PBR 3rd ed., 4.4.1
   }
 
-  std::unique_ptr<BuildNode> build() {
+  std::unique_ptr<KdBuildNode> build() {
     std::vector<Reference> refs(items_.count());
     for (std::uint32_t i = 0; i < refs.size(); ++i) refs[i] = {{items_.box(i).min, items_.box(i).max}, i};
     return build(std::move(refs), items_.bounds(), 0, ReferenceBudget::for_items(items_.count()));
   }
 
  private:
-  std::unique_ptr<BuildNode> build(std::vector<Reference> refs, const CellBox& cell, int depth,
-                                   ReferenceBudget budget) {
-    auto node = std::make_unique<BuildNode>();
+  std::unique_ptr<KdBuildNode> build(std::vector<Reference> refs, const CellBox& cell, int depth,
+                                     ReferenceBudget budget) {
+    auto node = std::make_unique<KdBuildNode>();
     const Split split = depth < max_depth_ ? choose(refs, cell, depth) : Split{};
     if (split.axis < 0) return leaf(std::move(node), refs);
     const auto axis = static_cast<std::size_t>(split.axis);
@@ -118,15 +118,15 @@ class Builder {
     const ReferenceBudget right_budget = budget.share(parent, children, right.size());
     const auto build_left = [&] { node->left = build(std::move(left), below, depth + 1, left_budget); };
     const auto build_right = [&] { node->right = build(std::move(right), above, depth + 1, right_budget); };
-    if (parent < parallel_threshold)
+    if (parent < kd_parallel_threshold)
       build_left(), build_right();
     else
       tbb::parallel_invoke(build_left, build_right);
     return node;
   }
 
-  static std::unique_ptr<BuildNode> leaf(std::unique_ptr<BuildNode> node,
-                                         const std::vector<Reference>& refs) {
+  static std::unique_ptr<KdBuildNode> leaf(std::unique_ptr<KdBuildNode> node,
+                                           const std::vector<Reference>& refs) {
     for (const Reference& r : refs) node->items.push_back(r.item);
     return node;
   }
@@ -181,7 +181,7 @@ class Builder {
   int max_depth_;
 };
 
-void flatten(const BuildNode& node, KdTree& tree) {
+void flatten(const KdBuildNode& node, KdTree& tree) {
   const std::size_t index = tree.nodes.size();
   if (node.axis < 0) {
     tree.nodes.push_back({std::bit_cast<float>(static_cast<std::uint32_t>(tree.items.size())),
@@ -202,7 +202,7 @@ KdTree build_kdtree(const CellItems& items, KdSplit rule) {
   KdTree tree;
   if (items.count() == 0) return tree;
   tree.bounds = items.bounds();
-  flatten(*Builder(items, rule).build(), tree);
+  flatten(*KdBuilder(items, rule).build(), tree);
   tree.nodes.shrink_to_fit(), tree.items.shrink_to_fit();
   return tree;
 }

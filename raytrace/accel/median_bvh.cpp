@@ -6,17 +6,17 @@
 namespace gnomon::raytrace {
 namespace {
 
-constexpr std::uint32_t leaf_size = 5;
+constexpr std::uint32_t median_leaf_size = 5;
 
-class Builder {
+class MedianBuilder {
  public:
-  Builder(const CellItems& items, MedianBvh& out) : items_(items), out_(out) {}
+  MedianBuilder(const CellItems& items, MedianBvh& out) : items_(items), out_(out) {}
 
   void build(std::uint32_t first, std::uint32_t count) {
     const std::size_t index = out_.nodes.size();
     const CellBox box = bounds(first, count);
     out_.nodes.push_back({box, first, count});
-    if (count <= leaf_size) return;
+    if (count <= median_leaf_size) return;
     std::size_t axis = 0;
     for (std::size_t a = 1; a < 3; ++a)
       if (box.extent(a) > box.extent(axis)) axis = a;
@@ -56,7 +56,7 @@ MedianBvh build_median_bvh(const CellItems& items) {
   if (items.count() == 0) return bvh;
   bvh.items.resize(items.count());
   std::iota(bvh.items.begin(), bvh.items.end(), 0u);
-  Builder(items, bvh).build(0, items.count());
+  MedianBuilder(items, bvh).build(0, items.count());
   return bvh;
 }
 

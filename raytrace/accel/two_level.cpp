@@ -95,9 +95,9 @@ std::vector<BoxRef> boxes_in_tree(const Mesh& mesh, const Part& part, const Mesh
   return boxes;
 }
 
-class Builder {
+class TwoLevelBuilder {
  public:
-  Builder(const World& world, TwoLevel& out)
+  TwoLevelBuilder(const World& world, TwoLevel& out)
       : scene_(*world.scene), out_(out), finite_(finite_primitives(world)) {
     parts_ = parts_of(world, finite_.boxes);
     out_.leaves.center = finite_.center, out_.leaves.dropped = finite_.dropped;
@@ -216,7 +216,7 @@ std::uint64_t TwoLevel::bytes() const {
 
 TwoLevel build_two_level(const World& world) {
   TwoLevel two;
-  Builder(world, two).build();
+  TwoLevelBuilder(world, two).build();
   return two;
 }
 

@@ -63,6 +63,13 @@ inline Ref ref_of(const BoxRef& b) {
       {{{b.min[0], b.min[1], b.min[2], std::bit_cast<float>(b.id)}}, {{b.max[0], b.max[1], b.max[2], 0.0f}}}};
 }
 
+inline const Ref& as_ref(const Ref& ref) {
+  return ref;
+}
+inline Ref as_ref(const BoxRef& box) {
+  return ref_of(box);
+}
+
 /// Of a range of primitives: their box and that of their centroids, doubled.
 struct Bounds {
   Box box = Box::empty(), centroids = Box::empty();

@@ -203,13 +203,6 @@ class Top {
   std::vector<Ref> scratch_;
 };
 
-const Ref& as_ref(const Ref& ref) {
-  return ref;
-}
-Ref as_ref(const BoxRef& box) {
-  return ref_of(box);
-}
-
 template <class In>
 BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth) {
   if (in.size() > Config::treelet_size && depth < Config::sah_depth && grid_applies(centroids)) {

@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::size_t parallel_count = 1u << 14;  // below it one share does all
 
-const Ref& as_ref(const Ref& ref) {
-  return ref;
-}
-Ref as_ref(const BoxRef& box) {
-  return ref_of(box);
-}
-
 /// Cubes, so that the boxes of clusters are not longer than they need be.
 class CentroidGrid {
  public:

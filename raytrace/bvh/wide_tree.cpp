@@ -34,7 +34,7 @@ struct Pair {
   std::array<std::uint8_t, node_lanes> left;  // how many of them the first part makes; 0: as with one fewer
 };
 
-WideBox box_of(const BvhNode& node, std::size_t child) {
+WideBox wide_box_of(const BvhNode& node, std::size_t child) {
   WideBox box;
   for (std::size_t row = 0; row < 6; ++row) box.at[row] = node.bounds[row][child];
   return box;
@@ -87,7 +87,7 @@ class Collapse {
     tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
     WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
-      if (!is_empty(bvh.nodes[0].child[i])) all.grow(box_of(bvh.nodes[0], i));
+      if (!is_empty(bvh.nodes[0].child[i])) all.grow(wide_box_of(bvh.nodes[0], i));
     collapse(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
     tree.nodes.resize(nodes_), resize_leaves(leaves_);
   }
@@ -148,7 +148,7 @@ class Collapse {
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(node.child[i])) used[count++] = i;
     const auto make = [&](std::size_t k) {
-      parts[k] = part_of(node.child[used[k]], box_of(node, used[k]), depth + 1);
+      parts[k] = part_of(node.child[used[k]], wide_box_of(node, used[k]), depth + 1);
     };
     if (depth < 2 * parallel_depth)
       tbb::parallel_for(std::size_t{0}, count, make);

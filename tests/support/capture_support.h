@@ -9,6 +9,15 @@
 
 namespace gnomon::test {
 
+inline constexpr ImageSize small_picture{192, 108};
+/// Pixels that fall on a texel's border may look up either, in floats and in doubles: of 20,000 pixels a few.
+inline constexpr double border_share = 0.003;
+
+/// Where a capture of that name is written.
+inline std::string folder_for(const std::string& name) {
+  return testing::TempDir() + "/gnomon-judge-" + name;
+}
+
 /// Draws a built-in scene's first light and compares; the picture is what is captured.
 Compared draw_builtin(const std::string& name, ImageSize size, const raster::MapOptions& map);
 

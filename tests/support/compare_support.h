@@ -23,7 +23,7 @@ struct Compared {
 Compared run_comparison(Scene scene, const compare::CompareOptions& options,
                         const std::string& shader_folder = {});
 
-/// Options for a test: untimed, one map, the given image size.
+/// Options for a test: untimed, one map, the given image size, without what `perceptual` adds.
 compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);
 
 /// P(a U1 + b U2 > bias) for independent U1, U2 uniform on (-1, 1): the acne fraction of a plane whose depth
