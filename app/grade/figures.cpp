@@ -94,12 +94,12 @@ double figure_of(const RunResult& result, const Measure& measure) {
 
 Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) {
   std::uint64_t count = 0;
-  const std::string first = values_folder(a.folder), second = values_folder(b.folder);
+  const std::filesystem::path first = values_folder(a.folder), second = values_folder(b.folder);
   const std::vector<std::string> names = value_files(first);
   if (names != value_files(second) || names.empty())
     return fail(Error{ErrorKind::internal, "holds other lights than the program's own drawing", a.folder});
   for (const std::string& name : names) {
-    const auto of_light = count_different(first + "/" + name, second + "/" + name);
+    const auto of_light = count_different(first / name, second / name);
     if (!of_light) return of_light;
     count += *of_light;
   }

@@ -19,8 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t longest_message = 64 * 1024;          // bytes
-constexpr rlim_t largest_file = rlim_t{512} * 1024 * 1024;  // bytes
+constexpr std::size_t longest_message = std::size_t{64} * 1024;  // bytes
+constexpr rlim_t largest_file = rlim_t{512} * 1024 * 1024;       // bytes
 
 class Descriptor {
  public:

@@ -255,7 +255,7 @@ std::optional<Key> key_of_name(std::string_view name) {
   if (name.size() == 2 && name[0] == 'F' && name[1] >= '1' && name[1] <= '9')
     key.code = GLFW_KEY_F1 + name[1] - '1';
   // GLFW's codes of printable keys are their characters.
-  if (name.size() == 1 && name[0] > ' ' && name[0] <= '~') key.code = name[0];
+  if (name.size() == 1 && name[0] > ' ' && name[0] <= '~') key.code = static_cast<unsigned char>(name[0]);
   return key.code != 0 ? std::optional(key) : std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
@@ -41,6 +42,11 @@ void swatch(ImU32 fill) {
   ImGui::SameLine();
 }
 
+std::string signed_percent(double share) {
+  if (std::abs(share) < 1e-5) return "0 %";  // less than is written of any share
+  return (share < 0.0 ? "\u2212" : "+") + compare::percent(std::abs(share));
+}
+
 /// The mean absolute error of each step, side by side; the whole bar is their sum.
 void budget(const PanelContext& context, const LightComparison& light) {
   ImGui::TextUnformatted("Error budget");
@@ -64,8 +70,8 @@ void budget(const PanelContext& context, const LightComparison& light) {
     swatch(step_colour(i));
     ImGui::TextUnformatted(std::string(words.name).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(words.what).c_str());
-    right_aligned(fmt::format("{} ({} %)", compare::percent(step.absolute_mean),
-                              compare::signed_number(100.0 * step.signed_mean)));
+    right_aligned(
+        fmt::format("{} ({})", compare::percent(step.absolute_mean), signed_percent(step.signed_mean)));
   }
   faint("How much each step changes the light, on the mean (and which way: \u2212 darker).");
 }
