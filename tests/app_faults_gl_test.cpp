@@ -110,6 +110,22 @@ TEST(Faults, AFolderThatMayOnlyBeRead) {
 }
 
 // A disk of 300 kB, of which a comparison needs more.
+TEST(Faults, NoSpaceForTemporaryFiles) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "tmp");
+  const std::string tmp = folder / "tmp";
+  if (mount("tmpfs", tmp.c_str(), "tmpfs", 0, "size=100k") != 0)
+    GTEST_SKIP() << "no tmpfs can be mounted here";
+  const ProcessOptions options{.folder = folder.path(), .environment = {"TMPDIR=" + tmp}};
+  // Rows of a picture in bands wait there, and so do drawings that are graded: which costs no student points.
+  const Words bands{"compare", "acne-floor", "--size", "1280x720", "--memory", "150M", "--json", "-", "-q"};
+  expect_one_line(run_gnomon(bands, options), 4, "No space left on device");
+  expect_one_line(run_gnomon({"grade", "first-shadow-map", "--json", "-", "-q"}, options), 4,
+                  "No space left on device");
+  EXPECT_TRUE(fs::is_empty(tmp));
+  umount(tmp.c_str());
+}
+
 TEST(Faults, AFullDisk) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "disk");

@@ -66,6 +66,8 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, boo
   Drawing drawing;
   drawing.timed_out = outcome->end == Outcome::End::timed_out;
   drawing.exit_code = outcome->end == Outcome::End::exited ? outcome->code : -1;
+  if (drawing.exit_code == static_cast<int>(ErrorKind::cannot_write))  // a full disk is no shader's fault
+    return fail(ErrorKind::cannot_write, failure_words(*outcome, rubric_->limits));
   if (drawing.exit_code != 0) {
     drawing.failure = failure_words(*outcome, rubric_->limits);
     return drawing;

@@ -24,7 +24,7 @@ class CheckRuns {
   /// `shaders`: the student's folder; empty for the program's own. Drawings lie below `folder`.
   CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
 
-  /// Error (resources): no process.
+  /// Error (resources): no process; (cannot_write): no room for the drawing.
   Expected<const Drawing*> draw(const Run& run);
   /// Once more, with the usual number of timed passes, to be called when nothing else runs.
   Expected<Drawing> draw_timed(const Run& run);
