@@ -1,6 +1,8 @@
 // SHA-256 against the vectors of FIPS 180-4's examples and NIST's CAVP.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scene/files/sha256.h"
 
 namespace gnomon {
