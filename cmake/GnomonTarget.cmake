@@ -20,9 +20,9 @@ target_compile_options(gnomon_warnings INTERFACE -Wall -Wextra -Wpedantic
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 
 if(GNOMON_SANITIZE)
-  target_compile_options(gnomon_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
+  target_compile_options(gnomon_flags INTERFACE -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=undefined)
-  target_link_options(gnomon_flags INTERFACE -fsanitize=address,undefined)
+  target_link_options(gnomon_flags INTERFACE -fsanitize=${GNOMON_SANITIZE})
 endif()
 
 # Coverage counters that libFuzzer reads (tests/fuzz_tests.cmake), and the sanitizers that tell it of a fault.
