@@ -9,7 +9,7 @@ cmake --install "$build" --component development --prefix "$work/prefix" >"$work
 cmake -S "$source/docs/examples/library" -B "$work/example" -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/configure.log" 2>&1 ||
   { cat "$work/configure.log"; exit 1; }
 # Nothing of the sources or the build may be needed.
-if grep -R "$source" "$work/prefix/lib" --include='*.cmake'; then echo "the package names the sources"; exit 1; fi
+if grep -RE "(^|[\"' ;=])$source" "$work/prefix/lib" --include='*.cmake'; then echo "the package names the sources"; exit 1; fi
 cmake --build "$work/example" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
 "$work/example/wrong_pixels" fence 512 | tee "$work/coarse"
 "$work/example/wrong_pixels" fence 4096 >"$work/fine"

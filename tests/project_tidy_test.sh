@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # clang-tidy 14 (.clang-tidy) over the project's own sources, or over the files named, each compiled by itself: the release
 # preset compiles the files of a folder together, so build/tidy is configured to tell how one alone is compiled. The whole
-# project takes long; what ctest gives it is told in project_tests.cmake. Exit 77 (skipped) without clang-tidy.
+# project takes long; what ctest gives it is told in project_tests.cmake. Exit 77 (skipped) without clang-tidy 14, the
+# version of Debian 12: other versions look for other things.
 #
 #   project_tidy_test.sh [FILE...]         each file by itself
 #   project_tidy_test.sh --joined FOLDER   the sources of a folder joined to one, which takes a tenth of the time: most of
@@ -9,7 +10,8 @@
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
 
-command -v run-clang-tidy >/dev/null || { echo "SKIPPED: clang-tidy is not here"; exit 77; }
+version=$(clang-tidy --version 2>/dev/null | grep -oE 'version [0-9]+' | grep -oE '[0-9]+' || true)
+[[ $version == 14 ]] || { echo "SKIPPED: clang-tidy 14 is not here (found: ${version:-none})"; exit 77; }
 built=${GNOMON_BUILD_DIR:-build/release} build=${GNOMON_TIDY_DIR:-build/tidy}
 [[ -d $built/raster/glad ]] || { echo "SKIPPED: no OpenGL loader in $built"; exit 77; }
 mkdir -p "$(dirname -- "$build")"

@@ -49,6 +49,7 @@ mount_kernel() {
     touch "$root/dev/$device"
     mount --bind "/dev/$device" "$root/dev/$device"
   done
+  ln -s /proc/self/fd "$root/dev/fd"
   mkdir -p "$root/dev/shm"
   mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
   if [[ -n ${CCACHE-} ]]; then
