@@ -1,4 +1,6 @@
 // The program `gnomon`.
+#include <csignal>
+
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "scene/freed_memory.h"
@@ -7,6 +9,9 @@
 int main(int argc, char** argv) {
   const gnomon::StageLog stages;  // first of all, so that the account begins with the process
   gnomon::keep_freed_memory();
+  // A limit on the size of files is then an error of the write that meets it, and no end of the process where the
+  // driver writes its cache of compiled shaders.
+  std::signal(SIGXFSZ, SIG_IGN);
   gnomon::app::watch_for_interrupts();
   return gnomon::app::run_command_line(argc, argv);
 }

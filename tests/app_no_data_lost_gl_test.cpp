@@ -98,10 +98,12 @@ TEST(NoDataLost, ForeignFilesStay) {
 
 // A file-size limit stands for a full disk: nothing of the folder is there, or all of what was.
 TEST(NoDataLost, AFullDiskLeavesNoPartOfAFolder) {
-  const TemporaryFolder folder;
+  const TemporaryFolder folder, shader_cache;  // an empty cache, so that the driver meets the limit first
   const auto limited = [&](const std::string& out) {
     const Words words = Words{"compare", "acne-floor", "-o", out, "-q"} + small;
-    return run_gnomon(words, {.folder = folder.path(), .file_size_limit = 20000});
+    return run_gnomon(words, {.folder = folder.path(),
+                              .environment = {"MESA_SHADER_CACHE_DIR=" + shader_cache.path()},
+                              .file_size_limit = 20000});
   };
   expect_one_line(limited("new"), 4, "");
   EXPECT_TRUE(folder.entries().empty());

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -154,7 +153,6 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (command.max_error && command.max_error->measure == compare::ErrorMeasure::flip)
     command.perceptual = true;
   if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
-  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then an error of write()
   if (command.slurm_tasks) {
     if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
     return run_on_slurm(command);
