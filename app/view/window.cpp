@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace gnomon::app {
 
@@ -34,6 +35,18 @@ class WindowContext final : public raster::Context {
   GLFWwindow* window_;
 };
 
+/// Where there is no Wayland, GLFW 3.4 would look for it all the same, and libwayland prints a line of its own.
+void choose_platform() {
+#ifdef GLFW_PLATFORM
+  const auto names_one = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+  };
+  if (!names_one("WAYLAND_DISPLAY") && !names_one("WAYLAND_SOCKET"))
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 void ask_for_core_context() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -59,6 +72,7 @@ Window::Library::~Library() {
 }
 
 Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSize size) {
+  choose_platform();
   if (glfwInit() != GLFW_TRUE) return cannot_open(library_reason());
   std::unique_ptr<Window> window(new Window(std::make_unique<Library>()));
   ask_for_core_context();
