@@ -4,8 +4,8 @@
 Usage: docs/make_reliability.py BUILD [SCALE]
 
 BUILD is a folder in which everything is built (build/release). SCALE multiplies scenes, mutations and kills (default 1:
-some five minutes on two cores; the figures of a release are made with 10). Nothing else of the page is written by hand
-but what other programs state of themselves.
+some five minutes on two cores; the figures of a release are made with 10). What other systems and sanitizers gave takes
+hours and is written by hand, and so is what other programs state of themselves.
 """
 import json
 import os
@@ -41,6 +41,20 @@ by 1e7, and when triangles come in another order, with another corner first, or 
   moves by up to sqrt(2)/256 of a pixel. No more pixels change their label than such edges pass over.
 - **Other axes** (x, y and z exchanged): this does not hold. A map's texels are aligned to the world's vertical, and a
   cube's faces to the world's axes, so that the texels lie elsewhere and other pixels are wrong.
+"""
+
+SYSTEMS = """
+## Systems and sanitizers
+
+| system | compiler | what was run | result |
+|---|---|---|---|
+| Debian 12 | GCC 12.2 | `.ci/run`: seven programs sanitized, then every test | 119 of 119 passed, and 7 of 7 sanitized; 27 minutes on two busy cores with a compiler cache |
+| Debian 13.7, a clean root (`tests/platforms/debian.sh trixie`) | GCC 14.2, warnings are errors | `./gnomon compare fence`, then every test | 118 tests: 3 skipped (clang-format 14, pandas and Blender are not there); 4 failed at first, for what was mended and run again since |
+
+- **AddressSanitizer and UndefinedBehaviorSanitizer**: the readers of files from outside, their mutated files and the
+  tracer's own tests, in every run of `.ci/run`: no finding. The leak checker is off in `fuzz_replay_gltf`, where it crashes
+  itself at exit (GCC 12).
+- **ThreadSanitizer**: `tests/platforms/thread_sanitizer.sh` compiles oneTBB with it as well; its first whole run is still to come.
 """
 
 PEERS = """
@@ -195,7 +209,7 @@ def text_of(page):
         lines.append(f'| {what} | {tried:,} | {failed} | {time_text} | {command} |')
     lines += ['', *page.notes] if page.notes else []
     lines += ['', 'What each hard case is stands in [hard-cases.md](hard-cases.md).']
-    return '\n'.join(lines) + '\n' + PROMISES + PEERS
+    return '\n'.join(lines) + '\n' + PROMISES + SYSTEMS + PEERS
 
 
 def main():
