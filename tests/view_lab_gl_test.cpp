@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -17,6 +18,10 @@ namespace {
 /// A part of the window.
 struct Box {
   int x, y, width, height;
+};
+
+struct PixelPlace {
+  int x = 0, y = 0;
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -90,6 +95,12 @@ class ViewLab : public testing::Test {
     EXPECT_TRUE(texture) << name;
     return texture ? texture->texels : std::vector<glm::u8vec4>{};
   }
+  /// Of a window that is 900 pixels wide; (0, 0, 0, 0): there is none.
+  glm::u8vec4 texel(const std::string& name, PixelPlace at) const {
+    const auto all = texels(name);
+    const std::size_t i = static_cast<std::size_t>(at.y) * 900 + static_cast<std::size_t>(at.x);
+    return i < all.size() ? all[i] : glm::u8vec4(0);
+  }
   TemporaryFolder folder_;
   static VirtualDisplay* display_;
 };
@@ -137,6 +148,47 @@ TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
   EXPECT_LT(texels, 7.0) << commands[0];
 }
 
+/// Where the line of the best bias stands in the curve: the middle of the first column with many pixels of its
+/// green. Nothing: (0, 0).
+PixelPlace best_line(const std::vector<glm::u8vec4>& window, int width) {
+  constexpr int least = 60;  // the letters beside it are lower
+  std::map<int, std::vector<int>> columns;
+  for (std::size_t i = 0; i < window.size(); ++i)
+    if (window[i] == glm::u8vec4(96, 206, 143, 255))
+      columns[static_cast<int>(i) % width].push_back(static_cast<int>(i) / width);
+  for (const auto& [x, rows] : columns)
+    if (rows.size() > least) return {x, rows[rows.size() / 2]};
+  return {};
+}
+
+double number_after(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find(name);
+  EXPECT_NE(at, std::string::npos) << name << " in " << text.substr(0, 500);
+  return at == std::string::npos ? 0.0 : std::stod(text.substr(at + name.size()));
+}
+
+// To the best bias, as `compare` has it, and then beyond the curve's end.
+TEST_F(ViewLab, TheBiasIsDraggedInTheCurve) {
+  const std::string start =
+      "set size 640x700\nset settings off\nset map-size 256\nset bias 0\nset slope-bias 0\nwait done\n";
+  const Words before = printed("floating-box", start + "screenshot before.png\nprint\n");
+  ASSERT_EQ(before.size(), 1u);
+  const Words more{"--json", "-", "--runs", "1", "--no-report", "--quiet"};
+  const std::string result = run(words_of(before[0]) + more).out;
+  const double best = number_after(result.substr(result.find("\"best_bias\"")), "\"constant_world\": ");
+  const PixelPlace line = best_line(texels("before.png"), 640);
+  ASSERT_GT(line.x, 340) << "no line of the best bias";
+  const Words after = printed(
+      "floating-box", start + fmt::format("drag {0} {1} {2} {1}\nwait done\nprint\nscreenshot after.png\n"
+                                          "drag {2} {1} 1500 {1}\nprint\n",
+                                          line.x - 100, line.y, line.x));
+  ASSERT_EQ(after.size(), 2u);
+  const double set = number_after(after[0], "--bias ");
+  EXPECT_NEAR(set, best, 0.02 * best) << "two pixels of the curve's hundred and more to the best bias";
+  EXPECT_GT(number_after(after[1], "--bias "), 1.2 * best);
+  EXPECT_GT(differing("before.png", "after.png", {0, 60, 320, 600}), 50000u) << "the acne is still there";
+}
+
 TEST_F(ViewLab, ADragOverThePictureTurnsTheCameraAndOneOverAPanelDoesNot) {
   const Words commands = printed("floating-box",
                                  "set size 900x700\nset results off\nwait 4\ndrag 150 367 200 "
@@ -157,8 +209,24 @@ TEST_F(ViewLab, TheLightsHandleFollowsThePointer) {
     EXPECT_EQ(commands[1].find(commands[0] + " --light-azimuth"), 0u)
         << commands[1];                   // and nothing else moved
     EXPECT_NE(commands[2], commands[1]);  // it was taken again where it had been left
-    EXPECT_EQ(texels("there.png")[250 * 900 + 700], glm::u8vec4(255, 210, 60, 255)) << scene;  // its disc
+    EXPECT_EQ(texel("there.png", {700, 250}), glm::u8vec4(255, 210, 60, 255)) << scene;  // its disc
   }
+}
+
+// Beside a swipe's line it is on the side that shows the scene, and there alone.
+TEST_F(ViewLab, TheLightsHandleIsOnEitherSideOfASwipe) {
+  const std::string start =
+      "set size 900x700\nset results off\nset map-size 64\ndrag light 450 250\nset layout swipe\n";
+  const glm::u8vec4 disc(255, 210, 60, 255);
+  for (const char* views : {"set view raster\nset view difference\nset swipe 0.6\n",
+                            "set view difference\nset view raytrace\nset swipe 0.1\n"}) {
+    printed("floating-box", start + views + "drag light 500 300\nscreenshot there.png\n");
+    EXPECT_EQ(texel("there.png", {500, 300}), disc) << views;
+  }
+  const std::string away = "set view raster\nset view difference\nset swipe 0.1\n";
+  printed("floating-box", start + away + "screenshot away.png\n");
+  EXPECT_NE(texel("away.png", {450, 250}), disc);
+  EXPECT_EQ(drive("floating-box", start + away + "drag light 500 300\n").exit_code, 3);
 }
 
 // The settings' column is 312 pixels wide; a note is wider.

@@ -107,6 +107,25 @@ TEST(ViewLayout, FourPanesAreAlike) {
   }
 }
 
+TEST(ViewLayout, TheViewsOfASwipeShareAPane) {
+  Look look;
+  const LabLayout layout = lay_out({1280, 720}, look, type_size(1.0));
+  const auto views = [&] { return shown_views(layout, look, Picture::difference, Picture::raster); };
+  ASSERT_EQ(views().size(), 1u);
+  EXPECT_EQ(views()[0].picture, Picture::difference);
+  look.layout = PaneLayout::swipe;
+  look.swipe = 0.25;
+  ASSERT_EQ(views().size(), 2u);
+  const ShownView left = views()[0], right = views()[1];
+  EXPECT_EQ(left.picture, Picture::raster);
+  EXPECT_EQ(right.picture, Picture::difference);
+  EXPECT_EQ(left.pane, layout.panes.front());
+  EXPECT_EQ(right.pane, layout.panes.front());
+  EXPECT_EQ(left.part.x + left.part.width, right.part.x);
+  EXPECT_EQ(left.part.width + right.part.width, layout.panes.front().width);
+  EXPECT_NEAR(left.part.width, 0.25 * layout.panes.front().width, 0.5);
+}
+
 TEST(ViewProjection, WhatIsProjectedComesBack) {
   const ViewState state = two_light_state();
   const ScreenCamera camera{posed_camera(state), {100, 20, 640, 480}};

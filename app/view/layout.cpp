@@ -74,4 +74,23 @@ Box placed(ImageSize picture, const Box& pane, const Look& look) {
           rounded(pane.y + 0.5 * pane.height - look.middle.y * height), rounded(width), rounded(height)};
 }
 
+std::vector<ShownView> shown_views(const LabLayout& layout, const Look& look, Picture picture,
+                                   Picture previous) {
+  std::vector<ShownView> shown;
+  if (layout.panes.size() == 4) {
+    for (std::size_t i = 0; i < 4; ++i) shown.push_back({look.quad[i], layout.panes[i], layout.panes[i]});
+    return shown;
+  }
+  const Box pane = layout.panes.front();
+  if (look.layout != PaneLayout::swipe) return {{picture, pane, pane}};
+  Box left = pane, right = pane;
+  left.width = rounded(look.swipe * pane.width);
+  right.x += left.width, right.width -= left.width;
+  return {{previous, pane, left}, {picture, pane, right}};
+}
+
+bool shows_scene(Picture picture) {
+  return picture == Picture::raster || picture == Picture::raytrace || picture == Picture::texels;
+}
+
 }  // namespace gnomon::app

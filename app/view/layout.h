@@ -40,4 +40,15 @@ Box placed(ImageSize picture, const Box& pane, const Look& look);
 /// The whole picture, never enlarged beyond the pane.
 Box fitted(ImageSize picture, const Box& pane);
 
+/// A view, the pane that it has the size of, and the part of the pane that shows it.
+struct ShownView {
+  Picture picture = Picture::raster;
+  Box pane, part;
+};
+/// All that are on the window: one, the two beside a swipe's line, of which `previous` is at the left, or four.
+std::vector<ShownView> shown_views(const LabLayout& layout, const Look& look, Picture picture,
+                                   Picture previous);
+/// Whether it shows the scene as the eye sees it, so that the light's handle has its place there.
+bool shows_scene(Picture picture);
+
 }  // namespace gnomon::app

@@ -104,7 +104,8 @@ RenderThread::Task RenderThread::next_task() {
 void RenderThread::run() {
   give_way(drawing_gives_way);  // and so do the threads of its OpenGL in software
   try {
-    install(std::move(*first_), false);
+    install(*first_, false);
+    first_.reset();
     for (;;) {
       Task task = next_task();
       if (task.quit) break;
@@ -128,7 +129,7 @@ void RenderThread::read_scene(const SceneArgument& argument, const std::string& 
   publish();
   auto source = read_source(argument, camera, options_);
   now_.opening = false;
-  if (source) return install(std::move(*source), again);
+  if (source) return install(*source, again);
   now_.unreadable = source.error();
   only_said_ = !again;
   publish();
@@ -148,7 +149,7 @@ Expected<std::unique_ptr<Studio>> RenderThread::make_studio(const SceneSource& s
 }
 
 /// Where a new studio for the scene cannot be made the one before stays.
-void RenderThread::install(SceneSource source, bool again) {
+void RenderThread::install(const SceneSource& source, bool again) {
   const auto fail_with = [this, again](const Error& error) {
     now_.unreadable = error;
     only_said_ = !again;

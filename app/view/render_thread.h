@@ -76,7 +76,7 @@ class RenderThread {
   void run();
   Task next_task();
   void read_scene(const SceneArgument& argument, const std::string& camera, bool again);
-  void install(SceneSource source, bool again);
+  void install(const SceneSource& source, bool again);
   Expected<std::unique_ptr<Studio>> make_studio(const SceneSource& source, bool& again);
   void read_changed_files();
   void carry_out(const DrawOrder& order);

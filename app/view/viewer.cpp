@@ -265,32 +265,25 @@ const Rgb8Image* Viewer::picture(Picture view) const {
   }
 }
 
-Expected<void> Viewer::draw_view(Picture view, const Box& pane, const Box& clip) {
-  const Rgb8Image* image = picture(view);
+Expected<void> Viewer::draw_view(const ShownView& view) {
+  const Rgb8Image* image = picture(view.picture);
   if (image == nullptr) return {};
-  const bool as_pane = view != Picture::depth || image == shown_->live.picture.get();
-  const Box place = as_pane ? placed(layout_.picture, pane, state_.look) : fitted(image->size, pane);
+  const bool as_pane = view.picture != Picture::depth || image == shown_->live.picture.get();
+  const Box place =
+      as_pane ? placed(layout_.picture, view.pane, state_.look) : fitted(image->size, view.pane);
   const int height = window_->framebuffer_size().height;
   const auto viewport = [height](const Box& box) {
     return raster::Viewport{box.x, height - box.y - box.height, box.width, box.height};
   };
-  return presenter_->draw(*image, viewport(place), viewport(clip), scaling_of(view, state_.look));
+  return presenter_->draw(*image, viewport(place), viewport(view.part),
+                          scaling_of(view.picture, state_.look));
 }
 
 Expected<void> Viewer::draw_pictures() {
   presenter_->clear(surround);
-  if (layout_.panes.size() == 4) {
-    for (std::size_t i = 0; i < 4; ++i)
-      if (auto ok = draw_view(state_.look.quad[i], layout_.panes[i], layout_.panes[i]); !ok) return ok;
-    return {};
-  }
-  const Box pane = layout_.panes.front();
-  if (state_.look.layout != PaneLayout::swipe) return draw_view(state_.picture, pane, pane);
-  Box left = pane, right = pane;
-  left.width = static_cast<int>(std::lround(state_.look.swipe * pane.width));
-  right.x += left.width, right.width -= left.width;
-  if (auto ok = draw_view(state_.previous, pane, left); !ok) return ok;
-  return draw_view(state_.picture, pane, right);
+  for (const ShownView& view : shown_views(layout_, state_.look, state_.picture, state_.previous))
+    if (auto ok = draw_view(view); !ok) return ok;
+  return {};
 }
 
 void Viewer::draw_panels() {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/view/frame_watch.h"
@@ -61,7 +62,7 @@ class Viewer {
   void post_changes();
   Expected<void> draw_frame();
   Expected<void> draw_pictures();
-  Expected<void> draw_view(Picture view, const Box& pane, const Box& clip);
+  Expected<void> draw_view(const ShownView& view);
   void draw_panels();
   void set_title();
   void sleep();
@@ -72,7 +73,7 @@ class Viewer {
   Readings readings() const;
 
   // Files and runs beside the window (viewer_files.cpp).
-  void note(std::string text);
+  void note(std::string_view text);
   void note(const Error& error);
   Expected<void> save_screenshot(const std::string& path);
   Expected<Rgb8Image> screenshot() const;

@@ -37,7 +37,7 @@ bool is_bias_option(std::string_view name) {
 
 }  // namespace
 
-void Viewer::note(std::string text) {
+void Viewer::note(std::string_view text) {
   note_ = one_line(text);
   busy_frames_ = 3;
 }

@@ -1,5 +1,6 @@
 // The mouse over the pictures.
 #include <cmath>
+#include <vector>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -30,32 +31,38 @@ std::optional<Under> under(const LabLayout& layout, const ViewState& state, Vec2
 constexpr double grip_pixels = 8.0;     // how near the line of a swipe one has to be
 constexpr double handle_pixels = 12.0;  // how near the light's handle
 
-bool shows_handle(Picture view) {
-  return view == Picture::raster || view == Picture::raytrace || view == Picture::texels;
+/// Where a view that shows the light's handle has it: where the part that is shown ends, it is not seen.
+struct SeenHandle {
+  ScreenCamera camera;
+  Box part;
+  Vec2 place{0.0};
+};
+
+std::vector<SeenHandle> seen_handles(const LabLayout& layout, const ViewState& state) {
+  std::vector<SeenHandle> seen;
+  if (!state.look.panels) return seen;
+  for (const ShownView& view : shown_views(layout, state.look, state.picture, state.previous)) {
+    if (!shows_scene(view.picture)) continue;
+    const ScreenCamera camera{posed_camera(state), placed(layout.picture, view.pane, state.look)};
+    if (const auto place = camera.project(light_handle(state).place))
+      seen.push_back({camera, view.part, *place});
+  }
+  return seen;
 }
 
-/// The camera of the pane under the pointer, where its handle of the light is shown and lies there.
+/// The camera of the view under the pointer, where its handle of the light lies there.
 std::optional<ScreenCamera> handle_under(const LabLayout& layout, const ViewState& state, Vec2 at,
                                          double reach) {
-  const auto hit = under(layout, state, at);
-  if (!hit || !state.look.panels) return std::nullopt;
-  const Picture view = layout.panes.size() == 4 ? state.look.quad[hit->pane] : state.picture;
-  if (!shows_handle(view)) return std::nullopt;
-  const ScreenCamera camera{posed_camera(state), hit->place};
-  const auto place = camera.project(light_handle(state).place);
-  return place && glm::length(*place - at) < reach ? std::optional(camera) : std::nullopt;
+  for (const SeenHandle& handle : seen_handles(layout, state))
+    if (handle.part.holds(at.x, at.y) && glm::length(handle.place - at) < reach) return handle.camera;
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Vec2> Viewer::shown_handle() const {
-  for (std::size_t i = 0; state_.look.panels && i < layout_.panes.size(); ++i) {
-    const Box& pane = layout_.panes[i];
-    if (!shows_handle(layout_.panes.size() == 4 ? state_.look.quad[i] : state_.picture)) continue;
-    const ScreenCamera camera{posed_camera(state_), placed(layout_.picture, pane, state_.look)};
-    const auto place = camera.project(light_handle(state_).place);
-    if (place && pane.holds(place->x, place->y)) return place;
-  }
+  for (const SeenHandle& handle : seen_handles(layout_, state_))
+    if (handle.part.holds(handle.place.x, handle.place.y)) return handle.place;
   return std::nullopt;
 }
 

@@ -72,17 +72,16 @@ struct Overlay {
     }
   }
 
-  void pane(const Box& box, Picture picture) const {
+  void view(const ShownView& shown) const {
     const ImageSize size = context.layout.picture;
-    const Box place = placed(size, box, context.state.look);
-    draw.PushClipRect(at(box.x, box.y), at(box.x + box.width, box.y + box.height), true);
-    if (picture != Picture::depth) {
+    const Box place = placed(size, shown.pane, context.state.look), &part = shown.part;
+    draw.PushClipRect(at(part.x, part.y), at(part.x + part.width, part.y + part.height), true);
+    if (shown.picture != Picture::depth) {
       const ScreenCamera camera{posed_camera(context.state), place};
-      if (picture == Picture::texels) frustum(camera);
+      if (shown.picture == Picture::texels) frustum(camera);
       if (const auto& probe = context.state.look.probe)
         cross(place, {(probe->x + 0.5) / size.width, (probe->y + 0.5) / size.height}, white, 0.9f * em);
-      if (picture == Picture::raster || picture == Picture::texels || picture == Picture::raytrace)
-        handle(camera);
+      if (shows_scene(shown.picture)) handle(camera);
     }
     draw.PopClipRect();
   }
@@ -143,15 +142,13 @@ void overlay(PanelContext& context) {
   const Overlay over{context, *ImGui::GetBackgroundDrawList(), ImGui::GetFontSize()};
   const LabLayout& layout = context.layout;
   const ViewState& state = context.state;
+  for (const ShownView& view : shown_views(layout, state.look, state.picture, state.previous))
+    over.view(view);
   if (layout.panes.size() == 4) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      over.pane(layout.panes[i], state.look.quad[i]);
-      pane_choice(context, i, layout.panes[i]);
-    }
+    for (std::size_t i = 0; i < 4; ++i) pane_choice(context, i, layout.panes[i]);
     return over.pointer();
   }
   const Box& pane = layout.panes.front();
-  over.pane(pane, state.picture);
   if (state.look.layout != PaneLayout::swipe) return over.name(pane, state.picture, pane.width);
   const double x = pane.x + state.look.swipe * pane.width, middle = pane.y + 0.5 * pane.height;
   over.line({x, double(pane.y)}, {x, double(pane.y + pane.height)}, white);
