@@ -66,6 +66,15 @@ std::string rest_text(double fraction, const LightComparison& light) {
   return fmt::format("{:.0f} of them", fraction * static_cast<double>(light.pixels.compared));
 }
 
+// A gain that no figure shows is none to a reader.
+bool seems_better(double fraction, double than, const LightComparison& light) {
+  return fraction < than && rest_text(fraction, light) != rest_text(than, light);
+}
+
+bool is_clearly_better(double fraction, double than, const LightComparison& light) {
+  return fraction < (1.0 - clear_gain) * than && seems_better(fraction, than, light);
+}
+
 // A constant that the kind takes beside it, where that moves shadows by what can be seen.
 std::string beside_text(const BiasKind& kind, const LightComparison& light) {
   const double texels = kind.bias.unit == raster::BiasUnit::texel
@@ -105,12 +114,13 @@ std::string kinds_part(const LightComparison& light) {
   const BiasKind& best = light.bias_kinds.front();
   const double drawn = light.error.wrong_fraction;
   if (light.error.wrong == 0) return {};
-  if (best.wrong_fraction >= (1.0 - clear_gain) * drawn) return " No other kind of bias does clearly better.";
+  if (!is_clearly_better(best.wrong_fraction, drawn, light))
+    return " No other kind of bias does clearly better.";
   std::string text =
       fmt::format(" {} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias),
                   range_text(best), rest_text(best.wrong_fraction, light));
   for (const BiasKind& kind : light.bias_kinds)
-    if (kind.name == "constant bias" && best.wrong_fraction < (1.0 - clear_gain) * kind.wrong_fraction)
+    if (kind.name == "constant bias" && is_clearly_better(best.wrong_fraction, kind.wrong_fraction, light))
       text += fmt::format(" A constant bias alone would leave {} at best.",
                           rest_text(kind.wrong_fraction, light));
   return text;
@@ -118,12 +128,13 @@ std::string kinds_part(const LightComparison& light) {
 
 std::string constant_part(const LightComparison& light) {
   const BestBias& best = light.best_bias;
-  if (best.wrong_fraction < light.error.wrong_fraction)
+  const double drawn = light.error.wrong_fraction;
+  if (seems_better(best.wrong_fraction, drawn, light))
     return fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world),
                        rest_text(best.wrong_fraction, light));
-  if (light.error.wrong > 0 && best.wrong_fraction == light.error.wrong_fraction)
-    return " No other constant bias does better.";
-  return {};
+  if (light.error.wrong == 0 || best.wrong_fraction > drawn) return {};
+  return best.wrong_fraction == drawn ? " No other constant bias does better."
+                                      : " No other constant bias does clearly better.";
 }
 
 }  // namespace

@@ -87,9 +87,11 @@ std::string nothing_compared(const PixelCounts& p) {
 }
 
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there.
-std::string judged_advice(const Judged& judged) {
+std::string judged_advice(const Judged& judged, const LightComparison& light) {
   if (judged.advice.empty() || judged.advice[0].instead == judged.advice[0].now) return {};
   const Advice& first = judged.advice[0];
+  const double drawn = light.error.wrong_fraction;
+  if (first.wrong_instead >= drawn || percent(first.wrong_instead) == percent(drawn)) return {};
   return fmt::format(" {} {:.4g} instead of {:.4g} would leave {}.", first.setting, first.instead, first.now,
                      percent(first.wrong_instead));
 }
@@ -99,7 +101,7 @@ std::string judged_advice(const Judged& judged) {
 // What other biases would do follows from the gaps of a hard test alone.
 std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  if (c.judged) return error_part(light) + judged_advice(*c.judged);
+  if (c.judged) return error_part(light) + judged_advice(*c.judged, light);
   return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_advice(light) : "");
 }
 

@@ -3,7 +3,9 @@
 
 #include <regex>
 
+#include "compare/bands/bands.h"
 #include "compare/csv_field.h"
+#include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -122,6 +124,42 @@ TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
 }
 
+// 1.6 % of them are wrong as drawn.
+TEST(Verdict, OffersNoBiasWhoseGainNoFigureShows) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {3.67e-6, 0.01559, true, 0.0, 1.0, 0, 0};
+  const std::string wrong =
+      "1.6 % of the lit-or-shadowed pixels are wrong (mean error 1.6 %), all of them acne.";
+  EXPECT_EQ(c.verdict(), wrong + " No other constant bias does clearly better.");
+  c.light.best_bias.wrong_fraction = 0.0154;
+  EXPECT_EQ(c.verdict(),
+            wrong + " A constant bias of 3.67e-06 world units (less than 0.001 texel) would leave 1.5 %.");
+  BiasKind slope, constant;
+  slope.name = "slope bias", slope.of_slope = true, slope.bias.slope = 1.0, slope.wrong_fraction = 0.01555;
+  constant.name = "constant bias", constant.wrong_fraction = 0.0156;
+  c.light.bias_kinds = {slope, constant};
+  EXPECT_EQ(c.verdict(), wrong + " No other kind of bias does clearly better.");
+  c.light.bias_kinds[0].wrong_fraction = 0.0101;
+  EXPECT_NE(c.verdict().find(" would leave 1.0 %. A constant bias alone would leave 1.6 % at best."),
+            std::string::npos)
+      << c.verdict();
+  c.light.bias_kinds[0].wrong_fraction = 0.0107, c.light.bias_kinds[1].wrong_fraction = 0.0114;
+  EXPECT_EQ(c.verdict().find("alone"), std::string::npos) << c.verdict();
+}
+
+TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  auto judged = std::make_shared<Judged>();
+  judged->advice = {{"bias.constant_depth", 0.0, 0.5, "stored depth", 0.016, 0.002, false}};
+  c.made->comparison.judged = judged;
+  EXPECT_NE(c.verdict().find(" bias.constant_depth 0.5 instead of 0 would leave 0.2 %."), std::string::npos)
+      << c.verdict();
+  for (const double left : {0.0159, 0.016, 0.02}) {
+    judged->advice[0].wrong_instead = left;
+    EXPECT_EQ(c.verdict().find("would leave"), std::string::npos) << c.verdict();
+  }
+}
+
 TEST(Verdict, NamesAConstantBesideAKindOfBias) {
   Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias.feasible = true;
@@ -145,6 +183,15 @@ TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
   c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
   c.light.bias_curve_withheld = "It filters.";
   EXPECT_EQ(c.verdict(), "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), mostly acne.");
+}
+
+// A page holds 8,388,608 pixels.
+TEST(Page, ShowsEveryPixelWhereItHoldsThemAll) {
+  EXPECT_EQ(image_step({4096, 2048}), 1);
+  EXPECT_EQ(image_step({4097, 2048}), 2);
+  EXPECT_EQ(image_step({8192, 4096}), 2);
+  EXPECT_EQ(image_step({8193, 4096}), 3);
+  EXPECT_EQ(image_step({16384, 16384}), 6);
 }
 
 TEST(Repeats, StopWhereTheRunsMadeTookLongEnough) {
