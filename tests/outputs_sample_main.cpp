@@ -1,5 +1,5 @@
-// Writes the outputs of hand-made comparisons (one light, three lights, nothing compared) into folders below
-// the one given, for the browser test of the report page.
+// Writes the outputs of hand-made comparisons (one light, three lights, nothing compared, more pixels than a page shows)
+// into folders below the one given, for the browser test of the report page.
 #include <iostream>
 
 #include "compare/outputs.h"
@@ -22,10 +22,11 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   const auto one = gnomon::compare::make_synthetic(1), three = gnomon::compare::make_synthetic(3),
-             none = gnomon::compare::make_synthetic(1);
+             none = gnomon::compare::make_synthetic(1), large = gnomon::compare::make_synthetic(1);
   gnomon::compare::clear_comparison(none->comparison.lights[0]);
+  large->comparison.raster.options.size = {10000, 5625};  // as it says of itself; its images stay small
   return write(one->comparison, folder + "/one") && write(three->comparison, folder + "/three") &&
-                 write(none->comparison, folder + "/none")
+                 write(none->comparison, folder + "/none") && write(large->comparison, folder + "/large")
              ? 0
              : 1;
 }

@@ -145,6 +145,26 @@ async function checkFirstScreen() {
   await close(page);
 }
 
+// Of a picture with more pixels than a page holds the page shows some, and says so on its first screen, scripts or none.
+async function checkReducedPage() {
+  for (const javaScriptEnabled of [true, false]) {
+    const page = await open("large", { javaScriptEnabled }), said = page.locator(".setting", { hasText: "shows one pixel" });
+    const words = async (place) => (await place.innerText()).replaceAll(/\s+/g, " ");
+    assert.match(await words(said), /^This page shows one pixel of every 3 × 3 .* are of all pixels\.$/);
+    const box = await said.boundingBox();
+    assert.ok(box.y + box.height < 900, `said at ${box.y}, below the first screen`);
+    assert.match(await words(page.locator(".setting").first()), /^10000 × 5625 pixels/);
+    await checkNumbers(page, "large");
+    // 320 x 180 pixels were given: every third of their columns and rows.
+    if (javaScriptEnabled)
+      assert.deepEqual(await page.locator(".stage canvas").first().evaluate((e) => [e.width, e.height]), [107, 60]);
+    await close(page);
+  }
+  const page = await open("one");
+  assert.equal(await page.getByText("shows one pixel").count(), 0);
+  await close(page);
+}
+
 try {
   for (const name of ["one", "three", "none"]) {
     const page = await open(name);
@@ -160,7 +180,8 @@ try {
   await checkViewer();
   await checkTabs();
   await checkFirstScreen();
-  console.log("viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture");
+  await checkReducedPage();
+  console.log("viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture, and says what it leaves out");
 } finally {
   await browser.close();
 }
