@@ -6,9 +6,9 @@ add_test(NAME project_format_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_f
 set_tests_properties(project_format_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 
 add_test(NAME project_tidy_test
-  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_tidy_test.sh" --joined scene)
+  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_tidy_test.sh" --together scene)
 set_tests_properties(project_tidy_test PROPERTIES
-  SKIP_RETURN_CODE 77 TIMEOUT 900 ENVIRONMENT "GNOMON_BUILD_DIR=${PROJECT_BINARY_DIR};GNOMON_TIDY_DIR=${PROJECT_BINARY_DIR}/tidy")
+  SKIP_RETURN_CODE 77 TIMEOUT 900 ENVIRONMENT "GNOMON_BUILD_DIR=${PROJECT_BINARY_DIR}")
 
 # The commit in the program's version, from git or from an archive.
 add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_commit_test.sh"

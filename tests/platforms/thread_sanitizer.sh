@@ -49,5 +49,7 @@ failed=0
 for scene in "${scenes[@]}"; do
   "$build/app/gnomon" compare "$scene" --size 320x180 -o "$build/out/$scene" --quiet || { failed=1; echo "compare $scene: exit $?"; }
 done
-ctest --test-dir "$build" --output-on-failure --no-tests=error -R "^($(IFS='|'; echo "${programs[*]}"))\$" || failed=1
+for program in "${programs[@]}"; do  # not through ctest, whose limits of time are for programs without a sanitizer
+  "$build/tests/$program" --gtest_brief=1 || { failed=1; echo "$program: exit $?"; }
+done
 exit "$failed"
