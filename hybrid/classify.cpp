@@ -86,7 +86,7 @@ class Classifier {
 
   // In passes over the tile, so that what one pass finds comes from memory before the next one reads it.
   void run(TileClasses& out) {
-    out.lit.fill(0), out.shadowed.fill(0), out.unsure.fill(0);
+    out.lit.fill(0), out.shadowed.fill(0), out.ambiguous.fill(0);
     out_ = &out;
     for (std::size_t p = 0; p < raytrace::tile_packets; ++p) {
       const unsigned present = tile_.present[p];
@@ -112,7 +112,7 @@ class Classifier {
     judge_in_parts();
     for (std::size_t p = 0; p < raytrace::tile_packets; ++p)
       out.open[p] = static_cast<std::uint16_t>(
-          tile_.present[p] & ~(out.unreached[p] | out.lit[p] | out.shadowed[p] | out.unsure[p]));
+          tile_.present[p] & ~(out.unreached[p] | out.lit[p] | out.shadowed[p] | out.ambiguous[p]));
   }
 
  private:
@@ -138,9 +138,9 @@ class Classifier {
       size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
                      hn::Add(hn::Abs(offset[2]), all(2.0 * tile_.extent)));
     }
-    const V doubt = hn::Mul(all(0x1p-21), size);  // eight roundings at most
-    surely = bits_of(hn::Gt(cosine, doubt));
-    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(doubt))));
+    const V error = hn::Mul(all(0x1p-21), size);  // eight roundings at most
+    surely = bits_of(hn::Gt(cosine, error));
+    perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(error))));
   }
 
   /// Stores the texels that a vector's receivers look up, and their places there; bits of those on the map.
@@ -160,7 +160,7 @@ class Classifier {
         bits_of(hn::And(hn::Ge(hn::Min(x, y), all(0.0)), hn::Lt(hn::Max(x, y), all(grid_.view.size))));
     if ((asked & ~inside) != 0 && sheets_.lone_plane() != no_id) look_beside(asked & ~inside, x, y);
     asked &= inside;
-    if (!sheets_.is_built()) add(out_->unsure, asked);
+    if (!sheets_.is_built()) add(out_->ambiguous, asked);
     if (asked == 0 || !sheets_.is_built()) return 0;
     hn::Store(hn::Neg(deeper), f, reciprocal_depths_ + lane_);
     hn::Store(hn::Sub(u, hn::Add(column, all(0.5))), f, from_middle_u_ + lane_);
@@ -247,7 +247,7 @@ class Classifier {
   void put_off(std::size_t lane) {
     const SheetTile& sheet = sheet_at(lane);
     if (sheet.parts.empty()) {
-      set(out_->unsure, lane);
+      set(out_->ambiguous, lane);
       return;
     }
     const auto texel = static_cast<std::uint32_t>(texel_[lane]);
@@ -264,7 +264,7 @@ class Classifier {
       for (std::size_t i = 0; i < std::min(hn::Lanes(f), count - k); ++i)
         set((told.lit >> i & 1) != 0    ? out_->lit
             : (told.dark >> i & 1) != 0 ? out_->shadowed
-                                        : out_->unsure,
+                                        : out_->ambiguous,
             left_[k + i]);
     }
   }
@@ -279,7 +279,7 @@ class Classifier {
       const std::uint32_t part = SheetTile::part_at(static_cast<std::uint32_t>(texel_[lane]), u, v);
       const PackedBounds* found = sheet_at(lane).parts.find(part);
       if (found == nullptr) {
-        set(out_->unsure, lane);
+        set(out_->ambiguous, lane);
         continue;
       }
       from_middle_u_[count] = SheetTile::from_middle_of_part(u, part % parts_per_side);

@@ -1,5 +1,5 @@
 // A picture tile's receivers against the sheets, eight at a time, from the compact floats: the texel and the
-// nearness of each in double, with all that the floats' rounding can do added to the doubt. What floats leave
+// reciprocal depth of each in double, with all that the floats' rounding can do added to the errors. What floats leave
 // open is for LightSheets::at.
 #pragma once
 
@@ -14,8 +14,8 @@ using raytrace::LaneMask;
 struct TileClasses {
   LaneMask unreached;  ///< facing away from the light
   LaneMask lit, shadowed;
-  LaneMask unsure;  ///< facing it, and the sheets cannot tell
-  LaneMask open;    ///< to be asked in double: whether it faces the light, or what the sheets say
+  LaneMask ambiguous;  ///< facing it, and the sheets cannot tell
+  LaneMask open;       ///< to be asked in double: whether it faces the light, or what the sheets say
 };
 
 /// No spot lights: a cone is not looked at.

@@ -59,7 +59,7 @@ class Tile {
     return counts();
   }
 
-  const LaneMask& unsure() const { return all_.unsure; }
+  const LaneMask& ambiguous() const { return all_.ambiguous; }
 
  private:
   /// The next tile comes from memory while this one is classified. Beyond the last one nothing is read.
@@ -75,7 +75,7 @@ class Tile {
         return Decision::lit;
       case Certainty::shadowed:
         return Decision::shadowed;
-      case Certainty::unsure:
+      case Certainty::ambiguous:
         break;
     }
     return Decision::traced;
@@ -87,7 +87,7 @@ class Tile {
       case Decision::lit:
         return all_.lit;
       case Decision::traced:
-        return all_.unsure;
+        return all_.ambiguous;
       case Decision::not_asked:
         break;
     }
@@ -112,7 +112,7 @@ class Tile {
       for_each_lane(rect_, bits, [&](int x, int y, std::size_t) { decisions.at(x, y) = decision; });
     };
     set(all_.lit, Decision::lit), set(all_.shadowed, Decision::shadowed);
-    set(all_.unsure, Decision::traced);
+    set(all_.ambiguous, Decision::traced);
   }
   ShadowCounts counts() const {
     ShadowCounts counts;
@@ -121,7 +121,7 @@ class Tile {
       std::memcpy(words.data(), bits.data(), sizeof words);
       for (const std::uint64_t word : words) count += static_cast<std::uint64_t>(std::popcount(word));
     };
-    add(all_.lit, counts.lit), add(all_.shadowed, counts.shadowed), add(all_.unsure, counts.rays);
+    add(all_.lit, counts.lit), add(all_.shadowed, counts.shadowed), add(all_.ambiguous, counts.rays);
     counts.asked = counts.lit + counts.shadowed + counts.rays;
     return counts;
   }
@@ -143,11 +143,11 @@ ShadowCounts sum_of(const std::vector<ShadowCounts>& tiles) {
 }
 
 /// The parts of texels that receivers without an answer look up.
-std::vector<std::uint64_t> parts_in_doubt(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
-                                          const std::vector<LaneMask>& unsure) {
+std::vector<std::uint64_t> ambiguous_parts(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
+                                           const std::vector<LaneMask>& ambiguous) {
   tbb::enumerable_thread_specific<std::vector<std::uint64_t>> found;
   for_each_tile(raytrace::TileGrid{receivers.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    for_each_lane({x0, y0, x1, y1}, unsure[i], [&](int x, int y, std::size_t) {
+    for_each_lane({x0, y0, x1, y1}, ambiguous[i], [&](int x, int y, std::size_t) {
       const auto part = sheets.part_of(receivers.at(x, y).position);
       if (part) found.local().push_back(*part);
     });
@@ -193,7 +193,7 @@ class Pass {
         decisions_(decisions),
         grid_{receivers.points.size},
         tiles_(grid_.count()),
-        unsure_(grid_.count()) {}
+        ambiguous_(grid_.count()) {}
 
   ShadowCounts run() {
     const bool pays = cache_.frames >= cache_.frames_to_pay(receivers_.points.data.size());
@@ -210,20 +210,20 @@ class Pass {
 
  private:
   void refine(ShadowCounts& counts) {
-    const std::uint64_t pattern = hash_of(unsure_);
+    const std::uint64_t pattern = hash_of(ambiguous_);
     const bool pays = !cache_.pattern || *cache_.pattern == pattern;
     cache_.pattern = pattern;
     if (!pays || !(share_of_rays(counts) > std::max(refine_above, 1.25 * cache_.share_left))) return;
-    if (cache_.sheets.refine(parts_in_doubt(cache_.sheets, receivers_.points, unsure_)) > 0)
+    if (cache_.sheets.refine(ambiguous_parts(cache_.sheets, receivers_.points, ambiguous_)) > 0)
       counts = classify();
     cache_.share_left = share_of_rays(counts);
-    cache_.pattern = hash_of(unsure_);
+    cache_.pattern = hash_of(ambiguous_);
   }
   ShadowCounts classify() {
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       Tile tile(cache_, receivers_, i, {x0, y0, x1, y1});
       tiles_[i] = tile.classify(verdicts_, decisions_);
-      unsure_[i] = tile.unsure();
+      ambiguous_[i] = tile.ambiguous();
     });
     return sum_of(tiles_);
   }
@@ -235,9 +235,9 @@ class Pass {
   }
   void trace() {
     if (packets_apply(tracer_))
-      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, unsure_, verdicts_);
+      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, ambiguous_, verdicts_);
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      for_each_lane({x0, y0, x1, y1}, unsure_[i], [&](int x, int y, std::size_t) {
+      for_each_lane({x0, y0, x1, y1}, ambiguous_[i], [&](int x, int y, std::size_t) {
         verdicts_.at(x, y) = tracer_.light_verdict(receivers_.points.at(x, y), cache_.light);
       });
     });
@@ -250,7 +250,7 @@ class Pass {
   Image<Decision>* decisions_;
   raytrace::TileGrid grid_;
   std::vector<ShadowCounts> tiles_;
-  std::vector<LaneMask> unsure_;
+  std::vector<LaneMask> ambiguous_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The hard-shadow pass: every receiver that the light reaches is classified by the light's sheets, and what
-// they leave unsure is traced, tile by tile, through the tracer's packets. The verdicts are the tracer's own
+// they leave ambiguous is traced, tile by tile, through the tracer's packets. The verdicts are the tracer's own
 // wherever it is certain itself.
 //
 // When sheets pay. A ray costs the packets some 20 ns, less than a texel's sheets; so no sheets are worth
@@ -17,7 +17,7 @@
 
 namespace gnomon::hybrid {
 
-/// When more than this share of the receivers is unsure, their texels are looked at more closely, once. Rays
+/// When more than this share of the receivers is ambiguous, their texels are looked at more closely, once. Rays
 /// are cheap: to refine a texel costs as much as tens of them, and pays when light and camera stand still. So
 /// it is done for the first receivers that ask, and afterwards for receivers that ask for the second time.
 inline constexpr double refine_above = 0.03;
@@ -37,10 +37,10 @@ class LightCache {
 
   Light light;
   LightSheets sheets;
-  double share_left = 0.0;   ///< of the receivers, unsure after the sheets were last refined
+  double share_left = 0.0;   ///< of the receivers, ambiguous after the sheets were last refined
   std::uint64_t frames = 0;  ///< that the light has been looked at
   std::optional<std::uint64_t>
-      pattern;  ///< a hash of which receivers the sheets left unsure, in the last frame
+      pattern;  ///< a hash of which receivers the sheets left ambiguous, in the last frame
 
  private:
   std::uint64_t triangles_;

@@ -34,7 +34,7 @@ void LightSheets::build() {
                           static_cast<std::size_t>(grid_.view.face_count);
   tiles_.resize(tile_count);
   if (grid_.hopeless) {
-    for (SheetTile& tile : tiles_) tile.uniform = pack(unsure_texel);
+    for (SheetTile& tile : tiles_) tile.uniform = pack(ambiguous_texel);
   } else {
     facing_ = find_facing(world_, topology_, grid_.view, grid_.bounds);
     for (int face = 0; face < grid_.view.face_count; ++face) build_face(face);

@@ -11,9 +11,9 @@
 //    meets it, and before x.
 //  - Surely lit: the nearest sheet F has no boundary and degree 1, and all others lie wholly behind x. Then x
 //    cannot be on another one, so it is on F; and F meets x's ray once only, namely in x. Nothing else comes
-//    before x. So no query of x's own primitive is needed: its nearness alone decides.
+//    before x. So no query of x's own primitive is needed: its reciprocal depth alone decides.
 // Nothing in this depends on how fine the mesh is or how steep it stands, there is no bias, and rounding only
-// ever widens intervals and adds boundary, that is, adds "unsure". What is unsure is traced, so the result is
+// ever widens intervals and adds boundary, that is, adds "ambiguous". What is ambiguous is traced, so the result is
 // the ray-traced hard shadow at every pixel. An alpha-masked triangle is boundary everywhere; glass casts
 // shadows like any surface; facing-away receivers are not asked about.
 //
@@ -105,14 +105,14 @@ inline std::optional<LightSheets::Place> LightSheets::place_of(const Vec3& posit
 
 inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) const {
   const auto at = place_of(position);
-  if (!at) return Certainty::unsure;
+  if (!at) return Certainty::ambiguous;
   const double size = grid_.view.size, u = at->u, v = at->v;
   if (!(u >= 0.0 && v >= 0.0 && u < size && v < size)) {
     constexpr double beside = 4.0 * texel_slack;
     const bool far = u < -beside || v < -beside || u > size + beside || v > size + beside;
-    return far && primitive == lone_plane_ && primitive != no_id ? Certainty::lit : Certainty::unsure;
+    return far && primitive == lone_plane_ && primitive != no_id ? Certainty::lit : Certainty::ambiguous;
   }
-  if (!is_built()) return Certainty::unsure;
+  if (!is_built()) return Certainty::ambiguous;
   const int x = static_cast<int>(u) / tile_texels, y = static_cast<int>(v) / tile_texels;
   return tiles_[grid_.tile_index(at->face, x, y)].at(u - x * tile_texels, v - y * tile_texels,
                                                      at->reciprocal_depth);

@@ -1,5 +1,5 @@
 // TexelBounds in eight bytes: what receivers look up lies all over the map, so its size is its price. The
-// bounds keep 12 bits of mantissa, rounded towards doubt; the slopes keep two, and are rounded before the
+// bounds keep 12 bits of mantissa, rounded towards ambiguity; the slopes keep two, and are rounded before the
 // bounds are made (round_slope), so that nothing is lost by them.
 #pragma once
 

@@ -35,7 +35,7 @@ SheetGrid::SheetGrid(const World& world, const LightView& light_view)
     hopeless = hopeless || !(grid_error < texel_slack);
 }
 
-double SheetGrid::nearness_error(double reciprocal_depth) const {
+double SheetGrid::reciprocal_depth_error(double reciprocal_depth) const {
   const double by_position = perspective ? 2.0 * reciprocal_depth * reciprocal_depth * bounds.position_error
                                          : 2.0 * bounds.position_error;
   return by_position + 0x1p-21 * std::abs(reciprocal_depth);

@@ -1,7 +1,7 @@
 // The map's grid as the sheets see it: texel coordinates u, v as quotients U / w of two linear functions of
-// the world position, and *nearness* n, which grows towards the light and is linear in (u, v) on every plane:
+// the world position, and *reciprocal depth* n, which grows towards the light and is linear in (u, v) on every plane:
 // minus the depth of an orthographic map, 1 / depth of a perspective one. Along one light ray, whatever has
-// the larger nearness comes first. Tiles of 32 x 32 texels are built one by one.
+// the larger reciprocal depth comes first. Tiles of 32 x 32 texels are built one by one.
 #pragma once
 
 #include <array>
@@ -46,8 +46,8 @@ struct SheetGrid {
   bool hopeless = false;
 
   ProjectedPoint point(int face, const Vec3& world) const;
-  /// How far rounding may have moved a nearness, float's included.
-  double nearness_error(double reciprocal_depth) const;
+  /// How far rounding may have moved a reciprocal depth, float's included.
+  double reciprocal_depth_error(double reciprocal_depth) const;
   std::size_t tile_index(int face, int tile_x, int tile_y) const {
     const auto n = static_cast<std::size_t>(tiles);
     return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(tile_y)) * n +

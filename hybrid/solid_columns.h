@@ -52,7 +52,7 @@ class SolidColumns {
   /// Each ray meets the surface at most once between these depths.
   bool met_once(const Column& column, double from, double to) const;
   double depth_at(int level, int index, bool backwards) const;
-  float nearest(double depth) const;   ///< an upper bound on its nearness
+  float nearest(double depth) const;   ///< an upper bound on its reciprocal depth
   float farthest(double depth) const;  ///< a lower bound
 
   const ShapeGeometry& solid_;

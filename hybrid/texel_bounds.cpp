@@ -88,7 +88,7 @@ void sort_by_falling_high(std::span<Piece> pieces) {
   }
 }
 
-/// The usual column: of each facing, all pieces share some nearness, so they are one group.
+/// The usual column: of each facing, all pieces share some reciprocal depth, so they are one group.
 bool one_group_each(std::span<const Piece> pieces, std::array<Group, 3>& groups) {
   std::array<float, 3> most_low{-inf, -inf, -inf}, least_high{inf, inf, inf};
   for (const Piece& piece : pieces) {

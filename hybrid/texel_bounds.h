@@ -1,7 +1,7 @@
-// What one texel's column says of a receiver by its nearness, and how that follows from the pieces of surface
+// What one texel's column says of a receiver by its reciprocal depth, and how that follows from the pieces of surface
 // that the column meets.
 //
-// Pieces of one facing whose nearness intervals overlap form a group. Triangles that share an edge crossing
+// Pieces of one facing whose reciprocal depth intervals overlap form a group. Triangles that share an edge crossing
 // the column overlap there, so every sheet (raytrace/sheets.h) lies in one group. In a group that no boundary
 // edge crosses, the projection along the rays is a covering whose degree is the number of pieces over any one
 // point of the texel that lies on no edge. Degree 1: the group is one sheet without boundary and cannot
@@ -9,9 +9,9 @@
 // rounding put it there. A group whose pieces' projections do not overlap cannot shadow itself either,
 // whatever edges it has: a single triangle, two that share an edge, a few that lie apart.
 //
-// Where groups leave doubt, the sheets themselves are put together, by the edges that cross the column.
+// Where groups are ambiguous, the sheets themselves are put together, by the edges that cross the column.
 //
-// Nothing changes when a linear function of the place in the texel is taken off all nearnesses alike. With
+// Nothing changes when a linear function of the place in the texel is taken off all reciprocal depths alike. With
 // the slope of the nearest surface taken off, thin bodies seen at a grazing angle come apart: a wall's two
 // sides are then two groups, however deep the texel reaches along it.
 #pragma once
@@ -23,25 +23,25 @@
 namespace gnomon::hybrid {
 
 /// A receiver in the column, less the slope (per texel from the texel's centre), is surely lit if its
-/// nearness is above `lit_above`, surely shadowed if below `dark_below`, else unsure. Both at once is
+/// reciprocal depth is above `lit_above`, surely shadowed if below `dark_below`, else ambiguous. Both at once is
 /// impossible for a point on a surface.
 struct TexelBounds {
   float lit_above, dark_below;
   float slope_u, slope_v;
 };
-inline constexpr float no_nearness = std::numeric_limits<float>::infinity();
-inline constexpr TexelBounds unsure_texel{no_nearness, -no_nearness, 0.0f, 0.0f};
-inline constexpr TexelBounds empty_texel{-no_nearness, -no_nearness, 0.0f, 0.0f};
+inline constexpr float no_reciprocal_depth = std::numeric_limits<float>::infinity();
+inline constexpr TexelBounds ambiguous_texel{no_reciprocal_depth, -no_reciprocal_depth, 0.0f, 0.0f};
+inline constexpr TexelBounds empty_texel{-no_reciprocal_depth, -no_reciprocal_depth, 0.0f, 0.0f};
 
 enum class Facing : std::uint8_t { towards, away, edge_on };
 
 /// A piece of surface in a column.
 struct Piece {
   static constexpr std::uint32_t no_slot = 0xffffffffu;
-  float low, high;  ///< bounds on its nearness there
-  /// Its plane: nearness at the column's centre and slope per texel, and the error of that; infinite: no
+  float low, high;  ///< bounds on its reciprocal depth there
+  /// Its plane: reciprocal depth at the column's centre and slope per texel, and the error of that; infinite: no
   /// plane is known.
-  float middle = 0.0f, slope_u = 0.0f, slope_v = 0.0f, error = no_nearness;
+  float middle = 0.0f, slope_u = 0.0f, slope_v = 0.0f, error = no_reciprocal_depth;
   Facing facing = Facing::edge_on;
   bool boundary = false;      ///< an edge that ends a sheet may cross the column, or is of unknown place
   bool covers = false;        ///< lies over the texel's sample point

@@ -1,4 +1,4 @@
-// Bounds of small parts of a tile's texels, of those alone that a receiver in doubt has looked up: an open
+// Bounds of small parts of a tile's texels, of those alone that an ambiguous receiver has looked up: an open
 // hash table (Knuth, The Art of Computer Programming 3, section 6.4, algorithm L), at most half full.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace gnomon::hybrid {
 
-/// A texel that stays in doubt is looked at in parts_per_side^2 columns: of those, the few that receivers ask
-/// for. The smaller they are, the fewer receivers stay in doubt; but another camera asks for others.
+/// A texel that stays ambiguous is looked at in parts_per_side^2 columns: of those, the few that receivers ask
+/// for. The smaller they are, the fewer receivers stay ambiguous; but another camera asks for others.
 inline constexpr int parts_per_side = 64;
 inline constexpr std::uint32_t parts_per_texel = parts_per_side * parts_per_side;
 

@@ -1,4 +1,4 @@
-// Planes and spheres as one tile of the map sees them. In texel coordinates and nearness a plane is linear
+// Planes and spheres as one tile of the map sees them. In texel coordinates and reciprocal depth a plane is linear
 // and a ball before the light stays convex (both maps are projective), so the near side of a sphere is a
 // concave function of (u, v) and its far side a convex one: over a texel they are bounded by the values at
 // its corners and at its centre.
@@ -21,8 +21,8 @@ TileSquare place_of(const LightView& view, int face, int tile_x, int tile_y);
 /// A surface over every texel of a tile, without an edge (but, for a plane, its horizon).
 struct Cover {
   TileFunction reciprocal_depth;
-  float error;      ///< of the nearness; infinite: only low and high are known
-  float low, high;  ///< of the nearness over the whole tile
+  float error;      ///< of the reciprocal depth; infinite: only low and high are known
+  float low, high;  ///< of the reciprocal depth over the whole tile
   Facing facing;
   bool boundary;
   std::uint32_t triangle = no_id;  ///< none: a plane
@@ -47,7 +47,7 @@ class SphereColumns {
   std::optional<std::array<Piece, 2>> at(int x, int y) const;
 
  private:
-  struct Crossing {  // nearness where a light ray enters and leaves
+  struct Crossing {  // reciprocal depth where a light ray enters and leaves
     double enters, leaves;
   };
   std::optional<Crossing> cross(double x, double y) const;
@@ -58,7 +58,7 @@ class SphereColumns {
       step_y_;   // the tile's first texel and a texel, on the plane of depth 1 (or in world units)
   Vec3 center_;  // light space
   double radius_;
-  double least_, most_;  // nearness
+  double least_, most_;  // reciprocal depth
 };
 
 }  // namespace gnomon::hybrid

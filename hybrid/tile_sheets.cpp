@@ -29,7 +29,7 @@ std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
               .triangle = t.id,
               .slot = t.slot};
   const float reach = half + 2.0f * slack;
-  bool doubtful = false;
+  bool ambiguous = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const float edge = t.edge[k].at(x, y), margin = reach + t.error[k];
     if (edge < -margin) return std::nullopt;
@@ -45,14 +45,15 @@ std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
     if (at_sample < -t.error[k])
       piece.covers = false;
     else if (!(at_sample > t.error[k]))
-      doubtful = true;
+      ambiguous = true;
   }
-  if (doubtful && piece.covers) piece.boundary = true;
-  if (!(t.nearness_error < inf)) return piece;
+  if (ambiguous && piece.covers) piece.boundary = true;
+  if (!(t.reciprocal_depth_error < inf)) return piece;
   piece.middle = t.reciprocal_depth.at(x, y);
-  piece.slope_u = t.reciprocal_depth.u, piece.slope_v = t.reciprocal_depth.v, piece.error = t.nearness_error;
+  piece.slope_u = t.reciprocal_depth.u, piece.slope_v = t.reciprocal_depth.v,
+  piece.error = t.reciprocal_depth_error;
   const float spread =
-      reach * (std::abs(t.reciprocal_depth.u) + std::abs(t.reciprocal_depth.v)) + t.nearness_error;
+      reach * (std::abs(t.reciprocal_depth.u) + std::abs(t.reciprocal_depth.v)) + t.reciprocal_depth_error;
   piece.low = std::max(piece.low, piece.middle - spread);
   piece.high = std::min(piece.high, piece.middle + spread);
   return piece;
@@ -118,8 +119,9 @@ void TileBuilder::collect(int tile_x, int tile_y, std::span<const std::uint32_t>
     if (!frame.set_up({points_[v[0]], points_[v[1]], points_[v[2]]}, facing_[id], triangle)) continue;
     triangle.id = id;
     if (TileFrame::covers_tile(triangle)) {
-      covers_.push_back({triangle.reciprocal_depth, triangle.nearness_error, triangle.low, triangle.high,
-                         triangle.facing, (triangle.boundary & TriangleFacing::whole) != 0, id});
+      covers_.push_back({triangle.reciprocal_depth, triangle.reciprocal_depth_error, triangle.low,
+                         triangle.high, triangle.facing, (triangle.boundary & TriangleFacing::whole) != 0,
+                         id});
       continue;
     }
     triangle.slot = static_cast<std::uint32_t>(kept_.size());
@@ -264,8 +266,10 @@ TexelBounds TileBuilder::widened(TexelBounds b) const {
   // A receiver's place in the texel is known within the slack.
   const float by_slope = 2.0f * slack * (std::abs(b.slope_u) + std::abs(b.slope_v));
   b.lit_above += by_slope, b.dark_below -= by_slope;
-  if (std::isfinite(b.lit_above)) b.lit_above += static_cast<float>(grid_.nearness_error(b.lit_above));
-  if (std::isfinite(b.dark_below)) b.dark_below -= static_cast<float>(grid_.nearness_error(b.dark_below));
+  if (std::isfinite(b.lit_above))
+    b.lit_above += static_cast<float>(grid_.reciprocal_depth_error(b.lit_above));
+  if (std::isfinite(b.dark_below))
+    b.dark_below -= static_cast<float>(grid_.reciprocal_depth_error(b.dark_below));
   return b;
 }
 

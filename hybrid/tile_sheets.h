@@ -12,7 +12,7 @@
 
 namespace gnomon::hybrid {
 
-enum class Certainty : std::uint8_t { shadowed = 0, lit = 1, unsure = 2 };
+enum class Certainty : std::uint8_t { shadowed = 0, lit = 1, ambiguous = 2 };
 
 /// Room for tiles' texels, in large pages: what receivers look up lies all over the map.
 class TexelStore {
@@ -35,9 +35,9 @@ struct SheetTile {
   TexelParts parts;
   /// For the texel that holds (u, v), counted from the tile's corner.
   Certainty at(double u, double v, double reciprocal_depth) const;
-  /// For a place 0 ... 1 in a texel that leaves it in doubt, of a tile with parts.
+  /// For a place 0 ... 1 in a texel that leaves it ambiguous, of a tile with parts.
   Certainty in_parts(std::uint32_t texel, double in_u, double in_v, double reciprocal_depth,
-                     double doubt) const;
+                     double error) const;
   /// The part's place in `parts`.
   template <class Float>
   static std::uint32_t part_at(std::uint32_t texel, Float in_u, Float in_v);
@@ -51,15 +51,15 @@ struct SheetTile {
   std::uint64_t bytes() const;
 };
 
-/// `doubt`: of the nearness, beyond that of ProjectedPoint's.
+/// `error`: of the reciprocal depth, beyond that of ProjectedPoint's.
 inline Certainty judge(const PackedBounds& packed, double from_middle_u, double from_middle_v,
-                       double reciprocal_depth, double doubt = 0.0) {
+                       double reciprocal_depth, double error = 0.0) {
   const TexelBounds bounds = unpack(packed);
   const double n = reciprocal_depth - (static_cast<double>(bounds.slope_u) * from_middle_u +
                                        static_cast<double>(bounds.slope_v) * from_middle_v);
-  return n - doubt > static_cast<double>(bounds.lit_above)    ? Certainty::lit
-         : n + doubt < static_cast<double>(bounds.dark_below) ? Certainty::shadowed
-                                                              : Certainty::unsure;
+  return n - error > static_cast<double>(bounds.lit_above)    ? Certainty::lit
+         : n + error < static_cast<double>(bounds.dark_below) ? Certainty::shadowed
+                                                              : Certainty::ambiguous;
 }
 
 template <class Float>
@@ -71,12 +71,12 @@ std::uint32_t SheetTile::part_at(std::uint32_t texel, Float in_u, Float in_v) {
 }
 
 inline Certainty SheetTile::in_parts(std::uint32_t texel, double in_u, double in_v, double reciprocal_depth,
-                                     double doubt) const {
+                                     double error) const {
   const std::uint32_t part = part_at(texel, in_u, in_v);
   const PackedBounds* bounds = parts.find(part);
-  if (bounds == nullptr) return Certainty::unsure;
+  if (bounds == nullptr) return Certainty::ambiguous;
   return judge(*bounds, from_middle_of_part(in_u, part % parts_per_side),
-               from_middle_of_part(in_v, part / parts_per_side % parts_per_side), reciprocal_depth, doubt);
+               from_middle_of_part(in_v, part / parts_per_side % parts_per_side), reciprocal_depth, error);
 }
 
 inline bool SheetTile::is_known(std::uint32_t part) const {
@@ -91,8 +91,8 @@ inline Certainty SheetTile::at(double u, double v, double reciprocal_depth) cons
   const auto texel = static_cast<std::uint32_t>(y * tile_texels + x);
   const double in_u = u - x, in_v = v - y;
   const Certainty whole = judge(texels[texel], in_u - 0.5, in_v - 0.5, reciprocal_depth);
-  return whole != Certainty::unsure || parts.empty() ? whole
-                                                     : in_parts(texel, in_u, in_v, reciprocal_depth, 0.0);
+  return whole != Certainty::ambiguous || parts.empty() ? whole
+                                                        : in_parts(texel, in_u, in_v, reciprocal_depth, 0.0);
 }
 
 /// Builds tiles one after the other; one per task, for it keeps its buffers.
@@ -113,7 +113,7 @@ class TileBuilder : private PieceRelations {
   /// `triangles`: all that may meet the tile. Shapes are found here.
   SheetTile build(int tile_x, int tile_y, std::span<const std::uint32_t> triangles);
   /// Solves these parts of texels (ascending, as TexelParts has them) and the texels again, by sheets:
-  /// slower, and less is unsure.
+  /// slower, and less is ambiguous.
   void refine(int tile_x, int tile_y, std::span<const std::uint32_t> triangles,
               std::span<const std::uint32_t> parts, SheetTile& tile);
 

@@ -10,7 +10,7 @@ using raytrace::float_below;
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// The plane is used where its coefficients are known to this relative error; else the corners' nearness.
+/// The plane is used where its coefficients are known to this relative error; else the corners' reciprocal depth.
 constexpr double plane_error = 0x1p-22;
 
 TileFunction to_float(double u, double v, double c) {
@@ -57,7 +57,7 @@ bool TileFrame::set_up(const std::array<ProjectedPoint, 3>& points, TriangleFaci
     const float farthest = out.edge[k].at(middle, middle) + middle + static_cast<float>(texel_slack);
     if (out.facing != Facing::edge_on && farthest < -out.error[k]) return false;
   }
-  find_nearness(points, corners, out);
+  find_reciprocal_depth(points, corners, out);
   return true;
 }
 
@@ -110,12 +110,12 @@ void TileFrame::find_edges(Corners& t, double inside, TileTriangle& out) const {
   }
 }
 
-void TileFrame::find_nearness(const std::array<ProjectedPoint, 3>& p, const Corners& t,
-                              TileTriangle& out) const {
+void TileFrame::find_reciprocal_depth(const std::array<ProjectedPoint, 3>& p, const Corners& t,
+                                      TileTriangle& out) const {
   double low = infinity, high = -infinity, well = infinity, reach = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double n = t.clipped && !(p[k].w > grid_.near_limit) ? infinity : p[k].reciprocal_depth;
-    const double error = std::isfinite(n) ? grid_.nearness_error(n) : 0.0;
+    const double error = std::isfinite(n) ? grid_.reciprocal_depth_error(n) : 0.0;
     low = std::min(low, n - error), high = std::max(high, n + error);
     // The height of the corner across edge k against the edge's error.
     const std::size_t other = (k + 2) % 3;
@@ -125,7 +125,7 @@ void TileFrame::find_nearness(const std::array<ProjectedPoint, 3>& p, const Corn
   }
   if (!grid_.perspective) reach = high - low;
   out.low = float_below(low), out.high = float_above(high);
-  out.reciprocal_depth = {}, out.nearness_error = inf;
+  out.reciprocal_depth = {}, out.reciprocal_depth_error = inf;
   if (out.facing == Facing::edge_on || !(well * plane_error > 1.0)) return;
   // n = sum over the corners of b_k n_k, with b_k the edge function across from the corner over det.
   double u = 0.0, v = 0.0, c = grid_.perspective ? 0.0 : p[0].reciprocal_depth;
@@ -138,7 +138,7 @@ void TileFrame::find_nearness(const std::array<ProjectedPoint, 3>& p, const Corn
   const double error = 4.0 * plane_error * reach + 0x1p-21 * (tile_texels * slope + std::abs(c));
   if (!std::isfinite(error) || !std::isfinite(slope)) return;
   out.reciprocal_depth = to_float(u, v, c);
-  out.nearness_error = float_above(error);
+  out.reciprocal_depth_error = float_above(error);
 }
 
 bool TileFrame::covers_tile(const TileTriangle& t) {

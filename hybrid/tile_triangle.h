@@ -1,4 +1,4 @@
-// A triangle as one 32 x 32 tile of the map sees it: three edge functions and a nearness, linear over the
+// A triangle as one 32 x 32 tile of the map sees it: three edge functions and a reciprocal depth, linear over the
 // tile, in floats with all rounding given away (Olano and Greer 1997, "Triangle scan conversion using 2D
 // homogeneous coordinates": no division, so a triangle may reach behind the light). Edge functions are scaled
 // to |a| + |b| = 1: over a texel they change by at most one half from its centre.
@@ -23,10 +23,10 @@ struct TileTriangle {
   std::array<float, 3> depth;               ///< of the triangle below each edge, texels; for edge-on ones
   std::array<std::array<float, 4>, 3> box;  ///< of the edges: x min, max, y min, max, widened
   TileFunction reciprocal_depth;
-  float nearness_error = 0.0f;         ///< infinite: no plane is known
-  float low = 0.0f, high = 0.0f;       ///< of the nearness over the whole triangle
-  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels that it may meet: x0 ... x1
-  std::uint8_t boundary = 0;           ///< as TriangleFacing
+  float reciprocal_depth_error = 0.0f;  ///< infinite: no plane is known
+  float low = 0.0f, high = 0.0f;        ///< of the reciprocal depth over the whole triangle
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;   ///< texels that it may meet: x0 ... x1
+  std::uint8_t boundary = 0;            ///< as TriangleFacing
   Facing facing = Facing::towards;
   std::uint32_t id = 0;
   std::uint32_t slot = Piece::no_slot;
@@ -47,8 +47,8 @@ class TileFrame {
   struct Corners;
   bool find_box(const Corners& corners, TileTriangle& out) const;
   void find_edges(Corners& corners, double inside, TileTriangle& out) const;
-  void find_nearness(const std::array<ProjectedPoint, 3>& points, const Corners& corners,
-                     TileTriangle& out) const;
+  void find_reciprocal_depth(const std::array<ProjectedPoint, 3>& points, const Corners& corners,
+                             TileTriangle& out) const;
 
   const SheetGrid& grid_;
   double u0_, v0_;      // the tile's first texel

@@ -1,5 +1,5 @@
 // The hybrid renderer as the rasterizer's Technique::hybrid: sheets kept for every light that stands still,
-// receivers from the visibility buffer, rays for what the sheets leave unsure.
+// receivers from the visibility buffer, rays for what the sheets leave ambiguous.
 #pragma once
 
 #include <memory>

@@ -50,7 +50,7 @@ enum class Accel : std::uint8_t {
 };
 
 /// The arithmetic of the rays. fast: floats, as textbooks have it, wrong where HARD_CASES says. robust:
-/// doubles, watertight, with error bounds that make doubt visible. exact: robust, its doubts decided by exact
+/// doubles, watertight, with error bounds that make ambiguity visible. exact: robust, what is ambiguous decided by exact
 /// predicates.
 enum class Precision : std::uint8_t { fast, robust, exact };
 std::string_view precision_name(Precision precision);
@@ -105,7 +105,7 @@ class Tracer {
   /// The same to any point, such as one of a light with size.
   Ray shadow_ray(const SurfacePoint& from, const Vec3& target) const;
 
-  /// Exact visibility of the light's centre, with the error bound's doubt made visible. Any unmasked surface
+  /// Exact visibility of the light's centre, with the error bound's ambiguity made visible. Any unmasked surface
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
   /// within.
   Verdict light_verdict(const SurfacePoint& from, const Light& light) const;

@@ -8,7 +8,7 @@ struct Slope {
   vec2 d;  // and its change per unit of the ray's parameter between these
 };
 
-bool unsure;   // somewhere in the arguments there was no value, or a jump
+bool ambiguous;   // somewhere in the arguments there was no value, or a jump
 bool nothing;  // there was no value at all
 
 const float huge = 3e38;
@@ -16,7 +16,7 @@ const float outward_share = 4.8e-7;  // four units in the last place
 
 vec2 outward(vec2 b) { return b + vec2(-1.0, 1.0) * (abs(b) * outward_share + 1e-37); }
 vec2 anything() {
-  unsure = true;
+  ambiguous = true;
   return vec2(-huge, huge);
 }
 vec2 checked(vec2 b) { return any(isnan(b)) ? anything() : outward(b); }
@@ -60,7 +60,7 @@ vec2 i_power(vec2 a, int n) {
 }
 vec2 i_sqrt(vec2 a) {
   if (a.y < 0.0) nothing = true;
-  if (a.x < 0.0) unsure = true;
+  if (a.x < 0.0) ambiguous = true;
   vec2 root = checked(sqrt(max(a, 0.0)));
   return vec2(max(root.x, 0.0), root.y);
 }
@@ -134,7 +134,7 @@ vec2 i_exp(vec2 a) {
 }
 vec2 i_log(vec2 a) {
   if (a.y <= 0.0) nothing = true;
-  if (a.x <= 0.0) unsure = true;
+  if (a.x <= 0.0) ambiguous = true;
   vec2 ends = vec2(a.x > 0.0 ? f_log(a.x) : -huge, a.y > 0.0 ? f_log(a.y) : -huge);
   return outward(ends) + vec2(-1e-6, 1e-6);
 }

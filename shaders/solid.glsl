@@ -159,7 +159,7 @@ bool march_next(ShapeData s, vec3 origin, vec3 d, float from, out float t) {
     } else {
       ++n;
       if (!(nothing || f.v.x > 0.0 || f.v.y < 0.0)) {
-        sure = !unsure;
+        sure = !ambiguous;
         bounds = f.v;
         probing = !(sure && (f.d.x > 0.0 || f.d.y < 0.0));
         if (probing) continue;

@@ -4,6 +4,7 @@
 
 #include "scene/camera.h"
 #include "scene/effects.h"
+#include "scene/generate/random.h"
 #include "scene/light.h"
 #include "scene/light_view.h"
 #include "support/small_scenes.h"
@@ -44,13 +45,13 @@ INSTANTIATE_TEST_SUITE_P(All, LightViews,
 
 TEST_P(LightViews, TexelRayReturnsToItsTexel) {
   const LightView view = fitted(GetParam(), 64);
-  test::Lcg random(42);
+  Random random(42);
   for (int i = 0; i < 20000; ++i) {
-    const int face = static_cast<int>(random(0, view.face_count));
-    const double u = random(0.01, 63.99), v = random(0.01, 63.99);
+    const int face = static_cast<int>(random.between(0, view.face_count));
+    const double u = random.between(0.01, 63.99), v = random.between(0.01, 63.99);
     const Ray ray = texel_ray(view, face, u, v);
     EXPECT_NEAR(glm::length(ray.direction), 1.0, 1e-14);
-    const TexelCoordinate t = project_to_texel(view, ray.at(random(0.5, 20.0)));
+    const TexelCoordinate t = project_to_texel(view, ray.at(random.between(0.5, 20.0)));
     EXPECT_EQ(t.face, face);
     EXPECT_NEAR(t.u, u, 1e-9);
     EXPECT_NEAR(t.v, v, 1e-9);
@@ -60,9 +61,9 @@ TEST_P(LightViews, TexelRayReturnsToItsTexel) {
 TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
   const LightView view = fitted(GetParam(), 256);
   const Vec3 reference(3.0, -2.0, 11.0);
-  test::Lcg random(42);
+  Random random(42);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p = random.point(6.0);
+    const Vec3 p = 6.0 * random.in_ball();
     const TexelCoordinate t = project_to_texel(view, p);
     if (!t.inside) continue;
     const Vec4 clip = light_clip_from_relative(view, t.face, reference) * Vec4(p - reference, 1.0);
@@ -76,9 +77,9 @@ TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
 
 TEST_P(LightViews, ColumnPlanesHoldExactlyTheirTexel) {
   const LightView view = fitted(GetParam(), 32);
-  test::Lcg random(42);
+  Random random(42);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p = random.point(6.0);
+    const Vec3 p = 6.0 * random.in_ball();
     const TexelCoordinate t = project_to_texel(view, p);
     if (!t.inside) continue;
     for (int neighbour = -1; neighbour <= 1; ++neighbour) {
@@ -95,10 +96,10 @@ TEST_P(LightViews, NothingThatTheCameraSeesIsCutOff) {
   const Scene scene = scene_with(light_of(GetParam()));
   const World world = make_world(scene);
   const LightView view = fitted(GetParam(), 512);
-  test::Lcg random(42);
+  Random random(42);
   for (int i = 0; i < 20000; ++i) {
-    const auto c = world.corners(static_cast<std::uint32_t>(random(0, world.triangle_count())));
-    double a = random(0, 1), b = random(0, 1);
+    const auto c = world.corners(static_cast<std::uint32_t>(random.between(0, world.triangle_count())));
+    double a = random.between(0, 1), b = random.between(0, 1);
     if (a + b > 1) a = 1 - a, b = 1 - b;
     const Vec3 p = c[0] + a * (c[1] - c[0]) + b * (c[2] - c[0]);
     const Vec3 pixel = project_to_pixels(make_view(scene.camera, {160, 90}), p);
@@ -141,9 +142,9 @@ TEST(CubeFaces, TiesGoToXThenY) {
 
 TEST(Camera, PixelRayAndProjectionAreInverse) {
   const View view = make_view({{1, 2, 3}, {-4, 0, 1}, {0.1, 1, 0}, 0.9}, {640, 360});
-  test::Lcg random(42);
+  Random random(42);
   for (int i = 0; i < 10000; ++i) {
-    const double x = random(0, 640), y = random(0, 360), t = random(0.1, 100);
+    const double x = random.between(0, 640), y = random.between(0, 360), t = random.between(0.1, 100);
     const Vec3 p = pixel_ray(view, x, y).at(t);
     const Vec3 pixel = project_to_pixels(view, p);
     EXPECT_NEAR(pixel.x, x, 1e-8);

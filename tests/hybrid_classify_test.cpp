@@ -28,7 +28,7 @@ void compare_receiver(const hybrid::LightSheets& sheets, const Light& light, con
   const bool unreached = light_cannot_reach(light, point.position, point.normal);
   const Certainty truth = sheets.at(point.position, point.primitive);
   const int said = has(classes.unreached, lane) + has(classes.lit, lane) + has(classes.shadowed, lane) +
-                   has(classes.unsure, lane) + has(classes.open, lane);
+                   has(classes.ambiguous, lane) + has(classes.open, lane);
   EXPECT_EQ(said, 1) << "each receiver is in one class";
   ++out.receivers;
   const bool right = has(classes.unreached, lane)  ? unreached
@@ -36,8 +36,8 @@ void compare_receiver(const hybrid::LightSheets& sheets, const Light& light, con
                      : has(classes.shadowed, lane) ? !unreached && truth == Certainty::shadowed
                                                    : true;
   out.contradicted += right ? 0 : 1;
-  const bool withheld = has(classes.open, lane) || has(classes.unsure, lane);
-  out.withheld += withheld && (unreached || truth != Certainty::unsure) ? 1 : 0;
+  const bool withheld = has(classes.open, lane) || has(classes.ambiguous, lane);
+  out.withheld += withheld && (unreached || truth != Certainty::ambiguous) ? 1 : 0;
 }
 
 Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
@@ -64,7 +64,7 @@ Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
   return out;
 }
 
-// Withheld are receivers whose nearness lies within the floats' doubt of a bound, or that stand edge-on to
+// Withheld are receivers whose reciprocal depth lies within the floats' error of a bound, or that stand edge-on to
 // the light: a few in a thousand. Around a point light a tile's receivers on another face of the cube than
 // its middle are withheld too; tiles are large in so small a picture.
 TEST(HybridClassify, FloatsAreNeverSurerThanDoubles) {
@@ -119,10 +119,10 @@ TEST(TexelParts, FindsWhatWasPutIn) {
   }
 }
 
-// Bounds only ever move towards doubt, by less than 2^-12 of themselves; rounded slopes come back whole.
-TEST(PackedBounds, RoundTowardsDoubt) {
+// Bounds only ever move towards ambiguity, by less than 2^-12 of themselves; rounded slopes come back whole.
+TEST(PackedBounds, RoundTowardsAmbiguity) {
   test::Random random(11);
-  constexpr float inf = hybrid::no_nearness;
+  constexpr float inf = hybrid::no_reciprocal_depth;
   const auto any = [&] {
     const float size = std::ldexp(1.0f, static_cast<int>(random.below(60)) - 30);
     return size * static_cast<float>(random.uniform(-1.0, 1.0));
@@ -139,7 +139,7 @@ TEST(PackedBounds, RoundTowardsDoubt) {
     const float slope = any();
     ASSERT_LE(std::abs(hybrid::round_slope(slope) - slope), 0.125f * std::abs(slope));
   }
-  for (const hybrid::TexelBounds& b : {hybrid::unsure_texel, hybrid::empty_texel}) {
+  for (const hybrid::TexelBounds& b : {hybrid::ambiguous_texel, hybrid::empty_texel}) {
     const hybrid::TexelBounds back = hybrid::unpack(hybrid::pack(b));
     EXPECT_EQ(back.lit_above, b.lit_above);
     EXPECT_EQ(back.dark_below, b.dark_below);

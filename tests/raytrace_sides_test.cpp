@@ -168,10 +168,10 @@ TEST(Sides, TheFacingOfAnEyeIsThatOfEveryRayFromIt) {
                                   corners[1].z, corners[2].x, corners[2].y, corners[2].z};
     const Facing facing = facing_of(v.data(), eye);
     const Vec3 inner = (corners[0] + corners[1] + corners[2]) / 3.0;
-    doubtful += facing == Facing::doubtful ? 1 : 0;
+    doubtful += facing == Facing::ambiguous ? 1 : 0;
     wrong += (facing == Facing::back) != is_back(w.world(), inner - eye, i) ? 1 : 0;
     // In the triangle's plane nothing can be said.
-    wrong += facing_of(v.data(), corners[0]) == Facing::doubtful ? 0 : 1;
+    wrong += facing_of(v.data(), corners[0]) == Facing::ambiguous ? 0 : 1;
   }
   EXPECT_EQ(doubtful + wrong, 0U);
 }

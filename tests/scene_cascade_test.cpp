@@ -3,6 +3,7 @@
 
 #include "scene/camera.h"
 #include "scene/cascade_fit.h"
+#include "scene/generate/random.h"
 #include "support/small_scenes.h"
 
 namespace gnomon {
@@ -38,11 +39,12 @@ class Shapes : public testing::TestWithParam<Kind> {
 
 TEST_P(Shapes, TexelRayReturnsToItsTexel) {
   const LightView view = fitted(64);
-  test::Lcg random(7);
+  Random random(7);
   for (int i = 0; i < 20000; ++i) {
-    const int face = static_cast<int>(random(0, view.face_count));
-    const double u = random(0, 64), v = random(0, 64);
-    const TexelCoordinate t = project_to_face(view, face, texel_ray(view, face, u, v).at(random(-20, 20)));
+    const int face = static_cast<int>(random.between(0, view.face_count));
+    const double u = random.between(0, 64), v = random.between(0, 64);
+    const TexelCoordinate t =
+        project_to_face(view, face, texel_ray(view, face, u, v).at(random.between(-20, 20)));
     ASSERT_NEAR(t.u, u, 1e-9);
     ASSERT_NEAR(t.v, v, 1e-9);
     ASSERT_TRUE(t.inside);
@@ -52,12 +54,12 @@ TEST_P(Shapes, TexelRayReturnsToItsTexel) {
 TEST_P(Shapes, ClipMatrixAndStoredDepthAgree) {
   const LightView view = fitted(256);
   const Vec3 reference(0.3, 0.2, -1.0);
-  test::Lcg random(7);
+  Random random(7);
   for (int i = 0; i < 20000; ++i) {
-    const int face = static_cast<int>(random(0, view.face_count));
+    const int face = static_cast<int>(random.between(0, view.face_count));
     const LightFace& f = view.face(face);
-    const Vec3 p =
-        texel_ray(view, face, random(0, 256), random(0, 256)).at(random(f.near_depth, f.far_depth));
+    const Vec3 p = texel_ray(view, face, random.between(0, 256), random.between(0, 256))
+                       .at(random.between(f.near_depth, f.far_depth));
     const TexelCoordinate t = project_to_face(view, face, p);
     const Vec4 clip = light_clip_from_relative(view, face, reference) * Vec4(p - reference, 1.0);
     ASSERT_GT(clip.w, 0.0);
@@ -73,11 +75,11 @@ TEST_P(Shapes, ClipMatrixAndStoredDepthAgree) {
 
 TEST_P(Shapes, ColumnPlanesAndCornersHoldExactlyTheirTexel) {
   const LightView view = fitted(32);
-  test::Lcg random(7);
+  Random random(7);
   for (int i = 0; i < 5000; ++i) {
-    const int face = static_cast<int>(random(0, view.face_count));
-    const double u = random(0, 32), v = random(0, 32);
-    const Vec3 p = texel_ray(view, face, u, v).at(random(-20, 20));
+    const int face = static_cast<int>(random.between(0, view.face_count));
+    const double u = random.between(0, 32), v = random.between(0, 32);
+    const Vec3 p = texel_ray(view, face, u, v).at(random.between(-20, 20));
     const auto column = static_cast<int>(u), row = static_cast<int>(v);
     for (int neighbour = -1; neighbour <= 1; ++neighbour) {
       bool across = true, up = true;
@@ -102,10 +104,10 @@ TEST_P(Shapes, ColumnPlanesAndCornersHoldExactlyTheirTexel) {
 TEST_P(Shapes, NothingThatTheCameraSeesIsCutOff) {
   const LightView view = fitted(512);
   const View eye = make_view(scene_.camera, {160, 100});
-  test::Lcg random(7);
+  Random random(7);
   int seen = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p(random(-20, 20), 0.0, random(-20, 20));
+    const Vec3 p(random.between(-20, 20), 0.0, random.between(-20, 20));
     const Vec3 pixel = project_to_pixels(eye, p);
     if (!(pixel.z > 0 && pixel.x >= 0 && pixel.y >= 0 && pixel.x < 160 && pixel.y < 100)) continue;
     ++seen;

@@ -165,9 +165,9 @@ struct IntersectedChildren<false> {
         : hit(intersected), node(of) {
       if constexpr (hn::MaxLanes(byte_lanes) == node_lanes) {
         const auto order = ray.order(byte_lanes, node);
-        std::uint8_t bits[8] = {};
-        std::memcpy(bits, &hit.bits, sizeof hit.bits);
-        const auto is_hit = hn::VecFromMask(byte_lanes, hn::LoadMaskBits(byte_lanes, bits));
+        std::uint8_t hit_bits[8] = {};
+        std::memcpy(hit_bits, &hit.bits, sizeof hit.bits);
+        const auto is_hit = hn::VecFromMask(byte_lanes, hn::LoadMaskBits(byte_lanes, hit_bits));
         left = bits_of(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, order)));
         hn::Store(order, byte_lanes, place);
       } else {
@@ -183,8 +183,8 @@ struct IntersectedChildren<false> {
       return node.child[place[last]];
     }
     HWY_INLINE void push(Stack& stack, std::size_t& size) const {
-      for (unsigned bits = left; bits != 0; bits &= bits - 1, ++size) {
-        const std::size_t lane = place[std::countr_zero(bits)];
+      for (unsigned rest = left; rest != 0; rest &= rest - 1, ++size) {
+        const std::size_t lane = place[std::countr_zero(rest)];
         stack.child[size] = node.child[lane], stack.near[size] = hit.near[lane];
       }
     }

@@ -171,7 +171,7 @@ class BlockClosest {
   }
 
   /// Bits of those of eight waiting triangles whose back alone the eye could meet, and does not see; which of them it
-  /// meets in doubt is left to the double kernels.
+  /// meets ambiguously is left to the double kernels.
   unsigned leave_out_backs(std::size_t first, std::size_t count, unsigned& never) const {
     unsigned backs = 0;
     for (std::size_t i = 0; i < 8 && first + i < count; ++i) {
@@ -181,7 +181,7 @@ class BlockClosest {
       LeafPrimitive scratch;
       const Facing facing = facing_of(s_.bvh.primitive_at(leaf, scratch).v.data(), setup_.origin);
       if (facing == Facing::back) backs |= 1u << i;
-      if (facing == Facing::doubtful) never |= 1u << i;
+      if (facing == Facing::ambiguous) never |= 1u << i;
     }
     return backs;
   }

@@ -19,7 +19,7 @@ Facing facing_of(const double* v, const Vec3& eye) {
       e.x * (m.y * n.z + m.z * n.y) + e.y * (m.z * n.x + m.x * n.z) + e.z * (m.x * n.y + m.y * n.x);
   // Roundings of a term: three differences, two products, the cross product's difference, two sums. What underflows
   // is far below the second bound.
-  if (!(std::abs(det) > error_gamma(12) * permanent && permanent > 1e-270)) return Facing::doubtful;
+  if (!(std::abs(det) > error_gamma(12) * permanent && permanent > 1e-270)) return Facing::ambiguous;
   return det > 0.0 ? Facing::back : Facing::front;
 }
 

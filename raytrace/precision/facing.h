@@ -12,9 +12,9 @@ namespace gnomon::raytrace {
 /// arithmetic the hit was found with. An edge-on triangle is not met from behind.
 bool is_back(const World& world, const Vec3& direction, std::uint32_t triangle);
 
-enum class Facing : std::uint8_t { front, back, doubtful };
+enum class Facing : std::uint8_t { front, back, ambiguous };
 
-/// The side of a triangle, corner after corner, that every ray from `eye` meets which meets it; doubtful where doubles
+/// The side of a triangle, corner after corner, that every ray from `eye` meets which meets it; ambiguous where doubles
 /// do not decide it.
 Facing facing_of(const double* corners, const Vec3& eye);
 

@@ -114,12 +114,12 @@ Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
 bool faces_away(Receiver64 r) {
 #ifdef DIRECTIONAL
   dvec3 towards = -izb.light.xyz;
-  double doubt = error_gamma(24) * dot(abs(r.normal), abs(towards));
+  double error = error_gamma(24) * dot(abs(r.normal), abs(towards));
 #else
   dvec3 towards = izb.light.xyz - r.position;
-  double doubt = error_gamma(24) * dot(abs(r.normal), abs(izb.light.xyz) + abs(r.position)) + dot(abs(r.normal), r.error);
+  double error = error_gamma(24) * dot(abs(r.normal), abs(izb.light.xyz) + abs(r.position)) + dot(abs(r.normal), r.error);
 #endif
-  return !(dot(r.normal, towards) > -doubt);
+  return !(dot(r.normal, towards) > -error);
 }
 
 bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {

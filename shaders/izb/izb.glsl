@@ -68,8 +68,8 @@ ShadowRay shadow_ray(Receiver64 r) {
 #else
   dvec3 way = izb.light.xyz - origin;
   double distance = sqrt(dot(way, way));
-  double doubt = error_gamma(8) * distance + dot(r.error + abs(origin - r.position), dvec3(1.0LF));
-  return ShadowRay(origin, way / distance, distance - doubt);
+  double error = error_gamma(8) * distance + dot(r.error + abs(origin - r.position), dvec3(1.0LF));
+  return ShadowRay(origin, way / distance, distance - error);
 #endif
 }
 

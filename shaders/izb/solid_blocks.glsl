@@ -115,20 +115,20 @@ bool solid_crossed(ShapeData shape, DoubleShape s, dvec3 origin, dvec3 d, double
   bool closed = shape.kind == uint(shape_implicit) && solid_cut64(s) == solid_closed;
   bool inside = own != 0 ? own < 0 : solid_gradient64(shape, s, o).w < 0.0LF;
   if (closed && inside && own == 0 && range.x > 0.0LF) return true;  // through the box's face
-  float doubt = float_share * float(box_diagonal64(s));
+  float error = float_share * float(box_diagonal64(s));
   vec3 near_o = vec3(o), near_d = vec3(d);
   double longest = 0.125LF * to_go, step = longest, least = to_go * 3.0517578125e-5LF, at = 0.0LF;
   for (int n = 0; n < most_stretches && at < to_go; ++n) {
     double to = min(at + step, to_go);
     if (!(to > at)) break;
-    Slope f = solid_slope(shape, near_o, near_d, vec2(float(at), float(to)), doubt);
+    Slope f = solid_slope(shape, near_o, near_d, vec2(float(at), float(to)), error);
     bool free = nothing || f.v.x > 0.0 || f.v.y < 0.0;
-    bool monotone = !unsure && (f.d.x > 0.0 || f.d.y < 0.0);
+    bool monotone = !ambiguous && (f.d.x > 0.0 || f.d.y < 0.0);
     if (!free && !monotone && step > least) {
       step *= 0.5LF;
       continue;
     }
-    if (!free && changes_sign(shape, s, o, d, dvec2(at, to), monotone, !unsure, inside)) {
+    if (!free && changes_sign(shape, s, o, d, dvec2(at, to), monotone, !ambiguous, inside)) {
       t = begin + at;
       return true;
     }

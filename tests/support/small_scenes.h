@@ -7,22 +7,6 @@
 
 namespace gnomon::test {
 
-/// The same numbers everywhere, from a seed.
-class Lcg {
- public:
-  explicit Lcg(std::uint64_t seed) : state_(seed) {}
-  double operator()(double low, double high) {
-    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
-    return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
-  }
-  Vec3 point(double extent) {
-    return {(*this)(-extent, extent), (*this)(-extent, extent), (*this)(-extent, extent)};
-  }
-
- private:
-  std::uint64_t state_;
-};
-
 /// A rectangular floor in the plane y = 0, as two triangles, centred at the origin.
 Mesh floor_mesh(double half_width, double half_depth);
 /// A closed box, outward-wound.
