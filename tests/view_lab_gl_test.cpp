@@ -1,111 +1,14 @@
-// The shadow lab as a person uses it, under Xvfb: its numbers are those of `gnomon compare`, its panels take the
-// pointer, and many changes in a row leave no error. Skipped where there is no Xvfb.
+// The shadow lab as a person uses it with the mouse: its numbers are those of `gnomon compare`, its panels take the
+// pointer, and many changes in a row leave no error.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <random>
-#include <sstream>
 
-#include "scene/files/image_io.h"
-#include "tests/app_process.h"
-#include "tests/view_display.h"
+#include "tests/view_lab_fixture.h"
 
 namespace gnomon::app_test {
 namespace {
-
-/// A part of the window.
-struct Box {
-  int x, y, width, height;
-};
-
-struct PixelPlace {
-  int x = 0, y = 0;
-};
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// "gnomon compare ..." without its first word. No word of it is quoted here.
-Words words_of(const std::string& command) {
-  std::istringstream stream(command);
-  Words words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words.empty() ? words : Words(words.begin() + 1, words.end());
-}
-
-/// One display for all tests, a folder for each.
-class ViewLab : public testing::Test {
- protected:
-  static void SetUpTestSuite() { display_ = new VirtualDisplay; }
-  static void TearDownTestSuite() {
-    delete display_;
-    display_ = nullptr;
-  }
-  void SetUp() override {
-    if (!display_->missing().empty()) GTEST_SKIP() << display_->missing();
-  }
-  ProcessResult run(const Words& words) const {
-    ProcessOptions options;
-    options.folder = folder_.path();
-    options.environment = {display_->variable(), "WAYLAND_DISPLAY="};
-    return run_gnomon(words, options);
-  }
-  ProcessResult drive(const std::string& scene, const std::string& script, const Words& more = {}) const {
-    write_text(folder_ / "script.txt", script);
-    return run(Words{"view", scene, "--script", "script.txt"} + more);
-  }
-  /// What a script prints that must end well, line by line.
-  Words printed(const std::string& scene, const std::string& script, const Words& more = {}) const {
-    const ProcessResult result = drive(scene, script, more);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.err.find("OpenGL"), std::string::npos) << result.err;
-    return lines_of(result.out);
-  }
-  /// The screenshot shows the labels that the printed command writes.
-  void expect_labels(const std::string& screenshot, const std::string& command) const {
-    const Words more{"-o", "compared", "--runs", "1", "--no-report", "--quiet"};
-    EXPECT_EQ(run(words_of(command) + more).exit_code, 0) << command;
-    EXPECT_EQ(texels(screenshot), texels("compared/labels.png")) << command;
-  }
-  /// Pixels that differ between two screenshots of one size, in a part of them.
-  std::size_t differing(const std::string& a, const std::string& b, const Box& part) const {
-    const auto first = read_texture(folder_ / a, true), second = read_texture(folder_ / b, true);
-    EXPECT_TRUE(first && second && first->size == second->size) << a << ", " << b;
-    std::size_t count = 0;
-    for (int y = part.y; y < part.y + part.height; ++y)
-      for (int x = part.x; x < part.x + part.width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(first->size.width) +
-                              static_cast<std::size_t>(x);
-        count += first->texels[i] != second->texels[i];
-      }
-    return count;
-  }
-  bool wrote(const std::string& name) const {
-    const Words entries = folder_.entries();
-    return std::find(entries.begin(), entries.end(), name) != entries.end();
-  }
-  std::vector<glm::u8vec4> texels(const std::string& name) const {
-    const auto texture = read_texture(folder_ / name, true);
-    EXPECT_TRUE(texture) << name;
-    return texture ? texture->texels : std::vector<glm::u8vec4>{};
-  }
-  /// Of a window that is 900 pixels wide; (0, 0, 0, 0): there is none.
-  glm::u8vec4 texel(const std::string& name, PixelPlace at) const {
-    const auto all = texels(name);
-    const std::size_t i = static_cast<std::size_t>(at.y) * 900 + static_cast<std::size_t>(at.x);
-    return i < all.size() ? all[i] : glm::u8vec4(0);
-  }
-  TemporaryFolder folder_;
-  static VirtualDisplay* display_;
-};
-
-VirtualDisplay* ViewLab::display_ = nullptr;
 
 /// Some setting, light and camera.
 std::string random_state(std::mt19937& random) {
@@ -305,80 +208,6 @@ TEST_F(ViewLab, EveryViewLayoutThemeAndScaleIsDrawnWithoutAnError) {
   printed("floating-box", script);
   EXPECT_EQ(texels("end.png").size(), 800u * 600u);
   EXPECT_EQ(run({"compare", "saved.json", "--size", "64x48", "--json", "-", "--runs", "1"}).exit_code, 0);
-}
-
-/// What each key of a list leaves on the screen or in the printed command, one after the other.
-std::string press_all(const Words& keys, const std::string& then) {
-  std::string script;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    script += fmt::format("key {}\nwait done\n{}\n", keys[i], fmt::vformat(then, fmt::make_format_args(i)));
-  return script;
-}
-
-TEST_F(ViewLab, EveryKeyThatSetsSomethingSetsIt) {
-  const Words keys{"left", "up",    "pagedown", "ctrl+left", "ctrl+up",    "[",         ";",  "=",
-                   "0",    "8",     ",",        "D",         "K",          "F6",        "F7", "F8",
-                   "F9",   "right", "down",     "pageup",    "ctrl+right", "ctrl+down", "]",  "'",
-                   "-",    "9",     ".",        "R",         "space"};
-  const Words commands =
-      printed("floating-box",
-              "set panels off\nset size 96x64\nset map-size 128\nset slope-bias 1\nset film sun\nprint\n" +
-                  press_all(Words(keys.begin(), keys.end() - 1), "print") +
-                  "key space\nwait 30\nkey space\nwait done\nprint\n");
-  ASSERT_EQ(commands.size(), keys.size() + 1);
-  for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_NE(commands[i], commands[i + 1]) << keys[i];
-}
-
-// The first key of each pair changes what the window shows, and the second brings it back.
-TEST_F(ViewLab, EveryKeyThatShowsSomethingShowsIt) {
-  const std::pair<const char*, const char*> pairs[] = {
-      {"2", "1"},   {"3", "tab"},     {"4", "1"},           {"5", "1"},     {"6", "1"},      {"G", "1"},
-      {"T", "1"},   {"Z", "shift+Z"}, {"ctrl+=", "ctrl+-"}, {"F1", "esc"},  {"H", "F1"},     {"F2", "F2"},
-      {"F3", "F3"}, {"F4", "F4"},     {"F5", "F5"},         {"F11", "F11"}, {"ctrl+K", "X"}, {"F10", "esc"}};
-  Words keys;
-  for (const auto& [there, back] : pairs) keys.insert(keys.end(), {there, back});
-  printed("floating-box",
-          "set size 800x600\nset results off\nset bias 0texel\nwait done\nscreenshot start.png\n" +
-              press_all(keys, "screenshot {}.png") +
-              "key V\nwait done\nscreenshot swipe.png\nkey ctrl+,\nscreenshot line.png\n"
-              "key V\nwait done\nscreenshot quad.png\n");
-  const auto start = texels("start.png");
-  for (std::size_t i = 0; i < keys.size(); i += 2) {
-    EXPECT_NE(texels(fmt::format("{}.png", i)), start) << keys[i];
-    EXPECT_EQ(texels(fmt::format("{}.png", i + 1)), start) << keys[i] << ", " << keys[i + 1];
-  }
-  EXPECT_NE(texels("swipe.png"), start);
-  EXPECT_NE(texels("line.png"), texels("swipe.png"));
-  EXPECT_NE(texels("quad.png"), texels("line.png"));
-}
-
-// Into the menus, down to "Save as scene", and the key that presses it.
-TEST_F(ViewLab, MenusObeyTheKeys) {
-  const Words said = printed("floating-box",
-                             "set size 800x600\nset map-size 64\nwait done\nkey F10\nkey down\nkey down\n"
-                             "key down\nkey space\nwait done\nprint\n");
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].find("--camera-orbit"), std::string::npos) << said[0];  // no key went to the picture
-  EXPECT_TRUE(wrote("floating-box-scene-001.json"));
-}
-
-TEST_F(ViewLab, KeysThatWriteFilesWriteThem) {
-  const Words said =
-      printed("floating-box",
-              "set size 300x200\nset panels off\nset map-size 64\nkey P\nwait done\n"
-              "key ctrl+P\nwait done\nkey ctrl+S\nwait done\nkey C\nkey Q\nscreenshot never.png\n");
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_TRUE(said[0].starts_with("gnomon compare")) << said[0];
-  for (const char* name : {"raster-001.png", "raster-picture-001.png", "scene-001.json"})
-    EXPECT_TRUE(wrote(std::string("floating-box-") + name)) << name;
-  EXPECT_FALSE(wrote("never.png"));
-}
-
-TEST_F(ViewLab, AReportIsWrittenBesideTheWindow) {
-  printed("floating-box", "set size 300x200\nset panels off\nset map-size 64\nkey ctrl+R\nwait done\n");
-  ASSERT_TRUE(wrote("floating-box-report-001/"));
-  EXPECT_NE(read_file(folder_ / "floating-box-report-001/result.json").find("\"size\": 64"),
-            std::string::npos);
 }
 
 }  // namespace
