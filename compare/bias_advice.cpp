@@ -66,13 +66,9 @@ std::string rest_text(double fraction, const LightComparison& light) {
   return fmt::format("{:.0f} of them", fraction * static_cast<double>(light.pixels.compared));
 }
 
-// A gain that no figure shows is none to a reader.
-bool seems_better(double fraction, double than, const LightComparison& light) {
-  return fraction < than && rest_text(fraction, light) != rest_text(than, light);
-}
-
+// A gain that no figure shows is none to a reader, nor is one that only rounding shows.
 bool is_clearly_better(double fraction, double than, const LightComparison& light) {
-  return fraction < (1.0 - clear_gain) * than && seems_better(fraction, than, light);
+  return fraction < (1.0 - clear_gain) * than && rest_text(fraction, light) != rest_text(than, light);
 }
 
 // A constant that the kind takes beside it, where that moves shadows by what can be seen.
@@ -129,7 +125,7 @@ std::string kinds_part(const LightComparison& light) {
 std::string constant_part(const LightComparison& light) {
   const BestBias& best = light.best_bias;
   const double drawn = light.error.wrong_fraction;
-  if (seems_better(best.wrong_fraction, drawn, light))
+  if (is_clearly_better(best.wrong_fraction, drawn, light))
     return fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world),
                        rest_text(best.wrong_fraction, light));
   if (light.error.wrong == 0 || best.wrong_fraction > drawn) return {};
