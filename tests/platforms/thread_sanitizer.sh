@@ -47,9 +47,9 @@ export LD_LIBRARY_PATH=$onetbb/installed/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH
 export TSAN_OPTIONS="halt_on_error=0 exitcode=66 ignore_noninstrumented_modules=1 suppressions=$PWD/tests/platforms/thread_sanitizer.supp"
 failed=0
 for scene in "${scenes[@]}"; do
-  "$build/app/gnomon" compare "$scene" --size 320x180 -o "$build/out/$scene" --quiet || { failed=1; echo "compare $scene: exit $?"; }
+  "$build/app/gnomon" compare "$scene" --size 320x180 -o "$build/out/$scene" --quiet || { echo "compare $scene: exit $?"; failed=1; }
 done
 for program in "${programs[@]}"; do  # not through ctest, whose limits of time are for programs without a sanitizer
-  "$build/tests/$program" --gtest_brief=1 || { failed=1; echo "$program: exit $?"; }
+  "$build/tests/$program" --gtest_brief=1 || { echo "$program: exit $?"; failed=1; }
 done
 exit "$failed"
