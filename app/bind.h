@@ -14,7 +14,7 @@ namespace gnomon::app {
 /// learns what was typed where it asks for that, and the action is `run`.
 template <class Command, class Run>
 void bind_run(CLI::App& app, Invocation& invocation, const std::shared_ptr<Command>& command, Run run) {
-  app.callback([&app, &invocation, command, run] {
+  app.callback([&, command, run] {  // not every command uses app
     if constexpr (requires { command->setting.options.raster.map; })
       invocation.finish = [&app, command] { finish_map_options(app, command->setting.options.raster.map); };
     if constexpr (requires { command->given; }) command->given = given_options(app);
