@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ThreadSanitizer over what runs in parallel: the program on scenes of every kind, and the tests of the tracer, the
-# loaders, bands, sweeps and the window's thread. Some hour on two cores.
+# loaders, bands, sweeps and the window's thread. Some hours on two cores.
 #
 #   tests/platforms/thread_sanitizer.sh
 #
