@@ -12,8 +12,9 @@ namespace gnomon::app {
 namespace {
 
 constexpr double idle_wait_seconds = 1.0;  // between frames when nothing happens
-constexpr double busy_wait_seconds = 0.1;  // while a run beside the window is looked after
-constexpr glm::u8vec3 surround{24};        // where a picture leaves the window free
+constexpr double busy_wait_seconds =
+    0.1;  // while a run beside the window is looked after, or pictures are waited for
+constexpr glm::u8vec3 surround{24};  // where a picture leaves the window free
 
 /// Colours that stand for something must not be mixed.
 raster::Scaling scaling_of(Picture picture, const Look& look) {
@@ -339,13 +340,15 @@ void Viewer::set_title() {
   if (title != title_) window_->set_title(title_ = std::move(title));
 }
 
+/// A picture that is finished ends the wait. A frame in between would show the same again, and in software it takes the
+/// processor from that picture.
 void Viewer::sleep() {
   if (busy_frames_ > 0) --busy_frames_;
-  if (state_.film.plays && !shown_->is_drawn(state_)) return window_->wait(idle_wait_seconds / 100.0);
+  if (state_.film.plays && !shown_->is_drawn(state_)) return window_->wait(busy_wait_seconds);
   if (busy_frames_ > 0) return;
   if (!has_script()) return window_->wait(job_ || saving_.valid() ? busy_wait_seconds : idle_wait_seconds);
   const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
-  if (waits || resizing_ || opening_after_ || job_) window_->wait(idle_wait_seconds / 100.0);
+  if (waits || resizing_ || opening_after_ || job_ || saving_.valid()) window_->wait(busy_wait_seconds);
 }
 
 }  // namespace gnomon::app
