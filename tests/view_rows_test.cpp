@@ -78,6 +78,15 @@ TEST(ViewRows, PresetsCanBeDrawn) {
     }
 }
 
+TEST(ViewRows, WhatAPresetShowsIsNotWhatAnotherLeft) {
+  for (const Preset& before : presets())
+    for (const Preset& preset : presets()) {
+      const raster::MapOptions alone = preset.apply({}), after = preset.apply(before.apply({}));
+      EXPECT_EQ(after.size, alone.size) << preset.title << " after " << before.title;
+      EXPECT_EQ(after.bias, alone.bias) << preset.title << " after " << before.title;
+    }
+}
+
 TEST(ViewLayout, WithoutPanelsThePictureIsTheWindow) {
   Look look;
   look.panels = false;

@@ -147,8 +147,10 @@ constexpr MapRow rows[] = {
      "Smaller texels need less bias.", "Less."},
 };
 
+/// What is shown does not depend on what another preset showed before: the size is the default one again.
 MapOptions hard_with(const MapOptions& map, double bias_texels, double slope) {
   MapOptions out = map;
+  out.size = MapOptions{}.size;
   const bool hard = raster::traits_of(map.technique).test == raster::ShadowTest::single;
   if (!hard) out.technique = raster::Technique::hard;
   out.cull = raster::Cull::none;
@@ -171,6 +173,7 @@ constexpr Preset preset_table[] = {
      [](const MapOptions& map) {
        MapOptions out = map;
        out.technique = raster::Technique::esm;
+       out.size = MapOptions{}.size;
        out.cull = raster::Cull::none;
        out.bias = MapOptions{}.bias;
        out.filter.esm_exponent = 10.0;

@@ -12,8 +12,8 @@ namespace gnomon::app {
 namespace {
 
 constexpr double idle_wait_seconds = 1.0;  // between frames when nothing happens
-constexpr double busy_wait_seconds =
-    0.1;  // while a run beside the window is looked after, or pictures are waited for
+// While a run beside the window is looked after, or pictures are waited for.
+constexpr double busy_wait_seconds = 0.1;
 constexpr glm::u8vec3 surround{24};  // where a picture leaves the window free
 
 /// Colours that stand for something must not be mixed.
