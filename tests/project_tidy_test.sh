@@ -43,6 +43,7 @@ unneeded_using() {
 tidy_together() {
   local room=$1 units status=0
   units="/(gnomon_$room\\.dir/Unity/unity_in__[0-9]+_cxx\\.cxx|$room/[^/]*\\.cpp)\$"
+  grep -qE "\"file\": \"[^\"]*${units%\$}\"" "$built/compile_commands.json" || { echo "nothing of $room is compiled in $built"; return 1; }
   # CMake's own file of a unit includes sources.
   tidy "$built" -checks=-bugprone-suspicious-include -header-filter="/$room/.*" "$units" || status=1
   unneeded_using "$room"/*.cpp || status=1
