@@ -67,6 +67,8 @@ class alignas(64) BlockPlane {
     columns = axis(view.tan_half_x, view.size.width), rows = axis(view.tan_half_y, view.size.height);
   }
 
+  const Projection& projection() const { return projection_; }
+
   /// Conservative. A box that is not clear of the eye may cover everything.
   BoxPlace packets_of(const BoxRef& box) const {
     const PrimitiveBounds bounds = projection_.of(box);
@@ -85,7 +87,7 @@ class alignas(64) BlockPlane {
   }
 
  private:
-  BoxProjection projection_;
+  Projection projection_;
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

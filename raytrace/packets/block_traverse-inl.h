@@ -1,5 +1,5 @@
 // The traversal of a block of tiles through the hierarchy (view_block.cpp, shadow_block.cpp): the nodes that the
-// block's frustum touches, nearest first, down to runs of a few leaves; and where a box lies before the block.
+// block's frustum touches, nearest first, down to runs of a few leaves.
 
 #if defined(GNOMON_RAYTRACE_PACKETS_BLOCK_TRAVERSE_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -15,6 +15,7 @@
 
 #include "raytrace/bvh/instance.h"
 #include "raytrace/packets/frustum-inl.h"
+#include "raytrace/packets/projection-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -99,63 +100,6 @@ HWY_INLINE void prefetch_run(const Bvh& bvh, const LeafRange& run) {
   for (std::size_t at = 0; at < count * sizeof(LeafPrimitive); at += 64) __builtin_prefetch(bytes + at);
   __builtin_prefetch(&bvh.ids[run.first]), __builtin_prefetch(&bvh.ids[run.first + run.count - 1]);
 }
-
-using Eight = hn::CappedTag<float, 8>;
-using V8 = hn::Vec<Eight>;
-constexpr Eight eight;
-alignas(32) constexpr float corner_bit[3][8] = {
-    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
-
-/// Where in the plane boxes lie that count from the hierarchy's centre.
-class BoxProjection {
- public:
-  BoxProjection(const Structures& s, const EdgeSetup& setup)
-      : setup_(setup), origin_(setup.origin - s.bvh.center), slack_(float_above(setup.slack)) {}
-
-  /// Conservative; infinite, and nearest with it, of a box that is not clear of the common origin.
-  PrimitiveBounds of(const BoxRef& box) const {
-    const auto set = [](double number) { return hn::Set(eight, static_cast<float>(number)); };
-    PrimitiveBounds bounds{inf, -inf, inf, -inf, setup_.directional ? -inf : inf};
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 across = hn::Zero(eight), down = across, depth = across;
-      for (int a = 0; a < 3; ++a) {
-        const auto axis = static_cast<std::size_t>(a);
-        const V8 low = hn::Set(eight, box.min[axis]), high = hn::Set(eight, box.max[axis]);
-        const V8 corner =
-            hn::IfThenElse(hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight)), high, low);
-        const V8 p = hn::Sub(corner, set(origin_[a]));
-        across = hn::MulAdd(p, set(setup_.axes[0][a]), across);
-        down = hn::MulAdd(p, set(setup_.axes[1][a]), down);
-        depth = hn::MulAdd(p, set(setup_.axes[2][a]), depth);
-      }
-      if (setup_.directional) {
-        const V8 margin = hn::Set(eight, 4.0f * slack_);
-        grow(across, margin, bounds.u_min, bounds.u_max), grow(down, margin, bounds.v_min, bounds.v_max);
-        bounds.nearest = std::max(bounds.nearest, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(depth, margin))));
-        continue;
-      }
-      bounds.nearest = std::min(bounds.nearest, hn::GetLane(hn::MinOfLanes(eight, depth)));  // as a depth
-      if (!(bounds.nearest > 64.0f * slack_)) return {-inf, inf, -inf, inf, inf};
-      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), depth);
-      const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
-      const V8 u = hn::Mul(across, per_depth), v = hn::Mul(down, per_depth);
-      grow(u, hn::MulAdd(hn::Abs(u), relative, relative), bounds.u_min, bounds.u_max);
-      grow(v, hn::MulAdd(hn::Abs(v), relative, relative), bounds.v_min, bounds.v_max);
-    }
-    if (!setup_.directional) bounds.nearest = (1.0f + 0x1p-20f) / (bounds.nearest - slack_);
-    return bounds;
-  }
-
- private:
-  static void grow(V8 at, V8 margin, float& min, float& max) {
-    min = std::min(min, hn::GetLane(hn::MinOfLanes(eight, hn::Sub(at, margin))));
-    max = std::max(max, hn::GetLane(hn::MaxOfLanes(eight, hn::Add(at, margin))));
-  }
-
-  const EdgeSetup& setup_;
-  Vec3 origin_;  // from the middle that boxes count from
-  float slack_;
-};
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -111,23 +111,22 @@ EdgeSetup edge_setup_along(const Structures& s, const Vec3& to_light) {
 }
 
 unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span<const std::uint32_t> leaves,
-                       EdgeSetupBlock& block) {
+                       EdgeSetupRows& rows) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < 8; ++i) {
     LeafPrimitive scratch;
     const LeafPrimitive& p = s.bvh.primitive_at(leaves[std::min(i, leaves.size() - 1)], scratch);
-    for (std::size_t k = 0; k < 9; ++k) block.rows.corner[k][i] = p.v[k];
+    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = p.v[k];
   }
-  set_up_eight_triangles(block.rows, pass);
+  set_up_eight_triangles(rows, pass);
   if (!s.has_shapes && !s.has_masks) return 0;
   unsigned never = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const std::uint32_t id = s.bvh.id_at(leaves[i]);
     if (!s.world->is_triangle(id)) {
-      const float void_rows[EdgeSetupRows::count] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-                                                     0.0f, 0.0f, 0.0f, 0.0f, 0.0f, inf,  inf,
-                                                     -inf, -inf, inf,  -inf, inf,  inf};
-      for (std::size_t k = 0; k < EdgeSetupRows::count; ++k) block.rows.out[k][i] = void_rows[k];
+      const float void_rows[EdgeSetupRows::count] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+                                                     0.0f, 0.0f, 0.0f, 0.0f, inf,  inf,  -inf};
+      for (std::size_t k = 0; k < EdgeSetupRows::count; ++k) rows.out[k][i] = void_rows[k];
       never |= 1u << i;
     } else if (s.has_masks && is_masked(*s.world, id)) {
       never |= 1u << i;

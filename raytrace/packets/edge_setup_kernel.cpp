@@ -211,58 +211,6 @@ void store(const Out& out, EdgeSetupRows& rows, std::size_t first) {
                      hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
 }
 
-// The rays that the float tests do not send away make a cone of three planes, the edges' moved out by twice
-// their error (the tests' own rounding is below it); its generators are the planes' crossings. All of them
-// ahead: a triangle of (u, v). All behind: nothing. Else, or when rounding could turn it over: not known.
-void bound(EdgeSetupRows& rows, std::size_t first) {
-  constexpr hn::Rebind<float, D> half;
-  const auto row = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(half, rows.out[i] + first)); };
-  const V error = row(12), moved = hn::Add(error, error);
-  V3 n[3];
-  for (std::size_t k = 0; k < 3; ++k) n[k] = {row(3 * k), row(3 * k + 1), hn::Add(row(3 * k + 2), moved)};
-  const V3 m = {row(9), row(10), row(11)};
-  const V3 across = cross(n[1], n[2]);
-  const V volume = dot(n[0], across), turn = hn::CopySign(all(1.0), volume);
-  const V3 g[3] = {times(across, turn), times(cross(n[2], n[0]), turn), times(cross(n[0], n[1]), turn)};
-  // Roundings of the generators' components: n.x and n.y are at most 1, n.z may be as large as a world.
-  const V size = hn::Add(hn::Add(hn::Abs(n[0].z), hn::Abs(n[1].z)), hn::Add(hn::Abs(n[2].z), all(2.0)));
-  const V kernel_error_z = all(0x1p-49), kernel_error = hn::Mul(kernel_error_z, size);
-  const auto upright = hn::Gt(hn::Abs(volume), hn::Mul(all(8.0), kernel_error));
-  auto ahead = upright, behind = upright;
-  V u_min = all(infinity), u_max = all(-infinity), v_min = all(infinity), v_max = all(-infinity);
-  V nearest = all(-infinity);
-  // One division for all three; where a corner is not ahead, what it gives is not looked at.
-  const V z01 = hn::Mul(g[0].z, g[1].z), per_z012 = hn::Div(all(1.0), hn::Mul(z01, g[2].z));
-  const V per_z01 = hn::Mul(per_z012, g[2].z);
-  const V per_z[3] = {hn::Mul(per_z01, g[1].z), hn::Mul(per_z01, g[0].z), hn::Mul(per_z012, z01)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const V3& corner = g[k];
-    ahead = hn::And(ahead, hn::Gt(corner.z, all(0x1p-46)));
-    behind = hn::And(behind, hn::Lt(corner.z, all(-0x1p-46)));
-    const V u = hn::Mul(corner.x, per_z[k]), v = hn::Mul(corner.y, per_z[k]);
-    const V du = hn::Mul(hn::MulAdd(hn::Abs(u), kernel_error_z, kernel_error), per_z[k]);
-    const V dv = hn::Mul(hn::MulAdd(hn::Abs(v), kernel_error_z, kernel_error), per_z[k]);
-    u_min = hn::Min(u_min, hn::Sub(u, du)), u_max = hn::Max(u_max, hn::Add(u, du));
-    v_min = hn::Min(v_min, hn::Sub(v, dv)), v_max = hn::Max(v_max, hn::Add(v, dv));
-    const V terms = hn::MulAdd(hn::Abs(m.x), hn::Add(hn::Abs(u), du),
-                               hn::MulAdd(hn::Abs(m.y), hn::Add(hn::Abs(v), dv), hn::Abs(m.z)));
-    const V slack = hn::MulAdd(hn::Abs(m.x), du, hn::MulAdd(hn::Abs(m.y), dv, hn::Mul(all(0x1p-18), terms)));
-    nearest = hn::Max(nearest, hn::Add(hn::MulAdd(m.x, u, hn::MulAdd(m.y, v, m.z)), slack));
-  }
-  nearest = hn::MulAdd(row(13), all(1.0 + 0x1p-18), nearest);
-  const auto known = hn::And(ahead, hn::Lt(error, all(infinity)));
-  const auto clear = hn::And(known, hn::Not(hn::Gt(row(14), all(-infinity))));
-  std::size_t at = EdgeSetupRows::numbers;
-  const auto put = [&](V value, double unknown, double none) {
-    const V chosen = hn::IfThenElse(known, value, hn::IfThenElse(behind, all(none), all(unknown)));
-    hn::Store(hn::DemoteTo(half, chosen), half, rows.out[at++] + first);
-  };
-  put(u_min, -infinity, infinity), put(u_max, infinity, -infinity);
-  put(v_min, -infinity, infinity), put(v_max, infinity, -infinity);
-  const auto sure = hn::And(clear, hn::Lt(nearest, all(1e30)));
-  hn::Store(hn::DemoteTo(half, hn::IfThenElse(sure, nearest, all(infinity))), half, rows.out[at] + first);
-}
-
 // rows: corners in, PrimitiveEdges's numbers out, eight triangles.
 void see_eight(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
   for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
@@ -277,7 +225,6 @@ void see_eight(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
     const Out out = pass.directional ? along_direction(corner[0], corner[1], corner[2], pass)
                                      : from_point(corner[0], corner[1], corner[2], pass.largest);
     store(out, rows, first);
-    bound(rows, first);
   }
 }
 

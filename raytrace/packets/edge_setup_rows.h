@@ -8,11 +8,17 @@
 namespace gnomon::raytrace {
 
 /// Eight triangles by rows: nine corner coordinates in; edges (9), reciprocal depth (3) and the three bounds
-/// out, those rounded up, in the order of PrimitiveEdges; PrimitiveBounds after them.
+/// out, those rounded up, in the order of PrimitiveEdges.
 struct alignas(64) EdgeSetupRows {
-  static constexpr std::size_t numbers = 15, bounds = 5, count = numbers + bounds;
-  double corner[9][8];
-  float out[count][8];
+  static constexpr std::size_t together = 8, count = 15;
+  double corner[9][together];
+  float out[count][together];
+  const float* edge_error() const { return out[12]; }
+  void set(std::size_t i, const PrimitiveEdges& p) {
+    for (std::size_t k = 0; k < 9; ++k) out[k][i] = p.edge[k / 3][k % 3];
+    for (std::size_t k = 0; k < 3; ++k) out[9 + k][i] = p.reciprocal_depth[k];
+    out[12][i] = p.edge_error, out[13][i] = p.depth_error, out[14][i] = p.depth_floor;
+  }
 };
 
 struct EdgeSetupPass {
@@ -26,19 +32,10 @@ struct EdgeSetupPass {
 
 EdgeSetupPass edge_setup_pass(const Structures& structures, const EdgeSetup& setup);
 
-/// Eight leaves' numbers.
-struct EdgeSetupBlock {
-  EdgeSetupRows rows;
-  const float* u_min() const { return rows.out[EdgeSetupRows::numbers]; }
-  const float* u_max() const { return rows.out[EdgeSetupRows::numbers + 1]; }
-  const float* v_min() const { return rows.out[EdgeSetupRows::numbers + 2]; }
-  const float* v_max() const { return rows.out[EdgeSetupRows::numbers + 3]; }
-  const float* nearest() const { return rows.out[EdgeSetupRows::numbers + 4]; }
-};
 /// Up to eight leaves by their numbers, of which those that are no triangles are void. Bit i: the i-th is never
 /// sure.
 unsigned set_up_leaves(const Structures& structures, const EdgeSetupPass& pass,
-                       std::span<const std::uint32_t> leaves, EdgeSetupBlock& block);
+                       std::span<const std::uint32_t> leaves, EdgeSetupRows& rows);
 
 /// Corners in, numbers out.
 void set_up_eight_triangles(EdgeSetupRows& rows, const EdgeSetupPass& pass);

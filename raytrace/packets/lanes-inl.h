@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 
+#include "raytrace/packets/edge_setup_rows.h"
 #include "raytrace/packets/tile.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,6 +32,8 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 inline std::size_t lanes() {
   return hn::Lanes(f);
 }
+/// Vectors of a packet.
+constexpr std::size_t packet_steps = packet_rays / hn::MaxLanes(f);
 inline V all(float v) {
   return hn::Set(f, v);
 }
@@ -47,10 +50,6 @@ inline M mask_of(unsigned bits) {
   return hn::LoadMaskBits(f, bytes);
 }
 
-/// A function of d = (u, v, 1).
-struct Linear {
-  float u, v, constant;
-};
 /// The order of operations that everything here shares.
 inline V value(V cu, V cv, V constant, V u, V v) {
   return hn::MulAdd(cu, u, hn::MulAdd(cv, v, constant));
@@ -68,38 +67,22 @@ inline float largest(const float* values) {
   return hn::GetLane(hn::MaxOfLanes(f, most));
 }
 
-/// One primitive's functions.
-struct Functions {
-  Linear edge[3], reciprocal_depth;
-  explicit Functions(const PrimitiveEdges& p)
-      : edge{of(p.edge[0]), of(p.edge[1]), of(p.edge[2])}, reciprocal_depth(of(p.reciprocal_depth)) {}
-  static Linear of(const float (&n)[3]) { return {n[0], n[1], n[2]}; }
-};
-
-/// Rays against one primitive: the least edge function and the reciprocal depth.
-class RayTest {
+/// One of eight primitives by rows. A number is spread over the lanes where it is used: registers do not hold them all.
+class LaneNumbers {
  public:
-  explicit RayTest(const Functions& of)
-      : e0u_(all(of.edge[0].u)),
-        e0v_(all(of.edge[0].v)),
-        e0c_(all(of.edge[0].constant)),
-        e1u_(all(of.edge[1].u)),
-        e1v_(all(of.edge[1].v)),
-        e1c_(all(of.edge[1].constant)),
-        e2u_(all(of.edge[2].u)),
-        e2v_(all(of.edge[2].v)),
-        e2c_(all(of.edge[2].constant)),
-        mu_(all(of.reciprocal_depth.u)),
-        mv_(all(of.reciprocal_depth.v)),
-        mc_(all(of.reciprocal_depth.constant)) {}
+  LaneNumbers(const EdgeSetupRows& rows, std::size_t i) : first_(rows.out[0] + i) {}
   V least_edge(V u, V v) const {
-    return hn::Min(value(e0u_, e0v_, e0c_, u, v),
-                   hn::Min(value(e1u_, e1v_, e1c_, u, v), value(e2u_, e2v_, e2c_, u, v)));
+    const auto edge = [&](std::size_t k) { return value(row(3 * k), row(3 * k + 1), row(3 * k + 2), u, v); };
+    return hn::Min(edge(0), hn::Min(edge(1), edge(2)));
   }
-  V reciprocal_depth(V u, V v) const { return value(mu_, mv_, mc_, u, v); }
+  V reciprocal_depth(V u, V v) const { return value(row(9), row(10), row(11), u, v); }
+  V edge_error() const { return row(12); }
+  V depth_error() const { return row(13); }
+  V depth_floor() const { return row(14); }
 
  private:
-  V e0u_, e0v_, e0c_, e1u_, e1v_, e1c_, e2u_, e2v_, e2c_, mu_, mv_, mc_;
+  V row(std::size_t k) const { return all(first_[k * EdgeSetupRows::together]); }
+  const float* first_;
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

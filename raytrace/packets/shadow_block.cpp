@@ -48,9 +48,11 @@ class BlockShadows {
 
   void run() {
     for (const PrimitiveEdges& plane : setup_.planes) {
-      const RayTest rays{Functions(plane)};
+      rows_.set(0, plane);
+      const bool is_sure = (plane.id & never_sure) == 0;
+      const Blocker blocker{plane.edge_error < inf ? plane.id & ~never_sure : no_id, is_sure};
       for (std::size_t t = 0; t < count_; ++t)
-        if (tiles_[t].test_all<true>(plane, 0, rays)) tiles_[t].update_regions(regions_, t);
+        if (tiles_[t].test_all_by_plane({rows_, 0}, blocker)) tiles_[t].update_regions(regions_, t);
     }
     update_limit();
     if (far_min_ < inf) {
@@ -58,15 +60,16 @@ class BlockShadows {
       traverse_block(
           s_.bvh, frustum, [&] { return limit_; },
           [&](const BoxRef& box, LeafRange leaves) {
-            if (is_touched(projection_.of(box))) put(leaves);
+            if (is_touched(LaneBounds(projection_.of(box)))) put(leaves);
           });
       while (begin_ < end_) flush();
+      while (ready_ > 0) test_eight();
     }
     for (std::size_t t = 0; t < count_; ++t) tiles_[t].finish();
   }
 
  private:
-  static constexpr std::uint32_t batch = 8;
+  static constexpr std::size_t batch = 8;
 
   /// Around both parts of all tiles.
   Packets whole() const {
@@ -79,7 +82,7 @@ class BlockShadows {
     return all_of;
   }
 
-  bool is_touched(const PrimitiveBounds& bounds) const {
+  bool is_touched(const LaneBounds& bounds) const {
     for (unsigned tiles = regions_.touched_by(bounds); tiles != 0; tiles &= tiles - 1)
       if (tiles_[std::countr_zero(tiles)].packets().touched_by(bounds) != 0) return true;
     return false;
@@ -93,29 +96,48 @@ class BlockShadows {
     begin_ = 0;
   }
 
-  /// Sets up the longest waiting ones and tries them: which tiles each may concern, which packets of these, and then
-  /// every pair, in three plain loops, because branches that nobody can foresee would cost more than the tests.
+  /// Of the longest waiting ones finds which tiles each may concern, and which packets of these, in plain loops, because
+  /// branches that nobody can foresee would cost more than the tests.
   void flush() {
     const std::size_t count = std::min<std::size_t>(end_ - begin_, batch);
-    never_ = set_up_leaves(s_, pass_, {pending_ + begin_, count}, block_);
-    PrimitiveBounds bounds[batch];
-    std::size_t tiles = 0, pairs = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      bounds[i] = bounds_of(i);
-      tiles += list_bits(regions_.touched_by(bounds[i]), i, tiles_of_ + tiles);
-    }
+    projection_.of_leaves({pending_ + begin_, count}, bounds_);
+    std::size_t tiles = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      tiles += list_bits(regions_.touched_by({bounds_, i}), i, tiles_of_ + tiles);
+    unsigned concern = 0;
     for (std::size_t k = 0; k < tiles; ++k) {
-      const std::uint32_t at = tiles_of_[k];
-      pairs += list_bits(tiles_[at % 16].packets().touched_by(bounds[at / 16]), at, pairs_ + pairs);
+      const std::uint32_t i = tiles_of_[k] / 16, tile = tiles_of_[k] % 16;
+      const std::size_t place = ready_ + static_cast<std::size_t>(std::popcount(concern & ((1u << i) - 1)));
+      const std::size_t packets =
+          list_bits(tiles_[tile].packets().touched_by({bounds_, i}), 16 * place + tile, pairs_ + pair_end_);
+      pair_end_ += packets, concern |= static_cast<unsigned>(packets != 0) << i;
     }
+    for (std::size_t k = 0; k < batch; ++k)
+      ready_leaves_[ready_ + k] = pending_[begin_ + places_of_bits[concern][k] % batch];
+    ready_ += static_cast<std::size_t>(std::popcount(concern));
+    begin_ += count;
+    if (ready_ >= batch) test_eight();
+  }
+
+  /// Sets up those that concern packets, and tries every pair.
+  void test_eight() {
+    const std::size_t count = std::min<std::size_t>(ready_, batch);
+    const unsigned never = set_up_leaves(s_, pass_, {ready_leaves_, count}, rows_);
+    for (std::size_t i = 0; i < count; ++i)
+      blockers_[i] = {rows_.edge_error()[i] < inf ? s_.bvh.id_at(ready_leaves_[i]) : no_id,
+                      (never >> i & 1) == 0};
     unsigned changed = 0;
-    for (std::size_t k = 0; k < pairs; ++k) changed |= test(pairs_[k]);
+    std::size_t k = 0;
+    for (; k < pair_end_ && pairs_[k] < 256 * batch; ++k) changed |= test(pairs_[k]);
     for (unsigned left = changed; left != 0; left &= left - 1) {
       const auto t = static_cast<std::size_t>(std::countr_zero(left));
       tiles_[t].update_regions(regions_, t);
     }
     if (changed != 0) update_limit();
-    begin_ += count;
+    const std::size_t first = k;
+    for (; k < pair_end_; ++k) pairs_[k - first] = pairs_[k] - std::uint32_t{256 * batch};
+    pair_end_ -= first, ready_ -= count;
+    std::copy_n(ready_leaves_ + count, ready_, ready_leaves_);
   }
 
   /// 16 `first` + i for every bit i; returns their number.
@@ -138,46 +160,9 @@ class BlockShadows {
   /// shadowed.
   unsigned test(std::uint32_t pair) {
     const std::size_t i = pair / 256, tile = pair / 16 % 16, packet = pair % 16;
-    const std::uint32_t leaf = pending_[begin_ + i];
-    const PrimitiveEdges primitive = edges_of(leaf, i);
     const bool taken =
-        tiles_[tile].template test_packet<false>(primitive, leaf, RayTest{Functions(primitive)}, packet);
+        tiles_[tile].template test_packet<false>({rows_, i}, blockers_[i], ready_leaves_[i], packet);
     return static_cast<unsigned>(taken) << tile;
-  }
-
-  PrimitiveBounds bounds_of(std::size_t i) const {
-    const PrimitiveBounds bounds{block_.u_min()[i], block_.u_max()[i], block_.v_min()[i], block_.v_max()[i],
-                                 block_.nearest()[i]};
-    return bounds.u_min == -inf ? bounds_of_box(pending_[begin_ + i]) : bounds;
-  }
-
-  /// Of what has no bounds of its own: shapes, and triangles seen edge-on.
-  PrimitiveBounds bounds_of_box(std::uint32_t leaf) const {
-    const std::uint32_t id = s_.bvh.id_at(leaf);
-    return projection_.of(s_.world->is_triangle(id) ? triangle_box(leaf)
-                                                    : shape_box(*s_.world, id, s_.bvh.center));
-  }
-  BoxRef triangle_box(std::uint32_t leaf) const {
-    LeafPrimitive scratch;
-    const LeafPrimitive& p = s_.bvh.primitive_at(leaf, scratch);
-    BoxRef box{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double center = s_.bvh.center[static_cast<int>(a)];
-      const double low = std::min({p.v[a], p.v[3 + a], p.v[6 + a]}),
-                   high = std::max({p.v[a], p.v[3 + a], p.v[6 + a]});
-      box.min[a] = float_below(low - center), box.max[a] = float_above(high - center);
-    }
-    return box;
-  }
-
-  PrimitiveEdges edges_of(std::uint32_t leaf, std::size_t i) const {
-    PrimitiveEdges p;
-    const auto& out = block_.rows.out;
-    for (std::size_t k = 0; k < 9; ++k) p.edge[k / 3][k % 3] = out[k][i];
-    for (std::size_t k = 0; k < 3; ++k) p.reciprocal_depth[k] = out[9 + k][i];
-    p.edge_error = out[12][i], p.depth_error = out[13][i], p.depth_floor = out[14][i];
-    p.id = s_.bvh.id_at(leaf) | ((never_ >> i & 1) != 0 ? never_sure : 0u);
-    return p;
   }
 
   void update_limit() {
@@ -191,16 +176,19 @@ class BlockShadows {
   const Structures& s_;
   const EdgeSetup& setup_;
   EdgeSetupPass pass_;
-  BoxProjection projection_;
+  Projection projection_;
   std::size_t count_;
   TileState tiles_[most_shadow_tiles];
   SplitRegions regions_;  ///< of the tiles
   float far_min_ = inf, limit_ = -inf;
-  EdgeSetupBlock block_;
-  unsigned never_ = 0;  ///< bit i: the i-th of it is never sure
+  BoundsRows bounds_;
   std::uint32_t tiles_of_[batch * most_shadow_tiles + packet_rays];
-  std::uint32_t pairs_[batch * most_shadow_tiles * tile_packets + packet_rays];
-  std::uint32_t pending_[2 * run_size];
+  std::uint32_t ready_leaves_[2 * batch];  ///< those that concern packets
+  std::size_t ready_ = 0, pair_end_ = 0;
+  std::uint32_t pairs_[2 * batch * most_shadow_tiles * tile_packets + packet_rays];
+  EdgeSetupRows rows_;
+  Blocker blockers_[batch];
+  std::uint32_t pending_[2 * std::size_t{run_size} + batch];
   std::size_t begin_ = 0, end_ = 0;  ///< of the pending ones
 };
 

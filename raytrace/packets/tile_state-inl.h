@@ -13,23 +13,42 @@
 
 #include <array>
 #include <bit>
+#include <cfloat>
 
 #include "raytrace/packets/blocked-inl.h"
+#include "raytrace/packets/frustum-inl.h"
+#include "raytrace/packets/projection-inl.h"
 #include "raytrace/packets/shadow_block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
+/// PrimitiveBounds in every lane.
+struct LaneBounds {
+  V u_min, u_max, v_min, v_max, nearest;
+  explicit LaneBounds(const PrimitiveBounds& b)
+      : u_min(all(b.u_min)),
+        u_max(all(b.u_max)),
+        v_min(all(b.v_min)),
+        v_max(all(b.v_max)),
+        nearest(all(std::min(b.nearest, FLT_MAX))) {}
+  /// Of the i-th of eight primitives.
+  LaneBounds(const BoundsRows& rows, std::size_t i)
+      : u_min(all(rows.u_min[i])),
+        u_max(all(rows.u_max[i])),
+        v_min(all(rows.v_min[i])),
+        v_max(all(rows.v_max[i])),
+        nearest(hn::Min(all(rows.nearest[i]), all(FLT_MAX))) {}
+};
+
 /// Bit i: the i-th of sixteen regions may be touched within these bounds, in front of what it knows already.
-inline unsigned touched(const Packets& regions, const PrimitiveBounds& b) {
+inline unsigned touched(const Packets& regions, const LaneBounds& b) {
   unsigned hit = 0;
   for (std::size_t i = 0; i < packet_rays; i += lanes()) {
     const auto at = [&](const float* row) { return hn::Load(f, row + i); };
-    const M across =
-        hn::And(hn::Ge(at(regions.u_max), all(b.u_min)), hn::Le(at(regions.u_min), all(b.u_max)));
-    const M down = hn::And(hn::Ge(at(regions.v_max), all(b.v_min)), hn::Le(at(regions.v_min), all(b.v_max)));
-    const V far = at(regions.far_min);
-    const M asks = hn::And(hn::Lt(far, all(inf)), hn::Le(far, all(b.nearest)));
+    const M across = hn::And(hn::Ge(at(regions.u_max), b.u_min), hn::Le(at(regions.u_min), b.u_max));
+    const M down = hn::And(hn::Ge(at(regions.v_max), b.v_min), hn::Le(at(regions.v_min), b.v_max));
+    const M asks = hn::Le(at(regions.far_min), b.nearest);  // never where it is infinite
     hit |= bits_of(hn::And(asks, hn::And(across, down))) << i;
   }
   return hit;
@@ -41,7 +60,7 @@ struct SplitRegions {
   Packets part[2];
   bool split = false;  ///< whether any has a second part
 
-  unsigned touched_by(const PrimitiveBounds& bounds) const {
+  unsigned touched_by(const LaneBounds& bounds) const {
     return touched(part[0], bounds) | (split ? touched(part[1], bounds) : 0);
   }
   float far_min() const {
@@ -134,34 +153,28 @@ class TileState {
   }
 
   /// True when rays have been found to be shadowed.
-  template <bool plane>
-  bool test_all(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays) {
+  bool test_all_by_plane(const LaneNumbers& plane, const Blocker& blocker) {
     bool any = false;
-    for (std::size_t p = 0; p < tile_packets; ++p) any |= test_packet<plane>(primitive, leaf, rays, p);
+    for (std::size_t p = 0; p < tile_packets; ++p) any |= test_packet<true>(plane, blocker, 0, p);
     return any;
   }
   template <bool plane>
-  bool test_packet(const PrimitiveEdges& primitive, std::uint32_t leaf, const RayTest& rays,
+  bool test_packet(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
                    std::size_t packet) {
-    bool taken = false;
+    const std::size_t at = packet * packet_rays;
+    const Blocked blocked = blocked_by<plane>(primitive, blocker, *rays_, far_, at);
+    if (blocked.perhaps == 0) return false;
+    const unsigned open = blocked.perhaps & ~blocked.surely;
+    out_->ambiguous[packet] |= static_cast<std::uint16_t>(open);
+    if (!plane) out_->note(leaf, at, open);
+    if (blocked.surely == 0) return false;
+    out_->shadowed[packet] |= static_cast<std::uint16_t>(blocked.surely);
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
-      const std::size_t at = packet * packet_rays + i;
-      const V far = hn::Load(f, far_ + at);
-      const Blocked blocked =
-          blocked_by<plane>(primitive, rays, hn::Load(f, rays_->u + at), hn::Load(f, rays_->v + at), far,
-                            hn::Load(ids, rays_->source + at), hn::Lt(far, all(inf)));
-      if (hn::AllFalse(f, blocked.perhaps)) continue;
-      const unsigned bits = bits_of(blocked.surely);
-      const unsigned open = bits_of(blocked.perhaps) & ~bits;
-      out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << i);
-      if (!plane) out_->note(leaf, at, open);
-      if (bits == 0) continue;
-      out_->shadowed[packet] |= static_cast<std::uint16_t>(bits << i);
-      hn::Store(hn::IfThenElse(blocked.surely, all(inf), far), f, far_ + at);
-      taken = true;
+      const V far = hn::Load(f, far_ + at + i);
+      hn::Store(hn::IfThenElse(mask_of(blocked.surely >> i), all(inf), far), f, far_ + at + i);
     }
-    if (taken) update(packet);
-    return taken;
+    update(packet);
+    return true;
   }
 
   void finish() {

@@ -15,26 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
-/// One of eight primitives' numbers in every lane.
-struct LaneNumbers {
-  V edge[3][3], reciprocal_depth[3], edge_error, depth_error, depth_floor;
-  LaneNumbers(const EdgeSetupRows& rows, std::size_t i) {
-    const auto row = [&](std::size_t k) { return all(rows.out[k][i]); };
-    for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = row(k);
-    for (std::size_t k = 0; k < 3; ++k) reciprocal_depth[k] = row(9 + k);
-    edge_error = row(12), depth_error = row(13), depth_floor = row(14);
-  }
-  explicit LaneNumbers(const PrimitiveEdges& p) {
-    for (std::size_t k = 0; k < 9; ++k) edge[k / 3][k % 3] = all(p.edge[k / 3][k % 3]);
-    for (std::size_t k = 0; k < 3; ++k) reciprocal_depth[k] = all(p.reciprocal_depth[k]);
-    edge_error = all(p.edge_error), depth_error = all(p.depth_error), depth_floor = all(p.depth_floor);
-  }
-  static V of(const V (&n)[3], V u, V v) { return value(n[0], n[1], n[2], u, v); }
-  V least_edge(V u, V v) const {
-    return hn::Min(of(edge[0], u, v), hn::Min(of(edge[1], u, v), of(edge[2], u, v)));
-  }
-};
-
 /// Of each ray the best sure hit's reciprocal depth is known to lie in [low, high], and no other hit is
 /// nearer than `rival`.
 class BlockClosest {
@@ -53,7 +33,8 @@ class BlockClosest {
 
   void run() {
     for (std::uint32_t k = 0; k < setup_.planes.size(); ++k) {
-      const LaneNumbers numbers(setup_.planes[k]);
+      rows_[0].set(0, setup_.planes[k]);
+      const LaneNumbers numbers(rows_[0], 0);
       test_all<true>(numbers, first_plane + k, (setup_.planes[k].id & never_sure) == 0, packets_);
     }
     Packets intervals;
@@ -116,10 +97,13 @@ class BlockClosest {
   /// Whether no ray of the block can find anything in the box that is nearer than what it has.
   bool is_hidden(const BoxRef& box) const {
     const BoxPlace place = plane_.packets_of(box);
-    if (place.covered.x0 > place.covered.x1) return true;
-    for (int y = place.covered.y0; y <= place.covered.y1; ++y)
-      if (asking(place.nearest, place.covered, y) != 0) return false;
-    return true;
+    return !is_asked(place.nearest, place.covered);
+  }
+  bool is_asked(float nearest, const PacketRect& covered) const {
+    if (covered.x0 > covered.x1) return false;
+    for (int y = covered.y0; y <= covered.y1; ++y)
+      if (asking(nearest, covered, y) != 0) return true;
+    return false;
   }
 
   /// Bits of the row's packets that ask for something of that reciprocal depth.
@@ -131,51 +115,65 @@ class BlockClosest {
     return bits & ((2u << (covered.x1 - packets_.x0)) - (1u << (covered.x0 - packets_.x0)));
   }
 
-  /// Finds the numbers of the longest waiting ones, and tries the nearest of them first.
+  /// A primitive that packets ask for.
+  struct Asked {
+    std::uint32_t leaf;
+    PacketRect covered;
+  };
+
+  /// Finds the numbers of those of the longest waiting ones that packets ask for, and tries the nearest of them first.
   void flush() {
-    const std::size_t count = std::min<std::size_t>(pending_count_, batch);
+    const std::size_t waiting = std::min<std::size_t>(pending_count_, batch);
     alignas(64) float nearest[batch + packet_rays] = {};
     alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
     unsigned never[batch / 8], backs[batch / 8] = {};
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < waiting; first += 8)
+      count = find_asked({pending_ + first, std::min<std::size_t>(8, waiting - first)}, count, nearest);
+    pending_count_ -= waiting;
+    std::copy_n(pending_ + waiting, pending_count_, pending_);
     for (std::size_t first = 0; first < count; first += 8) {
-      EdgeSetupBlock& block = blocks_[first / 8];
-      never[first / 8] =
-          set_up_leaves(s_, pass_, {pending_ + first, std::min<std::size_t>(8, count - first)}, block);
-      place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), block.u_min(), block.u_max(),
-                  u_[first / 8]);
-      place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), block.v_min(), block.v_max(),
-                  v_[first / 8]);
-      std::copy_n(block.nearest(), 8, nearest + first);
-      if (s_.hides_backs) backs[first / 8] = leave_out_backs(first, count, never[first / 8]);
+      std::uint32_t leaves[8];
+      const std::size_t together = std::min<std::size_t>(8, count - first);
+      for (std::size_t i = 0; i < together; ++i) leaves[i] = asked_[first + i].leaf;
+      never[first / 8] = set_up_leaves(s_, pass_, {leaves, together}, rows_[first / 8]);
+      if (s_.hides_backs) backs[first / 8] = leave_out_backs({leaves, together}, never[first / 8]);
     }
     rank_falling(nearest, count, rank);
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = i;
     bool taken = false;
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t b = order[k] / 8, i = order[k] % 8;
+      const std::size_t at = order[k], b = at / 8, i = at % 8;
       if ((backs[b] >> i & 1) != 0) continue;
-      const std::uint32_t leaf = pending_[order[k]];
-      const PacketSpans &u = u_[b], &v = v_[b];
-      PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
-                         std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
-      // A sphere's or a solid's own numbers have no bounds.
-      if (s_.has_shapes && !s_.world->is_triangle(s_.bvh.id_at(leaf)))
-        covered = plane_.packets_of(shape_box(*s_.world, s_.bvh.id_at(leaf), s_.bvh.center)).covered;
-      if (covered.x0 > covered.x1 || covered.y0 > covered.y1) continue;
-      const LaneNumbers numbers(blocks_[b].rows, i);
-      taken |= test_packets(numbers, leaf, (never[b] >> i & 1) == 0, nearest[order[k]], covered);
+      const LaneNumbers numbers(rows_[b], i);
+      taken |=
+          test_packets(numbers, asked_[at].leaf, (never[b] >> i & 1) == 0, nearest[at], asked_[at].covered);
     }
-    pending_count_ -= count;
-    std::copy_n(pending_ + count, pending_count_, pending_);
     if (taken) update_limit();
+  }
+
+  /// Adds those of eight leaves that packets ask for to `count` others; returns how many there are then.
+  std::size_t find_asked(std::span<const std::uint32_t> leaves, std::size_t count, float* nearest) {
+    BoundsRows bounds;
+    PacketSpans u, v;
+    plane_.projection().of_leaves(leaves, bounds);
+    place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), bounds.u_min, bounds.u_max, u);
+    place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), bounds.v_min, bounds.v_max, v);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
+                               std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
+      if (!is_asked(bounds.nearest[i], covered)) continue;
+      asked_[count] = {leaves[i], covered}, nearest[count++] = bounds.nearest[i];
+    }
+    return count;
   }
 
   /// Bits of those of eight waiting triangles whose back alone the eye could meet, and does not see; which of them it
   /// meets ambiguously is left to the double kernels.
-  unsigned leave_out_backs(std::size_t first, std::size_t count, unsigned& never) const {
+  unsigned leave_out_backs(std::span<const std::uint32_t> leaves, unsigned& never) const {
     unsigned backs = 0;
-    for (std::size_t i = 0; i < 8 && first + i < count; ++i) {
-      const std::uint32_t leaf = pending_[first + i], id = s_.bvh.id_at(leaf);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const std::uint32_t leaf = leaves[i], id = s_.bvh.id_at(leaf);
       if (!s_.world->is_triangle(id) || shows_back(s_.world->scene->materials[s_.world->material_of(id)]))
         continue;
       LeafPrimitive scratch;
@@ -211,15 +209,15 @@ class BlockClosest {
       const std::size_t at = packet * packet_rays + i;
       const V u = hn::Load(f, plane_.u[column] + i), v = hn::Load(f, plane_.v[row] + i);
       const V edge = plane ? all(inf) : p.least_edge(u, v);
-      const V reciprocal_depth = LaneNumbers::of(p.reciprocal_depth, u, v), low = hn::Load(f, low_ + at);
-      const M known = hn::Gt(reciprocal_depth, p.depth_floor);
-      const M behind = hn::And(hn::Lt(reciprocal_depth, hn::Sub(low, p.depth_error)), known);
-      const M candidate = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error)));
+      const V reciprocal_depth = p.reciprocal_depth(u, v), low = hn::Load(f, low_ + at);
+      const M known = hn::Gt(reciprocal_depth, p.depth_floor());
+      const M behind = hn::And(hn::Lt(reciprocal_depth, hn::Sub(low, p.depth_error())), known);
+      const M candidate = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error())));
       if (hn::AllFalse(f, candidate)) continue;
-      M sure = hn::And(candidate, hn::And(hn::Gt(edge, p.edge_error), known));
+      M sure = hn::And(candidate, hn::And(hn::Gt(edge, p.edge_error()), known));
       if (!may_be_sure) sure = hn::Lt(low, low);
-      const V high = hn::Load(f, high_ + at), new_low = hn::Sub(reciprocal_depth, p.depth_error);
-      const V new_high = hn::IfThenElse(known, hn::Add(reciprocal_depth, p.depth_error), all(inf));
+      const V high = hn::Load(f, high_ + at), new_low = hn::Sub(reciprocal_depth, p.depth_error());
+      const V new_high = hn::IfThenElse(known, hn::Add(reciprocal_depth, p.depth_error()), all(inf));
       const M take = hn::And(sure, hn::Gt(new_low, low));
       // Surely nearer than all that was sure before: the old best is no rival. Otherwise the
       // loser makes the ray ambiguous.
@@ -293,8 +291,8 @@ class BlockClosest {
   float limit_ = -inf;
   std::uint32_t pending_[batch + 2 * run_size];
   std::size_t pending_count_ = 0;
-  EdgeSetupBlock blocks_[batch / 8];
-  PacketSpans u_[batch / 8], v_[batch / 8];
+  EdgeSetupRows rows_[batch / 8];
+  Asked asked_[batch];
   alignas(64) float nearest_asked_[block_side]
                                   [block_side];  ///< of packets; what is nowhere nearer is of no interest
   alignas(64) float low_[block_rays], high_[block_rays], rival_[block_rays];

@@ -1,0 +1,191 @@
+// Where boxes and triangles lie in the plane of a common origin's or direction's rays, in floats: what needs no more of
+// a primitive than which rays it may concern at all is spared its edge setup.
+
+#if defined(GNOMON_RAYTRACE_PACKETS_PROJECTION_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_PACKETS_PROJECTION_INL_H_
+#undef GNOMON_RAYTRACE_PACKETS_PROJECTION_INL_H_
+#else
+#define GNOMON_RAYTRACE_PACKETS_PROJECTION_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <span>
+
+#include "raytrace/packets/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+
+using Eight = hn::CappedTag<float, 8>;
+using V8 = hn::Vec<Eight>;
+constexpr Eight eight;
+alignas(32) constexpr float corner_bit[3][8] = {
+    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
+
+/// PrimitiveBounds of eight leaves, by rows.
+struct alignas(32) BoundsRows {
+  float u_min[8], u_max[8], v_min[8], v_max[8], nearest[8];
+  void set(std::size_t i, const PrimitiveBounds& b) {
+    u_min[i] = b.u_min, u_max[i] = b.u_max, v_min[i] = b.v_min, v_max[i] = b.v_max, nearest[i] = b.nearest;
+  }
+};
+
+/// Where in the plane boxes and triangles lie.
+class Projection {
+ public:
+  Projection(const Structures& s, const EdgeSetup& setup)
+      : s_(s), setup_(setup), slack_(float_above(setup.slack)) {
+    const Vec3 origin = setup.origin - s.bvh.center;
+    for (int a = 0; a < 3; ++a) {
+      origin_[a] = static_cast<float>(origin[a]);
+      for (int k = 0; k < 3; ++k) axes_[k][a] = static_cast<float>(setup.axes[k][a]);
+    }
+  }
+
+  /// Of a box that counts from the hierarchy's centre. Conservative; infinite, and nearest with it, of what is not clear of
+  /// the common origin.
+  PrimitiveBounds of(const BoxRef& box) const {
+    Bounds bounds;
+    V8 low[3], high[3];
+    for (std::size_t a = 0; a < 3; ++a)
+      low[a] = hn::Set(eight, box.min[a]), high[a] = hn::Set(eight, box.max[a]);
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
+      V8 corner[3];
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto is_high = hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight));
+        corner[a] = hn::IfThenElse(is_high, high[a], low[a]);
+      }
+      grow(bounds, corner);
+    }
+    bounds.u_min = hn::MinOfLanes(eight, bounds.u_min), bounds.u_max = hn::MaxOfLanes(eight, bounds.u_max);
+    bounds.v_min = hn::MinOfLanes(eight, bounds.v_min), bounds.v_max = hn::MaxOfLanes(eight, bounds.v_max);
+    finish(bounds, low, high);
+    return {hn::GetLane(bounds.u_min), hn::GetLane(bounds.u_max), hn::GetLane(bounds.v_min),
+            hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
+  }
+
+  /// Of up to eight leaves; the rest is anything. Triangles by their corners, but as near as their boxes: where one is seen
+  /// edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
+  void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows) const {
+    const LeafCorners from(s_.bvh, leaves);
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
+      V8 corner[3][3], low[3], high[3];
+      from.get(i, corner);
+      Bounds bounds;
+      for (std::size_t k = 0; k < 3; ++k) {
+        grow(bounds, corner[k]);
+        low[k] = hn::Min(corner[0][k], hn::Min(corner[1][k], corner[2][k]));
+        high[k] = hn::Max(corner[0][k], hn::Max(corner[1][k], corner[2][k]));
+      }
+      finish(bounds, low, high);
+      hn::Store(bounds.u_min, eight, rows.u_min + i), hn::Store(bounds.u_max, eight, rows.u_max + i);
+      hn::Store(bounds.v_min, eight, rows.v_min + i), hn::Store(bounds.v_max, eight, rows.v_max + i);
+      hn::Store(bounds.nearest, eight, rows.nearest + i);
+    }
+    if (!s_.has_shapes) return;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const std::uint32_t id = s_.bvh.id_at(leaves[i]);
+      if (!s_.world->is_triangle(id)) rows.set(i, of(shape_box(*s_.world, id, s_.bvh.center)));
+    }
+  }
+
+ private:
+  /// PrimitiveBounds in every lane of its own.
+  struct Bounds {
+    V8 u_min, u_max, v_min, v_max, nearest;
+    Bounds()
+        : u_min(hn::Set(eight, inf)),
+          u_max(hn::Set(eight, -inf)),
+          v_min(u_min),
+          v_max(u_max),
+          nearest(u_min) {}
+  };
+
+  /// Triangles' corners as floats from the hierarchy's centre.
+  class LeafCorners {
+   public:
+    LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves) {
+      using D = hn::CappedTag<double, 4>;
+      constexpr D d;
+      constexpr hn::Rebind<float, D> half;
+      const Vec3& c = bvh.center;
+      const double center[12] = {c.x, c.y, c.z, c.x, c.y, c.z, c.x, c.y, c.z};
+      for (std::size_t i = 0; i < leaves.size(); ++i) {
+        LeafPrimitive scratch;
+        const auto& v = bvh.primitive_at(leaves[i], scratch).v;
+        for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+          const auto put = [&](std::size_t from, float* to) {
+            const auto p = hn::Sub(hn::LoadU(d, v.data() + from + k), hn::LoadU(d, center + from + k));
+            hn::Store(hn::DemoteTo(half, p), half, to + 4 * i + k);
+          };
+          put(0, first_), put(4, next_);
+        }
+        last_[i] = static_cast<float>(v[8] - c.z);
+      }
+    }
+    void get(std::size_t i, V8 (&corner)[3][3]) const {
+      hn::LoadInterleaved4(eight, first_ + 4 * i, corner[0][0], corner[0][1], corner[0][2], corner[1][0]);
+      hn::LoadInterleaved4(eight, next_ + 4 * i, corner[1][1], corner[1][2], corner[2][0], corner[2][1]);
+      corner[2][2] = hn::Load(eight, last_ + i);
+    }
+
+   private:
+    alignas(32) float first_[32] = {}, next_[32] = {}, last_[8] = {};
+  };
+
+  V8 along(std::size_t axis, const V8 (&from_origin)[3]) const {
+    const auto times = [&](std::size_t a, V8 sum) {
+      return hn::MulAdd(from_origin[a], hn::Set(eight, axes_[axis][a]), sum);
+    };
+    return times(2, times(1, hn::Mul(from_origin[0], hn::Set(eight, axes_[axis][0]))));
+  }
+  void grow(Bounds& bounds, const V8 (&corner)[3]) const {
+    V8 p[3];
+    for (std::size_t a = 0; a < 3; ++a) p[a] = hn::Sub(corner[a], hn::Set(eight, origin_[a]));
+    V8 u = along(0, p), v = along(1, p), u_margin = hn::Set(eight, 4.0f * slack_), v_margin = u_margin;
+    if (!setup_.directional) {
+      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
+      const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
+      u = hn::Mul(u, per_depth), v = hn::Mul(v, per_depth);
+      u_margin = hn::MulAdd(hn::Abs(u), relative, relative),
+      v_margin = hn::MulAdd(hn::Abs(v), relative, relative);
+    }
+    bounds.u_min = hn::Min(bounds.u_min, hn::Sub(u, u_margin)),
+    bounds.u_max = hn::Max(bounds.u_max, hn::Add(u, u_margin));
+    bounds.v_min = hn::Min(bounds.v_min, hn::Sub(v, v_margin)),
+    bounds.v_max = hn::Max(bounds.v_max, hn::Add(v, v_margin));
+  }
+  /// `low`, `high`: the box.
+  void finish(Bounds& bounds, const V8 (&low)[3], const V8 (&high)[3]) const {
+    V8 corner[3];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const bool highest = (axes_[2][a] > 0.0f) == setup_.directional;
+      corner[a] = hn::Sub(highest ? high[a] : low[a], hn::Set(eight, origin_[a]));
+    }
+    const V8 depth = along(2, corner);
+    if (setup_.directional) {
+      bounds.nearest = hn::Add(depth, hn::Set(eight, 4.0f * slack_));
+      return;
+    }
+    const auto clear = hn::Gt(depth, hn::Set(eight, 64.0f * slack_));
+    const V8 most = hn::Set(eight, inf), least = hn::Set(eight, -inf);
+    bounds.u_min = hn::IfThenElse(clear, bounds.u_min, least),
+    bounds.u_max = hn::IfThenElse(clear, bounds.u_max, most);
+    bounds.v_min = hn::IfThenElse(clear, bounds.v_min, least),
+    bounds.v_max = hn::IfThenElse(clear, bounds.v_max, most);
+    const V8 near = hn::Div(hn::Set(eight, 1.0f + 0x1p-20f), hn::Sub(depth, hn::Set(eight, slack_)));
+    bounds.nearest = hn::IfThenElse(clear, near, most);
+  }
+
+  const Structures& s_;
+  const EdgeSetup& setup_;
+  float origin_[3], axes_[3][3];  ///< from the middle that boxes count from
+  float slack_;
+};
+
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
