@@ -18,13 +18,12 @@ std::uint32_t flags_of(const Texture& texture) {
          flag(texture.repeat_t, shaders::texture_repeat_t);
 }
 
-std::vector<std::uint32_t> make_table(std::span<const Texture> textures) {
-  std::vector<std::uint32_t> table;
-  for (const float value : linear_from_srgb8()) table.push_back(std::bit_cast<std::uint32_t>(value));
+std::vector<glm::uvec4> make_table(std::span<const Texture> textures) {
+  std::vector<glm::uvec4> table;
+  for (const float value : linear_from_srgb8()) table.emplace_back(std::bit_cast<std::uint32_t>(value));
   std::uint32_t first = 0;
   for (const Texture& t : textures) {
-    table.insert(table.end(), {first, static_cast<std::uint32_t>(t.size.width),
-                               static_cast<std::uint32_t>(t.size.height), flags_of(t)});
+    table.emplace_back(first, t.size.width, t.size.height, flags_of(t));
     first += static_cast<std::uint32_t>(t.texels.size());
   }
   return table;
@@ -54,21 +53,22 @@ Expected<TexelPages> TexelPages::upload(Gl& gl, std::span<const Texture> texture
 
   TexelPages out{
       Texture2D(gl, GL_RGBA8UI, {shaders::page_width, static_cast<int>(rows)}, static_cast<int>(layers)),
-      Buffer(gl)};
+      Buffer(gl), BufferTexture(gl)};
   gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (std::uint64_t layer = 0; layer < layers; ++layer) {
     gl->TextureSubImage3D(out.pages.id(), 0, 0, 0, static_cast<GLint>(layer), shaders::page_width,
                           static_cast<GLsizei>(rows), 1, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE,
                           texels.data() + layer * page);
   }
-  out.table.write(std::span<const std::uint32_t>(make_table(textures)));
+  out.table.write(std::span<const glm::uvec4>(make_table(textures)));
+  out.table_texels.attach(out.table, GL_RGBA32UI);
   if (auto ok = gl.check("uploading the textures"); !ok) return fail(ok.error());
   return out;
 }
 
 void TexelPages::bind() const {
   pages.bind(shaders::texel_pages_unit);
-  table.bind(GL_SHADER_STORAGE_BUFFER, shaders::textures_buffer);
+  table_texels.bind(shaders::textures_unit);
 }
 
 }  // namespace gnomon::raster

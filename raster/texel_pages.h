@@ -12,7 +12,9 @@ namespace gnomon::raster {
 
 struct TexelPages {
   Texture2D pages;  ///< RGBA8UI
-  Buffer table;     ///< the sRGB decoding table, then {first texel, width, height, flags} per texture
+  Buffer
+      table;  ///< the sRGB decoding table, then {first texel, width, height, flags} per texture: a texel each
+  BufferTexture table_texels;
 
   /// Error (graphics): more texels than the context's array textures hold.
   static Expected<TexelPages> upload(Gl& gl, std::span<const Texture> textures);

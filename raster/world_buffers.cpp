@@ -97,8 +97,8 @@ Vec4f triangle_plane(const std::array<Vec3, 3>& corners, const Vec3& reference) 
   return Vec4f(Vec4(n, glm::dot(n, a - reference)) / length);
 }
 
-/// Triangles and vertices are texels of buffer textures.
-Expected<void> check_size(const Gl& gl, const StoredMeshes& meshes) {
+/// What the shaders read of the world are texels of buffer textures.
+Expected<void> check_size(const Gl& gl, const World& world, const StoredMeshes& meshes) {
   GLint limit = 0;
   gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   const auto check = [&](std::size_t got, const char* what) -> Expected<void> {
@@ -111,6 +111,12 @@ Expected<void> check_size(const Gl& gl, const StoredMeshes& meshes) {
   if (const auto fits = check(meshes.all.triangles, "triangles"); !fits) return fits;
   if (const auto fits =
           check(3 * std::size_t{meshes.all.vertices - meshes.flat.vertices}, "instanced coordinates");
+      !fits)
+    return fits;
+  if (const auto fits = check(world.shapes.size() * shaders::shape_texel_count, "numbers of shapes"); !fits)
+    return fits;
+  if (const auto fits =
+          check(world.scene->materials.size() * shaders::material_texel_count, "numbers of materials");
       !fits)
     return fits;
   return check(meshes.all.vertices, "vertices");
@@ -165,7 +171,9 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       color_texels_(gl),
       triangle_texels_(gl),
       plane_texels_(gl),
-      object_position_texels_(gl) {}
+      object_position_texels_(gl),
+      shape_texels_(gl),
+      material_texels_(gl) {}
 
 /// put(part, its mesh's place) for everything that is stored.
 template <class Put>
@@ -175,7 +183,7 @@ void WorldBuffers::for_each_stored(const Put& put) const {
 
 Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const SceneFeatures& features) {
   WorldBuffers out(gl, world);
-  if (const auto fits = check_size(gl, out.meshes_); !fits) return fail(fits.error());
+  if (const auto fits = check_size(gl, world, out.meshes_); !fits) return fail(fits.error());
   out.upload_fixed(features);
   out.make_runs(features);
   if (features.textures) {
@@ -255,6 +263,8 @@ void WorldBuffers::attach_textures() {
   triangle_texels_.attach(triangles_, GL_RGBA32UI);
   plane_texels_.attach(planes_, GL_RGBA32F);
   object_position_texels_.attach(object_positions_, GL_RG32UI);
+  shape_texels_.attach(shapes_, GL_RGBA32UI);
+  material_texels_.attach(materials_, GL_RGBA32UI);
 }
 
 void WorldBuffers::make_runs(const SceneFeatures& features) {
@@ -332,8 +342,8 @@ void WorldBuffers::bind() const {
     object_position_texels_.bind(shaders::object_positions_unit);
     parts_.bind(GL_SHADER_STORAGE_BUFFER, shaders::parts_buffer);
   }
-  shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::shapes_buffer);
-  materials_.bind(GL_SHADER_STORAGE_BUFFER, shaders::materials_buffer);
+  shape_texels_.bind(shaders::shapes_unit);
+  material_texels_.bind(shaders::materials_unit);
   if (texels_) texels_->bind();
 }
 

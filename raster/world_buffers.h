@@ -12,6 +12,7 @@
 #include "raster/texel_pages.h"
 #include "scene/camera.h"
 #include "scene/world.h"
+#include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
 
@@ -32,6 +33,9 @@ struct MaterialData {
       emission_uv_matrix, emission_uv_offset_and_unlit;
   std::uint32_t diffuse_texture, emission_texture, unused0, unused1;
 };
+
+static_assert(sizeof(ShapeData) == shaders::shape_texel_count * sizeof(Vec4f));
+static_assert(sizeof(MaterialData) == shaders::material_texel_count * sizeof(Vec4f));
 
 /// A run of triangles that share one program; of a kept part each run is drawn by itself.
 struct TriangleRun {
@@ -89,7 +93,7 @@ class WorldBuffers {
   Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
   Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none
   BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,
-      object_position_texels_;
+      object_position_texels_, shape_texels_, material_texels_;
   std::optional<TexelPages> texels_;
   /// Triangles that are drawn, of opaque ones and of others, flattened and kept, each.
   std::uint32_t most_ = ~0u;

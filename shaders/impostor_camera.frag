@@ -23,8 +23,8 @@ layout(location = solid_distance_output) out float solid_distance;
 bool usable(vec3 direction, float t) {
   if (!(t > 0.0) || isinf(t)) return false;
 #ifdef ALPHA_MASK
-  ShapeData shape = shapes[shape_index];
-  if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) return false;
+  ShapeData shape = shape_at(shape_index);
+  if (is_hole(material_at(shape.material), shape_uv(shape, camera.eye_and_near.xyz + t * direction))) return false;
 #endif
   return true;
 }
@@ -32,7 +32,7 @@ bool usable(vec3 direction, float t) {
 void main() {
   vec3 direction = pixel_direction(gl_FragCoord.xy);
 #ifdef SOLID
-  ShapeData shape = shapes[shape_index];
+  ShapeData shape = shape_at(shape_index);
   vec3 local_direction = mat3(solid_from_frame) * direction;
   float t, from = 0.0;
   bool found = false;
@@ -49,7 +49,7 @@ void main() {
   float t = shape_in_frame.w / dot(shape_in_frame.xyz, direction);
 #endif
   if (!usable(direction, t)) discard;
-  primitive_id = shapes[shape_index].primitive;
+  primitive_id = shape_at(shape_index).primitive;
 #ifdef SOLID
   solid_distance = t;
 #endif

@@ -52,11 +52,11 @@ bool usable(TexelRay ray, float t) {
   if (!lies_behind(clamp(stored_from_depth(ivec3(gl_FragCoord.xy, face), t), 0.0, 1.0))) return false;
 #endif
 #ifdef ALPHA_MASK
-  ShapeData shape = shapes[shape_index];
+  ShapeData shape = shape_at(shape_index);
   vec3 p = ray.origin + t * ray.direction;
   vec3 position = light.origin_and_warp[face].xyz + p.x * light.right[face].xyz + p.y * light.up[face].xyz +
                   p.z * light.forward[face].xyz;
-  if (is_hole(materials[shape.material], shape_uv(shape, position))) return false;
+  if (is_hole(material_at(shape.material), shape_uv(shape, position))) return false;
 #endif
   return true;
 }
@@ -64,7 +64,7 @@ bool usable(TexelRay ray, float t) {
 void main() {
   TexelRay ray = texel_ray();
 #ifdef SOLID
-  ShapeData shape = shapes[shape_index];
+  ShapeData shape = shape_at(shape_index);
   vec3 local_origin = (solid_from_frame * vec4(ray.origin, 1.0)).xyz, local_direction = mat3(solid_from_frame) * ray.direction;
 #ifdef PERSPECTIVE
   float from = 0.0;
@@ -100,6 +100,6 @@ void main() {
   if (!holds_caster(stored)) discard;
   gl_FragDepth = clamp(stored, 0.0, 1.0);
 #ifdef PRIMITIVE_IDS
-  primitive_id = shapes[shape_index].primitive;
+  primitive_id = shape_at(shape_index).primitive;
 #endif
 }

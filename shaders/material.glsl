@@ -16,7 +16,17 @@ struct MaterialData {
   uint unused0, unused1;
 };
 
-layout(std430, binding = materials_buffer) readonly buffer Materials { MaterialData materials[]; };
+layout(binding = materials_unit) uniform usamplerBuffer material_texels;
+
+vec4 material_texel(int at) { return uintBitsToFloat(texelFetch(material_texels, at)); }
+
+MaterialData material_at(uint index) {
+  int at = int(index) * material_texel_count;
+  uvec4 last = texelFetch(material_texels, at + 7);
+  return MaterialData(material_texel(at), material_texel(at + 1), material_texel(at + 2), material_texel(at + 3),
+                      material_texel(at + 4), material_texel(at + 5), material_texel(at + 6), last.x, last.y, last.z,
+                      last.w);
+}
 
 #ifdef TEXTURES
 #include "texture.glsl"

@@ -107,7 +107,7 @@ Receiver shape_receiver(ShapeData shape, vec3 direction) {
     sphere_crossings(camera.eye_and_near.xyz, direction, center, shape.center_and_radius.w, t_near, t_far);
     float t = t_near > 0.0 ? t_near : t_far;
 #ifdef ALPHA_MASK
-    if (is_hole(materials[shape.material], shape_uv(shape, camera.eye_and_near.xyz + t * direction))) t = t_far;
+    if (is_hole(material_at(shape.material), shape_uv(shape, camera.eye_and_near.xyz + t * direction))) t = t_far;
 #endif
     vec3 outward = normalize(camera.eye_and_near.xyz + t * direction - center);
     r.position = center + shape.center_and_radius.w * outward;  // put back onto the sphere, as in meet_plane
@@ -130,7 +130,7 @@ Receiver receiver_at(uint primitive, vec2 window) {
   vec3 direction = pixel_direction(window);
   uint triangle_count = camera.counts.x;
   Receiver r = primitive < triangle_count ? triangle_receiver(primitive, direction)
-                                          : shape_receiver(shapes[primitive - triangle_count], direction);
+                                          : shape_receiver(shape_at(primitive - triangle_count), direction);
   r.to_eye = normalize(-direction);
   return r;
 }

@@ -39,7 +39,7 @@ void main() {
     return;
   }
   Receiver r = receiver_at(primitive, window_position(gl_FragCoord));
-  MaterialData material = materials[r.material];
+  MaterialData material = material_at(r.material);
   vec3 albedo = surface_albedo(material, r.uv).rgb;
 #ifdef VERTEX_COLORS
   albedo *= r.color.rgb;

@@ -30,9 +30,6 @@ const int triangle_count_uniform = 6;
 const int part_uniform = 10;
 
 // Shader storage buffers
-const int shapes_buffer = 5;
-const int materials_buffer = 6;
-const int textures_buffer = 7;
 const int izb_shapes_buffer = 9;
 const int izb_points_buffer = 10;
 const int izb_normals_buffer = 11;
@@ -61,7 +58,16 @@ const int uvs_unit = 12;
 const int triangles_unit = 13;
 const int planes_unit = 14;
 const int object_positions_unit = 16;
+const int shapes_unit = 17;
+const int materials_unit = 18;
+const int textures_unit = 19;
 const int izb_vertices_unit = 6;
+
+// Texels of four numbers that one element takes of these buffer textures; the textures come after the 256 values of
+// the sRGB table, a texel each.
+const int shape_texel_count = 8;
+const int material_texel_count = 8;
+const int srgb_texel_count = 256;
 
 // Vertex attributes
 const int position_attribute = 0;

@@ -8,11 +8,15 @@ struct TextureData {
   uint flags;
 };
 
-layout(std430, binding = textures_buffer) readonly buffer Textures {
-  float linear_from_srgb8[256];
-  TextureData textures[];
-};
+layout(binding = textures_unit) uniform usamplerBuffer texture_texels;
 layout(binding = texel_pages_unit) uniform usampler2DArray texel_pages;
+
+TextureData texture_at(uint index) {
+  uvec4 t = texelFetch(texture_texels, srgb_texel_count + int(index));
+  return TextureData(t.x, t.y, t.z, t.w);
+}
+
+float linear_from_srgb8(uint value) { return uintBitsToFloat(texelFetch(texture_texels, int(value)).x); }
 
 vec4 decoded_texel(TextureData image, int column, int row) {
   uint index = image.first_texel + uint(row) * image.width + uint(column);
@@ -21,7 +25,7 @@ vec4 decoded_texel(TextureData image, int column, int row) {
   uvec4 texel = texelFetch(texel_pages, at, 0);
   vec4 linear = vec4(texel) / 255.0;
   if ((image.flags & uint(texture_srgb)) != 0u)
-    linear.rgb = vec3(linear_from_srgb8[texel.r], linear_from_srgb8[texel.g], linear_from_srgb8[texel.b]);
+    linear.rgb = vec3(linear_from_srgb8(texel.r), linear_from_srgb8(texel.g), linear_from_srgb8(texel.b));
   return linear;
 }
 
@@ -43,12 +47,11 @@ ivec2 axis_texels(float t, int count, bool repeat, bool nearest, out float weigh
 }
 
 vec4 sample_texture(uint id, vec2 uv) {
-  TextureData image = textures[id];
+  TextureData image = texture_at(id);
   bool nearest = (image.flags & uint(texture_nearest)) != 0u;
   vec2 weight;
   ivec2 u = axis_texels(uv.x, int(image.width), (image.flags & uint(texture_repeat_s)) != 0u, nearest, weight.x);
   ivec2 v = axis_texels(uv.y, int(image.height), (image.flags & uint(texture_repeat_t)) != 0u, nearest, weight.y);
-  if (nearest) return decoded_texel(image, u.x, v.x);
   vec4 top = mix(decoded_texel(image, u.x, v.x), decoded_texel(image, u.y, v.x), weight.x);
   vec4 bottom = mix(decoded_texel(image, u.x, v.y), decoded_texel(image, u.y, v.y), weight.x);
   return mix(top, bottom, weight.y);

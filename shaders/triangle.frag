@@ -27,7 +27,7 @@ void main() {
 #endif
   uint primitive = first_primitive + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-  if (is_hole(materials[triangle_at(primitive).material], vertex_uv, vertex_alpha)) discard;
+  if (is_hole(material_at(triangle_at(primitive).material), vertex_uv, vertex_alpha)) discard;
 #endif
 #ifdef PRIMITIVE_IDS
   primitive_id = primitive;

@@ -1,5 +1,8 @@
 // The world's primitives as the shaders see them: triangles 0 ... T-1, then shapes. Everything is relative to the
 // frame's reference point. Twin of raster/world_buffers.h.
+//
+// Shapes, like materials and textures, are read through buffer textures: where pixels of one vector want different
+// elements, drivers in software read a storage block one number and one pixel at a time.
 
 struct ShapeData {
   vec4 center_and_radius;  // sphere; or a point of the plane, or a solid's origin (w unused)
@@ -15,7 +18,16 @@ struct ShapeData {
   uint function;           // implicit: which
 };
 
-layout(std430, binding = shapes_buffer) readonly buffer Shapes { ShapeData shapes[]; };
+layout(binding = shapes_unit) uniform usamplerBuffer shape_texels;
+
+vec4 shape_texel(int at) { return uintBitsToFloat(texelFetch(shape_texels, at)); }
+
+ShapeData shape_at(uint index) {
+  int at = int(index) * shape_texel_count;
+  uvec4 last = texelFetch(shape_texels, at + 7);
+  return ShapeData(shape_texel(at), shape_texel(at + 1), shape_texel(at + 2), shape_texel(at + 3), shape_texel(at + 4),
+                   shape_texel(at + 5), shape_texel(at + 6), last.x, last.y, last.z, last.w);
+}
 
 const float infinite_t = 1e30;
 const float half_turn = 3.14159265358979;

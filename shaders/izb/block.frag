@@ -13,7 +13,7 @@ layout(location = shape_uniform) uniform int shape_index;
 bool sphere_is_hole(ShadowRay ray, double t) {
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
-  return masked_hole(shapes[shape_index].material, shape_uv(shapes[shape_index], p));
+  return masked_hole(shape_at(shape_index).material, shape_uv(shape_at(shape_index), p));
 #else
   return false;
 #endif
@@ -25,7 +25,7 @@ bool blocks(Receiver64 r, ShadowRay ray) {
   double radius = double_shapes[shape_index].center_and_radius.w;
   double t_near, t_far;
   if (!sphere_crossings64(ray.origin, ray.direction, center, radius, t_near, t_far)) return false;
-  bool own = r.primitive == shapes[shape_index].primitive;
+  bool own = r.primitive == shape_at(shape_index).primitive;
   if (own && !(dot(r.normal, ray.origin - center) < 0.0LF)) return false;
   bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(ray, t_near);
   if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(ray, t_far))) return false;
@@ -39,7 +39,7 @@ layout(location = shape_uniform) uniform int shape_index;
 bool solid_is_hole(ShadowRay ray, double t) {
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
-  return masked_hole(shapes[shape_index].material, shape_uv(shapes[shape_index], p));
+  return masked_hole(shape_at(shape_index).material, shape_uv(shape_at(shape_index), p));
 #else
   return false;
 #endif
@@ -51,7 +51,7 @@ double reach_along(DoubleShape s, dvec3 direction) {
 }
 
 bool blocks(Receiver64 r, ShadowRay ray) {
-  ShapeData shape = shapes[shape_index];
+  ShapeData shape = shape_at(shape_index);
   DoubleShape s = double_shapes[shape_index];
   int own = 0;
   if (r.primitive == shape.primitive) {

@@ -47,7 +47,7 @@ Receiver64 sphere_receiver(uint index, dvec3 direction) {
   double t = t_near > 0.0LF ? t_near : t_far;
 #ifdef ALPHA_MASK
   vec3 near_point = vec3(izb.eye.xyz + t * direction - izb.reference.xyz);
-  if (masked_hole(shapes[index].material, shape_uv(shapes[index], near_point))) t = t_far;
+  if (masked_hole(shape_at(index).material, shape_uv(shape_at(index), near_point))) t = t_far;
 #endif
   dvec3 offset = izb.eye.xyz + t * direction - center;
   dvec3 on_sphere = offset * (radius / sqrt(dot(offset, offset)));
@@ -72,7 +72,7 @@ Receiver64 plane_receiver(uint index, dvec3 direction) {
 // The impostor's crossing, followed along the ray to double precision, then put onto the surface (raytrace/solid.cpp,
 // solid_point).
 Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
-  ShapeData shape = shapes[index];
+  ShapeData shape = shape_at(index);
   DoubleShape s = double_shapes[index];
   dvec3 o = to_solid64(s, izb.eye.xyz - s.center_and_radius.xyz), d = to_solid64(s, direction);
   double diagonal = box_diagonal64(s), cap, steepness = 0.0LF;
@@ -132,7 +132,7 @@ bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
   if (!in_range(ray, t)) return false;
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
-  if (masked_hole(shapes[index].material, shape_uv(shapes[index], p))) return false;
+  if (masked_hole(shape_at(index).material, shape_uv(shape_at(index), p))) return false;
 #endif
   return true;
 }
@@ -140,7 +140,7 @@ bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
 bool planes_block(Receiver64 r) {
   ShadowRay ray = shadow_ray(r);
   for (uint i = 0u; i < uint(izb.size.w); ++i) {
-    if (shapes[i].kind != uint(shape_plane) || shapes[i].primitive == r.primitive) continue;
+    if (shape_at(i).kind != uint(shape_plane) || shape_at(i).primitive == r.primitive) continue;
     if (plane_blocks(i, r, ray)) return true;
   }
   return false;
@@ -168,9 +168,9 @@ void main() {
   direction /= length;
   Receiver64 r;
   if (primitive < triangle_count) r = triangle_receiver(primitive, direction);
-  else if (shapes[primitive - triangle_count].kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
+  else if (shape_at(primitive - triangle_count).kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
 #ifdef SOLIDS
-  else if (shapes[primitive - triangle_count].kind >= uint(shape_quadric)) {
+  else if (shape_at(primitive - triangle_count).kind >= uint(shape_quadric)) {
     double t = double(texelFetch(solid_distance, ivec2(window_position(gl_FragCoord)), 0).r) * length;
     r = solid_receiver(primitive - triangle_count, direction, t);
   }

@@ -168,6 +168,6 @@ dvec3 on_grid(int face, dvec3 position) {
 
 #ifdef ALPHA_MASK
 #include "material.glsl"
-bool masked_hole(uint material, vec2 uv, float vertex_alpha) { return is_hole(materials[material], uv, vertex_alpha); }
+bool masked_hole(uint material, vec2 uv, float vertex_alpha) { return is_hole(material_at(material), uv, vertex_alpha); }
 bool masked_hole(uint material, vec2 uv) { return masked_hole(material, uv, 1.0); }
 #endif
