@@ -76,6 +76,7 @@ class GlRenderer final : public Renderer {
   struct KeptMap {
     RasterOptions options;  ///< without the bias
     Light light;
+    Vec3 reference;  ///< that its depths were rounded from
     ShadowMap map;
     Times map_pass;
     double first_map_ms, id_map_ms;

@@ -22,6 +22,8 @@ struct DoubleShape {
   Vec4 center_and_radius, normal, tangent, bitangent, coefficients, box_min, box_max;
 };
 
+static_assert(sizeof(DoubleShape) == shaders::double_shape_texel_count * 4 * sizeof(std::uint32_t));
+
 constexpr std::size_t point_bytes = 3 * sizeof(double), error_bytes = 3 * sizeof(float), link_bytes = 8,
                       shadow_bytes = 4;
 
@@ -74,6 +76,11 @@ IzbPass::IzbPass(Gl& gl, ProgramCache& programs)
       links_(gl),
       shadows_(gl),
       vertex_bits_(gl),
+      shape_bits_(gl),
+      point_bits_(gl),
+      normal_bits_(gl),
+      error_texels_(gl),
+      link_texels_(gl),
       no_target_(gl) {}
 
 Expected<void> IzbPass::upload_world(const World& world) {
@@ -100,6 +107,7 @@ Expected<void> IzbPass::upload_world(const World& world) {
   std::vector<DoubleShape> shapes;
   for (const Shape& shape : world.shapes) shapes.push_back(double_shape(shape));
   shapes_.write(std::span<const DoubleShape>(shapes));
+  shape_bits_.attach(shapes_, GL_RGBA32UI);
   if (auto ok = gl_->check("uploading the scene in double precision"); !ok) return ok;
   world_ = &world;
   return {};
@@ -125,6 +133,10 @@ Expected<void> IzbPass::reserve_pixels(ImageSize size) {
   errors_.reserve(error_bytes * size.pixels());
   links_.reserve(link_bytes * size.pixels());
   shadows_.reserve(shadow_bytes * size.pixels());
+  point_bits_.attach(points_, GL_RGB32UI);
+  normal_bits_.attach(normals_, GL_RGB32UI);
+  error_texels_.attach(errors_, GL_RGB32F);
+  link_texels_.attach(links_, GL_RG32UI);
   if (auto ok = gl_->check("the lists of technique izb"); !ok) return ok;
   size_ = size;
   return {};
@@ -221,7 +233,11 @@ Expected<const Program*> IzbPass::program(Stage stage, LightType light, std::uin
 void IzbPass::bind_all() const {
   block_.bind(GL_UNIFORM_BUFFER, shaders::izb_block);
   vertex_bits_.bind(shaders::izb_vertices_unit);
-  shapes_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_shapes_buffer);
+  shape_bits_.bind(shaders::izb_shapes_unit);
+  point_bits_.bind(shaders::izb_points_unit);
+  normal_bits_.bind(shaders::izb_normals_unit);
+  error_texels_.bind(shaders::izb_errors_unit);
+  link_texels_.bind(shaders::izb_links_unit);
   points_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_points_buffer);
   normals_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_normals_buffer);
   errors_.bind(GL_SHADER_STORAGE_BUFFER, shaders::izb_errors_buffer);
@@ -260,7 +276,8 @@ Expected<void> IzbPass::insert(const MapJob& job) {
   (*insert)->use();
   gl->ProgramUniform1ui((*insert)->id(), shaders::triangle_count_uniform, job.world.world().triangle_count());
   gl->DrawArrays(GL_TRIANGLES, 0, 3);
-  gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
   return {};
 }
 

@@ -41,7 +41,7 @@ class IzbPass final : public TechniquePass {
   const World* world_ = nullptr;
   ImageSize size_{0, 0};
   Buffer block_, vertices_, shapes_, points_, normals_, errors_, links_, shadows_;
-  BufferTexture vertex_bits_;
+  BufferTexture vertex_bits_, shape_bits_, point_bits_, normal_bits_, error_texels_, link_texels_;
   Texture2D heads_;
   Framebuffer no_target_;  ///< the passes write to buffers alone
 };

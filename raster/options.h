@@ -146,8 +146,9 @@ struct RasterOptions {
   MapOptions map;
   /// Timed repetitions of each pass, at most, after a warm-up, which shades a corner of the picture, and nothing where
   /// the frame before was shaded by the same program; 0: render once, untimed. A frame with whole records
-  /// that differs from the one before in bias or camera alone takes that one's map, and with it the map
-  /// pass's times.
+  /// takes the map of the one before it with such records where that is the same, and its bits are: bias, size and
+  /// camera may differ, the point that depths are rounded from may not. With the map it takes the map pass's times.
+  /// A picture alone that is not timed takes the map as well.
   int runs = usual_runs;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.

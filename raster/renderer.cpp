@@ -93,35 +93,52 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
 
 namespace {
 
-// Everything that a map and its time hang on, where the camera is no part of that and one light has the maps
-// for itself. Only frames with whole records are kept, so that who asks for times alone gets new ones.
-std::optional<RasterOptions> map_key(const RasterOptions& options, std::size_t lights) {
-  const Technique technique = options.map.technique;
-  if (follows_camera(technique) || !compares_depths(technique)) return std::nullopt;
-  if (lights != 1 || !options.analysis || !options.map_contents) return std::nullopt;
-  RasterOptions key = options;
-  key.map.bias = {};
-  return key;
+MapOptions without_bias(MapOptions map) {
+  map.bias = {};
+  return map;
+}
+
+bool has_whole_records(const RasterOptions& options) {
+  return options.analysis && options.map_contents;
+}
+
+// Who asks for times alone gets new ones.
+bool may_take_map(const RasterOptions& options) {
+  return has_whole_records(options) || (!options.analysis && options.runs == 0);
+}
+
+// Where the camera is no part of the map, and one light has the maps for itself.
+bool outlasts_frame(Technique technique, std::size_t lights) {
+  return lights == 1 && !follows_camera(technique) && compares_depths(technique);
 }
 
 }  // namespace
 
 bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& record) const {
-  const auto key = map_key(job.options, world_->scene->lights.size());
-  if (!key || !kept_map_ || kept_map_->options != *key || kept_map_->light != light) return false;
-  if (!same_window(kept_map_->map.view, record.map.view)) return false;  // fitted to another camera
-  record.map = kept_map_->map;
-  record.map_pass = kept_map_->map_pass;
-  record.first_map_ms = kept_map_->first_map_ms;
-  record.id_map_ms = kept_map_->id_map_ms;
+  const RasterOptions& options = job.options;
+  if (!kept_map_ || !may_take_map(options)) return false;
+  const KeptMap& kept = *kept_map_;
+  if (kept.options.map != without_bias(options.map) || kept.light != light) return false;
+  if (kept.reference != buffers_.reference()) return false;  // its depths were rounded from another point
+  if (!same_window(kept.map.view, record.map.view)) return false;  // fitted to another camera
+  const bool same_times = kept.options.runs == options.runs && kept.options.enough_ms == options.enough_ms;
+  if (options.runs > 0 && !same_times) return false;
+  if (!options.analysis) return true;
+  record.map = kept.map;
+  record.id_map_ms = kept.id_map_ms;
+  if (options.runs == 0) return true;
+  record.map_pass = kept.map_pass;
+  record.first_map_ms = kept.first_map_ms;
   return true;
 }
 
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
   // A frame whose map was kept would not tell which of the user's shaders drew it.
-  if (!gl_->shader_folder().replaced().empty()) return;
-  if (auto key = map_key(job.options, world_->scene->lights.size()))
-    kept_map_ = KeptMap{*key, light, record.map, record.map_pass, record.first_map_ms, record.id_map_ms};
+  if (!gl_->shader_folder().replaced().empty() || !has_whole_records(job.options)) return;
+  if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
+  kept_map_ = KeptMap{job.options,         light,           buffers_.reference(), record.map, record.map_pass,
+                      record.first_map_ms, record.id_map_ms};
+  kept_map_->options.map = without_bias(job.options.map);
 }
 
 Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {

@@ -30,7 +30,6 @@ const int triangle_count_uniform = 6;
 const int part_uniform = 10;
 
 // Shader storage buffers
-const int izb_shapes_buffer = 9;
 const int izb_points_buffer = 10;
 const int izb_normals_buffer = 11;
 const int izb_errors_buffer = 12;
@@ -62,11 +61,17 @@ const int shapes_unit = 17;
 const int materials_unit = 18;
 const int textures_unit = 19;
 const int izb_vertices_unit = 6;
+const int izb_shapes_unit = 20;
+const int izb_points_unit = 21;
+const int izb_normals_unit = 22;
+const int izb_errors_unit = 23;
+const int izb_links_unit = 24;
 
 // Texels of four numbers that one element takes of these buffer textures; the textures come after the 256 values of
 // the sRGB table, a texel each.
 const int shape_texel_count = 8;
 const int material_texel_count = 8;
+const int double_shape_texel_count = 14;
 const int srgb_texel_count = 256;
 
 // Vertex attributes

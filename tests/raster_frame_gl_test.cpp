@@ -8,8 +8,8 @@ namespace {
 
 class Records : public testing::TestWithParam<LightType> {
  protected:
-  Drawn make() {
-    Scene scene = still_life(true);
+  Drawn make(bool infinite_ground = true) {
+    Scene scene = still_life(infinite_ground);
     scene.lights = {GetParam() == LightType::directional
                         ? sun({-0.5, -1.0, -0.6})
                         : lamp(GetParam(), {0.2, 2.2, 1.2}, {0.0, 0.0, 0.0})};
@@ -142,6 +142,32 @@ TEST_P(Records, AreTheSameBitForBitOnASecondRender) {
   EXPECT_EQ(a.texel_uv.data, b.texel_uv.data);
   EXPECT_EQ(a.distance.data, b.distance.data);
   EXPECT_EQ(a.visibility.data, b.visibility.data);
+}
+
+// A map is kept from frame to frame where nothing of it changes. Bias, size and camera are not the map's, but the camera
+// moves the point that its depths are rounded from.
+TEST_P(Records, AreThoseOfAFirstFrameWhateverWasDrawnBefore) {
+  Drawn drawn = make(false);  // an infinite ground's map would move with the camera
+  raster::RasterOptions options = drawn.frame.options;
+  options.map.bias.constant *= 3.0;
+  options.size = {96, 64};
+  for (const bool moved : {false, true}) {
+    if (moved) drawn.scene->camera.eye += Vec3(0.37, -0.21, 0.11);
+    drawn.render(options);
+    const Drawn fresh = draw(*drawn.scene, options);
+    EXPECT_EQ(drawn.light().map.depth, fresh.light().map.depth) << moved;
+    EXPECT_EQ(drawn.light().gap.data, fresh.light().gap.data) << moved;
+    EXPECT_EQ(drawn.light().visibility.data, fresh.light().visibility.data) << moved;
+    EXPECT_EQ(drawn.frame.color.data, fresh.frame.color.data) << moved;
+    raster::RasterOptions picture = options;
+    picture.analysis = false;
+    drawn.render(picture);
+    EXPECT_EQ(drawn.frame.color.data, draw(*drawn.scene, picture).frame.color.data) << moved;
+  }
+  drawn.scene->lights[0].position.y += 0.05, drawn.scene->lights[0].direction.x += 0.05;
+  options.analysis = false;
+  drawn.render(options);
+  EXPECT_EQ(drawn.frame.color.data, draw(*drawn.scene, options).frame.color.data);
 }
 
 TEST_P(Records, TimesHoldEveryRunAndChangeNothing) {

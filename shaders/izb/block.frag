@@ -7,39 +7,67 @@ layout(location = face_uniform) uniform int face;
 #include "world.glsl"
 #include "triangles.glsl"
 
+// What the first pass stored.
+layout(binding = izb_points_unit) uniform usamplerBuffer point_bits;
+layout(binding = izb_normals_unit) uniform usamplerBuffer normal_bits;
+layout(binding = izb_errors_unit) uniform samplerBuffer error_texels;
+layout(binding = izb_links_unit) uniform usamplerBuffer link_texels;
+
+Receiver64 stored_receiver(uint pixel, uint primitive) {
+  return Receiver64(three_doubles(point_bits, pixel), three_doubles(normal_bits, pixel),
+                    dvec3(texelFetch(error_texels, int(pixel)).xyz), primitive);
+}
+
+// A `Blocker` is what each pixel of a texel is tested against, read once for all of them.
 #ifdef SPHERE
 layout(location = shape_uniform) uniform int shape_index;
 
-bool sphere_is_hole(ShadowRay ray, double t) {
+struct Blocker {
+  ShapeData shape;
+  dvec3 center;
+  double radius;
+};
+
+Blocker blocker() {
+  dvec4 sphere = double_shape_at(shape_index).center_and_radius;
+  return Blocker(shape_at(shape_index), sphere.xyz, sphere.w);
+}
+
+bool sphere_is_hole(ShapeData shape, ShadowRay ray, double t) {
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
-  return masked_hole(shape_at(shape_index).material, shape_uv(shape_at(shape_index), p));
+  return masked_hole(shape.material, shape_uv(shape, p));
 #else
   return false;
 #endif
 }
 
 // Of the receiver's own sphere only the far side can be in its way, from within (verdict.cpp, meet_sphere).
-bool blocks(Receiver64 r, ShadowRay ray) {
-  dvec3 center = double_shapes[shape_index].center_and_radius.xyz;
-  double radius = double_shapes[shape_index].center_and_radius.w;
+bool blocks(Blocker sphere, Receiver64 r, ShadowRay ray) {
   double t_near, t_far;
-  if (!sphere_crossings64(ray.origin, ray.direction, center, radius, t_near, t_far)) return false;
-  bool own = r.primitive == shape_at(shape_index).primitive;
-  if (own && !(dot(r.normal, ray.origin - center) < 0.0LF)) return false;
-  bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(ray, t_near);
-  if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(ray, t_far))) return false;
-  return !is_below(r, center, radius) && !is_beyond(ray, center, radius);
+  if (!sphere_crossings64(ray.origin, ray.direction, sphere.center, sphere.radius, t_near, t_far)) return false;
+  bool own = r.primitive == sphere.shape.primitive;
+  if (own && !(dot(r.normal, ray.origin - sphere.center) < 0.0LF)) return false;
+  bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(sphere.shape, ray, t_near);
+  if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(sphere.shape, ray, t_far))) return false;
+  return !is_below(r, sphere.center, sphere.radius) && !is_beyond(ray, sphere.center, sphere.radius);
 }
 #elif defined(SOLID)
 #include "izb/solid_blocks.glsl"
 layout(location = shape_uniform) uniform int shape_index;
 
+struct Blocker {
+  ShapeData shape;
+  DoubleShape s;
+};
+
+Blocker blocker() { return Blocker(shape_at(shape_index), double_shape_at(shape_index)); }
+
 // Where the ray first meets it (verdict.cpp, solid_here).
-bool solid_is_hole(ShadowRay ray, double t) {
+bool solid_is_hole(ShapeData shape, ShadowRay ray, double t) {
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);
-  return masked_hole(shape_at(shape_index).material, shape_uv(shape_at(shape_index), p));
+  return masked_hole(shape.material, shape_uv(shape, p));
 #else
   return false;
 #endif
@@ -50,9 +78,9 @@ double reach_along(DoubleShape s, dvec3 direction) {
   return dot(abs(to_solid64(s, direction)), 0.5LF * (s.box_max.xyz - s.box_min.xyz));
 }
 
-bool blocks(Receiver64 r, ShadowRay ray) {
-  ShapeData shape = shape_at(shape_index);
-  DoubleShape s = double_shapes[shape_index];
+bool blocks(Blocker solid, Receiver64 r, ShadowRay ray) {
+  ShapeData shape = solid.shape;
+  DoubleShape s = solid.s;
   int own = 0;
   if (r.primitive == shape.primitive) {
     dvec3 local = to_solid64(s, r.position - s.center_and_radius.xyz);
@@ -60,12 +88,24 @@ bool blocks(Receiver64 r, ShadowRay ray) {
   }
   double t;
   dvec3 origin = to_solid64(s, ray.origin - s.center_and_radius.xyz);
-  if (!solid_crossed(shape, s, origin, to_solid64(s, ray.direction), ray.end, own, t) || solid_is_hole(ray, t)) return false;
+  if (!solid_crossed(shape, s, origin, to_solid64(s, ray.direction), ray.end, own, t) ||
+      solid_is_hole(shape, ray, t))
+    return false;
   dvec3 center = s.center_and_radius.xyz + from_solid64(s, 0.5LF * (s.box_min.xyz + s.box_max.xyz));
   return !is_below(r, center, reach_along(s, r.normal)) && !is_beyond(ray, center, reach_along(s, ray.direction));
 }
 #else
 flat in uint primitive;
+
+struct Blocker {
+  TriangleData t;
+  dvec3 a, b, c;
+};
+
+Blocker blocker() {
+  TriangleData t = triangle_at(primitive);
+  return Blocker(t, vertex(t.a), vertex(t.b), vertex(t.c));
+}
 
 bool triangle_is_hole(TriangleData t, dvec2 weights) {
 #ifdef ALPHA_MASK
@@ -81,26 +121,27 @@ bool triangle_is_hole(TriangleData t, dvec2 weights) {
 #endif
 }
 
-bool blocks(Receiver64 r, ShadowRay ray) {
+bool blocks(Blocker own, Receiver64 r, ShadowRay ray) {
   if (r.primitive == primitive) return false;
-  TriangleData t = triangle_at(primitive);
-  dvec3 a = vertex(t.a), b = vertex(t.b), c = vertex(t.c);
   double at;
   dvec2 weights;
-  if (!sheared_crossing(ray.origin, ray.direction, a, b, c, false, at, weights) || !in_range(ray, at)) return false;
-  if (triangle_is_hole(t, weights)) return false;
-  return !(is_below(r, a, 0.0LF) && is_below(r, b, 0.0LF) && is_below(r, c, 0.0LF)) &&
-         !(is_beyond(ray, a, 0.0LF) && is_beyond(ray, b, 0.0LF) && is_beyond(ray, c, 0.0LF));
+  if (!sheared_crossing(ray.origin, ray.direction, own.a, own.b, own.c, false, at, weights) || !in_range(ray, at))
+    return false;
+  if (triangle_is_hole(own.t, weights)) return false;
+  return !(is_below(r, own.a, 0.0LF) && is_below(r, own.b, 0.0LF) && is_below(r, own.c, 0.0LF)) &&
+         !(is_beyond(ray, own.a, 0.0LF) && is_beyond(ray, own.b, 0.0LF) && is_beyond(ray, own.c, 0.0LF));
 }
 #endif
 
 void main() {
+  Blocker tested = blocker();
   uint link = imageLoad(heads, ivec3(ivec2(gl_FragCoord.xy), face)).r;
   while (link != 0u) {
     uint pixel = link - 1u;
-    link = links[pixel].x;
+    uvec2 next_and_primitive = texelFetch(link_texels, int(pixel)).xy;
+    link = next_and_primitive.x;
     if (shadows[pixel] != 0u) continue;
-    Receiver64 r = stored_receiver(pixel);
-    if (blocks(r, shadow_ray(r))) shadows[pixel] = 1u;
+    Receiver64 r = stored_receiver(pixel, next_and_primitive.y);
+    if (blocks(tested, r, shadow_ray(r))) shadows[pixel] = 1u;
   }
 }

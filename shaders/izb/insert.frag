@@ -13,6 +13,11 @@ layout(binding = solid_distance_unit) uniform sampler2D solid_distance;
 #endif
 layout(location = triangle_count_uniform) uniform uint triangle_count;
 
+layout(std430, binding = izb_points_buffer) writeonly buffer IzbPoints { double points[]; };  // of each pixel's receiver
+layout(std430, binding = izb_normals_buffer) writeonly buffer IzbNormals { double normals64[]; };
+layout(std430, binding = izb_errors_buffer) writeonly buffer IzbErrors { float errors[]; };   // rounded up
+layout(std430, binding = izb_links_buffer) writeonly buffer IzbLinks { uvec2 links[]; };      // next pixel + 1, primitive
+
 const uint no_id = 0xffffffffu;
 
 // Not normalised: its part along the view direction is 1.
@@ -40,8 +45,9 @@ Receiver64 triangle_receiver(uint id, dvec3 direction) {
 }
 
 Receiver64 sphere_receiver(uint index, dvec3 direction) {
-  dvec3 center = double_shapes[index].center_and_radius.xyz;
-  double radius = double_shapes[index].center_and_radius.w;
+  dvec4 sphere = double_shape_at(index).center_and_radius;
+  dvec3 center = sphere.xyz;
+  double radius = sphere.w;
   double t_near, t_far;
   sphere_crossings64(izb.eye.xyz, direction, center, radius, t_near, t_far);
   double t = t_near > 0.0LF ? t_near : t_far;
@@ -59,7 +65,8 @@ Receiver64 sphere_receiver(uint index, dvec3 direction) {
 }
 
 Receiver64 plane_receiver(uint index, dvec3 direction) {
-  dvec3 point = double_shapes[index].center_and_radius.xyz, n = double_shapes[index].normal.xyz;
+  DoubleShape plane = double_shape_at(index);
+  dvec3 point = plane.center_and_radius.xyz, n = plane.normal.xyz;
   dvec3 p = izb.eye.xyz + dot(n, point - izb.eye.xyz) / dot(n, direction) * direction;
   Receiver64 r;
   r.position = p - dot(n, p - point) * n;
@@ -73,7 +80,7 @@ Receiver64 plane_receiver(uint index, dvec3 direction) {
 // solid_point).
 Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
   ShapeData shape = shape_at(index);
-  DoubleShape s = double_shapes[index];
+  DoubleShape s = double_shape_at(index);
   dvec3 o = to_solid64(s, izb.eye.xyz - s.center_and_radius.xyz), d = to_solid64(s, direction);
   double diagonal = box_diagonal64(s), cap, steepness = 0.0LF;
   int axis = -1;
@@ -123,7 +130,8 @@ bool faces_away(Receiver64 r) {
 }
 
 bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
-  dvec3 point = double_shapes[index].center_and_radius.xyz, n = double_shapes[index].normal.xyz;
+  DoubleShape plane = double_shape_at(index);
+  dvec3 point = plane.center_and_radius.xyz, n = plane.normal.xyz;
   double height = dot(n, point - ray.origin);
   double slope = dot(n, ray.direction);
   dvec3 error = r.error + abs(ray.origin - r.position);

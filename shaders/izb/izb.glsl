@@ -18,8 +18,10 @@ layout(std140, binding = izb_block) uniform Izb {
   ivec4 size;          // image width and height, texels on a side, shapes
 } izb;
 
-// Two texels a vertex, which are the bits of three doubles: a buffer texture holds more than a storage block.
+// What both passes read lies in buffer textures, which hold more than a storage block and, in software, are read by many
+// pixels at a time. Three doubles are two texels of three words.
 layout(binding = izb_vertices_unit) uniform usamplerBuffer vertex_bits;
+layout(binding = izb_shapes_unit) uniform usamplerBuffer double_shape_bits;
 struct DoubleShape {         // as ShapeData (world.glsl), in the world
   dvec4 center_and_radius;  // of a sphere; of a plane: a point; of a solid: its origin
   dvec4 normal;             // of a plane; or a solid's local z axis
@@ -29,11 +31,6 @@ struct DoubleShape {         // as ShapeData (world.glsl), in the world
   dvec4 box_min;            // of a solid, local; w: a quadric's constant
   dvec4 box_max;            // w: solid_open, solid_closed, solid_uncut
 };
-layout(std430, binding = izb_shapes_buffer) readonly buffer IzbShapes { DoubleShape double_shapes[]; };
-layout(std430, binding = izb_points_buffer) buffer IzbPoints { double points[]; };    // position of each pixel's receiver
-layout(std430, binding = izb_normals_buffer) buffer IzbNormals { double normals64[]; };
-layout(std430, binding = izb_errors_buffer) buffer IzbErrors { float errors[]; };    // rounded up
-layout(std430, binding = izb_links_buffer) buffer IzbLinks { uvec2 links[]; };       // next pixel + 1, primitive
 layout(std430, binding = izb_shadows_buffer) buffer IzbShadows { uint shadows[]; };  // of each pixel
 layout(r32ui, binding = izb_heads_image) uniform uimage2DArray heads;                // first pixel + 1
 
@@ -46,9 +43,23 @@ double error_gamma(int operations) {
 
 double max_component(dvec3 v) { return max(v.x, max(v.y, v.z)); }
 
-dvec3 vertex(uint i) {
-  uvec3 first = texelFetch(vertex_bits, int(2u * i)).xyz, last = texelFetch(vertex_bits, int(2u * i + 1u)).xyz;
+dvec3 three_doubles(usamplerBuffer bits, uint index) {
+  uvec3 first = texelFetch(bits, int(2u * index)).xyz, last = texelFetch(bits, int(2u * index + 1u)).xyz;
   return dvec3(packDouble2x32(first.xy), packDouble2x32(uvec2(first.z, last.x)), packDouble2x32(last.yz));
+}
+
+dvec3 vertex(uint i) { return three_doubles(vertex_bits, i); }
+
+dvec4 double_shape_texels(int at) {
+  uvec4 first = texelFetch(double_shape_bits, at), last = texelFetch(double_shape_bits, at + 1);
+  return dvec4(packDouble2x32(first.xy), packDouble2x32(first.zw), packDouble2x32(last.xy), packDouble2x32(last.zw));
+}
+
+DoubleShape double_shape_at(uint index) {
+  int at = int(index) * double_shape_texel_count;
+  return DoubleShape(double_shape_texels(at), double_shape_texels(at + 2), double_shape_texels(at + 4),
+                     double_shape_texels(at + 6), double_shape_texels(at + 8), double_shape_texels(at + 10),
+                     double_shape_texels(at + 12));
 }
 
 struct Receiver64 {
@@ -144,12 +155,6 @@ bool sphere_crossings64(dvec3 origin, dvec3 d, dvec3 center, double radius, out 
   t_near = min(other, q / a);
   t_far = max(other, q / a);
   return true;
-}
-
-Receiver64 stored_receiver(uint pixel) {
-  uint i = 3u * pixel;
-  return Receiver64(dvec3(points[i], points[i + 1u], points[i + 2u]), dvec3(normals64[i], normals64[i + 1u], normals64[i + 2u]),
-                    dvec3(errors[i], errors[i + 1u], errors[i + 2u]), links[pixel].y);
 }
 
 // Position on a face of the grid, texels; z: depth along forward, positive before a point or spot light.
