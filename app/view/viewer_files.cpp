@@ -130,7 +130,7 @@ void Viewer::write_report() {
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = false;
-  note("writing the report to " + folder + "; Esc stops it");
+  note_.clear();
 }
 
 void Viewer::find_best() {
@@ -148,7 +148,7 @@ void Viewer::find_best() {
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = true;
-  note("searching the cheapest setting with at most 1 % wrong; Esc stops it");
+  note_.clear();  // the status line tells of the search
 }
 
 void Viewer::look_after_job() {

@@ -86,7 +86,8 @@ void labels(const LightComparison& light) {
     ImGui::Text("%s  %s", std::string(words.letter).c_str(), std::string(words.name).c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::BeginTooltip();
-      wrapped(fmt::format("{}: {}", words.what, words.cause), 26.0f * ImGui::GetFontSize());
+      wrapped(fmt::format("What: {}.", words.what), 26.0f * ImGui::GetFontSize());
+      wrapped(fmt::format("Why: {}", words.cause), 26.0f * ImGui::GetFontSize());
       wrapped(fmt::format("Cure: {}", words.cure), 26.0f * ImGui::GetFontSize());
       ImGui::EndTooltip();
     }
