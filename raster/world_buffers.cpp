@@ -119,6 +119,9 @@ Expected<void> check_size(const Gl& gl, const World& world, const StoredMeshes& 
           check(world.scene->materials.size() * shaders::material_texel_count, "numbers of materials");
       !fits)
     return fits;
+  const std::size_t parts =
+      shaders::parts_header_texel_count + world.parts.size() * shaders::part_texel_count;
+  if (const auto fits = check(parts, "numbers of instances"); !fits) return fits;
   return check(meshes.all.vertices, "vertices");
 }
 
@@ -173,7 +176,8 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       plane_texels_(gl),
       object_position_texels_(gl),
       shape_texels_(gl),
-      material_texels_(gl) {}
+      material_texels_(gl),
+      part_texels_(gl) {}
 
 /// put(part, its mesh's place) for everything that is stored.
 template <class Put>
@@ -265,6 +269,7 @@ void WorldBuffers::attach_textures() {
   object_position_texels_.attach(object_positions_, GL_RG32UI);
   shape_texels_.attach(shapes_, GL_RGBA32UI);
   material_texels_.attach(materials_, GL_RGBA32UI);
+  part_texels_.attach(parts_, GL_RGBA32UI);
 }
 
 void WorldBuffers::make_runs(const SceneFeatures& features) {
@@ -340,7 +345,7 @@ void WorldBuffers::bind() const {
   plane_texels_.bind(shaders::planes_unit);
   if (object_positions_.size() > 0) {
     object_position_texels_.bind(shaders::object_positions_unit);
-    parts_.bind(GL_SHADER_STORAGE_BUFFER, shaders::parts_buffer);
+    part_texels_.bind(shaders::parts_unit);
   }
   shape_texels_.bind(shaders::shapes_unit);
   material_texels_.bind(shaders::materials_unit);

@@ -93,7 +93,7 @@ class WorldBuffers {
   Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
   Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none
   BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,
-      object_position_texels_, shape_texels_, material_texels_;
+      object_position_texels_, shape_texels_, material_texels_, part_texels_;
   std::optional<TexelPages> texels_;
   /// Triangles that are drawn, of opaque ones and of others, flattened and kept, each.
   std::uint32_t most_ = ~0u;

@@ -35,7 +35,6 @@ const int izb_normals_buffer = 11;
 const int izb_errors_buffer = 12;
 const int izb_links_buffer = 13;
 const int izb_shadows_buffer = 14;
-const int parts_buffer = 4;
 
 // Images
 const int izb_heads_image = 0;
@@ -60,6 +59,7 @@ const int object_positions_unit = 16;
 const int shapes_unit = 17;
 const int materials_unit = 18;
 const int textures_unit = 19;
+const int parts_unit = 25;
 const int izb_vertices_unit = 6;
 const int izb_shapes_unit = 20;
 const int izb_points_unit = 21;
@@ -71,6 +71,8 @@ const int izb_links_unit = 24;
 // the sRGB table, a texel each.
 const int shape_texel_count = 8;
 const int material_texel_count = 8;
+const int parts_header_texel_count = 4;
+const int part_texel_count = 16;
 const int double_shape_texel_count = 14;
 const int srgb_texel_count = 256;
 

@@ -23,8 +23,9 @@ layout(binding = colors_unit) uniform samplerBuffer color_texels;
 
 TriangleData triangle_at(uint id) {
   uint part = part_of(id);
-  uvec4 t = texelFetch(triangle_texels, int(parts[part].triangles_at + (id - parts[part].first_triangle)));
-  return TriangleData(t.x, t.y, t.z, t.w == no_material ? parts[part].material : t.w, part);
+  PartData of = part_at(part);
+  uvec4 t = texelFetch(triangle_texels, int(of.triangles_at + (id - of.first_triangle)));
+  return TriangleData(t.x, t.y, t.z, t.w == no_material ? of.material : t.w, part);
 }
 vec3 position_of(TriangleData t, uint vertex) {
   if (is_kept(t.part)) return relative_position(t.part, vertex);
@@ -36,7 +37,8 @@ vec3 normal_of(TriangleData t, uint vertex) {
 }
 vec4 plane_of(uint id, TriangleData t) {
   if (is_kept(t.part)) return placed_plane(t.part, t.a, t.b, t.c);
-  return texelFetch(plane_texels, int(parts[t.part].triangles_at + (id - parts[t.part].first_triangle)));
+  PartData of = part_at(t.part);
+  return texelFetch(plane_texels, int(of.triangles_at + (id - of.first_triangle)));
 }
 #else
 TriangleData triangle_at(uint id) {

@@ -38,7 +38,9 @@ constexpr Named constants[] = {
     GNOMON_NAMED(planes_unit),
     GNOMON_NAMED(object_positions_unit),
     GNOMON_NAMED(part_uniform),
-    GNOMON_NAMED(parts_buffer),
+    GNOMON_NAMED(parts_unit),
+    GNOMON_NAMED(parts_header_texel_count),
+    GNOMON_NAMED(part_texel_count),
     GNOMON_NAMED(shapes_unit),
     GNOMON_NAMED(materials_unit),
     GNOMON_NAMED(textures_unit),
@@ -170,15 +172,6 @@ TEST_F(SharedConstants, BlocksHaveTheSizesOfTheirTwins) {
   EXPECT_EQ(block_size(*gl_, id, GL_UNIFORM_BLOCK, "Camera"),
             static_cast<GLint>(sizeof(raster::CameraBlock)));
   EXPECT_EQ(block_size(*gl_, id, GL_UNIFORM_BLOCK, "Light"), static_cast<GLint>(sizeof(raster::LightBlock)));
-}
-
-TEST_F(SharedConstants, PartsHaveTheSizeOfTheirTwin) {
-  const raster::SceneFeatures features{.smooth_normals = true, .instances = true};
-  const auto program = raster::link_shade_program(*gl_, {.first_light = true}, features);
-  ASSERT_TRUE(program.has_value()) << program.error().message();
-  EXPECT_EQ(block_size(*gl_, program->id(), GL_SHADER_STORAGE_BLOCK, "Parts"),
-            static_cast<GLint>(sizeof(raster::PartsHeader) + offsetof(raster::PartData, kept) +
-                               sizeof(raster::PartData::kept)));  // an element without what pads it
 }
 
 TEST_F(SharedConstants, AShaderErrorNamesItsFileAndLine) {
