@@ -17,56 +17,36 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-/// Rays of a packet that the primitive may block, and those among them that it surely does.
-struct Blocked {
-  unsigned perhaps = 0, surely = 0;
-};
-
 /// What a primitive is to rays besides its numbers.
 struct Blocker {
   std::uint32_t not_from;  ///< rays that leave this primitive are not blocked
   bool may_be_sure;
 };
 
-/// A packet's rays from `at` on; those whose `far`, the receivers' reciprocal depth or depth along the light, is infinite
+/// A vector of rays from `at` on; those whose `far`, the receivers' reciprocal depth or depth along the light, is infinite
 /// are not asked. A flat primitive never blocks the rays that leave it (of others the double kernels know when). A plane's
 /// edge functions are not looked at.
 template <bool plane>
-HWY_INLINE Blocked blocked_by(const LaneNumbers& p, const Blocker& blocker, const TileRays& rays,
-                              const float* far_of, std::size_t at) {
-  const auto u = [&](std::size_t k) { return hn::Load(f, rays.u + at + k * lanes()); };
-  const auto v = [&](std::size_t k) { return hn::Load(f, rays.v + at + k * lanes()); };
-  const auto far = [&](std::size_t k) { return hn::Load(f, far_of + at + k * lanes()); };
-  const auto each = [](const auto& step) {
-    for (std::size_t k = 0; k < packet_steps; ++k) step(k);
-  };
-  V edge[packet_steps], depth[packet_steps];
-  M perhaps[packet_steps], any = hn::Lt(all(inf), all(inf));
-  if (plane)
-    each([&](std::size_t k) { edge[k] = all(inf); });
-  else
-    each([&](std::size_t k) { edge[k] = p.least_edge(u(k), v(k)); });
-  const auto known = [&](std::size_t k) { return hn::Gt(depth[k], p.depth_floor()); };
-  each([&](std::size_t k) {
-    depth[k] = p.reciprocal_depth(u(k), v(k));
-    const M behind = hn::And(hn::Lt(depth[k], hn::Sub(far(k), p.depth_error())), known(k));
-    const M near =
-        hn::AndNot(behind, hn::And(hn::Lt(far(k), all(inf)), hn::Ge(edge[k], hn::Neg(p.edge_error()))));
-    const auto leaves = hn::Eq(hn::Load(ids, rays.source + at + k * lanes()), hn::Set(ids, blocker.not_from));
-    perhaps[k] = hn::AndNot(hn::RebindMask(f, leaves), near);
-    any = hn::Or(any, perhaps[k]);
-  });
-  Blocked blocked;
-  if (hn::AllFalse(f, any)) [[likely]]
-    return blocked;
-  each([&](std::size_t k) {
-    const M ahead = hn::And(hn::Gt(depth[k], hn::Add(far(k), p.depth_error())), known(k));
-    const M surely = hn::And(perhaps[k], hn::And(hn::Gt(edge[k], p.edge_error()), ahead));
-    blocked.perhaps |= bits_of(perhaps[k]) << k * lanes();
-    if (blocker.may_be_sure) blocked.surely |= bits_of(surely) << k * lanes();
-  });
-  return blocked;
-}
+struct BlockedRays {
+  V far, edge, depth;
+  M known, perhaps;
+  HWY_INLINE BlockedRays(const LaneNumbers& p, const Blocker& blocker, const TileRays& rays,
+                         const float* far_of, std::size_t at)
+      : far(hn::Load(f, far_of + at)) {
+    const V u = hn::Load(f, rays.u + at), v = hn::Load(f, rays.v + at);
+    edge = plane ? all(inf) : p.least_edge(u, v);
+    depth = p.reciprocal_depth(u, v);
+    known = hn::Gt(depth, p.depth_floor());
+    const M behind = hn::And(hn::Lt(depth, hn::Sub(far, p.depth_error())), known);
+    const M near = hn::AndNot(behind, hn::And(hn::Lt(far, all(inf)), hn::Ge(edge, hn::Neg(p.edge_error()))));
+    const auto leaves = hn::Eq(hn::Load(ids, rays.source + at), hn::Set(ids, blocker.not_from));
+    perhaps = hn::AndNot(hn::RebindMask(f, leaves), near);
+  }
+  M surely(const LaneNumbers& p) const {
+    const M ahead = hn::And(hn::Gt(depth, hn::Add(far, p.depth_error())), known);
+    return hn::And(perhaps, hn::And(hn::Gt(edge, p.edge_error()), ahead));
+  }
+};
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

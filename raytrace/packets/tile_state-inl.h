@@ -159,22 +159,12 @@ class TileState {
     return any;
   }
   template <bool plane>
-  bool test_packet(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
-                   std::size_t packet) {
-    const std::size_t at = packet * packet_rays;
-    const Blocked blocked = blocked_by<plane>(primitive, blocker, *rays_, far_, at);
-    if (blocked.perhaps == 0) return false;
-    const unsigned open = blocked.perhaps & ~blocked.surely;
-    out_->ambiguous[packet] |= static_cast<std::uint16_t>(open);
-    if (!plane) out_->note(leaf, at, open);
-    if (blocked.surely == 0) return false;
-    out_->shadowed[packet] |= static_cast<std::uint16_t>(blocked.surely);
-    for (std::size_t i = 0; i < packet_rays; i += lanes()) {
-      const V far = hn::Load(f, far_ + at + i);
-      hn::Store(hn::IfThenElse(mask_of(blocked.surely >> i), all(inf), far), f, far_ + at + i);
-    }
-    update(packet);
-    return true;
+  HWY_INLINE bool test_packet(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
+                              std::size_t packet) {
+    M any = hn::Lt(all(inf), all(inf));
+    for (std::size_t k = 0; k < packet_steps; ++k)
+      any = hn::Or(any, blocked<plane>(primitive, blocker, packet, k).perhaps);
+    return !hn::AllFalse(f, any) && take<plane>(primitive, blocker, leaf, packet);
   }
 
   void finish() {
@@ -183,6 +173,31 @@ class TileState {
   }
 
  private:
+  template <bool plane>
+  HWY_INLINE BlockedRays<plane> blocked(const LaneNumbers& primitive, const Blocker& blocker,
+                                        std::size_t packet, std::size_t step) const {
+    return {primitive, blocker, *rays_, far_, packet * packet_rays + step * lanes()};
+  }
+  template <bool plane>
+  HWY_NOINLINE bool take(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
+                         std::size_t packet) {
+    unsigned shadowed = 0;
+    for (std::size_t k = 0; k < packet_steps; ++k) {
+      const std::size_t first = k * lanes(), at = packet * packet_rays + first;
+      const BlockedRays<plane> rays = blocked<plane>(primitive, blocker, packet, k);
+      const M surely = blocker.may_be_sure ? rays.surely(primitive) : hn::Lt(all(inf), all(inf));
+      const unsigned bits = bits_of(surely), open = bits_of(rays.perhaps) & ~bits;
+      out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << first);
+      if (!plane) out_->note(leaf, at, open);
+      hn::Store(hn::IfThenElse(surely, all(inf), rays.far), f, far_ + at);
+      shadowed |= bits << first;
+    }
+    if (shadowed == 0) return false;
+    out_->shadowed[packet] |= static_cast<std::uint16_t>(shadowed);
+    update(packet);
+    return true;
+  }
+
   Extent extent_of(std::size_t p, unsigned bits) const {
     V u_min = all(inf), u_max = all(-inf), v_min = all(inf), v_max = all(-inf);
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
