@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "raytrace/packets/lanes-inl.h"
 
@@ -58,7 +59,7 @@ class Projection {
         const auto is_high = hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight));
         corner[a] = hn::IfThenElse(is_high, high[a], low[a]);
       }
-      grow(bounds, corner);
+      grow(bounds, place_of(corner));
     }
     bounds.u_min = hn::MinOfLanes(eight, bounds.u_min), bounds.u_max = hn::MaxOfLanes(eight, bounds.u_max);
     bounds.v_min = hn::MinOfLanes(eight, bounds.v_min), bounds.v_max = hn::MaxOfLanes(eight, bounds.v_max);
@@ -67,28 +68,34 @@ class Projection {
             hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
   }
 
-  /// Of up to eight leaves; the rest is anything. Triangles by their corners, but as near as their boxes: where one is seen
-  /// edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
+  /// Of up to eight leaves; the rest is anything. As near as their boxes: where a triangle is seen edge-on, the kernels'
+  /// depth is anywhere between the corners' along a coordinate axis.
   void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows) const {
     const LeafCorners from(s_.bvh, leaves);
+    unsigned thin = 0;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
       V8 corner[3][3], low[3], high[3];
       from.get(i, corner);
       Bounds bounds;
+      Place place[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        grow(bounds, corner[k]);
+        place[k] = place_of(corner[k]), grow(bounds, place[k]);
         low[k] = hn::Min(corner[0][k], hn::Min(corner[1][k], corner[2][k]));
         high[k] = hn::Max(corner[0][k], hn::Max(corner[1][k], corner[2][k]));
       }
+      thin |= widen(bounds, place) << i;
       finish(bounds, low, high);
       hn::Store(bounds.u_min, eight, rows.u_min + i), hn::Store(bounds.u_max, eight, rows.u_max + i);
       hn::Store(bounds.v_min, eight, rows.v_min + i), hn::Store(bounds.v_max, eight, rows.v_max + i);
       hn::Store(bounds.nearest, eight, rows.nearest + i);
     }
-    if (!s_.has_shapes) return;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if ((thin >> i & 1) == 0 && !s_.has_shapes) continue;
       const std::uint32_t id = s_.bvh.id_at(leaves[i]);
-      if (!s_.world->is_triangle(id)) rows.set(i, of(shape_box(*s_.world, id, s_.bvh.center)));
+      if (!s_.world->is_triangle(id))
+        rows.set(i, of(shape_box(*s_.world, id, s_.bvh.center)));
+      else if ((thin >> i & 1) != 0)
+        rows.set(i, of(triangle_box(leaves[i])));
     }
   }
 
@@ -142,21 +149,58 @@ class Projection {
     };
     return times(2, times(1, hn::Mul(from_origin[0], hn::Set(eight, axes_[axis][0]))));
   }
-  void grow(Bounds& bounds, const V8 (&corner)[3]) const {
+  /// A point's, and what it may be wrong by.
+  struct Place {
+    V8 u, v, u_margin, v_margin;
+  };
+  Place place_of(const V8 (&corner)[3]) const {
     V8 p[3];
     for (std::size_t a = 0; a < 3; ++a) p[a] = hn::Sub(corner[a], hn::Set(eight, origin_[a]));
-    V8 u = along(0, p), v = along(1, p), u_margin = hn::Set(eight, 4.0f * slack_), v_margin = u_margin;
-    if (!setup_.directional) {
-      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
-      const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
-      u = hn::Mul(u, per_depth), v = hn::Mul(v, per_depth);
-      u_margin = hn::MulAdd(hn::Abs(u), relative, relative),
-      v_margin = hn::MulAdd(hn::Abs(v), relative, relative);
+    const V8 u = along(0, p), v = along(1, p), margin = hn::Set(eight, 4.0f * slack_);
+    if (setup_.directional) return {u, v, margin, margin};
+    const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
+    const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
+    const V8 at_u = hn::Mul(u, per_depth), at_v = hn::Mul(v, per_depth);
+    return {at_u, at_v, hn::MulAdd(hn::Abs(at_u), relative, relative),
+            hn::MulAdd(hn::Abs(at_v), relative, relative)};
+  }
+  static void grow(Bounds& bounds, const Place& at) {
+    bounds.u_min = hn::Min(bounds.u_min, hn::Sub(at.u, at.u_margin));
+    bounds.u_max = hn::Max(bounds.u_max, hn::Add(at.u, at.u_margin));
+    bounds.v_min = hn::Min(bounds.v_min, hn::Sub(at.v, at.v_margin));
+    bounds.v_max = hn::Max(bounds.v_max, hn::Add(at.v, at.v_margin));
+  }
+  /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by less than a 16th
+  /// of the margins, which is more than these beyond a sharp corner: a 16th of the triangle's size where the inscribed
+  /// circle is twice as wide as the margins. Bits: where it is not, and the box is to be taken.
+  static unsigned widen(Bounds& bounds, const Place (&at)[3]) {
+    const V8 size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));
+    V8 margin = hn::Max(at[0].u_margin, at[0].v_margin);
+    for (const Place& p : at) margin = hn::Max(margin, hn::Max(p.u_margin, p.v_margin));
+    const auto edge = [&](std::size_t k) {
+      return std::pair(hn::Sub(at[k].u, at[0].u), hn::Sub(at[k].v, at[0].v));
+    };
+    const auto [u1, v1] = edge(1);
+    const auto [u2, v2] = edge(2);
+    const V8 area = hn::Abs(hn::Sub(hn::Mul(u1, v2), hn::Mul(u2, v1)));  // twice the triangle's
+    const V8 more = hn::Mul(size, hn::Set(eight, 0x1p-4f));
+    bounds.u_min = hn::Sub(bounds.u_min, more), bounds.u_max = hn::Add(bounds.u_max, more);
+    bounds.v_min = hn::Sub(bounds.v_min, more), bounds.v_max = hn::Add(bounds.v_max, more);
+    const auto wide = hn::Gt(area, hn::Mul(hn::Set(eight, 8.0f), hn::Mul(size, margin)));
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(eight, hn::Not(wide), bytes);
+    return bytes[0];
+  }
+  BoxRef triangle_box(std::uint32_t leaf) const {
+    LeafPrimitive scratch;
+    const LeafPrimitive& p = s_.bvh.primitive_at(leaf, scratch);
+    BoxRef box{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double center = s_.bvh.center[static_cast<int>(a)];
+      const auto [low, high] = std::minmax({p.v[a], p.v[3 + a], p.v[6 + a]});
+      box.min[a] = float_below(low - center), box.max[a] = float_above(high - center);
     }
-    bounds.u_min = hn::Min(bounds.u_min, hn::Sub(u, u_margin)),
-    bounds.u_max = hn::Max(bounds.u_max, hn::Add(u, u_margin));
-    bounds.v_min = hn::Min(bounds.v_min, hn::Sub(v, v_margin)),
-    bounds.v_max = hn::Max(bounds.v_max, hn::Add(v, v_margin));
+    return box;
   }
   /// `low`, `high`: the box.
   void finish(Bounds& bounds, const V8 (&low)[3], const V8 (&high)[3]) const {
