@@ -2,7 +2,6 @@
 // what their mesh has, unless they touch something: then they are worked out in the world, with all that is flattened.
 // The result is the same for any number of threads, and whether instances are kept or not.
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
@@ -247,9 +246,9 @@ class Touching {
       to.insert(to.end(), of_part[i].begin(), of_part[i].end());
       std::vector<std::uint64_t>().swap(of_part[i]);
     }
-    tbb::parallel_sort(flat.begin(), flat.end());  // together already: each place once
+    sort_numbers(std::span(flat));  // together already: each place once
     all.insert(all.end(), flat.begin(), std::unique(flat.begin(), flat.end()));
-    tbb::parallel_sort(all.begin(), all.end());
+    sort_numbers(std::span(all));
     for (std::size_t i = 1; i < all.size(); ++i)
       if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i])) shared.push_back(all[i]);
   }
