@@ -38,7 +38,11 @@ struct alignas(32) BoundsRows {
 class Projection {
  public:
   Projection(const Structures& s, const EdgeSetup& setup)
-      : s_(s), setup_(setup), slack_(float_above(setup.slack)) {
+      : s_(s),
+        setup_(setup),
+        slack_(float_above(setup.slack)),
+        least_per_margin_(float_above(0.5 + 0x1p-35 * setup.reach / setup.slack)),
+        least_width_(setup.directional ? 0.0f : 0x1p-17f) {
     const Vec3 origin = setup.origin - s.bvh.center;
     for (int a = 0; a < 3; ++a) {
       origin_[a] = static_cast<float>(origin[a]);
@@ -170,10 +174,10 @@ class Projection {
     bounds.v_min = hn::Min(bounds.v_min, hn::Sub(at.v, at.v_margin));
     bounds.v_max = hn::Max(bounds.v_max, hn::Add(at.v, at.v_margin));
   }
-  /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by less than a 16th
-  /// of the margins, which is more than these beyond a sharp corner: a 16th of the triangle's size where the inscribed
-  /// circle is twice as wide as the margins. Bits: where it is not, and the box is to be taken.
-  static unsigned widen(Bounds& bounds, const Place (&at)[3]) {
+  /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by 2^-41 of `reach`,
+  /// which is more than that beyond a sharp corner: less than a 16th of the triangle's size where the inscribed circle's
+  /// radius is 32 times it. Bits: where that is not sure, and the box is to be taken.
+  unsigned widen(Bounds& bounds, const Place (&at)[3]) const {
     const V8 size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));
     V8 margin = hn::Max(at[0].u_margin, at[0].v_margin);
     for (const Place& p : at) margin = hn::Max(margin, hn::Max(p.u_margin, p.v_margin));
@@ -186,7 +190,8 @@ class Projection {
     const V8 more = hn::Mul(size, hn::Set(eight, 0x1p-4f));
     bounds.u_min = hn::Sub(bounds.u_min, more), bounds.u_max = hn::Add(bounds.u_max, more);
     bounds.v_min = hn::Sub(bounds.v_min, more), bounds.v_max = hn::Add(bounds.v_max, more);
-    const auto wide = hn::Gt(area, hn::Mul(hn::Set(eight, 8.0f), hn::Mul(size, margin)));
+    const V8 least = hn::MulAdd(margin, hn::Set(eight, least_per_margin_), hn::Set(eight, least_width_));
+    const auto wide = hn::Gt(area, hn::Mul(size, least));
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(eight, hn::Not(wide), bytes);
     return bytes[0];
@@ -228,6 +233,7 @@ class Projection {
   const EdgeSetup& setup_;
   float origin_[3], axes_[3][3];  ///< from the middle that boxes count from
   float slack_;
+  float least_per_margin_, least_width_;  ///< of triangles' areas, beyond their own rounding
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
