@@ -229,10 +229,11 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
-  if (!job.visibility_drawn) {
+  // A frame that draws nothing would not tell which of the user's shaders drew it.
+  const bool stands = gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
+  if (!job.visibility_drawn && !stands)
     if (auto ok = see(job, nullptr); !ok) return ok;
-    job.visibility_drawn = true;
-  }
+  job.visibility_drawn = true;
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;
   }

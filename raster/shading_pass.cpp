@@ -118,6 +118,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   const Gl& gl = *gl_;
   const auto programs = programs_->triangles({.primitive_ids = true});
   if (!programs) return fail(programs.error());
+  seen_.reset();
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
@@ -136,7 +137,17 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
   world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
                        programs_->features().single_sided);
-  return draw_shapes(world, view);
+  if (auto shapes = draw_shapes(world, view); !shapes) return shapes;
+  if (!in_corner_) seen_ = seen_by(world, view);
+  return {};
+}
+
+ShadingPass::Seen ShadingPass::seen_by(const WorldBuffers& world, const View& view) {
+  return {view.eye, view.right, view.up, view.forward, world.reference(), {view.tan_half_x, view.tan_half_y}};
+}
+
+bool ShadingPass::shows(const WorldBuffers& world, const View& view) const {
+  return seen_ == seen_by(world, view);
 }
 
 Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {

@@ -18,6 +18,8 @@ class ShadingPass {
   void set_camera(const WorldBuffers& world, const View& view);
   /// Fills the visibility buffer.
   Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
+  /// Whether the visibility buffer holds what draw_visibility() would draw.
+  bool shows(const WorldBuffers& world, const View& view) const;
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
   /// Both, into a corner of the images: whatever the device compiles or sets up at the first use is then
@@ -43,12 +45,21 @@ class ShadingPass {
   Expected<void> prepare_trial();
   Expected<void> draw_shapes(const WorldBuffers& world, const View& view);
 
+  /// All that the visibility buffer's contents hang on, its size apart.
+  struct Seen {
+    Vec3 eye, right, up, forward, reference;
+    Vec2 tan_half;
+    bool operator==(const Seen&) const = default;
+  };
+  static Seen seen_by(const WorldBuffers& world, const View& view);
+
   Gl* gl_;
   ProgramCache* programs_;
   Buffer camera_block_;
-  ImageSize size_;          ///< of the picture
-  PictureRows rows_;        ///< that are shaded
-  bool in_corner_ = false;  ///< only a part of the images is drawn to
+  std::optional<Seen> seen_;  ///< of the whole visibility buffer
+  ImageSize size_;            ///< of the picture
+  PictureRows rows_;          ///< that are shaded
+  bool in_corner_ = false;    ///< only a part of the images is drawn to
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
 };
