@@ -14,6 +14,7 @@ namespace {
 constexpr double idle_wait_seconds = 1.0;  // between frames when nothing happens
 // While a run beside the window is looked after, or pictures are waited for.
 constexpr double busy_wait_seconds = 0.1;
+constexpr double drawing_wait_seconds = 0.05;  // while a picture is drawn, unless something happens
 constexpr glm::u8vec3 surround{24};  // where a picture leaves the window free
 
 /// Colours that stand for something must not be mixed.
@@ -345,6 +346,7 @@ void Viewer::set_title() {
 void Viewer::sleep() {
   if (busy_frames_ > 0) --busy_frames_;
   if (state_.film.plays && !shown_->is_drawn(state_)) return window_->wait(busy_wait_seconds);
+  if (busy_frames_ > 0 && !shown_->is_drawn(state_)) return window_->wait(drawing_wait_seconds);
   if (busy_frames_ > 0) return;
   if (!has_script()) return window_->wait(job_ || saving_.valid() ? busy_wait_seconds : idle_wait_seconds);
   const bool waits = next_step_ < script_.size() && needs_time(script_[next_step_], *shown_, state_);
