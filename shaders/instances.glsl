@@ -1,6 +1,6 @@
 // The parts of a world that keeps instances, and a kept part's vertices in the world. The arithmetic is that of
 // scene/world.h and raster/world_buffers.cpp, operation for operation (precise: none are contracted), so that a kept
-// vertex has the very floats that a flattened one has. Twin of raster/part_buffers.cpp.
+// vertex has the very floats that a flattened one has. Twin of raster/stored_meshes.h.
 
 // What comes first: the frame's reference in the world (a dvec4), the number of parts, and of vertices before those of
 // meshes that are kept. Then of each part four columns of the matrix to the world and three of its inverse transpose
