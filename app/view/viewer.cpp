@@ -15,7 +15,7 @@ constexpr double idle_wait_seconds = 1.0;  // between frames when nothing happen
 // While a run beside the window is looked after, or pictures are waited for.
 constexpr double busy_wait_seconds = 0.1;
 constexpr double drawing_wait_seconds = 0.05;  // while a picture is drawn, unless something happens
-constexpr glm::u8vec3 surround{24};  // where a picture leaves the window free
+constexpr glm::u8vec3 surround{24};            // where a picture leaves the window free
 
 /// Colours that stand for something must not be mixed.
 raster::Scaling scaling_of(Picture picture, const Look& look) {
