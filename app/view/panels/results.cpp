@@ -69,7 +69,7 @@ void budget(const PanelContext& context, const LightComparison& light) {
     const compare::StepText& words = compare::step_text(static_cast<compare::Cause>(i));
     swatch(step_colour(i));
     ImGui::TextUnformatted(std::string(words.name).c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(words.what).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("What: %s.", std::string(words.what).c_str());
     right_aligned(
         fmt::format("{} ({})", compare::percent(step.absolute_mean), signed_percent(step.signed_mean)));
   }
