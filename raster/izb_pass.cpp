@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "scene/solid.h"
@@ -116,7 +117,9 @@ Expected<void> IzbPass::upload_world(const World& world) {
 std::size_t IzbPass::most_pixels(const Gl& gl) {
   GLint64 limit = 0;
   gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  return static_cast<std::size_t>(limit) / point_bytes;
+  GLint texels = 0;  // two for a pixel's point, and for its normal
+  gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  return std::min(static_cast<std::size_t>(limit) / point_bytes, static_cast<std::size_t>(texels) / 2);
 }
 
 Expected<void> IzbPass::reserve_pixels(ImageSize size) {
@@ -126,7 +129,7 @@ Expected<void> IzbPass::reserve_pixels(ImageSize size) {
     return fail(
         ErrorKind::graphics,
         fmt::format("the picture is too large for technique izb on this OpenGL (got {} x {} = {} pixels, "
-                    "allowed {}: GL_MAX_SHADER_STORAGE_BLOCK_SIZE)",
+                    "allowed {} by its storage blocks and buffer textures)",
                     size.width, size.height, size.pixels(), allowed));
   points_.reserve(point_bytes * size.pixels());
   normals_.reserve(point_bytes * size.pixels());

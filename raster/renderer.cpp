@@ -98,13 +98,9 @@ MapOptions without_bias(MapOptions map) {
   return map;
 }
 
-bool has_whole_records(const RasterOptions& options) {
-  return options.analysis && options.map_contents;
-}
-
 // Who asks for times alone gets new ones.
 bool may_take_map(const RasterOptions& options) {
-  return has_whole_records(options) || (!options.analysis && options.runs == 0);
+  return hands_on_map(options) || (!options.analysis && options.runs == 0);
 }
 
 // Where the camera is no part of the map, and one light has the maps for itself.
@@ -134,7 +130,7 @@ bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& 
 
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
   // A frame whose map was kept would not tell which of the user's shaders drew it.
-  if (!gl_->shader_folder().replaced().empty() || !has_whole_records(job.options)) return;
+  if (!gl_->shader_folder().replaced().empty() || !hands_on_map(job.options)) return;
   if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
   kept_map_ = KeptMap{job.options,         light,           buffers_.reference(), record.map, record.map_pass,
                       record.first_map_ms, record.id_map_ms};

@@ -12,8 +12,8 @@ namespace gnomon::raster {
 
 struct TexelPages {
   Texture2D pages;  ///< RGBA8UI
-  Buffer
-      table;  ///< the sRGB decoding table, then {first texel, width, height, flags} per texture: a texel each
+  /// The sRGB decoding table, then {first texel, width, height, flags} per texture: a texel each.
+  Buffer table;
   BufferTexture table_texels;
 
   /// Error (graphics): more texels than the context's array textures hold.

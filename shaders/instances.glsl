@@ -15,7 +15,7 @@ struct PartData {
 };
 
 PartData part_at(uint part) {
-  uvec4 t = texelFetch(part_texels, parts_header_texel_count + int(part) * part_texel_count + 14);
+  uvec4 t = texelFetch(part_texels, parts_header_texel_count + int(part) * part_texel_count + 14);  // after the columns
   return PartData(t.x, t.y, t.z, t.w);
 }
 

@@ -121,15 +121,15 @@ bool triangle_is_hole(TriangleData t, dvec2 weights) {
 #endif
 }
 
-bool blocks(Blocker own, Receiver64 r, ShadowRay ray) {
+bool blocks(Blocker caster, Receiver64 r, ShadowRay ray) {
   if (r.primitive == primitive) return false;
   double at;
   dvec2 weights;
-  if (!sheared_crossing(ray.origin, ray.direction, own.a, own.b, own.c, false, at, weights) || !in_range(ray, at))
+  if (!sheared_crossing(ray.origin, ray.direction, caster.a, caster.b, caster.c, false, at, weights) || !in_range(ray, at))
     return false;
-  if (triangle_is_hole(own.t, weights)) return false;
-  return !(is_below(r, own.a, 0.0LF) && is_below(r, own.b, 0.0LF) && is_below(r, own.c, 0.0LF)) &&
-         !(is_beyond(ray, own.a, 0.0LF) && is_beyond(ray, own.b, 0.0LF) && is_beyond(ray, own.c, 0.0LF));
+  if (triangle_is_hole(caster.t, weights)) return false;
+  return !(is_below(r, caster.a, 0.0LF) && is_below(r, caster.b, 0.0LF) && is_below(r, caster.c, 0.0LF)) &&
+         !(is_beyond(ray, caster.a, 0.0LF) && is_beyond(ray, caster.b, 0.0LF) && is_beyond(ray, caster.c, 0.0LF));
 }
 #endif
 

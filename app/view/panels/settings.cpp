@@ -324,9 +324,8 @@ void precision(PanelContext& context) {
   const Note note(
       "What the truth is computed with: fast is float, robust has error bounds, exact has no rounding at "
       "all.",
-      "Not the map's. Rays that round start on the wrong side of their own surface, "
-      "which is acne of "
-      "the truth.",
+      "Not the map's. Rays that round start on the wrong side of their own surface, which is acne of the "
+      "truth.",
       "None.", "--precision");
   ImGui::TextUnformatted("Arithmetic of the rays");
   note.of_name();
