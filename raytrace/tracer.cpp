@@ -119,14 +119,13 @@ bool any_in_wide(const Structures& s, const Ray& ray, bool& found, WorkCounts* w
 
 template <class Stats>
 std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
-  if constexpr (std::is_same_v<Stats, NoStats>) {
-    std::optional<Hit> best;
-    if (closest_in_wide(s, ray, skip, best, nullptr)) return best;
-  }
-  const std::optional<RayFrame> frame = make_ray_frame(ray);
-  if (!frame) return std::nullopt;
-  return specialise(
-      s, [&]<bool masks, class Arithmetic>() { return closest<masks, Arithmetic>(s, *frame, skip, stats); });
+  std::optional<Hit> best;
+  if (std::is_same_v<Stats, NoStats> && closest_in_wide(s, ray, skip, best, nullptr)) return best;
+  if (const std::optional<RayFrame> frame = make_ray_frame(ray))
+    best = specialise(s, [&]<bool masks, class Arithmetic>() {
+      return closest<masks, Arithmetic>(s, *frame, skip, stats);
+    });
+  return best;
 }
 
 /// Few hits are backs that are not seen, so the search that knows of them comes second.

@@ -39,9 +39,10 @@ inline V all(float v) {
 template <class Tag, class Mask>
 HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
   if constexpr (requires { requires std::is_integral_v<decltype(mask.raw)>; }) return mask.raw;
-  std::uint8_t bytes[8] = {};
+  std::uint8_t bytes[8];
   hn::StoreMaskBits(tag, mask, bytes);
-  std::uint32_t bits = 0;
+  if constexpr (hn::MaxLanes(tag) <= 8) return bytes[0];
+  std::uint16_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
 }

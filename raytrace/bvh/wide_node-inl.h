@@ -27,30 +27,44 @@ struct Stack {
 using Bytes = hn::CappedTag<std::uint8_t, node_lanes>;
 inline constexpr Bytes byte_lanes;
 
-/// The ray in every lane, and where in a node the near and the far planes are.
-struct SpreadRay {
-  V inverse[3], near[3], far_inverse[3], far[3], t_min;
+/// A node's children as the ray visits them, or the other way round.
+inline constexpr bool nearest_first = lanes == node_lanes;
+
+/// Where in a node rays of an octant find what they need.
+struct OctantPlaces {
   std::size_t near_row[3], far_row[3];  // bytes
   std::size_t order_row;
   alignas(16) std::uint8_t turn[node_lanes];  // places in that row, from the first to the last or back
-  explicit SpreadRay(const WideRay& ray)
-      : t_min(all(ray.t_min)), order_row(ray.octant < 4 ? ray.octant : 7 - ray.octant) {
-    const std::uint8_t turned = (ray.octant < 4) != nearest_first ? node_lanes - 1 : 0;
-    for (std::uint8_t i = 0; i < node_lanes; ++i) turn[i] = i ^ turned;
-    constexpr std::size_t row = sizeof(WideNode::bounds[0]);
+};
+constexpr OctantPlaces places_of(unsigned octant) {
+  OctantPlaces places{};
+  constexpr std::size_t row = sizeof(WideNode::bounds[0]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    places.near_row[a] = row * ((octant >> a & 1u) != 0 ? 3 + a : a);
+    places.far_row[a] = row * (2 * a + 3) - places.near_row[a];
+  }
+  places.order_row = octant < 4 ? octant : 7 - octant;
+  const std::uint8_t turned = (octant < 4) != nearest_first ? node_lanes - 1 : 0;
+  for (std::uint8_t i = 0; i < node_lanes; ++i) places.turn[i] = i ^ turned;
+  return places;
+}
+inline constexpr OctantPlaces octant_places[8] = {places_of(0), places_of(1), places_of(2), places_of(3),
+                                                  places_of(4), places_of(5), places_of(6), places_of(7)};
+
+/// The ray in every lane.
+struct SpreadRay {
+  V inverse[3], near[3], far_inverse[3], far[3], t_min;
+  const OctantPlaces& places;
+  explicit SpreadRay(const WideRay& ray) : t_min(all(ray.t_min)), places(octant_places[ray.octant]) {
     for (std::size_t a = 0; a < 3; ++a) {
       inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
       far_inverse[a] = all(ray.far_inverse[a]), far[a] = all(ray.far[a]);
-      near_row[a] = row * ((ray.octant >> a & 1u) != 0 ? 3 + a : a);
-      far_row[a] = row * (2 * a + 3) - near_row[a];
     }
   }
 
-  /// A node's children as the ray visits them, or the other way round.
-  static constexpr bool nearest_first = lanes == node_lanes;
   template <class Tag>
   HWY_INLINE hn::Vec<Tag> order(Tag tag, const WideNode& node) const {
-    return hn::TableLookupBytes(hn::Load(tag, node.order[order_row]), hn::Load(tag, turn));
+    return hn::TableLookupBytes(hn::Load(tag, node.order[places.order_row]), hn::Load(tag, places.turn));
   }
 };
 
@@ -61,12 +75,12 @@ HWY_INLINE void intersect_boxes(const WideNode& node, const SpreadRay& ray, std:
   const auto at = [&](std::size_t row, V inverse, V constant) {
     return hn::MulAdd(hn::Load(f, reinterpret_cast<const float*>(bounds + row)), inverse, constant);
   };
-  near = hn::Max(hn::Max(at(ray.near_row[0], ray.inverse[0], ray.near[0]),
-                         at(ray.near_row[1], ray.inverse[1], ray.near[1])),
-                 hn::Max(at(ray.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
-  far = hn::Min(hn::Min(at(ray.far_row[0], ray.far_inverse[0], ray.far[0]),
-                        at(ray.far_row[1], ray.far_inverse[1], ray.far[1])),
-                hn::Min(at(ray.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
+  near = hn::Max(hn::Max(at(ray.places.near_row[0], ray.inverse[0], ray.near[0]),
+                         at(ray.places.near_row[1], ray.inverse[1], ray.near[1])),
+                 hn::Max(at(ray.places.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
+  far = hn::Min(hn::Min(at(ray.places.far_row[0], ray.far_inverse[0], ray.far[0]),
+                        at(ray.places.far_row[1], ray.far_inverse[1], ray.far[1])),
+                hn::Min(at(ray.places.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
 }
 
 /// The children of a node whose boxes the ray may intersect, by bits; where vectors hold a whole node.
@@ -172,7 +186,7 @@ struct IntersectedChildren<false> {
         hn::Store(order, byte_lanes, place);
       } else {
         for (std::size_t i = 0; i < node_lanes; ++i) {
-          place[i] = node.order[ray.order_row][ray.turn[i]];
+          place[i] = node.order[ray.places.order_row][ray.places.turn[i]];
           left |= (hit.bits >> place[i] & 1u) << i;
         }
       }

@@ -72,9 +72,12 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalL
   ray.surely_before = most <= FLT_MAX ? most - rounding(most) : FLT_MAX;
   ray.limit(limits.t_above);
   ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
+  // Without branches, which would be taken at random.
   const auto size = [&](std::size_t a) { return std::abs(numbers[3 + a]); };
-  const std::uint32_t z = size(2) > std::max(size(0), size(1)) ? 2 : size(0) >= size(1) ? 0 : 1;
-  const std::uint32_t x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+  constexpr std::uint8_t next[3] = {1, 2, 0};
+  const std::uint32_t z01 = size(0) >= size(1) ? 0 : 1;
+  const std::uint32_t is_2 = size(2) > std::max(size(0), size(1)) ? 1 : 0;
+  const std::uint32_t z = z01 + (2 - z01) * is_2, x = next[z], y = next[x];
   ray.axis[0] = x, ray.axis[1] = y, ray.axis[2] = z;
   ray.inverse_z = ray.inverse[z], ray.t_per_z = std::abs(ray.inverse_z);
   ray.direction_x = ray.direction[x], ray.direction_y = ray.direction[y];
