@@ -32,17 +32,11 @@ struct Structures {
   bool has_shapes = false;   ///< spheres or solids among the leaves
 };
 
-struct CountWork {
-  WorkCounts& counts;
-  void boxes(int n) { counts.boxes += static_cast<std::uint64_t>(n); }
-  void primitive() { ++counts.primitives; }
-};
-
 /// traverse() through whichever structure there is.
 template <class Stats, class Visit>
 bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (s.structure.index() != 0) [[unlikely]]
-    return traverse_structure(s.structure, ray, stats, visit);
+    return traverse_structure(s.structure, ray, stats.work(), leaf_visitor_of(visit));
   return traverse(s.bvh, ray, stats, visit);
 }
 

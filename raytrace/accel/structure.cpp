@@ -1,6 +1,21 @@
 #include "raytrace/accel/structure.h"
 
 namespace gnomon::raytrace {
+namespace {
+
+template <class Stats>
+bool traverse_any(const Structure& structure, BoxRay& ray, Stats stats, const LeafVisitor& visit) {
+  return std::visit(
+      [&]<class Held>(const Held& held) {
+        if constexpr (std::is_same_v<Held, std::monostate>)
+          return false;
+        else
+          return traverse(held, ray, stats, visit);
+      },
+      structure);
+}
+
+}  // namespace
 
 bool has_structure(Accel accel) {
   return accel != Accel::bvh && accel != Accel::brute;
@@ -44,6 +59,11 @@ StructureSize size_of(const Structure& structure) {
   if (const auto* s = std::get_if<TwoLevel>(&structure))
     return {s->nodes(), s->placements.size(), s->bytes()};
   return {};
+}
+
+bool traverse_structure(const Structure& structure, BoxRay& ray, WorkCounts* work, const LeafVisitor& visit) {
+  return work != nullptr ? traverse_any(structure, ray, CountWork{*work}, visit)
+                         : traverse_any(structure, ray, NoStats{}, visit);
 }
 
 }  // namespace gnomon::raytrace

@@ -29,25 +29,20 @@ struct StructureSize {
 };
 StructureSize size_of(const Structure& structure);
 
-template <class Stats, class Visit>
-[[gnu::noinline]] bool traverse_structure(const Structure& structure, BoxRay& ray, Stats& stats,
-                                          const Visit& visit) {
-  switch (structure.index()) {
-    case 1:
-      return traverse(*std::get_if<MedianBvh>(&structure), ray, stats, visit);
-    case 2:
-      return traverse(*std::get_if<KdTree>(&structure), ray, stats, visit);
-    case 3:
-      return traverse(*std::get_if<Octree>(&structure), ray, stats, visit);
-    case 4:
-      return traverse(*std::get_if<UniformGrid>(&structure), ray, stats, visit);
-    case 5:
-      return traverse(*std::get_if<BspTree>(&structure), ray, stats, visit);
-    case 6:
-      return traverse(*std::get_if<TwoLevel>(&structure), ray, stats, visit);
-    default:
-      return false;
-  }
+/// What a traversal reports to: visit(self, place in leaf order); true ends it.
+struct LeafVisitor {
+  bool (*visit)(const void* self, std::uint32_t leaf);
+  const void* self;
+  bool operator()(std::uint32_t leaf) const { return visit(self, leaf); }
+};
+template <class Visit>
+LeafVisitor leaf_visitor_of(const Visit& visit) {
+  return {[](const void* self, std::uint32_t leaf) { return (*static_cast<const Visit*>(self))(leaf); },
+          &visit};
 }
+
+/// traverse() of the one that it holds; given `work`, adds what is tested. The visitor is behind a pointer, so that these
+/// traversals are compiled once and not for every test of a primitive.
+bool traverse_structure(const Structure& structure, BoxRay& ray, WorkCounts* work, const LeafVisitor& visit);
 
 }  // namespace gnomon::raytrace

@@ -9,6 +9,7 @@
 
 #include "raytrace/bvh/instance.h"
 #include "raytrace/shapes/intersect.h"
+#include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
 
@@ -16,6 +17,13 @@ namespace gnomon::raytrace {
 struct NoStats {
   void boxes(int) {}
   void primitive() {}
+  static WorkCounts* work() { return nullptr; }
+};
+struct CountWork {
+  WorkCounts& counts;
+  void boxes(int n) { counts.boxes += static_cast<std::uint64_t>(n); }
+  void primitive() { ++counts.primitives; }
+  WorkCounts* work() const { return &counts; }
 };
 
 /// The ray as the boxes see it.
