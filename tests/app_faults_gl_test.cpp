@@ -16,6 +16,7 @@
 
 #include "tests/app_process.h"
 #include "tests/support/places.h"
+#include "tests/support/sanitizer.h"
 
 namespace gnomon::app_test {
 namespace {
@@ -159,9 +160,7 @@ TEST(Faults, NeitherOsmesaNorEgl) {
 // In each case the other threads stop, and one line says what was thrown. Which allocation a number means hangs on
 // which thread comes first, and so does whether there are so many; the last number is beyond all.
 TEST(Faults, AnErrorInOneThreadOfMany) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer has its own operator new";
-#endif
+  if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer has its own operator new";
   int ended = 0;
   for (const int allocation : {1, 2, 5, 13, 34, 89, 1 << 30}) {
     const TemporaryFolder folder;
@@ -183,6 +182,7 @@ TEST(Faults, AnErrorInOneThreadOfMany) {
 
 // Not less than was asked for, and not a crash of the driver's either.
 TEST(Faults, TheLargestMapUnderALimitOfMemory) {
+  if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer reserves more";
   const TemporaryFolder folder;
   expect_one_line(
       run_gnomon({"compare", "acne-floor", "-o", "out", "-q", "--size", "64x36", "--map-size", "16384"},

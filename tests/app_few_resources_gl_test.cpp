@@ -7,12 +7,14 @@
 #include <thread>
 
 #include "tests/app_process.h"
+#include "tests/support/sanitizer.h"
 
 namespace gnomon::app_test {
 namespace {
 
 // The limit counts the threads of a user who must not be root, and the program has at least two.
 TEST(FewResources, FewProcesses) {
+  if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer starts a process of its own";
   if (geteuid() != 0) GTEST_SKIP() << "needs root, to become a user without other processes";
   for (const int processes : {1, 2, 4, 5, 8}) {
     const TemporaryFolder folder;
@@ -29,6 +31,7 @@ TEST(FewResources, FewProcesses) {
 }
 
 TEST(FewResources, LittleAddressSpace) {
+  if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer reserves more";
   const TemporaryFolder folder;
   for (const long megabytes : {200, 280, 360, 440, 520}) {
     const ProcessResult result = run_gnomon(Words{"compare", "acne-floor", "-o", "out", "-q"} + small,

@@ -52,7 +52,9 @@ void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
   dup2(err, STDERR_FILENO);
   // Wall time ends the process (below); this ends it should the caller be stopped. Two threads may compile.
   set_limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(limits.seconds)) * 4 + 1);
+#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of addresses
   set_limit(RLIMIT_AS, static_cast<rlim_t>(limits.memory_mb * 1e6));
+#endif
   set_limit(RLIMIT_FSIZE, largest_file);
   set_limit(RLIMIT_CORE, 0);
   execv("/proc/self/exe", words);

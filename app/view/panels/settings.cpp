@@ -240,6 +240,17 @@ void light_extent(PanelContext& context, const Light& given) {
     context.ask(Change{LightSizeTo{size}});
 }
 
+Note note_on_films() {
+  return {
+      "The camera or the lights move along a path; the space bar plays it and stops it. Every moment is a "
+      "setting like "
+      "any other, with its own labels.",
+      "Its pattern swims over surfaces while a light moves, and under a camera that moves where maps follow "
+      "it (csm, "
+      "lispsm).",
+      "The gap at a contact grows and shrinks with the light's height.", "gnomon shimmer --path"};
+}
+
 void film(PanelContext& context) {
   const ViewState& state = context.state;
   if (!ImGui::CollapsingHeader("Film", ImGuiTreeNodeFlags_DefaultOpen)) return;
@@ -251,6 +262,8 @@ void film(PanelContext& context) {
     for (std::size_t i = 0; i < films.size(); ++i)
       if (ImGui::Selectable(films[i].title.c_str(), now == &films[i])) context.ask(Change{PickFilm{i}});
     ImGui::EndCombo();
+  } else {
+    note_on_films().of_name();
   }
   if (now == nullptr) return;
   if (ImGui::Button(state.film.plays ? "Stop" : "Play")) context.ask(Change{TogglePlay{}});
