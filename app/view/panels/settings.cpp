@@ -243,11 +243,9 @@ void light_extent(PanelContext& context, const Light& given) {
 Note note_on_films() {
   return {
       "The camera or the lights move along a path; the space bar plays it and stops it. Every moment is a "
-      "setting like "
-      "any other, with its own labels.",
+      "setting like any other, with its own labels.",
       "Its pattern swims over surfaces while a light moves, and under a camera that moves where maps follow "
-      "it (csm, "
-      "lispsm).",
+      "it (csm, lispsm).",
       "The gap at a contact grows and shrinks with the light's height.", "gnomon shimmer --path"};
 }
 
