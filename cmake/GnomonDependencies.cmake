@@ -26,6 +26,9 @@ add_library(libdeflate INTERFACE)
 target_link_libraries(libdeflate INTERFACE ${LIBDEFLATE_LIBRARY})
 target_include_directories(libdeflate SYSTEM INTERFACE ${LIBDEFLATE_HEADERS})
 
+# Nettle, for SHA-256 by what the processor has for it; it has no CMake file.
+find_library(NETTLE_LIBRARY nettle REQUIRED)
+
 # Debian's package of md4c's HTML writer has no CMake file.
 find_library(MD4C_HTML_LIBRARY md4c-html REQUIRED)
 find_path(MD4C_HTML_HEADERS md4c-html.h REQUIRED)

@@ -6,7 +6,7 @@ target_sources(gnomon_scene PRIVATE
   files/json_lights.cpp files/json_materials.cpp files/json_reader.cpp files/json_repeat.cpp files/json_solids.cpp files/json_scene.cpp files/load.cpp files/mapped_file.cpp
   files/merge.cpp files/mtl_options.cpp files/obj.cpp files/obj_text.cpp files/obj_materials.cpp files/path_keys.cpp files/ply.cpp files/ply_header.cpp files/ply_regular.cpp files/image_check.cpp files/polygon.cpp files/read_file.cpp files/sha256.cpp files/staged_folder.cpp
   files/exr_file.cpp files/row_file.cpp files/validate.cpp files/write_file.cpp)
-target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate TBB::tbb ${CMAKE_DL_LIBS}
+target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${NETTLE_LIBRARY} TBB::tbb ${CMAKE_DL_LIBS}
   tinyobjloader::tinyobjloader_double TinyGLTF::TinyGLTF)
 # After tinygltf: Debian's libdraco holds another one, built otherwise, and of two that say the same the first is taken.
 # Their headers lie where the compiler looks.
