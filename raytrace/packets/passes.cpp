@@ -96,7 +96,10 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
   std::vector<std::uint32_t> leaves;
   for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
     const std::uint32_t leaf = hits.leaf[lane];
-    if (leaf == nothing_hit && receivers == nullptr) return;
+    if (leaf == nothing_hit) {
+      if (receivers != nullptr) receivers->at(x, y) = SurfacePoint{};
+      return;
+    }
     if ((found[lane / packet_rays] & bit_of(lane)) != 0)
       return store(x, y, lane, on_planes[static_cast<std::size_t>(place_in_tile(rect, x, y))]);
     Candidates candidates;
