@@ -14,6 +14,9 @@ set_tests_properties(project_tidy_test PROPERTIES
 add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_commit_test.sh"
   "${PROJECT_SOURCE_DIR}" "${CMAKE_COMMAND}" "$<TARGET_FILE:gnomon_program>")
 
+# What comes from npm runs on Debian 12's Node.js.
+add_test(NAME project_node_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_node_test.sh" "${PROJECT_SOURCE_DIR}")
+
 # The Debian package that cpack makes of this build.
 add_test(NAME project_package_test
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_package_test.sh" "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/package")
