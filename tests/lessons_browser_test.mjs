@@ -113,8 +113,14 @@ const operate = {
     await page.waitForFunction(([i, text]) => document.querySelector(`${i} .story`).textContent !== text, [id, before]);
   },
 };
+/** As if dragged there: a slider takes the nearest of its steps, and its end for what lies beyond, which not every version of fill() allows. */
+const drag = (input, value) => {
+  input.value = value;
+  input.dispatchEvent(new Event("input", { bubbles: true }));
+  input.dispatchEvent(new Event("change", { bubbles: true }));
+};
 const slide = async (page, id, values) => {
-  for (const [slider, value] of Object.entries(values)) await page.locator(`${id} [data-slider=${slider}]`).fill(String(value));
+  for (const [slider, value] of Object.entries(values)) await page.locator(`${id} [data-slider=${slider}]`).evaluate(drag, String(value));
   // A drawing later: the figure has taken all of them.
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 };
