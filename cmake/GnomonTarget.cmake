@@ -43,7 +43,7 @@ function(gnomon_library name)
     PRIVATE $<BUILD_INTERFACE:gnomon_warnings> ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
-# gnomon_compile_together(TARGET), once all its sources are known: with GNOMON_UNITY (the presets release, asan and tsan) the files
+# gnomon_compile_together(TARGET), once all its sources are known: with GNOMON_UNITY (every preset but dev) the files
 # of a folder are compiled together, up to sixteen at a time (CMake's unity builds), for most of what a file costs is its
 # headers and the templates in them. So names in the unnamed namespaces of one folder, or of one test program, must differ.
 # Files that Highway compiles once per instruction set include themselves and stand alone.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ThreadSanitizer over what runs in parallel: the program on scenes of every kind, and the tests of the tracer, the
-# loaders, bands, sweeps and the window's thread. Some hours on two cores.
+# loaders, bands, sweeps and the window's thread. On two cores an hour to build, and half an hour to run.
 #
 #   tests/platforms/thread_sanitizer.sh
 #
