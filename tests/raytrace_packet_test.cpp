@@ -94,7 +94,9 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
   const raytrace::TileGrid grid{size};
   std::vector<raytrace::TileHits> hits(grid.count());
   raytrace::HugeArray<raytrace::QuantisedTile> tiles(grid.count());
-  Image<SurfacePoint> receivers(size);
+  SurfacePoint unwritten;
+  unwritten.primitive = 0;  // the pass writes the background, too
+  Image<SurfacePoint> receivers(size, unwritten);
   primary_pass(tracer, view, eye, {.size = size, .hits = hits, .receivers = &receivers, .quantised = {}});
   std::size_t points = 0;
   for (std::size_t i = 0; i < receivers.data.size(); ++i)
