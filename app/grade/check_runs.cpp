@@ -57,7 +57,9 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, boo
     words.push_back("--" + name);
     if (!value.empty()) words.push_back(value);
   }
-  words.insert(words.end(), {"--technique", rubric_->technique, "--threads", "1", "-o", folder, "--quiet"});
+  // No page: a student's own takes figures and pictures.
+  words.insert(words.end(),
+               {"--technique", rubric_->technique, "--threads", "1", "-o", folder, "--no-report", "--quiet"});
   if (!shaders_.empty()) words.insert(words.end(), {"--shader-dir", shaders_});
   if (!timed) words.insert(words.end(), {"--runs", "1"});
   if (values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
