@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
+import { browser, checkAccessibility, checkPhone, close, open, pixelsOf } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
 rmSync(folder, { recursive: true, force: true });
@@ -22,12 +22,7 @@ async function opened(page, cell) {
     assert.fail(`cell ${cell} does not open: "${await title.textContent()}", ${page.url().split("#")[1]}, ${page.offences}, ${error.message}`));
   await settled(page);
 }
-const canvasOf = (page, pane) => page.locator("#cell .pane canvas").nth(pane).evaluate((canvas) => {
-  const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
-  const context = copy.getContext("2d", { willReadFrequently: true });
-  context.drawImage(canvas, 0, 0);
-  return [...context.getImageData(0, 0, copy.width, copy.height).data];
-});
+const canvasOf = (page, pane) => pixelsOf(page.locator("#cell .pane canvas").nth(pane));
 
 function countColour(pixels, [r, g, b]) {
   let count = 0;

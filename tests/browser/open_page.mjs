@@ -18,14 +18,24 @@ function load(name) {
 const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
   || skip("no chromium-headless-shell or chromium in /usr/bin");
 const { chromium } = load("playwright-core");
-export const axeSource = load("axe-core").source;
+const axeSource = load("axe-core").source;
 export const browser = await chromium.launch({ executablePath: browserPath });
+
+/** In the page: an array of a type as text. Its numbers one by one take ten times as long to come out of the browser. */
+function addBytesAsText() {
+  globalThis.bytesAsText = ({ buffer, byteOffset, byteLength }) => {
+    const bytes = new Uint8Array(buffer, byteOffset, byteLength), parts = [];
+    for (let at = 0; at < bytes.length; at += 4096) parts.push(String.fromCharCode(...bytes.subarray(at, at + 4096)));
+    return btoa(parts.join(""));
+  };
+}
 
 /** Opens FOLDER/report.html, or another file of it, and collects everything that it must not do. `hash` begins with #. */
 export async function open(folder, options = {}, hash = "") {
   const { beside, file = "report.html", ...contextOptions } = options;
   // Without motion: a page that still scrolls when a button goes up again makes no click of it.
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...contextOptions });
+  await context.addInitScript(addBytesAsText);
   const page = await context.newPage();
   const url = pathToFileURL(resolve(folder, file)).href;
   page.offences = [];
@@ -49,14 +59,33 @@ export async function close(page) {
   await page.context().close();
 }
 
+/** What axe finds wrong with the page, or with a part of it. */
+export async function violations(page, rules = {}, part = null) {
+  await page.evaluate(axeSource);
+  // Of what passes axe would otherwise list every element, too.
+  return page.evaluate(async ([where, options]) => (await window.axe.run(where ?? document, options)).violations
+    .map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [part, { resultTypes: ["violations"], ...rules }]);
+}
+/** The rules that colours decide. */
+export const colours = { runOnly: ["color-contrast", "link-in-text-block"] };
+
+/** Nothing but the colours differs in the dark. */
 export async function checkAccessibility(folder, options = {}, hash = "") {
   for (const colorScheme of ["light", "dark"]) {
     const page = await open(folder, { colorScheme, ...options }, hash);
-    await page.evaluate(axeSource);
-    const { violations } = await page.evaluate(() => window.axe.run());
-    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `axe, ${page.url()}, ${colorScheme}`);
+    assert.deepEqual(await violations(page, colorScheme === "dark" ? colours : {}), [], `axe, ${page.url()}, ${colorScheme}`);
     await close(page);
   }
+}
+
+/** A canvas' pixels, four bytes each. */
+export async function pixelsOf(canvas) {
+  return Buffer.from(await canvas.evaluate((e) => {
+    const copy = Object.assign(document.createElement("canvas"), { width: e.width, height: e.height });
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(e, 0, 0);
+    return globalThis.bytesAsText(context.getImageData(0, 0, copy.width, copy.height).data);
+  }), "base64");
 }
 
 /** Nothing may be wider than a phone. */
