@@ -71,9 +71,9 @@ void add_record(Channels& channels, const raster::LightRecord& record, const std
 
 double truth_value(const raytrace::LightTruth& light, std::size_t pixel) {
   if (!light.visibility.data.empty()) return light.visibility.data[pixel];
-  const raytrace::Verdict verdict = light.verdict.data[pixel];
-  if (verdict == raytrace::Verdict::uncertain) return 0.5;
-  return verdict == raytrace::Verdict::lit ? 1.0 : 0.0;
+  const raytrace::PointVisibility visibility = light.centre.data[pixel];
+  if (visibility == raytrace::PointVisibility::uncertain) return 0.5;
+  return visibility == raytrace::PointVisibility::lit ? 1.0 : 0.0;
 }
 
 bool is_png(const std::string& path) {

@@ -61,7 +61,7 @@ inline bool is_compared(Label label) {
 
 struct PixelCounts {
   std::uint64_t total = 0, background = 0, facing_away = 0, silhouette = 0, uncertain = 0, compared = 0;
-  /// Of the uncertain ones those that only the samples of a light with size leave in doubt (ladder.h).
+  /// Of the uncertain ones those that only the samples of a light with size leave open (ladder.h).
   std::uint64_t uncertain_by_samples = 0;
 };
 

@@ -23,18 +23,19 @@ class ReceiverPlane {
 
   Vec2 place() const { return {at_.u, at_.v}; }
 
-  // Of the plane's point on the ray through a place. Uncertain too where the ray does not meet the plane from
+  // Of the plane's point on the ray through a place. Uncertain too where the ray does not reach the plane from
   // the front.
-  raytrace::Verdict verdict(const Vec2& uv) const {
+  raytrace::PointVisibility visibility(const Vec2& uv) const {
     const LightView& view = in_.record.map.view;
     const Ray ray = texel_ray(view, face_, uv.x, uv.y);
     const double facing = glm::dot(receiver_.normal, ray.direction);
-    if (!(facing < 0.0)) return raytrace::Verdict::uncertain;
+    if (!(facing < 0.0)) return raytrace::PointVisibility::uncertain;
     const double t = glm::dot(receiver_.normal, receiver_.position - ray.origin) / facing;
-    if (view.projection == LightProjection::perspective && !(t > 0.0)) return raytrace::Verdict::uncertain;
+    if (view.projection == LightProjection::perspective && !(t > 0.0))
+      return raytrace::PointVisibility::uncertain;
     raytrace::SurfacePoint there = receiver_;
     there.position = ray.at(t);
-    return in_.tracer.light_verdict(there, in_.light);
+    return in_.tracer.centre_visibility(there, in_.light);
   }
 
  private:
@@ -44,7 +45,7 @@ class ReceiverPlane {
   TexelCoordinate at_;
 };
 
-bool any_within_reach(const LadderInput& in, std::size_t pixel, raytrace::Verdict wanted) {
+bool any_within_reach(const LadderInput& in, std::size_t pixel, raytrace::PointVisibility wanted) {
   const ReceiverPlane plane(in, pixel);
   const double reach = pixel_reach_texels(in, pixel);
   const int spans = static_cast<int>(std::ceil(std::min(2.0 * reach / probe_spacing_texels, 1e3)));
@@ -52,7 +53,7 @@ bool any_within_reach(const LadderInput& in, std::size_t pixel, raytrace::Verdic
   const auto offset = [&](int i) { return (2.0 * i / (probes - 1) - 1.0) * reach; };
   for (int j = 0; j < probes; ++j)
     for (int i = 0; i < probes; ++i)
-      if (plane.verdict(plane.place() + Vec2(offset(i), offset(j))) == wanted) return true;
+      if (plane.visibility(plane.place() + Vec2(offset(i), offset(j))) == wanted) return true;
   return false;
 }
 
@@ -102,11 +103,11 @@ double pixel_reach_texels(const LadderInput& in, std::size_t pixel) {
 }
 
 bool lit_within_reach(const LadderInput& in, std::size_t pixel) {
-  return any_within_reach(in, pixel, raytrace::Verdict::lit);
+  return any_within_reach(in, pixel, raytrace::PointVisibility::lit);
 }
 
 bool shadowed_within_reach(const LadderInput& in, std::size_t pixel) {
-  return any_within_reach(in, pixel, raytrace::Verdict::shadowed);
+  return any_within_reach(in, pixel, raytrace::PointVisibility::shadowed);
 }
 
 double true_average(const LadderInput& in, std::size_t pixel) {
@@ -119,10 +120,10 @@ double true_average(const LadderInput& in, std::size_t pixel) {
       const double x = 2.0 * (i + 0.5) / most_probes - 1.0, y = 2.0 * (j + 0.5) / most_probes - 1.0;
       if (disc && x * x + y * y > 1.0) continue;
       const Vec2 place = plane.place();
-      const auto verdict = plane.verdict(
+      const auto found = plane.visibility(
           {tap_centre(filter, place.x, i, most_probes), tap_centre(filter, place.y, j, most_probes)});
-      lit += verdict == raytrace::Verdict::lit ? 1 : 0;
-      met += verdict != raytrace::Verdict::uncertain ? 1 : 0;
+      lit += found == raytrace::PointVisibility::lit ? 1 : 0;
+      met += found != raytrace::PointVisibility::uncertain ? 1 : 0;
     }
   }
   return met > 0 ? static_cast<double>(lit) / met : 1.0;

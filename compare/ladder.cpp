@@ -18,8 +18,8 @@
 
 namespace gnomon::compare {
 
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
-using raytrace::Verdict;
 
 namespace {
 
@@ -31,7 +31,7 @@ bool samples_leave_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
 }
 
 bool ray_leaves_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
-  return truth.verdict.data[pixel] == Verdict::uncertain;
+  return truth.centre.data[pixel] == PointVisibility::uncertain;
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Image<Label> labels_climbed(const LadderInput& in, const Image<Label>& labels) {
 
 float true_visibility(const LadderInput& in, std::size_t pixel) {
   if (!in.truth.visibility.data.empty()) return in.truth.visibility.data[pixel];
-  return in.truth.verdict.data[pixel] == Verdict::lit ? 1.0f : 0.0f;
+  return in.truth.centre.data[pixel] == PointVisibility::lit ? 1.0f : 0.0f;
 }
 
 Cause deciding_step(const std::array<float, rung_count>& v) {
@@ -153,7 +153,7 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
 
 // V1: the light shrunk to its centre.
 float point_rung(const LadderInput& in, std::size_t pixel) {
-  return lit(in.truth.verdict.data[pixel] == Verdict::lit);
+  return lit(in.truth.centre.data[pixel] == PointVisibility::lit);
 }
 
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {

@@ -35,7 +35,7 @@ struct LadderInput {
 /// half.
 Image<Label> sort_pixels(const LadderInput& input);
 
-/// The labels with `right` where only the samples of a light with size leave the truth in doubt: these pixels
+/// The labels with `right` where only the samples of a light with size leave the truth open: these pixels
 /// are not compared, but climbed, so that pictures and widths have no holes there.
 Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels);
 

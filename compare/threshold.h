@@ -49,7 +49,7 @@ double figure(const ErrorFigures& figures, ErrorMeasure measure);
 std::string figure_words(const ErrorFigures& figures, ErrorMeasure measure);
 
 /// Pixels whose truth may be anything, as far as a measure goes: means know the visibility of those that only
-/// samples leave in doubt.
+/// samples leave open.
 std::uint64_t unknown_pixels(const ErrorFigures& figures, ErrorMeasure measure);
 /// So many pixels are uncertain that they alone could exceed the threshold: of those that show a lit or
 /// shadowed surface a larger share than the limit; for `edge` and `shimmer`, which are no shares, all of them.

@@ -13,11 +13,11 @@ namespace gnomon::hybrid {
 namespace {
 
 using raytrace::packet_rays;
+using raytrace::PointVisibility;
 using raytrace::QuantisedTile;
 using raytrace::SurfacePoint;
 using raytrace::tile_packets;
 using raytrace::TileRect;
-using raytrace::Verdict;
 
 /// lane(x, y, lane) for every set bit.
 template <class Lane>
@@ -40,10 +40,10 @@ class Tile {
   Tile(const LightCache& cache, const Receivers& receivers, std::size_t index, const TileRect& rect)
       : cache_(cache), receivers_(receivers), quantised_(receivers.tiles[index]), rect_(rect) {}
 
-  ShadowCounts classify(Image<Verdict>& verdicts, Image<Decision>* decisions) {
+  ShadowCounts classify(Image<PointVisibility>& visibility, Image<Decision>* decisions) {
     prefetch(&quantised_ + 1);
     if (!quantised_.any) {
-      fill(verdicts, Verdict::lit);
+      fill(visibility, PointVisibility::lit);
       if (decisions != nullptr) fill(*decisions, Decision::not_asked);
       return {};
     }
@@ -54,7 +54,7 @@ class Tile {
     for_each_lane(rect_, all_.open, [&](int x, int y, std::size_t lane) {
       put(bits_of(decide(receivers_.points.at(x, y))), lane);
     });
-    store(verdicts);
+    store(visibility);
     if (decisions != nullptr) store_decisions(*decisions);
     return counts();
   }
@@ -100,11 +100,11 @@ class Tile {
   }
 
   // Lit where there is no receiver; what is to be traced counts as lit until it is.
-  void store(Image<Verdict>& verdicts) const {
+  void store(Image<PointVisibility>& visibility) const {
     LaneMask dark;
     for (std::size_t p = 0; p < tile_packets; ++p)
       dark[p] = static_cast<std::uint16_t>(all_.shadowed[p] | all_.unreached[p]);
-    raytrace::store_verdicts(rect_, dark, verdicts);
+    raytrace::store_visibility(rect_, dark, visibility);
   }
   void store_decisions(Image<Decision>& decisions) const {
     fill(decisions, Decision::not_asked);
@@ -185,11 +185,11 @@ raytrace::PictureReceivers all_of(const raytrace::Tracer& tracer, const Receiver
 class Pass {
  public:
   Pass(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
-       Image<Verdict>& verdicts, Image<Decision>* decisions)
+       Image<PointVisibility>& visibility, Image<Decision>* decisions)
       : tracer_(tracer),
         cache_(cache),
         receivers_(receivers),
-        verdicts_(verdicts),
+        visibility_(visibility),
         decisions_(decisions),
         grid_{receivers.points.size},
         tiles_(grid_.count()),
@@ -222,7 +222,7 @@ class Pass {
   ShadowCounts classify() {
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       Tile tile(cache_, receivers_, i, {x0, y0, x1, y1});
-      tiles_[i] = tile.classify(verdicts_, decisions_);
+      tiles_[i] = tile.classify(visibility_, decisions_);
       ambiguous_[i] = tile.ambiguous();
     });
     return sum_of(tiles_);
@@ -230,15 +230,15 @@ class Pass {
   /// As the pure tracer does.
   ShadowCounts trace_all() {
     ShadowCounts counts;
-    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, verdicts_);
+    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, visibility_);
     return counts;
   }
   void trace() {
     if (packets_apply(tracer_))
-      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, ambiguous_, verdicts_);
+      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, ambiguous_, visibility_);
     for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
       for_each_lane({x0, y0, x1, y1}, ambiguous_[i], [&](int x, int y, std::size_t) {
-        verdicts_.at(x, y) = tracer_.light_verdict(receivers_.points.at(x, y), cache_.light);
+        visibility_.at(x, y) = tracer_.centre_visibility(receivers_.points.at(x, y), cache_.light);
       });
     });
   }
@@ -246,7 +246,7 @@ class Pass {
   const raytrace::Tracer& tracer_;
   LightCache& cache_;
   const Receivers& receivers_;
-  Image<Verdict>& verdicts_;
+  Image<PointVisibility>& visibility_;
   Image<Decision>* decisions_;
   raytrace::TileGrid grid_;
   std::vector<ShadowCounts> tiles_;
@@ -275,9 +275,9 @@ std::uint64_t LightCache::bytes() const {
 }
 
 ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
-                                Image<Verdict>& verdicts, Image<Decision>* decisions) {
-  if (!(verdicts.size == receivers.points.size)) verdicts = Image<Verdict>(receivers.points.size);
-  return Pass(tracer, cache, receivers, verdicts, decisions).run();
+                                Image<PointVisibility>& visibility, Image<Decision>* decisions) {
+  if (!(visibility.size == receivers.points.size)) visibility = Image<PointVisibility>(receivers.points.size);
+  return Pass(tracer, cache, receivers, visibility, decisions).run();
 }
 
 }  // namespace gnomon::hybrid

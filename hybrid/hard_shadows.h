@@ -1,5 +1,5 @@
 // The hard-shadow pass: every receiver that the light reaches is classified by the light's sheets, and what
-// they leave ambiguous is traced, tile by tile, through the tracer's packets. The verdicts are the tracer's own
+// they leave ambiguous is traced, tile by tile, through the tracer's packets. The visibilities are the tracer's own
 // wherever it is certain itself.
 //
 // When sheets pay. A ray costs the packets some 20 ns, less than a texel's sheets; so no sheets are worth
@@ -55,9 +55,9 @@ struct ShadowCounts {
 /// Of one pixel.
 enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_asked = 3 };
 
-/// Fills `verdicts`: lit where there is no receiver, shadowed where the light cannot reach, as in
+/// Fills `visibility`: lit where there is no receiver, shadowed where the light cannot reach, as in
 /// raytrace::LightTruth. May refine the light's sheets. `decisions` (or null) says who decided.
 ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
-                                Image<raytrace::Verdict>& verdicts, Image<Decision>* decisions);
+                                Image<raytrace::PointVisibility>& visibility, Image<Decision>* decisions);
 
 }  // namespace gnomon::hybrid

@@ -11,8 +11,8 @@
 namespace gnomon::hybrid {
 namespace {
 
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
-using raytrace::Verdict;
 
 constexpr int block_pixels = 8;  // a side; blocks share one walk through the edges
 
@@ -132,22 +132,22 @@ class SoftLight::Block {
   std::vector<std::uint32_t> edges_;
 };
 
-SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<Verdict>& verdicts,
+SoftCounts SoftLight::find(const Image<SurfacePoint>& receivers, const Image<PointVisibility>& centre,
                            const SoftSamples& samples, Image<Decision>& decisions,
                            Image<float>& visibility) const {
   raytrace::prepare_light_shafts(tracer_, samples.count);
   const raytrace::TileGrid grid{receivers.size};
   std::vector<SoftCounts> tiles(grid.count());
   const auto look = [&](int x, int y, std::span<const std::uint32_t> edges, SoftCounts& counts) {
-    const Verdict centre = verdicts.at(x, y);
+    const PointVisibility seen_centre = centre.at(x, y);
     const SurfacePoint& point = receivers.at(x, y);
     float& out = visibility.at(x, y);
-    out = centre == Verdict::shadowed ? 0.0f : 1.0f;
+    out = seen_centre == PointVisibility::shadowed ? 0.0f : 1.0f;
     if (decisions.at(x, y) == Decision::not_asked) return;
-    if (centre != Verdict::uncertain && !in_penumbra(point, edges)) return;
+    if (seen_centre != PointVisibility::uncertain && !in_penumbra(point, edges)) return;
     const std::size_t pixel = samples.first_pixel + receivers.index(x, y);
     const std::uint64_t key = raytrace::pixel_key(samples.seed, pixel, index_);
-    const raytrace::Visibility seen = light_visibility(tracer_, point, light_, samples.count, key);
+    const raytrace::SampledVisibility seen = light_visibility(tracer_, point, light_, samples.count, key);
     out = static_cast<float>(seen.share);
     decisions.at(x, y) = Decision::traced;
     ++counts.penumbra, counts.rays += seen.rays;

@@ -33,11 +33,12 @@ class SoftLight {
   /// The light has a size; all must outlive it.
   SoftLight(const raytrace::Tracer& tracer, const raytrace::Topology& topology, std::uint32_t light);
 
-  /// `verdicts` and `decisions` of the light's centre, from trace_hard_shadows; decisions become `traced`
+  /// `centre` and `decisions` of the light's centre, from trace_hard_shadows; decisions become `traced`
   /// where samples were. `visibility`: the share of the light that each receiver sees, as in
   /// raytrace::LightTruth.
-  SoftCounts find(const Image<raytrace::SurfacePoint>& receivers, const Image<raytrace::Verdict>& verdicts,
-                  const SoftSamples& samples, Image<Decision>& decisions, Image<float>& visibility) const;
+  SoftCounts find(const Image<raytrace::SurfacePoint>& receivers,
+                  const Image<raytrace::PointVisibility>& centre, const SoftSamples& samples,
+                  Image<Decision>& decisions, Image<float>& visibility) const;
 
   std::uint64_t bytes() const { return edges_.bytes(); }
 

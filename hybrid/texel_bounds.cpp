@@ -50,7 +50,7 @@ struct Group {
 };
 
 /// What the groups say together; they come in no order.
-class Verdict {
+class ColumnSummary {
  public:
   void take(const Group& group) {
     if (!group.open || group.beside()) return;
@@ -106,24 +106,24 @@ bool one_group_each(std::span<const Piece> pieces, std::array<Group, 3>& groups)
 /// Groups by overlap, as pieces come by falling `high`.
 ColumnBounds by_overlap(std::span<Piece> pieces, const PieceRelations& relations) {
   if (std::array<Group, 3> groups; one_group_each(pieces, groups)) {
-    Verdict verdict;
-    for (const Group& group : groups) verdict.take(group);
-    return verdict.bounds(relations);
+    ColumnSummary summary;
+    for (const Group& group : groups) summary.take(group);
+    return summary.bounds(relations);
   }
   sort_by_falling_high(pieces);
   std::array<Group, 3> open;  // by facing
-  Verdict verdict;
+  ColumnSummary summary;
   for (const Piece& piece : pieces) {
     Group& group = open[static_cast<std::size_t>(piece.facing)];
     if (group.overlaps(piece)) {
       group.add(piece);
       continue;
     }
-    verdict.take(group);
+    summary.take(group);
     group.start(piece);
   }
-  for (const Group& group : open) verdict.take(group);
-  return verdict.bounds(relations);
+  for (const Group& group : open) summary.take(group);
+  return summary.bounds(relations);
 }
 
 /// Sheets by their edges, as raytrace::find_sheets makes them.
@@ -142,16 +142,16 @@ class Sheets {
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) pieces_[i].parent = root(i);
     std::sort(pieces_.begin(), pieces_.end(),
               [](const Piece& a, const Piece& b) { return a.parent < b.parent; });
-    Verdict verdict;
+    ColumnSummary summary;
     for (std::size_t i = 0; i < pieces_.size();) {
       Group group;
       group.start(pieces_[i]);
       std::size_t end = i + 1;
       for (; end < pieces_.size() && pieces_[end].parent == pieces_[i].parent; ++end) group.add(pieces_[end]);
-      verdict.take(group);
+      summary.take(group);
       i = end;
     }
-    return verdict.bounds(relations_);
+    return summary.bounds(relations_);
   }
 
  private:

@@ -15,8 +15,8 @@ namespace {
 
 using raster::ExternalCosts;
 using raster::VisibilityRequest;
+using raytrace::PointVisibility;
 using raytrace::Tracer;
-using raytrace::Verdict;
 
 bool same(const LightView& a, const LightView& b) {
   const auto same_face = [](const LightFace& p, const LightFace& q) {
@@ -62,16 +62,16 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
              [&] { silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced; });
     if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
     time_run(kept.shadow, [&] {
-      counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, verdicts_, &decision_);
+      counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, centre_, &decision_);
       if (kept.soft) {
         const std::size_t first_pixel = receivers_.points.index(0, first_row_);
         soft_counts_ =
-            kept.soft->find(receivers_.points, verdicts_, {samples_of(request), request.seed, first_pixel},
+            kept.soft->find(receivers_.points, centre_, {samples_of(request), request.seed, first_pixel},
                             decision_, visibility);
         return;
       }
-      for (std::size_t i = 0; i < verdicts_.data.size(); ++i)
-        visibility.data[i] = verdicts_.data[i] == Verdict::shadowed ? 0.0f : 1.0f;
+      for (std::size_t i = 0; i < centre_.data.size(); ++i)
+        visibility.data[i] = centre_.data[i] == PointVisibility::shadowed ? 0.0f : 1.0f;
     });
     return {};
   }
@@ -143,7 +143,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
   std::optional<ReceiverFinder> finder_;
   std::map<std::uint32_t, Kept> kept_;  // by light
   Receivers receivers_;                 // of the last frame
-  Image<Verdict> verdicts_;
+  Image<PointVisibility> centre_;
   Image<Decision> decision_;
   ShadowCounts counts_;
   SoftCounts soft_counts_;

@@ -96,7 +96,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
                          const Band& band, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
   LightTruth truth{.light = light_index,
-                   .verdict = Image<Verdict>(options.size, Verdict::lit),
+                   .centre = Image<PointVisibility>(options.size, PointVisibility::lit),
                    .shadow_rays = {},
                    .light_structure = {}};
   const PictureReceivers source{.tracer = tracer,
@@ -111,7 +111,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
     truth.light_structure.runs.push_back(0.0);
     if (way == ShadowWay::blocks) {
-      truth.rays = shadow_pass(source, light, truth.verdict, options.stop);
+      truth.rays = shadow_pass(source, light, truth.centre, options.stop);
       return;
     }
     std::fill(rays.begin(), rays.end(), 0);
@@ -119,7 +119,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;
       const bool reached = reaches(light, point);
-      truth.verdict.at(x, y) = reached ? tracer.light_verdict(point, light) : Verdict::shadowed;
+      truth.centre.at(x, y) = reached ? tracer.centre_visibility(point, light) : PointVisibility::shadowed;
       rays[tile] += reached ? 1 : 0;
     });
     truth.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
@@ -148,8 +148,8 @@ void trace_soft_shadows(const Tracer& tracer, const Band& band, const RaytraceOp
       if (point.primitive == no_id) return;
       const std::uint64_t key = pixel_key(options.seed, first_pixel + receivers.index(x, y), truth.light);
       const bool reached = reaches(light, point);
-      const Visibility setup =
-          reached ? light_visibility(tracer, point, light, truth.samples, key) : Visibility{0.0, 0.0, 0};
+      const SampledVisibility setup = reached ? light_visibility(tracer, point, light, truth.samples, key)
+                                              : SampledVisibility{0.0, 0.0, 0};
       truth.visibility.at(x, y) = static_cast<float>(setup.share);
       truth.standard_error.at(x, y) = static_cast<float>(setup.standard_error);
       rays[tile].asked += reached ? static_cast<std::uint64_t>(truth.samples) : 0;

@@ -22,7 +22,7 @@ struct RaytraceOptions {
   int runs = 1;
   double enough_ms = never_enough_ms;
   bool warm_up = false;  ///< trace the same in small first, untimed
-  bool picture = true;   ///< shade and follow secondary rays; false: receivers and verdicts only
+  bool picture = true;   ///< shade and follow secondary rays; false: receivers and shadows only
   double min_contribution = 1.0 / 512.0;  ///< secondary rays below this share of a pixel are not followed
   int shadow_samples =
       0;  ///< rays per point to a light with size, <= max_shadow_samples; 0: as the light says
@@ -30,7 +30,7 @@ struct RaytraceOptions {
   /// The picture's; a box filter. What else the frame holds is of pixel centres. 1: the picture too.
   int samples_per_pixel = 1;
   /// false: only the picture is wanted, so no ray is cast that it does not need. Lights with size then have
-  /// no verdicts, and with several samples per pixel there are neither receivers nor lights.
+  /// no shadows, and with several samples per pixel there are neither receivers nor lights.
   bool records = true;
   /// A request ends the call at the next tile; what it returns is then not to be read. The tracer stays whole.
   std::stop_token stop{};
@@ -54,13 +54,14 @@ struct RayCounts {
 
 struct LightTruth {
   std::uint32_t light = 0;  ///< index in Scene::lights
-  Image<Verdict> verdict;   ///< lit where no receiver; shadowed where the light cannot reach (facing away)
-  Times shadow_rays;        ///< ms for the pixels that the light can reach
-  Times light_structure;    ///< the part of each of these runs that made the light's own structure; 0 of none
-  std::uint64_t rays = 0;   ///< cast
+  /// Of the light's centre: lit where there is no receiver, shadowed where the light cannot reach (facing away).
+  Image<PointVisibility> centre;
+  Times shadow_rays;       ///< ms for the pixels that the light can reach
+  Times light_structure;   ///< the part of each of these runs that made the light's own structure; 0 of none
+  std::uint64_t rays = 0;  ///< cast
 
   /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
-  /// light's centre cannot reach it. Empty for a light without size, whose verdict is the whole truth.
+  /// light's centre cannot reach it. Empty for a light without size, whose centre is the whole of it.
   Image<float> visibility{};
   Image<float> standard_error{};                     ///< of `visibility`, estimated from its samples
   int samples = 0;                                   ///< rays per point

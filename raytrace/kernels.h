@@ -40,7 +40,7 @@ bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit
   return traverse(s.bvh, ray, stats, visit);
 }
 
-/// A leaf's primitive; `room` holds it where the structure keeps no copies.
+/// A leaf's primitive; `scratch` holds it where the structure keeps no copies.
 inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& scratch) {
   if (s.bvh.has_primitives()) [[likely]]
     return s.bvh.primitive_at(index, scratch);

@@ -277,17 +277,17 @@ Ray Tracer::shadow_ray(const SurfacePoint& from, const Vec3& target) const {
   return {origin, offset / distance, {0.0, distance - error}};
 }
 
-Verdict Tracer::light_verdict(const SurfacePoint& from, const Light& light) const {
+PointVisibility Tracer::centre_visibility(const SurfacePoint& from, const Light& light) const {
   const Ray ray = shadow_ray(from, light);
   switch (precision()) {
     case Precision::fast:
-      return occluded(ray) ? Verdict::shadowed : Verdict::lit;
+      return occluded(ray) ? PointVisibility::shadowed : PointVisibility::lit;
     case Precision::exact:
-      return certified_verdict(impl_->structures, from, ray, light);
+      return certified_visibility(impl_->structures, from, ray, light);
     case Precision::robust:
       break;
   }
-  return verdict(impl_->structures, from, ray);
+  return point_visibility(impl_->structures, from, ray);
 }
 
 std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {
@@ -303,11 +303,11 @@ std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const st
   });
 }
 
-Verdict Tracer::light_verdict_among(const SurfacePoint& from, const Light& light,
-                                    std::span<const std::uint32_t> leaves) const {
+PointVisibility Tracer::centre_visibility_among(const SurfacePoint& from, const Light& light,
+                                                std::span<const std::uint32_t> leaves) const {
   const Ray ray = shadow_ray(from, light);
-  return precision() == Precision::exact ? certified_verdict(impl_->structures, from, ray, light, &leaves)
-                                         : verdict(impl_->structures, from, ray, &leaves);
+  return precision() == Precision::exact ? certified_visibility(impl_->structures, from, ray, light, &leaves)
+                                         : point_visibility(impl_->structures, from, ray, &leaves);
 }
 
 std::optional<Hit> Tracer::nearest_occluder(const SurfacePoint& from, const Light& light) const {

@@ -57,7 +57,7 @@ std::string_view precision_name(Precision precision);
 
 /// What a ray meets on its way to a light. `uncertain`: within the computation's own error bound of either
 /// answer.
-enum class Verdict : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
+enum class PointVisibility : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
 
 struct AccelStats {
   double build_ms = 0.0;
@@ -108,12 +108,12 @@ class Tracer {
   /// Exact visibility of the light's centre, with the error bound's ambiguity made visible. Any unmasked surface
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
   /// within.
-  Verdict light_verdict(const SurfacePoint& from, const Light& light) const;
+  PointVisibility centre_visibility(const SurfacePoint& from, const Light& light) const;
   /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
   /// leaf order (Structures::bvh); not for Precision::fast.
   std::optional<Hit> closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
-  Verdict light_verdict_among(const SurfacePoint& from, const Light& light,
-                              std::span<const std::uint32_t> leaves) const;
+  PointVisibility centre_visibility_among(const SurfacePoint& from, const Light& light,
+                                          std::span<const std::uint32_t> leaves) const;
 
   /// The occluder nearest to the point on the way to the light, if any; own triangle and plane left out.
   std::optional<Hit> nearest_occluder(const SurfacePoint& from, const Light& light) const;
@@ -121,7 +121,7 @@ class Tracer {
   const World& world() const;
   Precision precision() const;
   const AccelStats& stats() const;
-  /// For this room's own algorithms (texel lists, verdicts): raytrace/kernels.h.
+  /// For this room's own algorithms (texel lists, visibility): raytrace/kernels.h.
   const Structures& structures() const;
 
  private:

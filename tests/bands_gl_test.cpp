@@ -65,7 +65,7 @@ TEST_P(TracedBands, AreTheWholesRows) {
       EXPECT_TRUE(same_points(whole.receiver, band.receiver, rows)) << rows.first;
       ASSERT_EQ(whole.lights.size(), band.lights.size());
       for (std::size_t i = 0; i < whole.lights.size(); ++i) {
-        EXPECT_TRUE(same_bits(whole.lights[i].verdict, band.lights[i].verdict, rows)) << rows.first;
+        EXPECT_TRUE(same_bits(whole.lights[i].centre, band.lights[i].centre, rows)) << rows.first;
         EXPECT_TRUE(same_bits(whole.lights[i].visibility, band.lights[i].visibility, rows)) << rows.first;
         EXPECT_TRUE(same_bits(whole.lights[i].standard_error, band.lights[i].standard_error, rows));
       }

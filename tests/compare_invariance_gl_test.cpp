@@ -113,7 +113,7 @@ std::vector<int> truth(const Comparison& c) {
     else if (light_cannot_reach(light, p.position, p.normal))
       out.push_back(facing_away);
     else
-      out.push_back(hit + static_cast<int>(c.raytraced.lights[0].verdict.data[i]));
+      out.push_back(hit + static_cast<int>(c.raytraced.lights[0].centre.data[i]));
   }
   return out;
 }

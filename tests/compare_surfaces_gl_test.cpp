@@ -29,7 +29,7 @@ Agreement compare_both(const Drawn& drawn, const raytrace::RayTracedFrame& frame
       ++out.primitives;
       continue;
     }
-    const bool lit = frame.lights[0].verdict.data[i] == raytrace::Verdict::lit;
+    const bool lit = frame.lights[0].centre.data[i] == raytrace::PointVisibility::lit;
     if (primitive != no_id && lit != (drawn.light().visibility.data[i] > 0.5f)) continue;
     ++out.pixels;
     const Vec3f difference = glm::abs(drawn.frame.color.data[i] - frame.color.data[i]);
@@ -164,7 +164,7 @@ TEST(Sides, BothRenderersLookThroughTheSameBacks) {
       // The sheet faces down: it is not seen, and its shadow is.
       const bool below = std::abs(point.position.x + 0.36) < 0.6 && std::abs(point.position.z + 0.18) < 0.6;
       if (object == 0 && below)
-        shadowed += frame.lights[0].verdict.data[i] == raytrace::Verdict::shadowed &&
+        shadowed += frame.lights[0].centre.data[i] == raytrace::PointVisibility::shadowed &&
                             drawn.light().visibility.data[i] < 0.5f
                         ? 1
                         : 0;
@@ -205,7 +205,7 @@ TEST(Surfaces, VertexAlphaMakesHoles) {
       continue;
     const bool dark = under.x > 0.0 && under.x < 1.5 && std::abs(under.z) < 1.5;
     shadowed += dark ? 1 : 0;
-    wrong += dark == (frame.lights[0].verdict.data[i] == raytrace::Verdict::shadowed) &&
+    wrong += dark == (frame.lights[0].centre.data[i] == raytrace::PointVisibility::shadowed) &&
                      dark == (drawn.light().visibility.data[i] < 0.5f)
                  ? 0
                  : 1;

@@ -62,7 +62,7 @@ TEST(Antialiasing, OneSampleIsThePixelsCentre) {
   // What is not the picture stays at the centres.
   for (std::size_t i = 0; i < once.receiver.data.size(); ++i) {
     ASSERT_EQ(once.receiver.data[i].primitive, four.receiver.data[i].primitive);
-    ASSERT_EQ(once.lights[1].verdict.data[i], four.lights[1].verdict.data[i]);
+    ASSERT_EQ(once.lights[1].centre.data[i], four.lights[1].centre.data[i]);
   }
   EXPECT_NE(once.color.data, four.color.data);
 }

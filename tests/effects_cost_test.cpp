@@ -76,7 +76,7 @@ TEST(EffectCost, SoftLightsAloneCastNoHardRay) {
     EXPECT_EQ(frame.rays.shadow, 0u) << effect_name(effect);
     EXPECT_GT(frame.rays.soft_shadow, 0u);
   }
-  EXPECT_GT(trace_picture(scene, {40, 30}, 0, true).rays.shadow, 0u) << "records hold the centres' verdicts";
+  EXPECT_GT(trace_picture(scene, {40, 30}, 0, true).rays.shadow, 0u) << "records hold the centres' shadows";
 }
 
 std::uint64_t bytes_of_a_frame(const Scene& scene) {
@@ -100,10 +100,10 @@ std::uint64_t bytes_of_a_frame(const Scene& scene) {
 TEST(EffectCost, AnEffectNotCalledForAllocatesNothing) {
   constexpr std::uint64_t pixels = std::uint64_t{64} * 48, kib = 1024;
   const std::uint64_t base = bytes_of_a_frame(plain());
-  // Receivers, colours, verdicts of two lights, counts per tile; and what primary and hard shadow rays are
+  // Receivers, colours, shadows of two lights, counts per tile; and what primary and hard shadow rays are
   // traced with: the lists of the cells of eye and lights, and receivers as floats (packet/), 220 KiB here.
   const std::uint64_t images =
-      pixels * (sizeof(raytrace::SurfacePoint) + sizeof(Vec3f) + 2 * sizeof(raytrace::Verdict));
+      pixels * (sizeof(raytrace::SurfacePoint) + sizeof(Vec3f) + 2 * sizeof(raytrace::PointVisibility));
   EXPECT_GE(base, images);
   EXPECT_LT(base, images + 320 * kib);
   // However many samples the effects would take: nobody asks for them.
@@ -119,7 +119,7 @@ TEST(EffectCost, AnEffectNotCalledForAllocatesNothing) {
     Scene scene = plain();
     on.call(scene);
     const std::uint64_t bytes = bytes_of_a_frame(scene);
-    const std::uint64_t visibility = pixels * (2 * sizeof(float) - sizeof(raytrace::Verdict));
+    const std::uint64_t visibility = pixels * (2 * sizeof(float) - sizeof(raytrace::PointVisibility));
     EXPECT_EQ(bytes > base + kib, on.effect == Effect::soft_shadow) << effect_name(on.effect);
     EXPECT_LE(bytes, base + visibility + kib) << effect_name(on.effect);
   }

@@ -13,11 +13,11 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::RayTracedFrame;
 using raytrace::RaytraceOptions;
 using raytrace::SurfacePoint;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::TestWorld;
 
 // DESIGN.md section 3: a disc light of radius R at height H, a disc of radius a at height h, the same axis.
@@ -55,7 +55,7 @@ class Coaxial : public testing::Test {
     const Ray down{position + Vec3(0, 0.5, 0), {0, -1, 0}};
     return tracer_.surface_point(down, *tracer_.closest_hit(down));
   }
-  raytrace::Visibility seen(double radius, int samples, std::uint64_t key) const {
+  raytrace::SampledVisibility seen(double radius, int samples, std::uint64_t key) const {
     return light_visibility(tracer_, floor_point({radius, 0.0, 0.0}), world_.scene().lights[0], samples, key);
   }
   double share(double radius, double angle, int samples, std::uint64_t key) const {
@@ -96,7 +96,7 @@ TEST_F(Coaxial, StandardErrorCoversTheScatterOfTheSamples) {
       constexpr int seeds = 400;
       double sum = 0.0, squares = 0.0, claimed = 0.0;
       for (int key = 0; key < seeds; ++key) {
-        const raytrace::Visibility v = seen(radius, samples, static_cast<std::uint64_t>(key));
+        const raytrace::SampledVisibility v = seen(radius, samples, static_cast<std::uint64_t>(key));
         sum += v.share, squares += v.share * v.share, claimed += v.standard_error * v.standard_error;
       }
       const double scatter = std::sqrt(squares / seeds - sum * sum / seeds / seeds);
@@ -189,9 +189,10 @@ TEST(SoftShadows, Case40ALightThatShrinksBecomesTheHardOne) {
       for (std::size_t i = 0; i < hard.receiver.data.size(); ++i) {
         const float share = soft.lights[0].visibility.data[i];
         ASSERT_TRUE(share >= 0.0f && share <= 1.0f);
-        ASSERT_EQ(soft.lights[0].verdict.data[i], hard.lights[0].verdict.data[i]);
-        if (hard.lights[0].verdict.data[i] == Verdict::uncertain) continue;
-        difference += std::abs(double(share) - (hard.lights[0].verdict.data[i] == Verdict::lit ? 1.0 : 0.0));
+        ASSERT_EQ(soft.lights[0].centre.data[i], hard.lights[0].centre.data[i]);
+        if (hard.lights[0].centre.data[i] == PointVisibility::uncertain) continue;
+        difference +=
+            std::abs(double(share) - (hard.lights[0].centre.data[i] == PointVisibility::lit ? 1.0 : 0.0));
       }
       EXPECT_LE(difference, before) << kind << " " << size;
       before = difference;

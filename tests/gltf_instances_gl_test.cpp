@@ -104,15 +104,15 @@ void expect_same_kept(const Scene& scene, std::size_t instances) {
                 a.position_error == b.position_error && a.barycentric == b.barycentric);
   }
   ASSERT_EQ(kept.lights.size(), 1u);
-  EXPECT_EQ(kept.raytraced.lights[0].verdict.data, flat.raytraced.lights[0].verdict.data);
+  EXPECT_EQ(kept.raytraced.lights[0].centre.data, flat.raytraced.lights[0].centre.data);
   EXPECT_EQ(kept.raster.lights[0].map.depth, flat.raster.lights[0].map.depth);
   EXPECT_EQ(kept.raster.lights[0].map.primitive, flat.raster.lights[0].map.primitive);
   EXPECT_EQ(kept.raster.lights[0].gap.data, flat.raster.lights[0].gap.data);
   EXPECT_EQ(kept.lights[0].labels.data, flat.lights[0].labels.data);
   for (std::size_t k = 0; k < flat.lights[0].rungs.size(); ++k)
     EXPECT_EQ(kept.lights[0].rungs[k].data, flat.lights[0].rungs[k].data) << k;
-  const auto& verdicts = flat.raytraced.lights[0].verdict.data;
-  EXPECT_GT(std::count(verdicts.begin(), verdicts.end(), raytrace::Verdict::shadowed), 50);
+  const auto& centre = flat.raytraced.lights[0].centre.data;
+  EXPECT_GT(std::count(centre.begin(), centre.end(), raytrace::PointVisibility::shadowed), 50);
 }
 
 TEST_F(Gltf, NestedNodesKeptAreThoseFlattened) {

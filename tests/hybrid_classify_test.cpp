@@ -44,8 +44,9 @@ Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
   const Light& light = stage.scene.lights[index];
   hybrid::LightCache cache(stage.tracer, stage.topology, light, stage.map(index, map_size));
   const hybrid::Receivers receivers = hybrid::make_receivers(stage.frame.receiver);
-  Image<raytrace::Verdict> verdicts;
-  static_cast<void>(trace_hard_shadows(stage.tracer, cache, receivers, verdicts, nullptr));  // looks closely
+  Image<raytrace::PointVisibility> visibility;
+  static_cast<void>(
+      trace_hard_shadows(stage.tracer, cache, receivers, visibility, nullptr));  // looks closely
   Agreement out;
   const raytrace::TileGrid grid{stage.size};
   for (std::size_t i = 0; i < grid.count(); ++i) {

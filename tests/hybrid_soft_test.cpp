@@ -12,7 +12,7 @@ using hybrid::Decision;
 using hybrid::LightCache;
 using hybrid::SoftCounts;
 using hybrid::SoftLight;
-using raytrace::Verdict;
+using raytrace::PointVisibility;
 using test::Stage;
 
 struct SoftOutcome {
@@ -23,15 +23,15 @@ struct SoftOutcome {
 SoftOutcome run_soft(const Stage& stage, std::uint32_t light) {
   const Light& source = stage.scene.lights[light];
   LightCache cache(stage.tracer, stage.topology, source, stage.map(light, 512));
-  Image<Verdict> verdicts;
+  Image<PointVisibility> centre;
   Image<Decision> decisions(stage.size);
   Image<float> visibility(stage.size);
   SoftOutcome out;
-  out.asked = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
+  out.asked = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), centre,
                                  &decisions)
                   .asked;
   out.soft = SoftLight(stage.tracer, stage.topology, light)
-                 .find(stage.frame.receiver, verdicts, {source.shadow_samples, 5, 0}, decisions, visibility);
+                 .find(stage.frame.receiver, centre, {source.shadow_samples, 5, 0}, decisions, visibility);
   const auto& truth = stage.frame.lights[light].visibility.data;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool differs = truth[i] != visibility.data[i];

@@ -47,7 +47,7 @@ struct Stage {
 
 struct Outcome {
   hybrid::ShadowCounts counts;
-  std::uint64_t different = 0;  ///< from the ray tracer's verdicts, where those are certain
+  std::uint64_t different = 0;  ///< from the ray tracer's answers, where those are certain
   double ray_share() const {
     return counts.asked > 0 ? static_cast<double>(counts.rays) / static_cast<double>(counts.asked) : 0.0;
   }
@@ -55,21 +55,22 @@ struct Outcome {
 
 /// The hard-shadow pass against the ray tracer's frame, whose receivers these are.
 inline Outcome compare_pass(const Stage& stage, std::uint32_t light, hybrid::LightCache& cache) {
-  Image<raytrace::Verdict> verdicts;
+  Image<raytrace::PointVisibility> visibility;
   Image<hybrid::Decision> decisions(stage.size);
   Outcome out;
-  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), verdicts,
-                                  &decisions);
-  for (std::size_t i = 0; i < verdicts.data.size(); ++i) {
-    const raytrace::Verdict truth = stage.frame.lights[light].verdict.data[i];
+  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver),
+                                  visibility, &decisions);
+  for (std::size_t i = 0; i < visibility.data.size(); ++i) {
+    const raytrace::PointVisibility truth = stage.frame.lights[light].centre.data[i];
     const bool traced = decisions.data[i] == hybrid::Decision::traced;
-    const bool differs = truth != verdicts.data[i] && (truth != raytrace::Verdict::uncertain || traced);
+    const bool differs =
+        truth != visibility.data[i] && (truth != raytrace::PointVisibility::uncertain || traced);
     if (differs && out.different == 0)
       ADD_FAILURE() << stage.scene.name << " light " << light << " map " << cache.sheets.view().size
                     << " pixel " << i % static_cast<std::size_t>(stage.size.width) << ","
                     << i / static_cast<std::size_t>(stage.size.width) << ": decision "
-                    << static_cast<int>(decisions.data[i]) << ", verdict "
-                    << static_cast<int>(verdicts.data[i]) << ", traced " << static_cast<int>(truth);
+                    << static_cast<int>(decisions.data[i]) << ", found "
+                    << static_cast<int>(visibility.data[i]) << ", traced " << static_cast<int>(truth);
     out.different += differs ? 1 : 0;
   }
   EXPECT_EQ(out.counts.lit + out.counts.shadowed + out.counts.rays, out.counts.asked);

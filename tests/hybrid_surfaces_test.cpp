@@ -103,8 +103,9 @@ TEST(HybridCosts, SheetsAreLookedAtCloselyForReceiversThatAskAgain) {
     raytrace::RaytraceOptions options;
     options.size = stage.size, options.picture = false;
     const auto frame = trace_frame(stage.tracer, plan_effects(stage.scene), camera, {}, options);
-    Image<raytrace::Verdict> verdicts;
-    return trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(frame.receiver), verdicts, nullptr);
+    Image<raytrace::PointVisibility> visibility;
+    return trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(frame.receiver), visibility,
+                              nullptr);
   };
   const auto first = look(stage.scene.camera);
   const double refined = cache.sheets.stats().refine_ms;

@@ -80,7 +80,7 @@ TEST(Csv, NamesAreNoFormulas) {
   EXPECT_NE(result_csv(made->comparison).find(",\"'=1+1,\"\"x\"\"\","), std::string::npos);
 }
 
-TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
+TEST(PointVisibility, SaysHowManyWhyAndWhatWouldHelp) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
   EXPECT_EQ(
@@ -91,7 +91,7 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
       "would leave 0.6 %.");
 }
 
-TEST(Verdict, SaysWhenNoBiasCanBeRight) {
+TEST(PointVisibility, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
   EXPECT_EQ(c.verdict(),
@@ -125,7 +125,7 @@ TEST(Verdict, SaysWhenNoBiasCanBeRight) {
 }
 
 // 1.6 % of them are wrong as drawn.
-TEST(Verdict, OffersNoBiasWhoseGainNoFigureShows) {
+TEST(PointVisibility, OffersNoBiasWhoseGainNoFigureShows) {
   Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {3.67e-6, 0.01559, true, 0.0, 1.0, 0, 0};
   const std::string wrong =
@@ -149,7 +149,7 @@ TEST(Verdict, OffersNoBiasWhoseGainNoFigureShows) {
   EXPECT_EQ(c.verdict().find("alone"), std::string::npos) << c.verdict();
 }
 
-TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
+TEST(PointVisibility, OffersAnotherRenderersSettingOnlyForAGain) {
   Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   auto judged = std::make_shared<Judged>();
   judged->advice = {{"bias.constant_depth", 0.0, 0.5, "stored depth", 0.016, 0.002, false}};
@@ -162,7 +162,7 @@ TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
   }
 }
 
-TEST(Verdict, NamesAConstantBesideAKindOfBias) {
+TEST(PointVisibility, NamesAConstantBesideAKindOfBias) {
   Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias.feasible = true;
   BiasKind offset;
@@ -180,7 +180,7 @@ TEST(Verdict, NamesAConstantBesideAKindOfBias) {
       << c.verdict();
 }
 
-TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
+TEST(PointVisibility, SaysNothingOfABiasWhoseCurveIsWithheld) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
   c.light.bias_curve_withheld = "It filters.";
@@ -215,7 +215,7 @@ TEST(ShadowCost, IsWhatIsLeftRunByRun) {
   EXPECT_EQ(standing_rays(truth).runs, (std::vector<double>{5.0}));
 }
 
-TEST(Verdict, HandlesNoneFewAndNothing) {
+TEST(PointVisibility, HandlesNoneFewAndNothing) {
   Case none(5000, {});
   none.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
   EXPECT_EQ(none.verdict(), "None of the 5,000 lit-or-shadowed pixels is wrong (mean error 0 %).");
@@ -237,7 +237,7 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
 
 // A filter as wide as a shadow's stripes leaves grey: nothing is wrong by more than one half, and nothing
 // right.
-TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
+TEST(PointVisibility, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
   Case grey(5000, {});
   grey.light.error.fractional = 4000;
   grey.light.error.mean_absolute = 0.35;
@@ -254,7 +254,7 @@ TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
             "one half, all of them aliasing. No other constant bias does better.");
 }
 
-TEST(Verdict, CountsWhatIsUncertain) {
+TEST(PointVisibility, CountsWhatIsUncertain) {
   Case c(5000, {});
   c.light.pixels.uncertain = 15000;
   c.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};

@@ -13,8 +13,8 @@
 namespace gnomon::verify {
 namespace {
 
+using raytrace::PointVisibility;
 using raytrace::Precision;
-using raytrace::Verdict;
 
 struct Tried {
   std::uint64_t pixels = 0, doubtful = 0, certain_differ = 0, asked = 0, exact_wrong = 0;
@@ -45,16 +45,16 @@ void try_scene(const Scene& scene, std::uint64_t number, Tried& tried) {
     const raytrace::SurfacePoint &p = robust.receiver.data[i], &q = exact.receiver.data[i];
     if (p.primitive == no_id || !same_place(p, q)) continue;
     if (light_cannot_reach(scene.lights[0], p.position, p.normal)) continue;
-    const Verdict given = robust.lights[0].verdict.data[i], truth = exact.lights[0].verdict.data[i];
+    const PointVisibility given = robust.lights[0].centre.data[i], truth = exact.lights[0].centre.data[i];
     ++tried.pixels;
-    const bool doubtful = given == Verdict::uncertain, differ = !doubtful && given != truth;
+    const bool doubtful = given == PointVisibility::uncertain, differ = !doubtful && given != truth;
     tried.doubtful += doubtful ? 1 : 0;
     if (differ && tried.certain_differ++ < 5) print_pixel("robust is certain, exact differs", number, i, p);
     if (!differ && i % (doubtful ? sampled_doubts : sampled) != 0) continue;
     const std::optional<bool> shadowed = rationally_shadowed(world, q, scene.lights[0]);
     if (!shadowed) continue;
     ++tried.asked;
-    if (truth != (*shadowed ? Verdict::shadowed : Verdict::lit) && tried.exact_wrong++ < 5)
+    if (truth != (*shadowed ? PointVisibility::shadowed : PointVisibility::lit) && tried.exact_wrong++ < 5)
       print_pixel("exact differs from rational numbers", number, i, q);
   }
 }

@@ -1,5 +1,5 @@
 // izb and hybrid against the ray tracer on random scenes whose light lies in planes of faces, at corners and
-// inside bodies: random_scenes_gl_test [SCENES [SEED]]. No pixel may be wrong where the verdict is certain.
+// inside bodies: random_scenes_gl_test [SCENES [SEED]]. No pixel may be wrong where the tracer is certain.
 #include <fmt/format.h>
 
 #include <array>
@@ -64,7 +64,7 @@ int run(std::uint64_t scenes, std::uint64_t seed) {
     if (!try_scene(random_scene(random), {160, 90}, fmt::format("scene {}", i), tried)) return 1;
   }
   for (const std::size_t k : {0, 1})
-    fmt::print("{:<7} {} scenes, {} pixels with a certain verdict, {} wrong\n", k == 0 ? "izb" : "hybrid",
+    fmt::print("{:<7} {} scenes, {} pixels surely lit or shadowed, {} wrong\n", k == 0 ? "izb" : "hybrid",
                tried[k].scenes, tried[k].pixels, tried[k].wrong);
   return tried[0].wrong + tried[1].wrong == 0 && tried[0].pixels > 100 * scenes ? 0 : 1;
 }

@@ -10,18 +10,18 @@ using raster::Technique;
 
 class Filter : public testing::TestWithParam<LightType> {
  protected:
-  /// Draws, and holds every receiver's visibility against reference(receiver, doubt); those in doubt are left
+  /// Draws, and holds every receiver's visibility against reference(receiver, ambiguous); those that are so are left
   /// out.
   void compare(const raster::RasterOptions& options, double tolerance,
                const std::function<double(const Drawn&, const FilterReceiver&, bool&)>& reference) {
     const Drawn drawn = draw(lit_still_life(GetParam()), options);
     ASSERT_FALSE(drawn.frame.lights.empty());
-    int tested = 0, between = 0, doubtful = 0;
+    int tested = 0, between = 0, left_out = 0;
     for_receivers(drawn, 6.0, [&](const FilterReceiver& r) {
-      bool doubt = false;
-      const double expected = reference(drawn, r, doubt);
-      if (doubt) {
-        ++doubtful;
+      bool ambiguous = false;
+      const double expected = reference(drawn, r, ambiguous);
+      if (ambiguous) {
+        ++left_out;
         return;
       }
       const double visibility = drawn.light().visibility.data[r.pixel];
@@ -31,7 +31,7 @@ class Filter : public testing::TestWithParam<LightType> {
     });
     EXPECT_GT(tested, 4000);
     EXPECT_GT(between, 100);
-    EXPECT_LT(doubtful, tested);
+    EXPECT_LT(left_out, tested);
   }
 };
 
@@ -40,11 +40,12 @@ bool near_border(double texels) {
   return std::abs(texels - std::round(texels)) < 1e-3;
 }
 
-double box_mean(const Drawn& drawn, const FilterReceiver& r, int radius, bool& doubt) {
-  doubt = doubt || near_border(r.at.u) || near_border(r.at.v);
+double box_mean(const Drawn& drawn, const FilterReceiver& r, int radius, bool& ambiguous) {
+  ambiguous = ambiguous || near_border(r.at.u) || near_border(r.at.v);
   double sum = 0.0;
   for (int j = -radius; j <= radius; ++j)
-    for (int i = -radius; i <= radius; ++i) sum += lit_at(drawn, r, r.at.column() + i, r.at.row() + j, doubt);
+    for (int i = -radius; i <= radius; ++i)
+      sum += lit_at(drawn, r, r.at.column() + i, r.at.row() + j, ambiguous);
   return sum / ((2 * radius + 1) * (2 * radius + 1));
 }
 
@@ -54,8 +55,8 @@ constexpr double sum_tolerance = 1e-5;
 TEST_P(Filter, BoxIsTheMeanOfHardTests) {
   raster::RasterOptions options = technique_options(Technique::pcf);
   options.map.filter.radius_texels = 2.5;
-  compare(options, sum_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& doubt) {
-    return box_mean(drawn, r, 2, doubt);
+  compare(options, sum_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& ambiguous) {
+    return box_mean(drawn, r, 2, ambiguous);
   });
 }
 
@@ -64,8 +65,8 @@ TEST_P(Filter, ReceiverPlaneTakesThePlanesDepthAtEachTap) {
   options.map.filter.radius_texels = 3.5;
   options.map.bias.constant = 0.2;
   options.map.bias.receiver_plane = true;
-  compare(options, sum_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& doubt) {
-    return box_mean(drawn, r, 3, doubt);
+  compare(options, sum_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& ambiguous) {
+    return box_mean(drawn, r, 3, ambiguous);
   });
 }
 
@@ -75,14 +76,14 @@ double covered(int texel, double middle, double radius) {
                     1.0);
 }
 
-double square_mean(const Drawn& drawn, const FilterReceiver& r, double radius, bool& doubt) {
+double square_mean(const Drawn& drawn, const FilterReceiver& r, double radius, bool& ambiguous) {
   double sum = 0.0;
   const int reach = static_cast<int>(std::ceil(radius)) + 1;
   for (int j = -reach; j <= reach; ++j)
     for (int i = -reach; i <= reach; ++i) {
       const double weight =
           covered(r.at.column() + i, r.at.u, radius) * covered(r.at.row() + j, r.at.v, radius);
-      if (weight > 0.0) sum += weight * lit_at(drawn, r, r.at.column() + i, r.at.row() + j, doubt);
+      if (weight > 0.0) sum += weight * lit_at(drawn, r, r.at.column() + i, r.at.row() + j, ambiguous);
     }
   return sum / (4.0 * radius * radius);
 }
@@ -93,8 +94,8 @@ constexpr double weight_tolerance = 4e-4;
 TEST_P(Filter, HardwareIsTheBilinearMeanOfFour) {
   raster::RasterOptions options = technique_options(Technique::pcf);
   options.map.filter.kernel = FilterKernel::hardware;
-  compare(options, weight_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& doubt) {
-    return square_mean(drawn, r, 0.5, doubt);
+  compare(options, weight_tolerance, [](const Drawn& drawn, const FilterReceiver& r, bool& ambiguous) {
+    return square_mean(drawn, r, 0.5, ambiguous);
   });
 }
 
@@ -103,9 +104,10 @@ TEST_P(Filter, OptimisedWeighsTexelsByTheirOverlap) {
   options.map.filter.kernel = FilterKernel::optimised;
   for (const double radius : {1.0, 1.7, 2.5}) {
     options.map.filter.radius_texels = radius;
-    compare(options, weight_tolerance, [radius](const Drawn& drawn, const FilterReceiver& r, bool& doubt) {
-      return square_mean(drawn, r, radius, doubt);
-    });
+    compare(options, weight_tolerance,
+            [radius](const Drawn& drawn, const FilterReceiver& r, bool& ambiguous) {
+              return square_mean(drawn, r, radius, ambiguous);
+            });
   }
 }
 
@@ -117,7 +119,7 @@ TEST_P(Filter, VogelIsTheMeanOverADisc) {
   options.map.filter.radius_texels = 3.0;
   options.map.filter.samples = 512;
   // 512 evenly spread points: each cell of the disc is found to about one point in sqrt(512).
-  compare(options, 0.05, [](const Drawn& drawn, const FilterReceiver& r, bool& doubt) {
+  compare(options, 0.05, [](const Drawn& drawn, const FilterReceiver& r, bool& ambiguous) {
     double sum = 0.0;
     int count = 0;
     bool any = false;
@@ -130,7 +132,7 @@ TEST_P(Filter, VogelIsTheMeanOverADisc) {
         sum += lit_at(drawn, r, static_cast<int>(std::floor(r.at.u + 3.0 * p.x)),
                       static_cast<int>(std::floor(r.at.v + 3.0 * p.y)), any);
       }
-    doubt = any;
+    ambiguous = any;
     return sum / count;
   });
 }

@@ -70,8 +70,8 @@ inline void for_receivers(const Drawn& drawn, double margin_texels,
   }
 }
 
-/// The hard comparison with one texel of the receiver's face; `doubt` is set where rounding could decide it.
-inline double lit_at(const Drawn& drawn, const FilterReceiver& r, int column, int row, bool& doubt) {
+/// The hard comparison with one texel of the receiver's face; `ambiguous` is set where rounding could decide it.
+inline double lit_at(const Drawn& drawn, const FilterReceiver& r, int column, int row, bool& ambiguous) {
   const auto& map = drawn.light().map;
   const double stored = map.depth[map.texel_index(r.at.face, column, row)];
   if (!(stored < 1.0)) return 1.0;
@@ -80,7 +80,7 @@ inline double lit_at(const Drawn& drawn, const FilterReceiver& r, int column, in
   const double along = map.view.projection == LightProjection::perspective ? r.at.distance / r.at.depth : 1.0;
   const double margin = (depth - depth_from_stored(map.view, r.at.face, row + 0.5, stored)) * along - r.slack;
   if (std::abs(margin) < 5e-5 + 1e-4 * std::abs(depth - r.at.depth))
-    doubt = true;  // float on lengths of ten units
+    ambiguous = true;  // float on lengths of ten units
   return margin > 0.0 ? 0.0 : 1.0;
 }
 

@@ -1,7 +1,7 @@
 // A light's blocks (raytrace/packets/shadow_block.h) where the bounds are tight: receivers exactly on the lines of a
 // grid before the light and on their crossings, triangles whose corners and edges lie there too, triangles that touch
 // a cell in one point, slivers, triangles that reach through the light's plane; lights near and far. Every
-// verdict is held against brute force in double, for every instruction set that this machine has.
+// visibility is held against brute force in double, for every instruction set that this machine has.
 #include <gtest/gtest.h>
 
 #include "every_target.h"
@@ -251,18 +251,18 @@ LightPlane plane_of(const Setting& setting) {
   return LightPlane(edge_setup_of_light(tracer, setting.light, patch));
 }
 
-Image<Verdict> one_by_one(const Tracer& tracer, const Light& light, const Receivers& receivers) {
-  Image<Verdict> out(size, Verdict::lit);
+Image<PointVisibility> one_by_one(const Tracer& tracer, const Light& light, const Receivers& receivers) {
+  Image<PointVisibility> out(size, PointVisibility::lit);
   for_each_pixel(TileGrid{size}, [&](int x, int y, std::size_t) {
     const SurfacePoint& p = receivers.points.at(x, y);
-    out.at(x, y) =
-        light_cannot_reach(light, p.position, p.normal) ? Verdict::shadowed : tracer.light_verdict(p, light);
+    out.at(x, y) = light_cannot_reach(light, p.position, p.normal) ? PointVisibility::shadowed
+                                                                   : tracer.centre_visibility(p, light);
   });
   return out;
 }
 
-Image<Verdict> by_blocks(const Tracer& tracer, const Light& light, const Receivers& receivers) {
-  Image<Verdict> out(size, Verdict::lit);
+Image<PointVisibility> by_blocks(const Tracer& tracer, const Light& light, const Receivers& receivers) {
+  Image<PointVisibility> out(size, PointVisibility::lit);
   shadow_pass({.tracer = tracer,
                .size = size,
                .stored = &receivers.points,
@@ -273,9 +273,9 @@ Image<Verdict> by_blocks(const Tracer& tracer, const Light& light, const Receive
   return out;
 }
 
-std::array<std::uint64_t, 3> counts_of(const Image<Verdict>& verdicts) {
+std::array<std::uint64_t, 3> counts_of(const Image<PointVisibility>& visibility) {
   std::array<std::uint64_t, 3> counts{};
-  for (const Verdict v : verdicts.data) ++counts[static_cast<std::size_t>(v)];
+  for (const PointVisibility v : visibility.data) ++counts[static_cast<std::size_t>(v)];
   return counts;
 }
 
@@ -285,17 +285,17 @@ void check(const Setting& setting, int triangles, std::uint64_t seed) {
   const TestWorld w(scene_with(setting, Occluders(plane, setting, seed).make(triangles)));
   const Tracer tracer(w.world(), Accel::bvh);
   const Receivers receivers(&plane, seed + 1000);
-  const Image<Verdict> truth = one_by_one(Tracer(w.world(), Accel::brute), setting.light, receivers);
+  const Image<PointVisibility> truth = one_by_one(Tracer(w.world(), Accel::brute), setting.light, receivers);
   // Single rays do not know of blocks, but have hierarchies to leave something out.
   for (const Accel accel : {Accel::bvh, Accel::two_level})
     EXPECT_EQ(one_by_one(Tracer(w.world(), accel), setting.light, receivers).data, truth.data);
   const auto counts = counts_of(truth);
   const std::uint64_t all = truth.data.size();
   // Neither all lit nor all dark: large triangles can hide everything, so the seed is chosen.
-  EXPECT_GT(counts[static_cast<std::size_t>(Verdict::shadowed)], all / 100);
-  EXPECT_GT(counts[static_cast<std::size_t>(Verdict::lit)], all / 100);
+  EXPECT_GT(counts[static_cast<std::size_t>(PointVisibility::shadowed)], all / 100);
+  EXPECT_GT(counts[static_cast<std::size_t>(PointVisibility::lit)], all / 100);
   test::for_each_target([&] {
-    const Image<Verdict> found = by_blocks(tracer, setting.light, receivers);
+    const Image<PointVisibility> found = by_blocks(tracer, setting.light, receivers);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < found.data.size(); ++i) wrong += found.data[i] == truth.data[i] ? 0 : 1;
     EXPECT_EQ(wrong, 0u) << packet_target();

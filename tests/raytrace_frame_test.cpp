@@ -14,10 +14,10 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::RayTracedFrame;
 using raytrace::RaytraceOptions;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::TestWorld;
 
 /// min_contribution 0: what is tested is the physics and the recursion limit, unless a test says otherwise.
@@ -173,7 +173,7 @@ TEST(Frame, ShadowBehindGlassIsTheStraightTransmittance) {
   scene.lights = {test::sun({0, -1, 0})};
   scene.camera.eye = {0, 0.9, 0}, scene.camera.target = {0, 0, 0}, scene.camera.up = {0, 0, 1};
   const auto frame = trace(scene, {9, 9});
-  EXPECT_EQ(frame.lights[0].verdict.at(4, 4), Verdict::shadowed);  // geometry's answer
+  EXPECT_EQ(frame.lights[0].centre.at(4, 4), PointVisibility::shadowed);  // geometry's answer
   EXPECT_NEAR(frame.color.at(4, 4).x, 0.96 * 0.96 * std::exp(-0.7), 1e-6);
 }
 
@@ -203,7 +203,7 @@ TEST(Frame, SmoothNormalsShadeAndGeometryDecides) {
   scene.camera.eye = {0, 3, 0}, scene.camera.target = {0, 0, 0}, scene.camera.up = {0, 0, 1};
   const auto frame = trace(scene, {1, 1});
   EXPECT_NEAR(frame.color.at(0, 0).x, 1.0, 1e-6);
-  EXPECT_EQ(frame.lights[1].verdict.at(0, 0), Verdict::shadowed);
+  EXPECT_EQ(frame.lights[1].centre.at(0, 0), PointVisibility::shadowed);
   EXPECT_EQ(frame.lights[1].rays, 0U);
 }
 
@@ -241,7 +241,7 @@ TEST(Frame, SameForAnyNumberOfThreads) {
     EXPECT_EQ(a.rays.shadow, other->rays.shadow);
     EXPECT_EQ(a.rays.reflection, other->rays.reflection);
     EXPECT_EQ(a.rays.refraction, other->rays.refraction);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.lights[i].verdict.data, other->lights[i].verdict.data);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.lights[i].centre.data, other->lights[i].centre.data);
     for (std::size_t i = 0; i < a.receiver.data.size(); ++i) {
       ASSERT_EQ(a.receiver.data[i].primitive, other->receiver.data[i].primitive);
       if (a.receiver.data[i].primitive == no_id) continue;
@@ -277,7 +277,7 @@ TEST(Frame, AStopAtAnyMomentLeavesTheTracerWhole) {
   }
   const RayTracedFrame again = trace_frame(tracer, plan, scene.camera, lights, options);
   EXPECT_EQ(again.color.data, whole.color.data);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(again.lights[i].verdict.data, whole.lights[i].verdict.data);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(again.lights[i].centre.data, whole.lights[i].centre.data);
 }
 
 TEST(Frame, EveryPixelIsFinite) {

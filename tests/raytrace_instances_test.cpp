@@ -1,5 +1,5 @@
 // A world that keeps its instances against the same world flattened: the same bits in corners, numbers, topology, hits,
-// verdicts, frames and columns.
+// visibility, frames and columns.
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -127,7 +127,7 @@ TEST(Instances, RaysFindTheSame) {
           right = point.position == kept.surface_point(rays[i], *truth).position;
           for (const Light& light :
                {test::point_light(Vec3(2.0 * kind.extent)), test::sun(Vec3(0.3, -1.0, 0.2))})
-            right = right && kept.light_verdict(point, light) == flat.light_verdict(point, light);
+            right = right && kept.centre_visibility(point, light) == flat.centre_visibility(point, light);
         }
         wrong += right ? 0 : 1;
       });
@@ -190,7 +190,7 @@ TEST(Instances, FramesAreTheSame) {
                     a.position_error == b.position_error && a.barycentric == b.barycentric);
       }
       for (std::size_t l = 0; l < lights.size(); ++l)
-        EXPECT_EQ(kept.lights[l].verdict.data, truth.lights[l].verdict.data) << precision_name(precision);
+        EXPECT_EQ(kept.lights[l].centre.data, truth.lights[l].centre.data) << precision_name(precision);
     }
   }
 }

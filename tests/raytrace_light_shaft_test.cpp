@@ -187,8 +187,8 @@ TEST(LightShaft, SharesAreThoseOfAllRays) {
   const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::bvh_median);
   prepare_single_rays(tracer);
   for (const Pair& pair : pairs_in(w.world(), other, 500, 14)) {
-    const Visibility with = light_visibility(tracer, pair.from, pair.light, samples, 15);
-    const Visibility without = light_visibility(other, pair.from, pair.light, samples, 15);
+    const SampledVisibility with = light_visibility(tracer, pair.from, pair.light, samples, 15);
+    const SampledVisibility without = light_visibility(other, pair.from, pair.light, samples, 15);
     EXPECT_EQ(with.share, without.share);
     const bool clear = surely_sees_whole_light(tracer, pair.from, pair.light);
     EXPECT_EQ(with.rays, clear ? std::uint64_t{0} : without.rays);

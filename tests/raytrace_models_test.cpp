@@ -14,10 +14,10 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
 using raytrace::TexelKey;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::TestWorld;
 
 Vec3 as_float(const Vec3& v) {
@@ -183,7 +183,7 @@ TEST(Models, ShadowsOfTheBunnyAreHardlyEverInDoubt) {
                                  std::vector<std::uint32_t>{0, 1}, options);
   for (const auto& light : frame.lights) {
     const auto uncertain =
-        std::count(light.verdict.data.begin(), light.verdict.data.end(), Verdict::uncertain);
+        std::count(light.centre.data.begin(), light.centre.data.end(), PointVisibility::uncertain);
     EXPECT_LE(uncertain, 30);  // 1e-4 of the pixels
   }
 }
@@ -212,7 +212,7 @@ TEST(Models, SheetsOfTheBunnyKeepTheirWord) {
       keys.push_back(TexelKey::pack(t.face, t.column(), t.row()));
     }
     const auto lists = build_texel_lists(tracer, view, keys);
-    std::size_t unsure = 0;
+    std::size_t ambiguous = 0;
     for (const auto& [i, t] : pixels) {
       const TexelKey key = TexelKey::pack(t.face, t.column(), t.row());
       const auto sheets = find_sheets(w.world(), topology, view, key, lists[lists.find(key)]);
@@ -229,13 +229,13 @@ TEST(Models, SheetsOfTheBunnyKeepTheirWord) {
         shadowed = shadowed || (!sheets[j].has_boundary && sheets[j].farthest < t.distance);
       }
       if (!lit && !shadowed)
-        ++unsure;
+        ++ambiguous;
       else
-        ASSERT_EQ(truth.verdict.data[i], shadowed ? Verdict::shadowed : Verdict::lit) << i;
+        ASSERT_EQ(truth.centre.data[i], shadowed ? PointVisibility::shadowed : PointVisibility::lit) << i;
     }
     EXPECT_GT(pixels.size(), 20000U);
-    EXPECT_LT(static_cast<double>(unsure), 0.03 * static_cast<double>(pixels.size()));
-    std::printf("  light %u: %zu of %zu pixels unsure\n", truth.light, unsure, pixels.size());
+    EXPECT_LT(static_cast<double>(ambiguous), 0.03 * static_cast<double>(pixels.size()));
+    std::printf("  light %u: %zu of %zu pixels ambiguous\n", truth.light, ambiguous, pixels.size());
   }
 }
 

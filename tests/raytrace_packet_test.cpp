@@ -23,34 +23,34 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::for_each_target;
 using test::TestWorld;
 
 struct Reference {
   std::vector<SurfacePoint> receivers;
-  std::vector<std::vector<Verdict>> verdicts;
+  std::vector<std::vector<PointVisibility>> visibility;
 };
 
-Verdict verdict_of(const Tracer& tracer, const Light& light, const SurfacePoint& point) {
-  if (point.primitive == no_id) return Verdict::lit;
-  if (light_cannot_reach(light, point.position, point.normal)) return Verdict::shadowed;
-  return tracer.light_verdict(point, light);
+PointVisibility visibility_of(const Tracer& tracer, const Light& light, const SurfacePoint& point) {
+  if (point.primitive == no_id) return PointVisibility::lit;
+  if (light_cannot_reach(light, point.position, point.normal)) return PointVisibility::shadowed;
+  return tracer.centre_visibility(point, light);
 }
 
 Reference reference_of(const Tracer& tracer, const Scene& scene, ImageSize size) {
   const View view = make_view(scene.camera, size);
   Reference r;
-  r.verdicts.resize(scene.lights.size());
+  r.visibility.resize(scene.lights.size());
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
       const auto hit = tracer.closest_seen(ray);
       r.receivers.push_back(hit ? tracer.surface_point(ray, *hit) : SurfacePoint{});
       for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        r.verdicts[i].push_back(verdict_of(tracer, scene.lights[i], r.receivers.back()));
+        r.visibility[i].push_back(visibility_of(tracer, scene.lights[i], r.receivers.back()));
     }
   return r;
 }
@@ -80,12 +80,12 @@ void expect_same(const Scene& scene, const Tracer& tracer, const Reference& refe
   for (std::size_t l = 0; l < lights.size(); ++l) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < reference.receivers.size(); ++i)
-      wrong += frame.lights[l].verdict.data[i] == reference.verdicts[l][i] ? 0 : 1;
-    EXPECT_EQ(wrong, 0U) << "verdicts of light " << l << " differ, " << raytrace::packet_target();
+      wrong += frame.lights[l].centre.data[i] == reference.visibility[l][i] ? 0 : 1;
+    EXPECT_EQ(wrong, 0U) << "visibility of light " << l << " differ, " << raytrace::packet_target();
   }
 }
 
-/// The same verdicts where a tile's receivers are kept as floats alone, and the same receivers in double.
+/// The same visibility where a tile's receivers are kept as floats alone, and the same receivers in double.
 void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
                            ImageSize size) {
   const View view = make_view(scene.camera, size);
@@ -105,18 +105,18 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
   primary_pass(tracer, view, eye,
                {.size = size, .hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    Image<Verdict> verdicts(size, Verdict::lit);
+    Image<PointVisibility> visibility(size, PointVisibility::lit);
     shadow_pass({.tracer = tracer,
                  .size = size,
                  .stored = nullptr,
                  .view = &view,
                  .hits = hits,
                  .quantised = {tiles.data(), tiles.size()}},
-                scene.lights[l], verdicts);
+                scene.lights[l], visibility);
     std::size_t wrong = 0;
-    for (std::size_t i = 0; i < verdicts.data.size(); ++i)
-      wrong += verdicts.data[i] == reference.verdicts[l][i] ? 0 : 1;
-    EXPECT_EQ(wrong, 0U) << "verdicts of light " << l << " by floats differ, " << raytrace::packet_target();
+    for (std::size_t i = 0; i < visibility.data.size(); ++i)
+      wrong += visibility.data[i] == reference.visibility[l][i] ? 0 : 1;
+    EXPECT_EQ(wrong, 0U) << "visibility of light " << l << " by floats differ, " << raytrace::packet_target();
   }
 }
 

@@ -13,12 +13,12 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::Sheet;
 using raytrace::TexelKey;
 using raytrace::TexelLists;
 using raytrace::Topology;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::Random;
 using test::TestWorld;
 
@@ -289,7 +289,7 @@ TEST(Sheets, EdgeOnTriangleIsABoundary) {
   for (const Sheet& s : sheets) EXPECT_TRUE(s.has_boundary);
 }
 
-/// What sheets promise (see DESIGN's second use of them), held against the exact verdict at every pixel.
+/// What sheets promise (see DESIGN's second use of them), held against the exact visibility at every pixel.
 using Fit = Expected<LightView> (*)(const World&, const Light&, const Camera&, double, int);
 Expected<LightView> three_cascades(const World& world, const Light& light, const Camera& camera,
                                    double aspect, int size) {
@@ -334,7 +334,7 @@ void expect_sheets_keep_their_word(const Scene& scene, int map_size, double leas
       }
       ++tried, sure += lit || shadowed ? 1 : 0;
       if (!lit && !shadowed) continue;
-      ASSERT_EQ(truth.verdict.data[i], shadowed ? Verdict::shadowed : Verdict::lit) << i;
+      ASSERT_EQ(truth.centre.data[i], shadowed ? PointVisibility::shadowed : PointVisibility::lit) << i;
     }
     EXPECT_GT(tried, 3000);
     EXPECT_GT(sure, least_sure * tried);

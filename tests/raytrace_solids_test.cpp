@@ -1,6 +1,6 @@
 // Quadrics, tori and implicit surfaces: hits against an oracle in 128-bit floating point that knows nothing
 // of intervals or closed forms (dense signs and bisection), tangents, rims and apexes, roots that are easily
-// skipped, points and offsets, verdicts, and every structure against brute force.
+// skipped, points and offsets, visibility, and every structure against brute force.
 #include <gtest/gtest.h>
 
 #include "raytrace/frame.h"
@@ -280,7 +280,7 @@ TEST(Solids, NothingShadowsItself) {
       }
 }
 
-// ---- verdicts ----
+// ---- visibility ----
 
 TEST(Solids, VerdictsAgreeWithRaysAndAreSeldomUncertain) {
   Random random(78);
@@ -288,7 +288,7 @@ TEST(Solids, VerdictsAgreeWithRaysAndAreSeldomUncertain) {
     const Shape floor = test::plane({0, -1.5, 0}, {0, 1, 0});
     const TestWorld w(test::scene_of({}, {shape, floor}));
     const Tracer tracer(w.world(), Accel::bvh);
-    int wrong = 0, unsure = 0, asked = 0, shadowed = 0;
+    int wrong = 0, ambiguous = 0, asked = 0, shadowed = 0;
     for (int i = 0; i < 4000; ++i) {
       const Light light = test::point_light(random.direction() * 4.0 + Vec3(0, 3.0, 0));
       const Vec3 target = random.below(2) == 0 ? random.in_box(1.0) : Vec3(0, -1.5, 0) + random.in_box(3.0);
@@ -299,16 +299,16 @@ TEST(Solids, VerdictsAgreeWithRaysAndAreSeldomUncertain) {
       const SurfacePoint p = tracer.surface_point(ray, *hit);
       if (glm::dot(p.normal, light.position - p.position) <= 0.0) continue;
       ++asked;
-      const Verdict v = tracer.light_verdict(p, light);
-      if (v == Verdict::uncertain) {
-        ++unsure;
+      const PointVisibility v = tracer.centre_visibility(p, light);
+      if (v == PointVisibility::uncertain) {
+        ++ambiguous;
         continue;
       }
-      shadowed += v == Verdict::shadowed ? 1 : 0;
-      wrong += (v == Verdict::shadowed) != tracer.occluded(tracer.shadow_ray(p, light)) ? 1 : 0;
+      shadowed += v == PointVisibility::shadowed ? 1 : 0;
+      wrong += (v == PointVisibility::shadowed) != tracer.occluded(tracer.shadow_ray(p, light)) ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0) << shape.name;
-    EXPECT_LE(unsure, asked / 500) << shape.name << " of " << asked;
+    EXPECT_LE(ambiguous, asked / 500) << shape.name << " of " << asked;
     EXPECT_GT(shadowed, 20) << shape.name;
     EXPECT_GT(asked, 500) << shape.name;
   }
@@ -338,9 +338,9 @@ TEST(Solids, FramesShadowAsSingleRaysDo) {
       for (std::size_t i = 0; i < frame.receiver.data.size(); ++i) {
         const SurfacePoint& p = frame.receiver.data[i];
         if (p.primitive == no_id || light_cannot_reach(light, p.position, p.normal)) continue;
-        const Verdict truth = tracer.light_verdict(p, light);
-        dark += truth == Verdict::shadowed ? 1 : 0;
-        wrong += frame.lights[l].verdict.data[i] != truth ? 1 : 0;
+        const PointVisibility truth = tracer.centre_visibility(p, light);
+        dark += truth == PointVisibility::shadowed ? 1 : 0;
+        wrong += frame.lights[l].centre.data[i] != truth ? 1 : 0;
       }
       EXPECT_EQ(wrong, 0) << shape.name << ", light " << l;
       EXPECT_GT(dark, 20) << shape.name << ", light " << l;

@@ -169,7 +169,7 @@ TEST(TwoLevel, EqualInstancesAtOnePlaceGiveTheLowestId) {
   EXPECT_GT(c.hits, 1000u);
 }
 
-// With masks, shapes and lights, at every precision: the whole picture and every verdict.
+// With masks, shapes and lights, at every precision: the whole picture and every shadow.
 TEST(TwoLevel, PicturesAndVerdictsAreThoseOfBruteForce) {
   Random random(71);
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
@@ -196,7 +196,7 @@ TEST(TwoLevel, PicturesAndVerdictsAreThoseOfBruteForce) {
     const RayTracedFrame truth = frame(Accel::brute), other = frame(Accel::two_level);
     EXPECT_EQ(other.color.data, truth.color.data) << precision_name(precision);
     for (std::size_t l = 0; l < lights.size(); ++l)
-      EXPECT_EQ(other.lights[l].verdict.data, truth.lights[l].verdict.data) << precision_name(precision);
+      EXPECT_EQ(other.lights[l].centre.data, truth.lights[l].centre.data) << precision_name(precision);
   }
 }
 
@@ -217,7 +217,8 @@ TEST(TwoLevel, BuiltInScenes) {
         if (!hit) continue;
         const SurfacePoint point = brute.surface_point(rays.back(), *hit);
         for (const Light& light : scene->lights) {
-          EXPECT_EQ(tracer.light_verdict(point, light), brute.light_verdict(point, light)) << builtin.name;
+          EXPECT_EQ(tracer.centre_visibility(point, light), brute.centre_visibility(point, light))
+              << builtin.name;
           rays.push_back(brute.shadow_ray(point, light));
         }
       }

@@ -70,7 +70,7 @@ TEST(Frame, ThePictureAloneIsThatOfTheFrame) {
       EXPECT_EQ(alone.rays.reflection, whole.rays.reflection);
       for (std::size_t i = 0; i < traced.size(); ++i) {
         if (has_size(lights[i])) continue;
-        EXPECT_EQ(alone.lights[i].verdict.data, whole.lights[i].verdict.data);
+        EXPECT_EQ(alone.lights[i].centre.data, whole.lights[i].centre.data);
         EXPECT_EQ(alone.lights[i].rays, whole.lights[i].rays);
       }
     }

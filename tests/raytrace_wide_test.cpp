@@ -1,6 +1,6 @@
 // The wide tree of single rays against brute force in double, to the last bit, for every instruction set that
-// this machine has: rays that a filter of floats or a box may lose, scenes that strain its bounds, verdicts
-// of points in doubt. And that nobody pays for it who casts no such rays.
+// this machine has: rays that a filter of floats or a box may lose, scenes that strain its bounds, visibility
+// of ambiguous points. And that nobody pays for it who casts no such rays.
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -279,7 +279,7 @@ TEST(Wide, ShapesPlanesAndMasks) {
   expect_same(w.world(), hard_rays(w.world(), 4000, 5.0, 15), 3000, Precision::exact);
 }
 
-void expect_same_verdicts(Scene scene, std::size_t least_open) {
+void expect_same_visibility(Scene scene, std::size_t least_open) {
   scene.lights = {test::point_light(Vec3(2.0, 6.0, 1.0)), test::sun(Vec3(0.0, -1.0, 0.0))};
   const TestWorld w(std::move(scene));
   for (const Precision precision : {Precision::robust, Precision::exact}) {
@@ -293,9 +293,9 @@ void expect_same_verdicts(Scene scene, std::size_t least_open) {
         if (!hit || !std::isfinite(hit->t)) return;
         const SurfacePoint point = brute.surface_point(rays[i], *hit);
         for (const Light& light : w.scene().lights) {
-          const Verdict truth = brute.light_verdict(point, light);
-          open += truth == Verdict::uncertain ? 1 : 0;
-          wrong += tracer.light_verdict(point, light) == truth ? 0 : 1;
+          const PointVisibility truth = brute.centre_visibility(point, light);
+          open += truth == PointVisibility::uncertain ? 1 : 0;
+          wrong += tracer.centre_visibility(point, light) == truth ? 0 : 1;
           wrong += same(tracer.nearest_occluder(point, light), brute.nearest_occluder(point, light)) ? 0 : 1;
         }
       });
@@ -310,23 +310,23 @@ void expect_same_verdicts(Scene scene, std::size_t least_open) {
 TEST(Wide, VerdictsAndNearestOccludersWithMasks) {
   Scene scene = mixed_scene();
   scene.materials[1].alpha = 1.0f;
-  expect_same_verdicts(std::move(scene), 10);
+  expect_same_visibility(std::move(scene), 10);
 }
 
 TEST(Wide, VerdictsAndNearestOccludersWithPlanes) {
   Scene scene = mixed_scene();
   scene.materials[1].alpha_mode = AlphaMode::opaque;
-  expect_same_verdicts(std::move(scene), 10);
+  expect_same_visibility(std::move(scene), 10);
 }
 
 TEST(Wide, VerdictsAndNearestOccluders) {
   Scene scene = mixed_scene();
   scene.materials[1].alpha_mode = AlphaMode::opaque;
   scene.shapes.erase(scene.shapes.begin(), scene.shapes.begin() + 2);
-  expect_same_verdicts(std::move(scene), 10);
-  expect_same_verdicts(test::scene_of({test::uv_sphere(Vec3(0.0), 1.5, 16, 24, 0.1, 29),
-                                       test::quad(Vec3(-3, -2, -3), Vec3(0, 0, 6), Vec3(6, 0, 0))}),
-                       0);
+  expect_same_visibility(std::move(scene), 10);
+  expect_same_visibility(test::scene_of({test::uv_sphere(Vec3(0.0), 1.5, 16, 24, 0.1, 29),
+                                         test::quad(Vec3(-3, -2, -3), Vec3(0, 0, 6), Vec3(6, 0, 0))}),
+                         0);
 }
 
 /// The textbook's test walks the same tree, and its answers, wrong ones included, are those of its walk

@@ -130,7 +130,7 @@ TEST_P(EveryBuiltinScene, ComesBackAsItWas) {
   const auto truth = traced(before, world), truth_again = traced(after, again);
   ASSERT_EQ(truth.lights.size(), truth_again.lights.size());
   for (std::size_t l = 0; l < truth.lights.size(); ++l) {
-    EXPECT_EQ(truth.lights[l].verdict.data, truth_again.lights[l].verdict.data);
+    EXPECT_EQ(truth.lights[l].centre.data, truth_again.lights[l].centre.data);
     EXPECT_EQ(truth.lights[l].visibility.data, truth_again.lights[l].visibility.data);
   }
 }

@@ -18,8 +18,8 @@ namespace {
 using hybrid::Decision;
 using hybrid::LightCache;
 using hybrid::Sheets;
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
-using raytrace::Verdict;
 
 constexpr int map_size = 1024;  // texels, as the goals have it
 
@@ -50,7 +50,7 @@ class HybridBench {
       if (auto ok = run_once(*view, run % 2 == 0, now); !ok) return fail(ok.error());
       if (run > 0) times.append(now);
     }
-    static_cast<void>(trace_hard_shadows(tracer_, *cache_, receivers_, verdicts_, &decisions_));
+    static_cast<void>(trace_hard_shadows(tracer_, *cache_, receivers_, visibility_, &decisions_));
     return result(times);
   }
 
@@ -67,7 +67,7 @@ class HybridBench {
   /// Who comes first finds other things in the caches: so the two take turns. Both free what they made.
   Expected<void> run_once(const LightView& view, bool pure_first, Runs& now) {
     const auto trace = [&] {
-      counts_ = trace_hard_shadows(tracer_, *cache_, receivers_, verdicts_, nullptr);
+      counts_ = trace_hard_shadows(tracer_, *cache_, receivers_, visibility_, nullptr);
     };
     const auto renew = [&](Sheets when) {
       cache_.emplace(tracer_, topology_, light_, view, when);
@@ -92,7 +92,7 @@ class HybridBench {
     if (!packets_apply(tracer_)) {
       for_each_pixel(raytrace::TileGrid{input_.size}, [&](int x, int y, std::size_t) {
         const SurfacePoint& p = receivers_.points.at(x, y);
-        pure_.at(x, y) = p.primitive == no_id ? Verdict::lit : tracer_.light_verdict(p, light_);
+        pure_.at(x, y) = p.primitive == no_id ? PointVisibility::lit : tracer_.centre_visibility(p, light_);
       });
       return;
     }
@@ -109,8 +109,8 @@ class HybridBench {
   std::size_t differences() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < pure_.data.size(); ++i)
-      count += receivers_.points.data[i].primitive != no_id && pure_.data[i] != Verdict::uncertain &&
-                       pure_.data[i] != verdicts_.data[i]
+      count += receivers_.points.data[i].primitive != no_id && pure_.data[i] != PointVisibility::uncertain &&
+                       pure_.data[i] != visibility_.data[i]
                    ? 1
                    : 0;
     return count;
@@ -181,7 +181,7 @@ class HybridBench {
   raytrace::Tracer tracer_;
   raytrace::Topology topology_;
   hybrid::Receivers receivers_;
-  Image<Verdict> pure_, verdicts_;
+  Image<PointVisibility> pure_, visibility_;
   Image<Decision> decisions_;
   std::optional<LightCache> cache_;
   hybrid::ShadowCounts counts_;

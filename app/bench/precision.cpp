@@ -1,6 +1,6 @@
 // What accuracy costs: the three precisions side by side. Speed is that of the scene's own primary and hard
 // shadow rays, as a picture is rendered (in packets where the precision has them) and one ray at a time,
-// which compares the arithmetic alone. Wrong verdicts are counted on adversarial rays, aimed at corners and
+// which compares the arithmetic alone. Wrong shadows are counted on adversarial rays, aimed at corners and
 // edges, against rational numbers. A single triangle is wrong where the ray passes its edges by more than rounding: nearer
 // than that robust decides as rounding falls, but alike for both triangles of an edge, so that none slips between them.
 #include <fmt/format.h>
@@ -17,9 +17,9 @@
 namespace gnomon::app {
 namespace {
 
+using raytrace::PointVisibility;
 using raytrace::Precision;
 using raytrace::Tracer;
-using raytrace::Verdict;
 
 struct Speed {
   double primary = 0.0, shadow = 0.0;  ///< Mrays/s
@@ -95,7 +95,8 @@ Speed speed_single(const BenchInput& input, const Tracer& tracer) {
   const double ms = time_pixels(input, [&](int x, int y) {
     const auto& point = frame.receiver.at(x, y);
     if (point.primitive == no_id || light_cannot_reach(light, point.position, point.normal)) return;
-    if (tracer.light_verdict(point, light) == Verdict::lit) found.fetch_add(1, std::memory_order_relaxed);
+    if (tracer.centre_visibility(point, light) == PointVisibility::lit)
+      found.fetch_add(1, std::memory_order_relaxed);
   });
   speed.shadow = mrays_per_second(frame.lights[0].rays, ms);
   return speed;
@@ -140,12 +141,12 @@ Wrong wrong_shadow(Precision precision, std::uint64_t rays, std::uint64_t seed) 
   return count_wrong(rays, seed, [&](verify::Random& random, Wrong& wrong) {
     const auto point = shadows.receiver(random);
     if (!point) return;
-    const Verdict verdict = tracer.light_verdict(*point, shadows.light());
+    const PointVisibility found = tracer.centre_visibility(*point, shadows.light());
     ++wrong.tried;
-    if (verdict == Verdict::uncertain)
+    if (found == PointVisibility::uncertain)
       ++wrong.open;
     else
-      wrong.wrong += (verdict == Verdict::shadowed) != shadows.shadowed(*point) ? 1 : 0;
+      wrong.wrong += (found == PointVisibility::shadowed) != shadows.shadowed(*point) ? 1 : 0;
   });
 }
 

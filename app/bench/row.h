@@ -59,7 +59,7 @@ Expected<BenchResult> bench_structures(const BenchInput& input);
 /// light.
 Expected<BenchResult> bench_hybrid(const BenchInput& input);
 
-/// What accuracy costs: for each precision the rays per second on the scene, and the wrong verdicts among
+/// What accuracy costs: for each precision the rays per second on the scene, and the wrong shadows among
 /// `rays` adversarial ones of each kind, judged by rational numbers.
 BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::uint64_t seed);
 

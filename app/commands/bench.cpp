@@ -162,7 +162,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
                              "ray and speed of the acceleration structures, or what each precision costs.");
   app->footer(
       "gnomon bench                           every figure, against Embree 3 (built with the tests)\n"
-      "gnomon bench --precision bunny.ply     speed and wrong verdicts of fast, robust and exact\n"
+      "gnomon bench --precision bunny.ply     speed and wrong shadows of fast, robust and exact\n"
       "gnomon bench --techniques fence,teapot -o table.md   every shadow technique on the same pixels\n"
       "gnomon bench --tune fence,teapot       the tuner's answers against full grids\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
@@ -172,10 +172,9 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   add_scene(*app, command->scene);
   app->get_option("SCENE")->required(false);
   add_accel_list(*app, command->accels);
-  app->add_flag(
-      "--precision", command->precision,
-      "fast, robust and exact side by side: rays per second, and wrong verdicts on adversarial rays "
-      "[default off]");
+  app->add_flag("--precision", command->precision,
+                "fast, robust and exact side by side: rays per second, and wrong shadows on adversarial rays "
+                "[default off]");
   add_technique_options(*app, command->techniques);
   add_tune_options(*app, command->tune);
   add_ray_count(*app, command->rays);

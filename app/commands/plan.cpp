@@ -169,7 +169,7 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
          "\n";
 }
 
-std::string_view verdict(const EffectEntry& entry) {
+std::string_view state_words(const EffectEntry& entry) {
   if (entry.simulated) return "simulated";
   return entry.called_for ? "not yet" : "off";
 }
@@ -223,8 +223,8 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
     std::string why = one_line(entry.reason);
     if (entry.effect == Effect::soft_shadow && forecast.rays.soft_shadow_asked > 0)
       why += fmt::format("; {} samples asked for", short_count(forecast.rays.soft_shadow_asked));
-    text += plan_row(in_words(effect_name(entry.effect)), verdict(entry), rays > 0 ? short_count(rays) : "-",
-                     why);
+    text += plan_row(in_words(effect_name(entry.effect)), state_words(entry),
+                     rays > 0 ? short_count(rays) : "-", why);
   }
   text += plan_row("all", "", short_count(total_rays(forecast.rays)),
                    fmt::format("{} of them from the eye; gnomon raytrace at {}x{}, {}",

@@ -22,14 +22,14 @@ SuiteMask suite_mask(const Scene& scene, ImageSize size) {
   const std::uint32_t light = 0;
   const auto frame =
       raytrace::trace_frame(tracer, plan_effects(scene), scene.camera, std::span(&light, 1), options);
-  const auto& verdicts = frame.lights.front().verdict.data;
+  const auto& centre = frame.lights.front().centre.data;
   SuiteMask mask{std::vector<float>(size.pixels(), 0.0f), std::vector<float>(size.pixels(), 0.0f)};
   for (std::size_t i = 0; i < size.pixels(); ++i) {
     const raytrace::SurfacePoint& point = frame.receiver.data[i];
-    const bool asked = point.primitive != no_id && verdicts[i] != raytrace::Verdict::uncertain &&
+    const bool asked = point.primitive != no_id && centre[i] != raytrace::PointVisibility::uncertain &&
                        !light_cannot_reach(scene.lights.front(), point.position, point.normal);
     mask.asked[i] = asked ? 1.0f : 0.0f;
-    mask.lit[i] = asked && verdicts[i] == raytrace::Verdict::lit ? 1.0f : 0.0f;
+    mask.lit[i] = asked && centre[i] == raytrace::PointVisibility::lit ? 1.0f : 0.0f;
   }
   return mask;
 }

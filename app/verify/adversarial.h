@@ -15,7 +15,7 @@ struct AimedTriangle {
 AimedTriangle aimed_triangle(Random& random);
 /// Whether the tracer's own test of a single triangle says that the ray meets it.
 bool kernel_meets(raytrace::Precision precision, const AimedTriangle& aimed);
-/// By how many roundings of its coordinates (doubles) the line passes the edge in doubt.
+/// By how many roundings of its coordinates (doubles) the line passes the edge in question.
 double roundings_from_edge(const AimedTriangle& aimed, const RationalTriangle& truth);
 /// What `robust` may take for either side of an edge: it promises closed meshes, not exact triangles.
 inline constexpr double roundings_of_an_edge = 64.0;

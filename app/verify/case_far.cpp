@@ -42,10 +42,11 @@ void far_from_origin(Run& run) {
   run.sample_each("receivers", pixels, [&](std::uint64_t i, Tally& tally) {
     tally.check(a.receiver.data[i].primitive == b.receiver.data[i].primitive);
   });
-  run.sample_each("verdicts", 2 * pixels, [&](std::uint64_t i, Tally& tally) {
-    const auto p = a.lights[i % 2].verdict.data[i / 2], q = b.lights[i % 2].verdict.data[i / 2];
-    // Far away the points are rounded more coarsely: a verdict may become uncertain, never its opposite.
-    tally.check(p == q || p == raytrace::Verdict::uncertain || q == raytrace::Verdict::uncertain);
+  run.sample_each("shadows", 2 * pixels, [&](std::uint64_t i, Tally& tally) {
+    const auto p = a.lights[i % 2].centre.data[i / 2], q = b.lights[i % 2].centre.data[i / 2];
+    // Far away the points are rounded more coarsely: a visibility may become uncertain, never its opposite.
+    tally.check(p == q || p == raytrace::PointVisibility::uncertain ||
+                q == raytrace::PointVisibility::uncertain);
   });
 }
 

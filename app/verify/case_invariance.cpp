@@ -61,7 +61,7 @@ void scale_invariance(Run& run) {
   }
 }
 
-// izb promises the verdicts of which the robust tracer is certain, and no others: so that precision is asked
+// izb promises the shadows of which the robust tracer is certain, and no others: so that precision is asked
 // here whatever the table is made for.
 void coplanar_lights(Run& run) {
   raytrace::RaytraceOptions rays;
@@ -74,7 +74,7 @@ void coplanar_lights(Run& run) {
   std::vector<Agreement> found;
   for (std::uint64_t i = 0; i < scenes; ++i) {
     DrawnWorld drawn(random_scene(random));
-    if (!drawn.ready()) return skip_without_context(run, drawn, "izb against certain verdicts");
+    if (!drawn.ready()) return skip_without_context(run, drawn, "izb against certain shadows");
     const std::array<std::uint32_t, 1> first{0};
     const raytrace::Tracer tracer(drawn.world(), raytrace::Accel::bvh);
     const auto traced = trace_frame(tracer, plan_effects(drawn.scene()), drawn.scene().camera, first, rays);
@@ -82,7 +82,7 @@ void coplanar_lights(Run& run) {
     found.push_back(frame ? compare_with_rays(drawn.scene(), *frame, traced) : Agreement{1, 1});
   }
   run.sample_each(
-      "izb against certain verdicts, pixels of " + std::to_string(scenes) + " scenes", found.size(),
+      "izb against certain shadows, pixels of " + std::to_string(scenes) + " scenes", found.size(),
       [&](std::uint64_t i, Tally& tally) { tally.tried += found[i].asked, tally.wrong += found[i].wrong; });
 }
 

@@ -10,9 +10,9 @@
 namespace gnomon::verify {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
 using raytrace::Tracer;
-using raytrace::Verdict;
 
 void light_in_plane(Run& run) {
   const SmallWorld w(quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0}));
@@ -39,7 +39,7 @@ void light_at_vertex(Run& run) {
     const Vec3 foot(r.uniform(1.5, 4.0), 0.0, r.uniform(1.5, 4.0));
     for (const Tracer* tracer : {&bvh, &brute}) {
       const SurfacePoint p = seen(*tracer, foot + Vec3(0.0, 0.5, 0.0), foot);
-      tally.check(tracer->light_verdict(p, light) == Verdict::lit);
+      tally.check(tracer->centre_visibility(p, light) == PointVisibility::lit);
     }
   });
 }
@@ -84,7 +84,8 @@ void coplanar_duplicates(Run& run) {
   run.sample("twins lit", run.rays(0.1), [&](Random& r, Tally& tally) {
     const Vec3 target = corner + r.uniform(0.05, 0.95) * a + r.uniform(0.05, 0.95) * b;
     const SurfacePoint p = seen(tracer, target + Vec3(0.0, 3.0, 0.0), target);
-    tally.check(tracer.light_verdict(p, point_light({r.uniform(-3.0, 3.0), 4.0, 0.0})) == Verdict::lit);
+    tally.check(tracer.centre_visibility(p, point_light({r.uniform(-3.0, 3.0), 4.0, 0.0})) ==
+                PointVisibility::lit);
   });
 }
 
@@ -102,8 +103,8 @@ void contact_gap(Run& run) {
           const double z = r.uniform(-0.9, 0.9);
           const auto shadowed = [&](double x) {
             const Vec3 foot(x, 0.0, z);
-            return tracer.light_verdict(seen(tracer, foot + Vec3(0.0, eye_height, 0.0), foot), light) ==
-                   Verdict::shadowed;
+            return tracer.centre_visibility(seen(tracer, foot + Vec3(0.0, eye_height, 0.0), foot), light) ==
+                   PointVisibility::shadowed;
           };
           tally.check(shadowed(edge + 0.25) && !shadowed(2.0 + 1e-9) && !shadowed(-1.0 - 1e-9));
           // The first surely shadowed place, by bisection.
@@ -130,7 +131,8 @@ void smooth_normals(Run& run) {
     const double facing = static_cast<double>(dot(n, Quad3(light.position) - Quad3(corners[0])));
     if (std::abs(facing) < 1e-12) return;  // the light in the facet's plane, but for the point's rounding
     const bool reached = !light_cannot_reach(light, p.position, p.normal);
-    tally.check(reached == (facing > 0.0) && (!reached || tracer.light_verdict(p, light) == Verdict::lit));
+    tally.check(reached == (facing > 0.0) &&
+                (!reached || tracer.centre_visibility(p, light) == PointVisibility::lit));
   });
 }
 

@@ -33,7 +33,7 @@ void non_finite_radiance(Run& run) {
     const Vec3f c = frame.color.data[i];
     const auto& point = frame.receiver.data[i];
     const bool too_bright = point.primitive != no_id && w.world().object_of(point.primitive) == 0 &&
-                            frame.lights[0].verdict.data[i] == raytrace::Verdict::lit;
+                            frame.lights[0].centre.data[i] == raytrace::PointVisibility::lit;
     infinite_floor += too_bright ? 1 : 0;
     // Without the check these would be infinite: the textbook's picture.
     if (run.is_textbook()) return tally.check(!too_bright);

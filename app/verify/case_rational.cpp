@@ -1,4 +1,4 @@
-// Single triangles and shadow verdicts against rational numbers, on rays aimed at corners and edges.
+// Single triangles and shadows against rational numbers, on rays aimed at corners and edges.
 #include "app/verify/adversarial.h"
 #include "app/verify/cases.h"
 #include "app/verify/rational.h"
@@ -10,8 +10,8 @@ namespace gnomon::verify {
 
 namespace {
 
+using raytrace::PointVisibility;
 using raytrace::Precision;
-using raytrace::Verdict;
 
 /// One triangle through the kernels' own test.
 template <class Arithmetic>
@@ -77,16 +77,16 @@ void triangles_by_rationals(Run& run) {
       "roundings from the edge", bound);
 }
 
-void verdicts_by_rationals(Run& run) {
+void shadows_by_rationals(Run& run) {
   const AdversarialShadows shadows(run.seed());
   const raytrace::Tracer tracer = run.tracer(shadows.world());
   const bool exact = run.precision() == Precision::exact;
-  run.sample("verdicts against rationals", run.rays(0.1, 10'000'000), [&](Random& r, Tally& tally) {
+  run.sample("shadows against rationals", run.rays(0.1, 10'000'000), [&](Random& r, Tally& tally) {
     const auto point = shadows.receiver(r);
     if (!point) return;
-    const Verdict verdict = tracer.light_verdict(*point, shadows.light());
-    const Verdict truth = shadows.shadowed(*point) ? Verdict::shadowed : Verdict::lit;
-    tally.check(verdict == truth || (!exact && verdict == Verdict::uncertain));
+    const PointVisibility visibility = tracer.centre_visibility(*point, shadows.light());
+    const PointVisibility truth = shadows.shadowed(*point) ? PointVisibility::shadowed : PointVisibility::lit;
+    tally.check(visibility == truth || (!exact && visibility == PointVisibility::uncertain));
   });
 }
 

@@ -34,7 +34,7 @@ void shared_edges(Run& run) {
     }
   }
   triangles_by_rationals(run);
-  verdicts_by_rationals(run);
+  shadows_by_rationals(run);
 }
 
 void light_inside(Run& run) {
@@ -51,7 +51,7 @@ void light_inside(Run& run) {
     const Vec3 d = world.position(r.below(world.vertex_count())) - light.position;
     if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
     const auto point = seen(tracer, foot + Vec3(0.0, 0.01, 0.0), foot);
-    tally.check(tracer.light_verdict(point, light) != raytrace::Verdict::lit);
+    tally.check(tracer.centre_visibility(point, light) != raytrace::PointVisibility::lit);
   });
 }
 

@@ -1,5 +1,5 @@
 // Lights that shrink from a radius of 1 to nothing: what is seen of them must approach the hard light's
-// verdict, closer with every step, and be it in the end.
+// visibility, closer with every step, and be it in the end.
 #include <fmt/format.h>
 
 #include "app/verify/cases.h"
@@ -57,12 +57,12 @@ void shrinking_lights(Run& run) {
     for (std::size_t s = 0; s < sizes.size(); ++s)
       for (std::size_t i = 0; i < points.size(); ++i) {
         light.extent = kind.extent(sizes[s]);
-        const raytrace::Verdict hard = tracer.light_verdict(points[i], light);
+        const raytrace::PointVisibility hard = tracer.centre_visibility(points[i], light);
         double share = light_visibility(tracer, points[i], light, light_samples, i).share;
         if (run.is_textbook()) share = naive_share(share, sizes[s]);
         shares_valid = shares_valid && share >= 0.0 && share <= 1.0;
-        if (hard != raytrace::Verdict::uncertain)
-          difference[s] += std::abs(share - (hard == raytrace::Verdict::lit ? 1.0 : 0.0));
+        if (hard != raytrace::PointVisibility::uncertain)
+          difference[s] += std::abs(share - (hard == raytrace::PointVisibility::lit ? 1.0 : 0.0));
       }
     run.sample_each(kind.name, sizes.size(), [&](std::uint64_t s, Tally& tally) {
       // NaN fails every comparison.

@@ -37,7 +37,7 @@ void critical_angle(Run& run);  // case_glass.cpp
 void invisible_glass(Run& run);
 void nested_glass(Run& run);            // case_nested_glass.cpp, a row of case 30
 void triangles_by_rationals(Run& run);  // case_rational.cpp, rows of case 1
-void verdicts_by_rationals(Run& run);
+void shadows_by_rationals(Run& run);
 void depth_range(Run& run);  // case_map_depth.cpp
 void extreme_bias(Run& run);
 void behind_light(Run& run);  // case_map_places.cpp

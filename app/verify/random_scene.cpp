@@ -105,12 +105,14 @@ Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn
   Agreement out;
   for (std::size_t i = 0; i < traced.receiver.data.size(); ++i) {
     const raytrace::SurfacePoint& p = traced.receiver.data[i];
-    const raytrace::Verdict truth = traced.lights[0].verdict.data[i];
+    const raytrace::PointVisibility truth = traced.lights[0].centre.data[i];
     if (p.primitive == no_id || p.primitive != drawn.primitive.data[i]) continue;
-    if (truth == raytrace::Verdict::uncertain || light_cannot_reach(scene.lights[0], p.position, p.normal))
+    if (truth == raytrace::PointVisibility::uncertain ||
+        light_cannot_reach(scene.lights[0], p.position, p.normal))
       continue;
     ++out.asked;
-    out.wrong += (drawn.lights[0].visibility.data[i] > 0.5f) == (truth == raytrace::Verdict::lit) ? 0 : 1;
+    out.wrong +=
+        (drawn.lights[0].visibility.data[i] > 0.5f) == (truth == raytrace::PointVisibility::lit) ? 0 : 1;
   }
   return out;
 }

@@ -14,7 +14,7 @@ Scene random_scene(Random& random);
 
 struct Agreement {
   std::uint64_t asked =
-      0;  ///< pixels that show the same primitive, face the light and have a certain verdict
+      0;  ///< pixels that show the same primitive, face the light and are surely lit or surely shadowed
   std::uint64_t wrong = 0;  ///< of these, drawn otherwise than the rays say
 };
 
@@ -23,7 +23,7 @@ struct Agreement {
 /// in floats, too.
 Scene invariant_scene(LightType type, Random random);
 
-/// The first light's drawn visibility against the ray tracer's verdicts.
+/// The first light's drawn visibility against the ray tracer's.
 Agreement compare_with_rays(const Scene& scene, const raster::RasterFrame& drawn,
                             const raytrace::RayTracedFrame& traced);
 

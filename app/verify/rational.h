@@ -28,7 +28,7 @@ std::optional<bool> rationally_shadowed(const World& world, const raytrace::Surf
                                         const Light& light);
 
 /// Whether any triangle of the world but the point's own meets the open segment from the point, the mean of
-/// its triangle's corners with its weights, to `light`. Doubles decide first where they are far from doubt.
+/// its triangle's corners with its weights, to `light`. Doubles decide first where they are far from a tie.
 bool rationally_shadowed(const World& world, const raytrace::SurfacePoint& point, const Vec3& light);
 
 }  // namespace gnomon::verify

@@ -151,8 +151,9 @@ void find_primitives(const FrameInput& in, const raster::Bias& bias, bool all, r
   const auto mark = [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
-    const float exact = truth.is_soft() ? truth.visibility.data[i]
-                                        : (truth.verdict.data[i] == raytrace::Verdict::lit ? 1.0f : 0.0f);
+    const float exact = truth.is_soft()
+                            ? truth.visibility.data[i]
+                            : (truth.centre.data[i] == raytrace::PointVisibility::lit ? 1.0f : 0.0f);
     if (!all && !(std::abs(record.visibility.data[i] - exact) > 0.5f)) return;
     raytrace::TexelKey key;
     const auto set = [&](raytrace::TexelKey k) {

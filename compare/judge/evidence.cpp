@@ -128,13 +128,13 @@ void Gatherer::visibility(const Shown& shown, Tallies& out) const {
   const bool reached = !light_cannot_reach(light_, point.position, point.normal);
   // A renderer that has the light's direction wrong draws what then faces away dark.
   if (!reached && !suspect_.light_turned) return;
-  const raytrace::Verdict truth =
-      reached ? in_.tracer.light_verdict(point, light_) : raytrace::Verdict::shadowed;
-  if (truth == raytrace::Verdict::uncertain) return;
+  const raytrace::PointVisibility truth =
+      reached ? in_.tracer.centre_visibility(point, light_) : raytrace::PointVisibility::shadowed;
+  if (truth == raytrace::PointVisibility::uncertain) return;
   const bool lit = (in_.pictures.visibility.data[shown.shadow] > 0.5f) != suspect_.inverted;
-  Tally& tally = truth == raytrace::Verdict::lit ? out.lit : out.shadowed;
+  Tally& tally = truth == raytrace::PointVisibility::lit ? out.lit : out.shadowed;
   ++tally.count;
-  tally.agree += lit == (truth == raytrace::Verdict::lit) ? 1 : 0;
+  tally.agree += lit == (truth == raytrace::PointVisibility::lit) ? 1 : 0;
 }
 
 void Gatherer::grid(std::uint32_t pixel, Tallies& out) const {

@@ -9,8 +9,8 @@
 namespace gnomon::compare {
 namespace {
 
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
-using raytrace::Verdict;
 
 /// How far from the scene's surface a capture's place may lie: pixels across the sight line, and shares of
 /// the scene's diagonal, for surfaces that were cut into other triangles.
@@ -49,13 +49,13 @@ struct Retracer {
     const SurfacePoint& point = frame.receiver.data[i];
     const bool surface = point.primitive != no_id;
     const bool reached = surface && !light_cannot_reach(light, point.position, point.normal);
-    truth.verdict.data[i] = !surface  ? Verdict::lit
-                            : reached ? tracer.light_verdict(point, light)
-                                      : Verdict::shadowed;
+    truth.centre.data[i] = !surface  ? PointVisibility::lit
+                           : reached ? tracer.centre_visibility(point, light)
+                                     : PointVisibility::shadowed;
     if (!truth.is_soft()) return;
     const auto seen = reached ? raytrace::light_visibility(tracer, point, light, truth.samples,
                                                            raytrace::pixel_key(options.seed, i, truth.light))
-                              : raytrace::Visibility{surface ? 0.0 : 1.0, 0.0, 0};
+                              : raytrace::SampledVisibility{surface ? 0.0 : 1.0, 0.0, 0};
     truth.visibility.data[i] = static_cast<float>(seen.share);
     truth.standard_error.data[i] = static_cast<float>(seen.standard_error);
   }

@@ -32,7 +32,7 @@ class="n">pixels</th><th scope="col" class="n">share</th></tr></thead><tbody>
       count_row(b, surely_lit_colour, "surely lit", "surely_lit", e.surely_lit, e.receivers),
       count_row(b, surely_shadowed_colour, "surely in shadow", "surely_shadowed", e.surely_shadowed,
                 e.receivers),
-      fmt::format(R"(<tr><td>{}</td><th scope="row">unsure: traced</th><td class="n">{}</td><td
+      fmt::format(R"(<tr><td>{}</td><th scope="row">ambiguous: traced</th><td class="n">{}</td><td
 class="n">{}</td></tr>
 )",
                   swatch(traced_colour, ""), grouped(e.receivers - e.surely_lit - e.surely_shadowed),

@@ -97,7 +97,7 @@ std::string cost_charts(const std::vector<CellSummary>& cells, const std::vector
            "a smaller error, by more than the times' spread. ";
     if (rays.empty())
       out += fmt::format(
-          "The diamond is the ray tracer, whose verdicts are the truth here; {} of its time are its shadows.",
+          "The diamond is the ray tracer, whose shadows are the truth here; {} of its time are its shadows.",
           milliseconds(cells.front().exact_shadow_ms));
     else
       out += "The diamonds are the ray tracer itself.";

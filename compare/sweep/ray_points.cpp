@@ -14,10 +14,10 @@ namespace gnomon::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using raytrace::PointVisibility;
 using raytrace::Precision;
 using raytrace::RayTracedFrame;
 using raytrace::Tracer;
-using raytrace::Verdict;
 
 constexpr std::size_t counted_pixels = 20000;  // whose rays are traced once more for what they test
 
@@ -87,9 +87,9 @@ class Measurer {
     for (std::size_t p = 0; p < reference_.receiver.data.size(); ++p) {
       const auto &seen = frame.receiver.data[p], &right = reference_.receiver.data[p];
       if (right.primitive == no_id || light_cannot_reach(light, right.position, right.normal)) continue;
-      if (truth.verdict.data[p] == Verdict::uncertain) continue;
+      if (truth.centre.data[p] == PointVisibility::uncertain) continue;
       ++out.compared;
-      if (found.verdict.data[p] == Verdict::uncertain) {
+      if (found.centre.data[p] == PointVisibility::uncertain) {
         ++out.uncertain;
         continue;
       }
@@ -102,7 +102,7 @@ class Measurer {
 
   static double visibility(const raytrace::LightTruth& light, std::size_t pixel) {
     if (!light.visibility.data.empty()) return double{light.visibility.data[pixel]};
-    return light.verdict.data[pixel] == Verdict::lit ? 1.0 : 0.0;
+    return light.centre.data[pixel] == PointVisibility::lit ? 1.0 : 0.0;
   }
 
   void count_tests(const Tracer& tracer, const RayTracedFrame& frame, RayPoint& out) const {

@@ -14,7 +14,8 @@ namespace gnomon::compare {
 struct RayPoint {
   std::string name;            ///< "robust", "robust, 16 samples"
   std::uint64_t compared = 0;  ///< pixels that show a surface which a light can reach, all lights
-  /// Of another verdict, receiver, or (lights with size) visibility by more than one half; and in open doubt.
+  /// Lit for shadowed or the reverse, another receiver, or (lights with size) visibility off by more than one
+  /// half; and ambiguous.
   std::uint64_t wrong = 0, uncertain = 0;
   double mean_absolute = 0.0;  ///< of the visibilities' differences
   Times times;                 ///< camera and shadow rays, ms

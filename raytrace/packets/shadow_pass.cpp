@@ -17,13 +17,14 @@ namespace {
 /// Below this many rays a block's traversal costs more than single rays.
 constexpr std::uint64_t few_rays = 12;
 
-/// Four pixels' verdicts from four bits: a byte of 1, lit, for every bit that is not set.
+/// Four pixels' visibility from four bits: a byte of 1, lit, for every bit that is not set.
 constexpr auto four_visibilities = [] {
-  static_assert(static_cast<int>(Verdict::shadowed) == 0 && static_cast<int>(Verdict::lit) == 1);
-  std::array<std::array<Verdict, 4>, 16> table{};
+  static_assert(static_cast<int>(PointVisibility::shadowed) == 0 &&
+                static_cast<int>(PointVisibility::lit) == 1);
+  std::array<std::array<PointVisibility, 4>, 16> table{};
   for (std::size_t dark = 0; dark < 16; ++dark)
     for (std::size_t i = 0; i < 4; ++i)
-      table[dark][i] = (dark >> i & 1) != 0 ? Verdict::shadowed : Verdict::lit;
+      table[dark][i] = (dark >> i & 1) != 0 ? PointVisibility::shadowed : PointVisibility::lit;
   return table;
 }();
 
@@ -35,7 +36,7 @@ std::uint64_t number_of(const LaneMask& bits) {
   return sum;
 }
 
-/// One tile on its way from receivers to verdicts.
+/// One tile on its way from receivers to visibility.
 struct Tile {
   TileRays rays;
   ShadowLanes lanes;
@@ -50,8 +51,8 @@ struct Tile {
 class ShadowPass {
  public:
   ShadowPass(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
-             Image<Verdict>& verdicts)
-      : receivers_(receivers), light_(light), asked_(asked), verdicts_(verdicts) {}
+             Image<PointVisibility>& visibility)
+      : receivers_(receivers), light_(light), asked_(asked), visibility_(visibility) {}
 
   std::uint64_t run(const std::stop_token& stop) {
     tbb::enumerable_thread_specific<Scratch> scratch;
@@ -123,7 +124,7 @@ class ShadowPass {
         if (point.primitive != no_id) any = true, bounds.grow(point.position);
       });
     }
-    if (!any && asked_.empty()) store_verdicts(rect, {}, verdicts_);
+    if (!any && asked_.empty()) store_visibility(rect, {}, visibility_);
     return any && tile.asked != LaneMask{};
   }
 
@@ -212,11 +213,11 @@ class ShadowPass {
       LaneMask dark;
       for (std::size_t p = 0; p < tile_packets; ++p)
         dark[p] = tile.shadows.shadowed[p] | tile.lanes.unreached[p];
-      store_verdicts(tile.rect, dark, verdicts_);
+      store_visibility(tile.rect, dark, visibility_);
     } else {
       for_each_place(tile.rect, tile.asked, [&](int x, int y, std::size_t lane) {
         const bool dark = (tile.shadows.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
-        verdicts_.at(x, y) = dark ? Verdict::shadowed : Verdict::lit;
+        visibility_.at(x, y) = dark ? PointVisibility::shadowed : PointVisibility::lit;
       });
     }
     decide_rest(frame, tile, points);
@@ -232,13 +233,14 @@ class ShadowPass {
       const SurfacePoint& point =
           points[static_cast<std::size_t>(tile_pixels * (y - tile.rect.y0) + x - tile.rect.x0)];
       const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
-      verdicts_.at(x, y) =
+      visibility_.at(x, y) =
           in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point);
     });
   }
 
-  Verdict full_visibility(const LightFrame& frame, const SurfacePoint& point) const {
-    return is_beyond_all(frame, point) ? Verdict::lit : receivers_.tracer.light_verdict(point, light_);
+  PointVisibility full_visibility(const LightFrame& frame, const SurfacePoint& point) const {
+    return is_beyond_all(frame, point) ? PointVisibility::lit
+                                       : receivers_.tracer.centre_visibility(point, light_);
   }
 
   /// The receiver lies on the only plane there is, and its ray beyond all that is finite: nothing shadows it.
@@ -248,46 +250,48 @@ class ShadowPass {
     return project_point(frame.setup, receiver.position, u, v) && !frame.limits->hold(u, v);
   }
 
-  Verdict visibility_among(const TileShadows& shadows, const SurfacePoint& point, std::size_t lane) const {
+  PointVisibility visibility_among(const TileShadows& shadows, const SurfacePoint& point,
+                                   std::size_t lane) const {
     std::array<std::uint32_t, TileShadows::most_ambiguous> leaves;
     std::size_t count = 0;
     for (std::size_t i = 0; i < shadows.ambiguous_count; ++i)
       if (shadows.ambiguous_hits[i].lane == lane) leaves[count++] = shadows.ambiguous_hits[i].leaf;
-    return receivers_.tracer.light_verdict_among(point, light_, {leaves.data(), count});
+    return receivers_.tracer.centre_visibility_among(point, light_, {leaves.data(), count});
   }
 
   const PictureReceivers& receivers_;
   const Light& light_;
   std::span<const LaneMask> asked_;
-  Image<Verdict>& verdicts_;
+  Image<PointVisibility>& visibility_;
 };
 
 }  // namespace
 
-void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts) {
+void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVisibility>& visibility) {
   if (is_whole(rect)) {
-    const auto stride = static_cast<std::size_t>(verdicts.size.width);
+    const auto stride = static_cast<std::size_t>(visibility.size.width);
     for (std::size_t p = 0; p < tile_packets; ++p) {
       const TilePixel place = tile_pixel(p * packet_rays);
-      Verdict* out = &verdicts.at(rect.x0 + place.x, rect.y0 + place.y);
+      PointVisibility* out = &visibility.at(rect.x0 + place.x, rect.y0 + place.y);
       for (std::size_t row = 0; row < 4; ++row)
         std::memcpy(out + row * stride, four_visibilities[dark[p] >> (4 * row) & 15].data(), 4);
     }
     return;
   }
   for_each_place(rect, [&](int x, int y, std::size_t lane) {
-    verdicts.at(x, y) = (dark[lane / packet_rays] & bit_of(lane)) != 0 ? Verdict::shadowed : Verdict::lit;
+    visibility.at(x, y) =
+        (dark[lane / packet_rays] & bit_of(lane)) != 0 ? PointVisibility::shadowed : PointVisibility::lit;
   });
 }
 
-std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light, Image<Verdict>& verdicts,
-                          const std::stop_token& stop) {
-  return ShadowPass(receivers, light, {}, verdicts).run(stop);
+std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light,
+                          Image<PointVisibility>& visibility, const std::stop_token& stop) {
+  return ShadowPass(receivers, light, {}, visibility).run(stop);
 }
 
 void shadow_pass_of(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
-                    Image<Verdict>& verdicts) {
-  ShadowPass(receivers, light, asked, verdicts).run({});
+                    Image<PointVisibility>& visibility) {
+  ShadowPass(receivers, light, asked, visibility).run({});
 }
 
 }  // namespace gnomon::raytrace

@@ -20,17 +20,17 @@ struct PictureReceivers {
   int first_row = 0;                           ///< as PrimarySinks has it
 };
 
-/// Fills the verdicts as Tracer::light_verdict does, `shadowed` where the light cannot reach, and returns the number
-/// of rays. Once a stop is requested no further block is begun.
-std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light, Image<Verdict>& verdicts,
-                          const std::stop_token& stop = {});
+/// Fills `visibility` as Tracer::centre_visibility does, `shadowed` where the light cannot reach, and returns the
+/// number of rays. Once a stop is requested no further block is begun.
+std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light,
+                          Image<PointVisibility>& visibility, const std::stop_token& stop = {});
 
-/// The verdicts of the asked receivers alone (by tile, bits per packet), which exist and which the light reaches; the
+/// The visibility of the asked receivers alone (by tile, bits per packet), which exist and which the light reaches; the
 /// others' are left as they are. The receivers are stored.
 void shadow_pass_of(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
-                    Image<Verdict>& verdicts);
+                    Image<PointVisibility>& visibility);
 
 /// The whole tile: lit, or shadowed where the bit is set.
-void store_verdicts(const TileRect& rect, const LaneMask& dark, Image<Verdict>& verdicts);
+void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVisibility>& visibility);
 
 }  // namespace gnomon::raytrace

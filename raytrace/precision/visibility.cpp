@@ -23,11 +23,11 @@ class Query {
       : s_(s), tree_(tree), given_(ray), ambiguous_(ambiguous), exact_(exact) {}
 
   template <bool masks>
-  Verdict run(Candidates among) {
+  PointVisibility run(Candidates among) {
     for (const std::uint32_t plane : s_.planes)
       if (plane != ambiguous_.from().primitive &&
           count<masks>(plane, ambiguous_.intersects_plane(plane), -1, false))
-        return Verdict::shadowed;
+        return PointVisibility::shadowed;
     const auto visit_leaf = [&](std::uint32_t i) { return visit<masks>(i); };
     bool sure = false;
     if (among != nullptr) {
@@ -35,8 +35,8 @@ class Query {
     } else {
       sure = traverse_all(visit_leaf);
     }
-    if (sure || (ambiguous_count_ > 0 && neighbours_cover())) return Verdict::shadowed;
-    return ambiguous_count_ > 0 ? Verdict::uncertain : Verdict::lit;
+    if (sure || (ambiguous_count_ > 0 && neighbours_cover())) return PointVisibility::shadowed;
+    return ambiguous_count_ > 0 ? PointVisibility::uncertain : PointVisibility::lit;
   }
 
  private:
@@ -161,36 +161,37 @@ class Query {
 /// What the floats of the wide tree know: a sure answer for most rays, and what else may be intersected for
 /// the others. Where masks are, nothing is sure. False: the candidates are not known.
 bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& from, const Ray& ray,
-                bool exact, std::optional<Verdict>& answer, LeafCandidates& found) {
+                bool exact, std::optional<PointVisibility>& answer, LeafCandidates& found) {
   if (s.has_masks) return false;
   const Vec3 error = origin_error(from, ray);
   const TraversalLimits limits{.origin_error = max_component(error),
                                .beyond = exact ? beyond_end(error, ray) : 0.0};
   const WideTraversal traversed = ambiguous_candidates(tree, ray, limits, from.primitive, found);
-  if (traversed == WideTraversal::ended) answer = Verdict::shadowed;
+  if (traversed == WideTraversal::ended) answer = PointVisibility::shadowed;
   const auto is_left = [&](std::uint32_t plane) {
     return plane == from.primitive ||
            clearly_leaves(std::get<Plane>(s.world->shape(plane).geometry), ray, error);
   };
   if (traversed == WideTraversal::done && found.count == 0 &&
       std::all_of(s.planes.begin(), s.planes.end(), is_left))
-    answer = Verdict::lit;
+    answer = PointVisibility::lit;
   return traversed != WideTraversal::refused;
 }
 
-Verdict ask(const Structures& s, const SurfacePoint& from, const Ray& ray, Candidates among,
-            const ExactShadow* exact) {
+PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ray, Candidates among,
+                    const ExactShadow* exact) {
   const WideTree* tree = among == nullptr ? wide_tree(s) : nullptr;
   LeafCandidates found;
   std::span<const std::uint32_t> some;
   if (tree != nullptr) {
-    std::optional<Verdict> answer;
+    std::optional<PointVisibility> answer;
     if (ask_floats(s, *tree, from, ray, exact != nullptr, answer, found))
       some = {found.leaf.data(), found.count}, among = &some;
     if (answer) return *answer;
   }
   RayFrame frame;
-  if (!scale_ray(ray, frame)) return Verdict::lit;  // the light lies within the point's own error bound
+  if (!scale_ray(ray, frame))
+    return PointVisibility::lit;  // the light lies within the point's own error bound
   shear_ray(frame);
   const AmbiguousRay ambiguous(*s.world, from, ray, frame, exact != nullptr);
   Query query(s, tree, ray, ambiguous, exact);
@@ -199,12 +200,13 @@ Verdict ask(const Structures& s, const SurfacePoint& from, const Ray& ray, Candi
 
 }  // namespace
 
-Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray, Candidates among) {
+PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                                 Candidates among) {
   return ask(structures, from, ray, among, nullptr);
 }
 
-Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                          const Light& light, Candidates among) {
+PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                                     const Light& light, Candidates among) {
   const ExactShadow exact(*structures.world, from, light);
   return ask(structures, from, ray, among, &exact);
 }

@@ -12,12 +12,12 @@ namespace gnomon::raytrace {
 using Candidates = const std::span<const std::uint32_t>*;
 
 /// `ray` is Tracer::shadow_ray of the point. `among`: whatever else is there, but planes, is surely missed.
-Verdict verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                Candidates among = nullptr);
+PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                                 Candidates among = nullptr);
 
 /// The same without ambiguity: what the bounds leave open is decided by exact predicates (exact_shadow.h
 /// there).
-Verdict certified_verdict(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                          const Light& light, Candidates among = nullptr);
+PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
+                                     const Light& light, Candidates among = nullptr);
 
 }  // namespace gnomon::raytrace

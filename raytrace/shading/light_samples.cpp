@@ -112,11 +112,11 @@ double stratified_standard_error(std::span<const std::uint8_t> samples) {
   return std::sqrt(variance) / static_cast<double>(count);
 }
 
-Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,
-                            std::uint64_t key) {
+SampledVisibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light,
+                                   int samples, std::uint64_t key) {
   if (samples >= least_shaft_rays && surely_sees_whole_light(tracer, from, light)) return {1.0, 0.0, 0};
   const LightSamples rays(tracer, from, light, samples, key);
-  Visibility seen;
+  SampledVisibility seen;
   int lit = 0;
   thread_local std::vector<std::uint8_t> arrived;
   arrived.assign(static_cast<std::size_t>(samples), 0);

@@ -40,7 +40,7 @@ class LightSamples {
 };
 
 /// What one point sees of a light.
-struct Visibility {
+struct SampledVisibility {
   double share = 1.0;           ///< in [0, 1]
   double standard_error = 0.0;  ///< of `share` as an estimate by its samples; 0 where all agree
   std::uint64_t rays = 0;       ///< cast for it
@@ -52,7 +52,7 @@ struct Visibility {
 double stratified_standard_error(std::span<const std::uint8_t> samples);
 
 /// Any unmasked surface occludes, glass too.
-Visibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light, int samples,
-                            std::uint64_t key);
+SampledVisibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light,
+                                   int samples, std::uint64_t key);
 
 }  // namespace gnomon::raytrace

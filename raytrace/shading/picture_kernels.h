@@ -55,7 +55,7 @@ void for_each_receiver(const PictureInput& input, const RayTracedFrame& frame, c
   });
 }
 
-/// One sample, at the pixel's centre, where receivers and verdicts are known.
+/// One sample, at the pixel's centre, where receivers and shadows are known.
 template <class Kind>
 void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
   const Scene& scene = *input.tracer.world().scene;
@@ -70,7 +70,7 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
     RayCounts& rays = counts[tile].rays;
     Shader<Kind> shader(input, input.first_pixel() + frame.color.index(x, y), rays);
     const PathOf<Kind> path{.direction = pixel_ray(input.view, x + 0.5, y + input.first_row + 0.5).direction};
-    // A verdict already known saves the ray, but for light that glass may let through and for ambiguous
+    // A visibility already known saves the ray, but for light that glass may let through and for ambiguous
     // pixels.
     const auto shadow = [&](std::uint32_t i) {
       if (truth[i] < frame.lights.size()) {
@@ -78,9 +78,9 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
         if (!visibility.data.empty())
           return Kind::refracts && visibility.at(x, y) < 1.0f ? shader.transmittance(point, path, i)
                                                               : Vec3f(visibility.at(x, y));
-        const Verdict verdict = frame.lights[truth[i]].verdict.at(x, y);
-        if (verdict == Verdict::lit) return Vec3f(1.0f);
-        if (verdict == Verdict::shadowed && !Kind::refracts) return Vec3f(0.0f);
+        const PointVisibility centre = frame.lights[truth[i]].centre.at(x, y);
+        if (centre == PointVisibility::lit) return Vec3f(1.0f);
+        if (centre == PointVisibility::shadowed && !Kind::refracts) return Vec3f(0.0f);
       }
       return shader.transmittance(point, path, i);
     };

@@ -158,7 +158,8 @@ class Shader {
 
   /// `exact` certifies the ray to the light's centre; samples of a light's size are decided as `robust` does.
   bool is_blocked(const SurfacePoint& point, const Light& light) const {
-    if (tracer_.precision() == Precision::exact) return tracer_.light_verdict(point, light) != Verdict::lit;
+    if (tracer_.precision() == Precision::exact)
+      return tracer_.centre_visibility(point, light) != PointVisibility::lit;
     return tracer_.occluded(tracer_.shadow_ray(point, light));
   }
 

@@ -23,10 +23,10 @@ namespace {
 using app::BenchRow;
 using raytrace::Accel;
 using raytrace::HugeArray;
+using raytrace::PointVisibility;
 using raytrace::QuantisedTile;
 using raytrace::RayTracedFrame;
 using raytrace::Tracer;
-using raytrace::Verdict;
 
 struct Settings {
   ImageSize size{1920, 1080};
@@ -139,7 +139,7 @@ class Bench {
                  .view = nullptr,
                  .hits = {},
                  .quantised = {tiles_.data(), tiles_.size()}},
-                scene_.scene.lights[light], frame_.lights[light].verdict);
+                scene_.scene.lights[light], frame_.lights[light].centre);
   }
 
   void primary(int threads) {
@@ -275,16 +275,16 @@ class Bench {
 
   // Receivers against Embree's hits; how many pixels the floats left to double.
   void check_hits() {
-    std::size_t ours = 0, theirs = 0, differ = 0, unsure = 0;
+    std::size_t ours = 0, theirs = 0, differ = 0, ambiguous = 0;
     our_hits();
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
         const std::size_t at = place(x, y);
-        unsure +=
+        ambiguous +=
             hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::ambiguous_hit ? 1 : 0;
       }
     our_receivers(), embree_.closest_packets(primary_, peer_);
-    const double doubt = 1e-4 * world_.finite_bounds.diagonal();
+    const double tolerance = 1e-4 * world_.finite_bounds.diagonal();
     for (int y = 0; y < settings_.size.height; ++y)
       for (int x = 0; x < settings_.size.width; ++x) {
         const std::size_t at = place(x, y);
@@ -292,12 +292,12 @@ class Bench {
         const bool a = point.primitive != no_id, b = peer_.primitive[at] != RTC_INVALID_GEOMETRY_ID;
         ours += a ? 1 : 0, theirs += b ? 1 : 0;
         const double t = a ? glm::length(point.position - view_.eye) : 0.0;
-        differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > doubt) ? 1 : 0;
+        differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > tolerance) ? 1 : 0;
       }
     fmt::print(
         "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding); "
         "{} decided in double\n",
-        ours, theirs, differ, primary_.count, unsure);
+        ours, theirs, differ, primary_.count, ambiguous);
   }
   std::size_t place(int x, int y) const {
     const std::size_t tile =
@@ -311,7 +311,8 @@ class Bench {
       for (int x = 0; x < settings_.size.width; ++x) {
         const std::size_t at = place(x, y);
         if (shadow_[light].valid[at] == 0) continue;
-        const bool a = frame_.lights[light].verdict.at(x, y) == Verdict::shadowed, b = occluded_[at] != 0;
+        const bool a = frame_.lights[light].centre.at(x, y) == PointVisibility::shadowed,
+                   b = occluded_[at] != 0;
         ours += a ? 1 : 0, theirs += b ? 1 : 0, differ += a != b ? 1 : 0;
       }
     fmt::print(

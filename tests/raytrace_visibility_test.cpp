@@ -1,4 +1,4 @@
-// What a light sees: closed forms, the doubt at edges, and the cases where a shadow ray ends on a surface.
+// What a light sees: closed forms, the ambiguity at edges, and the cases where a shadow ray ends on a surface.
 #include <gtest/gtest.h>
 
 #include "raytrace/frame.h"
@@ -8,9 +8,9 @@ namespace gnomon {
 namespace {
 
 using raytrace::Accel;
+using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
 using raytrace::Tracer;
-using raytrace::Verdict;
 using test::Random;
 using test::TestWorld;
 
@@ -23,11 +23,11 @@ raytrace::RayTracedFrame trace(const TestWorld& w, const Tracer& tracer, ImageSi
   return trace_frame(tracer, plan_effects(w.scene()), w.scene().camera, lights, options);
 }
 
-std::size_t count(const Image<Verdict>& image, Verdict verdict) {
-  return static_cast<std::size_t>(std::count(image.data.begin(), image.data.end(), verdict));
+std::size_t count(const Image<PointVisibility>& image, PointVisibility visibility) {
+  return static_cast<std::size_t>(std::count(image.data.begin(), image.data.end(), visibility));
 }
 
-TEST(Verdict, SphereOverPlaneEqualsTheClosedForm) {
+TEST(PointVisibility, SphereOverPlaneEqualsTheClosedForm) {
   Scene scene = test::scene_of({}, {test::plane({0, 0, 0}, {0, 1, 0}), test::sphere({0, 1.5, 0}, 1.0)});
   scene.lights = {test::point_light({1.0, 5.0, 2.0})};
   scene.camera.eye = {0, 6, 12};
@@ -43,15 +43,16 @@ TEST(Verdict, SphereOverPlaneEqualsTheClosedForm) {
                  right = (glm::dot(c, c) - 1.0) * glm::dot(u, u);
     if (std::abs(left - right) < 1e-13 * std::abs(right)) continue;  // the closed form's own rounding
     const bool in_shadow = along > 0.0 && left >= right;
-    ASSERT_EQ(frame.lights[0].verdict.data[i], in_shadow ? Verdict::shadowed : Verdict::lit) << i;
+    ASSERT_EQ(frame.lights[0].centre.data[i], in_shadow ? PointVisibility::shadowed : PointVisibility::lit)
+        << i;
     ++checked, shadowed += in_shadow ? 1 : 0;
   }
   EXPECT_GT(checked, 50000);
   EXPECT_GT(shadowed, 2000);
-  EXPECT_EQ(count(frame.lights[0].verdict, Verdict::uncertain), 0U);
+  EXPECT_EQ(count(frame.lights[0].centre, PointVisibility::uncertain), 0U);
 }
 
-TEST(Verdict, OrdinarySceneHasNoDoubtEvenOnAlignedDiagonals) {
+TEST(PointVisibility, OrdinarySceneHasNoDoubtEvenOnAlignedDiagonals) {
   // Everything aligned on purpose: the pixel grid, the floor's diagonal, the box's edges and the light's
   // direction.
   Scene scene =
@@ -60,13 +61,13 @@ TEST(Verdict, OrdinarySceneHasNoDoubtEvenOnAlignedDiagonals) {
   scene.camera.eye = {0, 12.3, 0}, scene.camera.up = {0, 0, -1};
   const TestWorld w(scene);
   const auto frame = trace(w, Tracer(w.world(), Accel::bvh), {400, 400});
-  EXPECT_GT(count(frame.lights[1].verdict, Verdict::shadowed), 1000U);
+  EXPECT_GT(count(frame.lights[1].centre, PointVisibility::shadowed), 1000U);
   for (const auto& light : frame.lights) {
-    EXPECT_LT(count(light.verdict, Verdict::uncertain), 17U);  // 1e-4 of the pixels
+    EXPECT_LT(count(light.centre, PointVisibility::uncertain), 17U);  // 1e-4 of the pixels
   }
 }
 
-TEST(Verdict, TheDoubtIsReal) {
+TEST(PointVisibility, TheAmbiguityIsReal) {
   // The edge of a half plane exactly over the point: within rounding, so neither lit nor shadowed is proven.
   Scene scene =
       test::scene_of({test::quad({0, 1, -1}, {0, 0, 2}, {2, 0, 0})}, {test::plane({0, 0, 0}, {0, 1, 0})});
@@ -74,25 +75,25 @@ TEST(Verdict, TheDoubtIsReal) {
   const Tracer tracer(w.world(), Accel::bvh);
   const Light light = test::sun({0, -1, 0});
   const auto at = [&](double x) {
-    return tracer.light_verdict(test::seen(tracer, {x, 0.5, 0.25}, {x, 0, 0.25}), light);
+    return tracer.centre_visibility(test::seen(tracer, {x, 0.5, 0.25}, {x, 0, 0.25}), light);
   };
-  EXPECT_EQ(at(0.0), Verdict::uncertain);
-  EXPECT_EQ(at(1e-12), Verdict::shadowed);
-  EXPECT_EQ(at(-1e-12), Verdict::lit);
+  EXPECT_EQ(at(0.0), PointVisibility::uncertain);
+  EXPECT_EQ(at(1e-12), PointVisibility::shadowed);
+  EXPECT_EQ(at(-1e-12), PointVisibility::lit);
 }
 
-TEST(Verdict, SharedEdgeIsNoDoubt) {
+TEST(PointVisibility, SharedEdgeIsNoDoubt) {
   // The diagonal of an overhead quad: one of its two triangles blocks, whichever.
   Scene scene =
       test::scene_of({test::quad({-1, 1, -1}, {0, 0, 2}, {2, 0, 0})}, {test::plane({0, 0, 0}, {0, 1, 0})});
   const TestWorld w(scene);
   const Tracer tracer(w.world(), Accel::bvh);
   for (const double x : {-0.5, 0.0, 0.25, 0.7})
-    EXPECT_EQ(tracer.light_verdict(test::seen(tracer, {x, 0.5, x}, {x, 0, x}), test::sun({0, -1, 0})),
-              Verdict::shadowed);
+    EXPECT_EQ(tracer.centre_visibility(test::seen(tracer, {x, 0.5, x}, {x, 0, x}), test::sun({0, -1, 0})),
+              PointVisibility::shadowed);
 }
 
-TEST(Verdict, BvhAndBruteForceAgree) {
+TEST(PointVisibility, BvhAndBruteForceAgree) {
   Scene scene = test::scene_of(
       {test::triangle_soup(200, 3.0, 1.0, 31), test::quad({-6, -4, -6}, {0, 0, 12}, {12, 0, 0})},
       {test::sphere({1, 1, 1}, 0.7)});
@@ -101,10 +102,10 @@ TEST(Verdict, BvhAndBruteForceAgree) {
   const TestWorld w(scene);
   const auto a = trace(w, Tracer(w.world(), Accel::bvh), {160, 90});
   const auto b = trace(w, Tracer(w.world(), Accel::brute), {160, 90});
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.lights[i].verdict.data, b.lights[i].verdict.data);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.lights[i].centre.data, b.lights[i].centre.data);
 }
 
-TEST(Verdict, NearestOccluderIsThereExactlyWhenShadowed) {
+TEST(PointVisibility, NearestOccluderIsThereExactlyWhenShadowed) {
   Scene scene = test::scene_of({test::triangle_soup(200, 3.0, 1.0, 32)},
                                {test::sphere({1, 1, 1}, 0.7), test::plane({0, -4, 0}, {0, 1, 0})});
   scene.lights = {test::point_light({2, 7, 1})};
@@ -115,13 +116,15 @@ TEST(Verdict, NearestOccluderIsThereExactlyWhenShadowed) {
   for (std::size_t i = 0; i < frame.receiver.data.size(); ++i) {
     const SurfacePoint& p = frame.receiver.data[i];
     if (p.primitive == no_id || light_cannot_reach(scene.lights[0], p.position, p.normal)) continue;
-    const Verdict verdict = frame.lights[0].verdict.data[i];
-    if (verdict == Verdict::uncertain) continue;
-    ASSERT_EQ(tracer.nearest_occluder(p, scene.lights[0]).has_value(), verdict == Verdict::shadowed) << i;
+    const PointVisibility visibility = frame.lights[0].centre.data[i];
+    if (visibility == PointVisibility::uncertain) continue;
+    ASSERT_EQ(tracer.nearest_occluder(p, scene.lights[0]).has_value(),
+              visibility == PointVisibility::shadowed)
+        << i;
   }
 }
 
-TEST(Verdict, Case22LightInTheReceiversPlaneIsUnlit) {
+TEST(PointVisibility, Case22LightInTheReceiversPlaneIsUnlit) {
   const TestWorld w(test::scene_of({test::quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0})}));
   for (const Accel accel : {Accel::bvh, Accel::brute}) {
     const Tracer tracer(w.world(), accel);
@@ -131,7 +134,7 @@ TEST(Verdict, Case22LightInTheReceiversPlaneIsUnlit) {
   }
 }
 
-TEST(Verdict, Case23LightAtAVertexIsLit) {
+TEST(PointVisibility, Case23LightAtAVertexIsLit) {
   // The occluder touches the light: a surface at the light's own place does not lie before it.
   Scene scene = test::scene_of({test::box({-1, 2, -1}, {1, 3, 1})}, {test::plane({0, 0, 0}, {0, 1, 0})});
   const TestWorld w(scene);
@@ -141,12 +144,12 @@ TEST(Verdict, Case23LightAtAVertexIsLit) {
     for (int i = 0; i < 300; ++i) {
       const Vec3 foot(random.uniform(1.5, 4.0), 0.0, random.uniform(1.5, 4.0));
       const SurfacePoint p = test::seen(tracer, foot + Vec3(0, 0.5, 0), foot);
-      ASSERT_EQ(tracer.light_verdict(p, test::point_light({1, 2, 1})), Verdict::lit);
+      ASSERT_EQ(tracer.centre_visibility(p, test::point_light({1, 2, 1})), PointVisibility::lit);
     }
   }
 }
 
-TEST(Verdict, Case25LightInsideAClosedMeshReachesNothingOutside) {
+TEST(PointVisibility, Case25LightInsideAClosedMeshReachesNothingOutside) {
   Scene scene = test::scene_of({test::uv_sphere({0, 2, 0}, 1.0, 16, 16, 0.05, 34)},
                                {test::plane({0, 0, 0}, {0, 1, 0})});
   const TestWorld w(scene);
@@ -159,11 +162,12 @@ TEST(Verdict, Case25LightInsideAClosedMeshReachesNothingOutside) {
       const Vec3 d = w.world().position(random.below(w.world().vertex_count())) - light.position;
       if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
     }
-    ASSERT_NE(tracer.light_verdict(test::seen(tracer, foot + Vec3(0, 0.01, 0), foot), light), Verdict::lit);
+    ASSERT_NE(tracer.centre_visibility(test::seen(tracer, foot + Vec3(0, 0.01, 0), foot), light),
+              PointVisibility::lit);
   }
 }
 
-TEST(Verdict, Case26CoplanarDuplicatesDoNotShadowEachOther) {
+TEST(PointVisibility, Case26CoplanarDuplicatesDoNotShadowEachOther) {
   const Vec3 corner(-1.1, 0.3, -0.9), a(0.1, 0.2, 2.2), b(2.1, -0.3, 0.2);
   const TestWorld w(test::scene_of(
       {test::quad(corner, a, b), test::quad(corner, a, b), test::quad(corner + 0.2 * a, 0.5 * a, 0.5 * b)}));
@@ -172,28 +176,30 @@ TEST(Verdict, Case26CoplanarDuplicatesDoNotShadowEachOther) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3 target = corner + random.uniform(0.25, 0.65) * a + random.uniform(0.05, 0.45) * b;
     const SurfacePoint p = test::seen(tracer, target + Vec3(0, 3, 0), target);
-    ASSERT_EQ(tracer.light_verdict(p, test::point_light({random.uniform(-3, 3), 4, 0})), Verdict::lit) << i;
+    ASSERT_EQ(tracer.centre_visibility(p, test::point_light({random.uniform(-3, 3), 4, 0})),
+              PointVisibility::lit)
+        << i;
   }
 }
 
-TEST(Verdict, Case27BoxNearAPlaneShadowsRightUpToItsFoot) {
+TEST(PointVisibility, Case27BoxNearAPlaneShadowsRightUpToItsFoot) {
   for (const double gap : {0.0, 1e-7, 1e-4}) {
     Scene scene = test::scene_of({test::box({-1, gap, -1}, {1, 1, 1})}, {test::plane({0, 0, 0}, {0, 1, 0})});
     const TestWorld w(scene);
     const Tracer tracer(w.world(), Accel::bvh);
     const Light light = test::sun({1, -1, 0});  // shadows towards +x, at 45 degrees
     const auto at = [&](double x) {
-      return tracer.light_verdict(test::seen(tracer, {x, 1e-3, 0.3}, {x, 0, 0.3}), light);
+      return tracer.centre_visibility(test::seen(tracer, {x, 1e-3, 0.3}, {x, 0, 0.3}), light);
     };
-    EXPECT_EQ(at(1.0 + gap + 1e-9), Verdict::shadowed)
+    EXPECT_EQ(at(1.0 + gap + 1e-9), PointVisibility::shadowed)
         << gap;  // the light slips below the box by `gap`, no more
-    EXPECT_EQ(at(1.9), Verdict::shadowed);
-    EXPECT_EQ(at(2.0 + 1e-9), Verdict::lit);
-    EXPECT_EQ(at(-1.0 - 1e-9), Verdict::lit) << gap;
+    EXPECT_EQ(at(1.9), PointVisibility::shadowed);
+    EXPECT_EQ(at(2.0 + 1e-9), PointVisibility::lit);
+    EXPECT_EQ(at(-1.0 - 1e-9), PointVisibility::lit) << gap;
   }
 }
 
-TEST(Verdict, MaskedSurfacesLetLightThroughTheirHoles) {
+TEST(PointVisibility, MaskedSurfacesLetLightThroughTheirHoles) {
   Scene scene =
       test::scene_of({test::quad({-1, 1, -1}, {0, 0, 2}, {2, 0, 0})}, {test::plane({0, 0, 0}, {0, 1, 0}, 1)});
   scene.meshes[0].uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
@@ -211,8 +217,8 @@ TEST(Verdict, MaskedSurfacesLetLightThroughTheirHoles) {
       const Ray up{{x, 0.5, 0.1}, {0, 1, 0}};
       EXPECT_EQ(tracer.occluded(up), x < 0.0);
       EXPECT_EQ(tracer.closest_hit(up).has_value(), x < 0.0);
-      EXPECT_EQ(tracer.light_verdict(test::seen(tracer, {x, 0.5, 0.1}, {x, 0, 0.1}), light),
-                x < 0.0 ? Verdict::shadowed : Verdict::lit);
+      EXPECT_EQ(tracer.centre_visibility(test::seen(tracer, {x, 0.5, 0.1}, {x, 0, 0.1}), light),
+                x < 0.0 ? PointVisibility::shadowed : PointVisibility::lit);
     }
   }
 }
