@@ -59,6 +59,21 @@ std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
   return piece;
 }
 
+constexpr float half_part = 0.5f / parts_per_side;
+
+/// False: no part in the square of 2 x half around (x, y) meets the triangle, neither in truth nor in floats: of the edge's
+/// value here and of its value at a part, rounded apart, no more than 2^-21 of their sizes is lost.
+bool may_meet_parts(const TileTriangle& t, float x, float y, float half) {
+  const float to_part = half - half_part;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float edge = t.edge[k].at(x, y), rounding = 0x1p-20f * (std::abs(edge) + 2.0f * tile_texels);
+    if (edge + to_part * (std::abs(t.edge[k].u) + std::abs(t.edge[k].v)) <
+        -(half_part + 2.0f * slack + t.error[k] + rounding))
+      return false;
+  }
+  return true;
+}
+
 struct Polygon {
   std::array<Vec2, 8> corner;
   std::size_t count = 0;
@@ -288,6 +303,11 @@ float middle_of(std::size_t texel) {
   return static_cast<float>(texel) + 0.5f;
 }
 
+/// Of a piece of the texel that is 2 x half wide.
+float middle_of(std::uint32_t texel, std::uint32_t step, float half) {
+  return static_cast<float>(texel) + (2.0f * static_cast<float>(step) + 1.0f) * half;
+}
+
 }  // namespace
 
 void TileBuilder::finish(SheetTile& tile) {
@@ -317,6 +337,7 @@ void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> 
   collect(tile_x, tile_y, triangles);
   sort_by_texel();
   if (tile.looks.empty()) tile.looks.assign(texel_count, Look::quick);
+  for (Block& block : blocks_) block.key = no_block;
   for (const std::uint32_t part : parts) {
     const std::size_t texel = part / parts_per_texel;
     Look& look = tile.looks[texel];
@@ -333,22 +354,37 @@ void TileBuilder::refine(int tile_x, int tile_y, std::span<const std::uint32_t> 
   wanted_.clear();
 }
 
-PackedBounds TileBuilder::solve_part(std::uint32_t part) {
-  constexpr float half = 0.5f / parts_per_side;
+// A coarse texel holds thousands of triangles, and a block of its parts few of them. Parts come row by row: the blocks of
+// a row are kept.
+std::span<const Piece> TileBuilder::pieces_near(std::uint32_t part) {
   const std::uint32_t texel = part / parts_per_texel, in_texel = part % parts_per_texel;
-  const auto middle = [](std::uint32_t at, std::uint32_t step) {
-    return static_cast<float>(at) + (2.0f * static_cast<float>(step) + 1.0f) * half;
-  };
-  const float x = middle(texel % tile_texels, in_texel % parts_per_side);
-  const float y = middle(texel / tile_texels, in_texel / parts_per_side);
+  const std::uint32_t bx = in_texel % parts_per_side / block_parts,
+                      by = in_texel / parts_per_side / block_parts;
+  Block& block = blocks_[bx];
+  if (const std::uint32_t key = texel * blocks_per_side + by; block.key != key) {
+    constexpr float half = 0.5f / blocks_per_side;
+    const float x = middle_of(texel % tile_texels, bx, half), y = middle_of(texel / tile_texels, by, half);
+    block.key = key;
+    block.pieces.clear();
+    for (const Piece& piece : pieces_in(texel))
+      if (piece.slot == Piece::no_slot || may_meet_parts(kept_[piece.slot], x, y, half))
+        block.pieces.push_back(piece);
+  }
+  return block.pieces;
+}
+
+PackedBounds TileBuilder::solve_part(std::uint32_t part) {
+  const std::uint32_t texel = part / parts_per_texel, in_texel = part % parts_per_texel;
+  const float x = middle_of(texel % tile_texels, in_texel % parts_per_side, half_part);
+  const float y = middle_of(texel / tile_texels, in_texel / parts_per_side, half_part);
   column_.clear();
-  for (const Piece& piece : pieces_in(texel)) {
+  for (const Piece& piece : pieces_near(part)) {
     if (piece.slot == Piece::no_slot)
       column_.push_back(piece);
-    else if (const auto there = meet(kept_[piece.slot], x, y, half))
+    else if (const auto there = meet(kept_[piece.slot], x, y, half_part))
       column_.push_back(*there);
   }
-  return pack(solve(x, y, half, false).bounds);
+  return pack(solve(x, y, half_part, false).bounds);
 }
 
 }  // namespace gnomon::hybrid

@@ -124,6 +124,13 @@ class TileBuilder : private PieceRelations {
     std::uint32_t texel;
     Piece piece;
   };
+  static constexpr std::uint32_t block_parts = 8, blocks_per_side = parts_per_side / block_parts,
+                                 no_block = ~0U;
+  /// Parts of a texel, 8 x 8 of them, and the pieces that they may meet.
+  struct Block {
+    std::uint32_t key = no_block;  ///< the texel times blocks_per_side, and the row of blocks
+    std::vector<Piece> pieces;
+  };
   void add_triangle(const TileTriangle& triangle);
   void add_texel(const TileTriangle& triangle, int x, int y);
   void add_shapes(int tile_x, int tile_y);
@@ -147,6 +154,8 @@ class TileBuilder : private PieceRelations {
   void sort_by_texel();
   std::span<const Piece> pieces_in(std::size_t texel) const;
   PackedBounds solve_part(std::uint32_t part);
+  /// The texel's pieces without most of those that surely miss the part.
+  std::span<const Piece> pieces_near(std::uint32_t part);
   bool is_wanted(int x, int y) const {
     return wanted_.empty() ||
            wanted_[static_cast<std::size_t>(y) * tile_texels + static_cast<std::size_t>(x)];
@@ -164,6 +173,7 @@ class TileBuilder : private PieceRelations {
   std::vector<Cover> covers_;
   std::vector<std::uint32_t> first_;  // of each texel's pieces
   std::vector<Piece> sorted_, column_;
+  std::array<Block, blocks_per_side> blocks_;
   std::vector<TileTriangle> kept_;                                 // by Piece::slot
   float column_x_ = 0.0f, column_y_ = 0.0f, column_reach_ = 0.0f;  // of the column that is being solved
   std::uint64_t piece_count_ = 0;
