@@ -62,7 +62,7 @@ LightCone::LightCone(const Vec3& point, double point_radius, const LightHull& hu
   cosine_ = std::sqrt((1.0 - sine_) * (1.0 + sine_));
 }
 
-bool LightCone::may_meet_ball(const Vec3& center, double radius) const {
+bool LightCone::may_intersect_ball(const Vec3& center, double radius) const {
   if (everything_) return true;
   const Vec3 d = center - point_;
   const double along = glm::dot(d, axis_);
@@ -72,7 +72,7 @@ bool LightCone::may_meet_ball(const Vec3& center, double radius) const {
 
 // beside() of a point of the segment is convex along it: its least value is at an end or where its slope
 // vanishes.
-bool LightCone::may_meet_segment(const Vec3& a, const Vec3& b, double margin) const {
+bool LightCone::may_intersect_segment(const Vec3& a, const Vec3& b, double margin) const {
   if (everything_) return true;
   const Vec3 from = a - point_, step = b - a;
   const double along = glm::dot(from, axis_), along_step = glm::dot(step, axis_);

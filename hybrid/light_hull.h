@@ -26,9 +26,9 @@ class LightCone {
   /// The point's ball and the light's lie in one another: there is no cone.
   bool is_everything() const { return everything_; }
   /// Conservative.
-  bool may_meet_ball(const Vec3& center, double radius) const;
+  bool may_intersect_ball(const Vec3& center, double radius) const;
   /// `margin`: how far beside the cone still counts.
-  bool may_meet_segment(const Vec3& a, const Vec3& b, double margin) const;
+  bool may_intersect_segment(const Vec3& a, const Vec3& b, double margin) const;
 
  private:
   double beside(double lateral, double along) const {

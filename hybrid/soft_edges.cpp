@@ -108,7 +108,7 @@ void SoftEdges::find(const LightCone& cone, std::vector<std::uint32_t>& found) c
   while (size > 0) {
     const std::uint32_t index = stack[--size];
     const Node& node = nodes_[index];
-    if (!cone.may_meet_ball(node.center, node.radius)) continue;
+    if (!cone.may_intersect_ball(node.center, node.radius)) continue;
     if (node.second != 0) {
       stack[size++] = node.second, stack[size++] = index + 1;
       continue;

@@ -17,8 +17,9 @@ class SoftEdges {
   struct Edge {
     Vec3 a, b;
     double radius = 0.0;
-    bool may_meet(const LightCone& cone, double margin) const {
-      return radius > 0.0 ? cone.may_meet_ball(a, radius + margin) : cone.may_meet_segment(a, b, margin);
+    bool may_intersect(const LightCone& cone, double margin) const {
+      return radius > 0.0 ? cone.may_intersect_ball(a, radius + margin)
+                          : cone.may_intersect_segment(a, b, margin);
     }
   };
   SoftEdges(const World& world, const raytrace::Topology& topology, const LightHull& hull,

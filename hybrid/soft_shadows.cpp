@@ -77,7 +77,7 @@ bool SoftLight::sphere_cuts(const Sphere& sphere, bool own, bool masked, const S
     // Outside, the horizon tells; inside, every segment stays within or leaves once.
     return masked || (inner_side && !light_outside && !light_inside);
   }
-  if (!cone.may_meet_ball(sphere.center, sphere.radius + slack)) return false;
+  if (!cone.may_intersect_ball(sphere.center, sphere.radius + slack)) return false;
   const double distance = glm::length(point.position - sphere.center);
   if (masked || !light_outside || !(distance > sphere.radius + slack)) return true;
   for (const Vec3& corner : hull_.corners)
@@ -97,7 +97,7 @@ bool SoftLight::shapes_cut(const SurfacePoint& point, const LightCone& cone) con
       if (sphere_cuts(*sphere, own, masked, point, cone)) return true;
     } else {
       const Sphere ball = ball_around(shape.geometry);
-      if (cone.may_meet_ball(ball.center, ball.radius + 8.0 * position_error_)) return true;
+      if (cone.may_intersect_ball(ball.center, ball.radius + 8.0 * position_error_)) return true;
     }
   }
   return false;
@@ -109,7 +109,7 @@ bool SoftLight::in_penumbra(const SurfacePoint& point, std::span<const std::uint
   const LightCone cone(point.position, 0.0, hull_);
   if (cone.is_everything() || shapes_cut(point, cone)) return true;
   for (const std::uint32_t i : edges)
-    if (edges_.edge(i).may_meet(cone, margin)) return true;
+    if (edges_.edge(i).may_intersect(cone, margin)) return true;
   return false;
 }
 

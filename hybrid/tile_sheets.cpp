@@ -20,7 +20,7 @@ bool overlaps(const std::array<float, 4>& box, float x, float y, float half) {
 }
 
 /// The triangle in the square of 2 x half around (x, y), the column; nothing: it surely misses.
-std::optional<Piece> meet(const TileTriangle& t, float x, float y, float half) {
+std::optional<Piece> piece_at(const TileTriangle& t, float x, float y, float half) {
   Piece piece{.low = t.low,
               .high = t.high,
               .facing = t.facing,
@@ -63,7 +63,7 @@ constexpr float half_part = 0.5f / parts_per_side;
 
 /// False: no part in the square of 2 x half around (x, y) meets the triangle, neither in truth nor in floats: of the edge's
 /// value here and of its value at a part, rounded apart, no more than 2^-21 of their sizes is lost.
-bool may_meet_parts(const TileTriangle& t, float x, float y, float half) {
+bool may_intersect_parts(const TileTriangle& t, float x, float y, float half) {
   const float to_part = half - half_part;
   for (std::size_t k = 0; k < 3; ++k) {
     const float edge = t.edge[k].at(x, y), rounding = 0x1p-20f * (std::abs(edge) + 2.0f * tile_texels);
@@ -154,7 +154,7 @@ void TileBuilder::add_triangle(const TileTriangle& t) {
 
 void TileBuilder::add_texel(const TileTriangle& t, int x, int y) {
   const auto fx = static_cast<float>(x) + 0.5f, fy = static_cast<float>(y) + 0.5f;
-  if (const auto piece = meet(t, fx, fy, 0.5f)) place(x, y, *piece);
+  if (const auto piece = piece_at(t, fx, fy, 0.5f)) place(x, y, *piece);
 }
 
 void TileBuilder::clip(Piece& piece, float slope_u, float slope_v) const {
@@ -367,7 +367,7 @@ std::span<const Piece> TileBuilder::pieces_near(std::uint32_t part) {
     block.key = key;
     block.pieces.clear();
     for (const Piece& piece : pieces_in(texel))
-      if (piece.slot == Piece::no_slot || may_meet_parts(kept_[piece.slot], x, y, half))
+      if (piece.slot == Piece::no_slot || may_intersect_parts(kept_[piece.slot], x, y, half))
         block.pieces.push_back(piece);
   }
   return block.pieces;
@@ -381,7 +381,7 @@ PackedBounds TileBuilder::solve_part(std::uint32_t part) {
   for (const Piece& piece : pieces_near(part)) {
     if (piece.slot == Piece::no_slot)
       column_.push_back(piece);
-    else if (const auto there = meet(kept_[piece.slot], x, y, half_part))
+    else if (const auto there = piece_at(kept_[piece.slot], x, y, half_part))
       column_.push_back(*there);
   }
   return pack(solve(x, y, half_part, false).bounds);

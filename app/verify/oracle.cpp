@@ -15,7 +15,7 @@ struct Candidate {
   bool hit = false, doubtful = false;
 };
 
-Candidate meet_triangle(const World& world, std::uint32_t id, const Ray& ray) {
+Candidate intersect_triangle(const World& world, std::uint32_t id, const Ray& ray) {
   const auto [a, b, c] = world.corners(id);
   const QuadTriangle r = line_triangle(ray.origin, ray.direction, a, b, c);
   const Quad3 n = cross(Quad3(b) - Quad3(a), Quad3(c) - Quad3(a)), d(ray.direction);
@@ -28,7 +28,7 @@ Candidate meet_triangle(const World& world, std::uint32_t id, const Ray& ray) {
   return {r.t, r.inside >= 0 && r.t > 0, doubtful};
 }
 
-Candidate meet_sphere(const Sphere& sphere, const Ray& ray) {
+Candidate intersect_sphere(const Sphere& sphere, const Ray& ray) {
   const QuadRoots r = line_sphere(ray.origin, ray.direction, sphere.center, sphere.radius);
   const Quad3 o = Quad3(ray.origin) - Quad3(sphere.center);
   const bool doubtful =
@@ -44,8 +44,9 @@ OracleHit oracle_closest(const World& world, const Ray& ray) {
   OracleHit best;
   Quad best_t = 0;
   for (std::uint32_t id = 0; id < world.primitive_count(); ++id) {
-    const Candidate c = world.is_triangle(id) ? meet_triangle(world, id, ray)
-                                              : meet_sphere(std::get<Sphere>(world.shape(id).geometry), ray);
+    const Candidate c = world.is_triangle(id)
+                            ? intersect_triangle(world, id, ray)
+                            : intersect_sphere(std::get<Sphere>(world.shape(id).geometry), ray);
     best.doubtful = best.doubtful || c.doubtful;
     if (!c.hit) continue;
     const bool tie =
