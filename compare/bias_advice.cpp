@@ -6,6 +6,7 @@
 
 #include "compare/number_text.h"
 #include "compare/option_names.h"
+#include "compare/text_layout.h"
 
 namespace gnomon::compare {
 namespace {
@@ -55,7 +56,7 @@ std::string need_of_shadowed(const LightComparison& light) {
 }
 
 std::string opposing_needs(const LightComparison& light) {
-  return fmt::format(" No constant bias can be right everywhere: {}{}.", need_of_lit(light),
+  return fmt::format("No constant bias can be right everywhere: {}{}.", need_of_lit(light),
                      need_of_shadowed(light));
 }
 
@@ -105,46 +106,51 @@ std::string range_text(const BiasKind& kind) {
              : fmt::format("; anything from {} on does about as well", plain_number(kind.from));
 }
 
-// Of all kinds the best, and beside it what a constant alone comes to.
-std::string kinds_part(const LightComparison& light) {
+// Of all kinds the best.
+std::string best_kind(const LightComparison& light) {
   const BiasKind& best = light.bias_kinds.front();
-  const double drawn = light.error.wrong_fraction;
   if (light.error.wrong == 0) return {};
-  if (!is_clearly_better(best.wrong_fraction, drawn, light))
-    return " No other kind of bias does clearly better.";
-  std::string text =
-      fmt::format(" {} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias),
-                  range_text(best), rest_text(best.wrong_fraction, light));
+  if (!is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
+    return "No other kind of bias does clearly better.";
+  return fmt::format("{} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias),
+                     range_text(best), rest_text(best.wrong_fraction, light));
+}
+
+// Beside the best kind, where a constant comes to clearly less.
+std::string constant_alone(const LightComparison& light) {
+  const BiasKind& best = light.bias_kinds.front();
+  if (light.error.wrong == 0 || !is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
+    return {};
   for (const BiasKind& kind : light.bias_kinds)
     if (kind.name == "constant bias" && is_clearly_better(best.wrong_fraction, kind.wrong_fraction, light))
-      text += fmt::format(" A constant bias alone would leave {} at best.",
-                          rest_text(kind.wrong_fraction, light));
-  return text;
+      return fmt::format("A constant bias alone would leave {} at best.",
+                         rest_text(kind.wrong_fraction, light));
+  return {};
 }
 
 std::string constant_part(const LightComparison& light) {
   const BestBias& best = light.best_bias;
   const double drawn = light.error.wrong_fraction;
   if (is_clearly_better(best.wrong_fraction, drawn, light))
-    return fmt::format(" A constant bias of {} would leave {}.", bias_text(light, best.constant_world),
+    return fmt::format("A constant bias of {} would leave {}.", bias_text(light, best.constant_world),
                        rest_text(best.wrong_fraction, light));
   if (light.error.wrong == 0 || best.wrong_fraction > drawn) return {};
-  return best.wrong_fraction == drawn ? " No other constant bias does better."
-                                      : " No other constant bias does clearly better.";
+  return best.wrong_fraction == drawn ? "No other constant bias does better."
+                                      : "No other constant bias does clearly better.";
 }
 
 }  // namespace
 
 std::string contradiction(const LightComparison& light) {
   if (light.best_bias.needs_less_than == -infinity)
-    return " No constant bias can be right everywhere: some shadowed pixels find no caster stored in the "
-           "map.";
+    return "No constant bias can be right everywhere: some shadowed pixels find no caster stored in the map.";
   return opposing_needs(light);
 }
 
-std::string bias_advice(const LightComparison& light) {
-  const std::string text = light.bias_kinds.empty() ? constant_part(light) : kinds_part(light);
-  return light.best_bias.feasible ? text : text + contradiction(light);
+BiasAdvice bias_advice(const LightComparison& light) {
+  const std::string why = light.best_bias.feasible ? std::string() : contradiction(light);
+  if (light.bias_kinds.empty()) return {constant_part(light), why};
+  return {best_kind(light), joined_sentences({constant_alone(light), why})};
 }
 
 }  // namespace gnomon::compare

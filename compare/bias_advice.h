@@ -7,11 +7,14 @@
 
 namespace gnomon::compare {
 
-/// " A slope bias of 1 (--slope-bias 1) would leave 0.08 %. …", each sentence with a space before it. Empty
-/// where there is nothing to say.
-std::string bias_advice(const LightComparison& light);
+/// Sentences; empty where there is nothing to say.
+struct BiasAdvice {
+  std::string best;  ///< "A slope bias of 1 (--slope-bias 1) would leave 0.08 %."
+  std::string more;  ///< what a constant alone would leave, and why none is right everywhere
+};
+BiasAdvice bias_advice(const LightComparison& light);
 
-/// " No constant bias can be right everywhere: 213 lit pixels need 0.031 (2 texels) or more, …": of a light
+/// "No constant bias can be right everywhere: 213 lit pixels need 0.031 (2 texels) or more, …": of a light
 /// whose best bias is not feasible.
 std::string contradiction(const LightComparison& light);
 

@@ -20,9 +20,6 @@ std::string result_json(const Comparison& comparison);
 std::string result_csv(const Comparison& comparison);
 /// The summary for stdout, at most 80 columns wide; colour only when asked for.
 std::string summary_table(const Comparison& comparison, bool colour);
-/// One plain sentence on one light: how many pixels are wrong, mostly why, and what the best bias would
-/// leave.
-std::string verdict_sentence(const Comparison& comparison, const LightComparison& light);
 
 /// Fixed, labelled, colour-blind-safe colours; the same in every image, page and window.
 glm::u8vec3 label_colour(Label label);

@@ -12,6 +12,7 @@
 #include "compare/outputs.h"
 #include "compare/shadow_cost.h"
 #include "compare/text_layout.h"
+#include "compare/verdict.h"
 #include "scene/one_line.h"
 
 namespace gnomon::compare {
@@ -276,7 +277,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.blank();
   page.heading(fmt::format("light '{}' ({})", one_line(light_of(c, light).name),
                            light_type_name(light_of(c, light).type)));
-  page.paragraph(verdict_sentence(c, light));
+  page.paragraph(verdict_on(c, light).whole());
   page.blank();
   page.field("map", map_line(c, light));
   const std::string filter = filter_text(c.raster.options.map);

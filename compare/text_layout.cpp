@@ -59,6 +59,15 @@ std::string right_padded(std::string_view text, std::size_t width) {
   return std::string(text) + (own < width ? std::string(width - own, ' ') : std::string());
 }
 
+std::string joined_sentences(std::initializer_list<std::string_view> sentences) {
+  std::string text;
+  for (const std::string_view sentence : sentences) {
+    if (!text.empty() && !sentence.empty()) text += ' ';
+    text += sentence;
+  }
+  return text;
+}
+
 std::string spoken(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', ' ');

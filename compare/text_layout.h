@@ -1,6 +1,7 @@
 // Plain-text layout for terminals: widths count code points, not bytes.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,8 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 /// Filled with spaces to `width` on the left or the right side.
 std::string left_padded(std::string_view text, std::size_t width);
 std::string right_padded(std::string_view text, std::size_t width);
+/// With a space between those that are not empty.
+std::string joined_sentences(std::initializer_list<std::string_view> sentences);
 /// A name of a result file as people read it: "receiver_motion" -> "receiver motion".
 std::string spoken(std::string_view name);
 

@@ -1,5 +1,5 @@
-// The verdict in plain words: how many pixels are wrong, or how far off partly lit ones are, mostly why, and
-// what the best constant bias would leave.
+#include "compare/verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "compare/bias_advice.h"
 #include "compare/judge/judged.h"
 #include "compare/number_text.h"
-#include "compare/outputs.h"
 #include "compare/sweep/engine.h"
+#include "compare/text_layout.h"
 
 namespace gnomon::compare {
 namespace {
@@ -36,18 +36,15 @@ std::string main_reasons(const LightComparison& light) {
   return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
 }
 
-// "4.1 % of the lit-or-shadowed pixels are wrong (mean error 4.1 %), mostly acne."
+// "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne." Each is wholly wrong, so the share is the mean error.
 std::string yes_or_no_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
-  const std::string mean = percent(light.error.mean_absolute);
-  if (wrong == 0)
-    return fmt::format("None of the {} lit-or-shadowed pixels is wrong (mean error {}).", grouped(compared),
-                       mean);
+  if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
   const bool few = light.error.wrong_fraction < few_fraction;
   const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
                                 : fmt::format("{} of the", percent(light.error.wrong_fraction));
-  return fmt::format("{} lit-or-shadowed pixels {} wrong (mean error {}), {}.", share,
-                     few && wrong == 1 ? "is" : "are", mean, main_reasons(light));
+  return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
+                     main_reasons(light));
 }
 
 // Where something is partly lit, in truth or as drawn, counts of what is more than one half off say little.
@@ -66,14 +63,13 @@ std::string fractional_part(const LightComparison& light) {
 std::string uncertain_part(const PixelCounts& p) {
   if (p.uncertain == 0) return {};
   return fmt::format(
-      " {} more ({}) {} uncertain: the truth there lies within its own error bound.", grouped(p.uncertain),
+      "{} more ({}) {} uncertain: the truth there lies within its own error bound.", grouped(p.uncertain),
       percent(static_cast<double>(p.uncertain) / static_cast<double>(p.compared + p.uncertain)),
       p.uncertain == 1 ? "is" : "are");
 }
 
 std::string error_part(const LightComparison& light) {
-  return (light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light)) +
-         uncertain_part(light.pixels);
+  return light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light);
 }
 
 std::string nothing_compared(const PixelCounts& p) {
@@ -92,17 +88,24 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
   const Advice& first = judged.advice[0];
   const double drawn = light.error.wrong_fraction;
   if (first.wrong_instead >= drawn || percent(first.wrong_instead) == percent(drawn)) return {};
-  return fmt::format(" {} {:.4g} instead of {:.4g} would leave {}.", first.setting, first.instead, first.now,
+  return fmt::format("{} {:.4g} instead of {:.4g} would leave {}.", first.setting, first.instead, first.now,
                      percent(first.wrong_instead));
 }
 
 }  // namespace
 
-// What other biases would do follows from the gaps of a hard test alone.
-std::string verdict_sentence(const Comparison& c, const LightComparison& light) {
-  if (light.pixels.compared == 0) return nothing_compared(light.pixels);
-  if (c.judged) return error_part(light) + judged_advice(*c.judged, light);
-  return error_part(light) + (biases_follow_from_gaps(c.raster) ? bias_advice(light) : "");
+std::string Verdict::whole() const {
+  return joined_sentences({headline, detail});
+}
+
+Verdict verdict_on(const Comparison& c, const LightComparison& light) {
+  if (light.pixels.compared == 0) return {nothing_compared(light.pixels), {}};
+  const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
+  if (c.judged) return {joined_sentences({error, judged_advice(*c.judged, light)}), uncertain};
+  // What other biases would do follows from the gaps of a hard test alone.
+  if (!biases_follow_from_gaps(c.raster)) return {error, uncertain};
+  const BiasAdvice advice = bias_advice(light);
+  return {joined_sentences({error, advice.best}), joined_sentences({uncertain, advice.more})};
 }
 
 }  // namespace gnomon::compare

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "compare/outputs.h"
+#include "compare/verdict.h"
 #include "support/compare_support.h"
 
 namespace gnomon::test {
@@ -376,7 +377,7 @@ TEST(CustomShader, HasTheBiasThatItReads) {
   const auto map = nlohmann::json::parse(compare::result_json(stripes.result))["lights"][0]["map"];
   EXPECT_TRUE(map["bias"]["constant_world"].is_null());
   EXPECT_EQ(map["custom_shader"]["reads_bias"], false);
-  const std::string verdict = compare::verdict_sentence(stripes.result, stripes.light());
+  const std::string verdict = compare::verdict_on(stripes.result, stripes.light()).whole();
   EXPECT_EQ(verdict.find("bias"), std::string::npos) << verdict;
 
   const Compared same = with_own_shader("test.gap > light.bias.x ? 0.0 : 1.0");

@@ -21,7 +21,7 @@ namespace {
 using compare::Capture;
 using raster::Technique;
 
-void expect_same_ladder(const Compared& drawn, const Verdict& judged) {
+void expect_same_ladder(const Compared& drawn, const JudgeOutcome& judged) {
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
   EXPECT_GT(judged.result->judged->biased_is_drawn, 1.0 - border_share);
@@ -49,7 +49,7 @@ TEST(JudgeLadder, OfASunIsThatOfItsOwnMap) {
 // 0.7 degrees wide, so that acne's stripes differ by a few pixels in a hundred.
 TEST(JudgeLadder, OfAPointLightsCubeToo) {
   const Compared drawn = draw_builtin("sphere-plane", small_picture, hard_map(128));
-  const Verdict judged = judge(self_capture(drawn, folder_for("cube"), {.map = true}));
+  const JudgeOutcome judged = judge(self_capture(drawn, folder_for("cube"), {.map = true}));
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_GT(judged.result->judged->biased_is_drawn, 0.95);
   const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
@@ -59,7 +59,7 @@ TEST(JudgeLadder, OfAPointLightsCubeToo) {
 
 TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(128));
-  const Verdict judged = judge(self_capture(drawn, folder_for("plain"), {}));
+  const JudgeOutcome judged = judge(self_capture(drawn, folder_for("plain"), {}));
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::LightComparison& light = judged.result->lights[0];
   EXPECT_NEAR(double(light.error.wrong), double(drawn.light().error.wrong),
@@ -74,7 +74,7 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
   const nlohmann::json schema = nlohmann::json::parse(file);
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   for (const bool map : {true, false}) {
-    const Verdict judged = judge(self_capture(drawn, folder_for("outputs"), {.map = map}));
+    const JudgeOutcome judged = judge(self_capture(drawn, folder_for("outputs"), {.map = map}));
     ASSERT_TRUE(judged.result) << reason(judged);
     const std::string folder = folder_for(map ? "report-map" : "report-plain");
     std::filesystem::create_directories(folder);
@@ -100,7 +100,7 @@ TEST(JudgeAdvice, IsTheSmallestConstantThatIsHardlyWorseThanTheBest) {
   const Compared drawn = draw_builtin("wires", small_picture, hard_map(512));
   Capture capture = self_capture(drawn, folder_for("advice"), {.map = true});
   capture.bias->constant_depth = 0.0;
-  const Verdict judged = judge(capture);
+  const JudgeOutcome judged = judge(capture);
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::Advice& advice = judged.result->judged->advice.front();
   const compare::BestBias& best = judged.result->lights[0].best_bias;
@@ -109,7 +109,7 @@ TEST(JudgeAdvice, IsTheSmallestConstantThatIsHardlyWorseThanTheBest) {
   EXPECT_LE(advice.wrong_instead, best.wrong_fraction + std::max(1e-5, best.wrong_fraction / 50.0));
   // Where it is used already it stays.
   capture.bias->constant_depth = advice.instead;
-  const Verdict again = judge(capture);
+  const JudgeOutcome again = judge(capture);
   ASSERT_TRUE(again.result) << reason(again);
   EXPECT_NEAR(again.result->judged->advice.front().instead, advice.instead, 1e-9);
 }
@@ -241,13 +241,13 @@ TEST_P(JudgeConventions, AreNamedAndMended) {
   for (const Convention& convention : conventions()) {
     Capture capture = self_capture(drawn, folder_for(std::string("wrong-") + GetParam()), convention.parts);
     convention.wrong(capture, drawn);
-    const Verdict refused = judge(capture);
+    const JudgeOutcome refused = judge(capture);
     EXPECT_FALSE(refused.result) << convention.name;
     EXPECT_NE(reason(refused).find(convention.name), std::string::npos)
         << convention.name << ": " << reason(refused);
     compare::JudgeOptions fixing;
     fixing.fix = true;
-    const Verdict mended = judge(capture, fixing);
+    const JudgeOutcome mended = judge(capture, fixing);
     ASSERT_TRUE(mended.result) << convention.name << ": " << reason(mended);
     EXPECT_EQ(mended.result->judged->mended.size(), 1U) << convention.name;
   }
@@ -272,8 +272,8 @@ TEST(JudgeAlignment, DoesNotSuspectRightCaptures) {
       if (judged % 3 == 0) map.bias = {.constant = 1.0, .slope = 1.0};
       const Compared drawn = draw_builtin(scene, small_picture, map);
       CaptureParts parts{.positions = judged % 2 == 0, .mask = judged % 4 == 1};
-      const Verdict verdict = judge(self_capture(drawn, folder_for("right"), parts));
-      EXPECT_TRUE(verdict.result) << scene << ": " << reason(verdict);
+      const JudgeOutcome outcome = judge(self_capture(drawn, folder_for("right"), parts));
+      EXPECT_TRUE(outcome.result) << scene << ": " << reason(outcome);
       ++judged;
     }
   EXPECT_EQ(judged, try_all() ? 20 : 5);

@@ -26,7 +26,7 @@ Found identify_one(const std::string& name, const raster::MapOptions& map) {
   const raster::LightRecord& record = drawn.result.raster.lights[0];
   const compare::Capture capture =
       self_capture(drawn, testing::TempDir() + "/gnomon-identify", {.positions = true});
-  Verdict judged = judge(capture);
+  JudgeOutcome judged = judge(capture);
   EXPECT_TRUE(judged.result);
   if (!judged.result) return {};
   auto context = raster::create_context(raster::Backend::automatic);

@@ -53,7 +53,7 @@ Compared draw(const Kind& kind) {
   return draw_scene(scene_under(kind.light), small_picture, map);
 }
 
-double share_as_drawn(const Verdict& judged) {
+double share_as_drawn(const JudgeOutcome& judged) {
   return judged.result ? judged.result->judged->biased_is_drawn : 0.0;
 }
 
@@ -73,7 +73,8 @@ class JudgeMaps : public testing::TestWithParam<Kind> {};
 TEST_P(JudgeMaps, GiveTheLadderOfGnomonsOwn) {
   const Compared drawn = draw(GetParam());
   const CaptureParts parts{.map = true, .stored = GetParam().stored};
-  const Verdict judged = judge(self_capture(drawn, folder_for(name_of(GetParam())), parts), *drawn.scene);
+  const JudgeOutcome judged =
+      judge(self_capture(drawn, folder_for(name_of(GetParam())), parts), *drawn.scene);
   ASSERT_TRUE(judged.result) << reason(judged);
   const compare::LightComparison &own = drawn.light(), &its = judged.result->lights[0];
   EXPECT_LT(lost_share(own, its), border_share);
@@ -174,7 +175,7 @@ TEST_P(JudgeOtherTests, AreClimbedToWhatTheyDrew) {
         compare::CapturedBias{.constant_depth = world ? 0.03 : 0.0004, .normal_offset_world = 0.01};
     if (kind.technique != Technique::csm) std::reverse(capture.map.begin(), capture.map.end());
     draw_again(capture, drawn);
-    const Verdict judged = judge(capture, *drawn.scene);
+    const JudgeOutcome judged = judge(capture, *drawn.scene);
     ASSERT_TRUE(judged.result) << reason(judged);
     EXPECT_GT(share_as_drawn(judged), 1.0 - 1e-4);
     EXPECT_GT(judged.result->lights[0].error.wrong, 20U);
@@ -202,7 +203,7 @@ TEST_F(JudgeCameraDepths, OfEveryConventionGiveTheSameVerdict) {
         CapturedDepth{"", PixelDepth::reversed, 0.1, 200.0},
         CapturedDepth{"", PixelDepth::reversed, 0.1, {}}}) {
     const std::string_view name = compare::pixel_depth_names[static_cast<std::size_t>(*depth.convention)];
-    const Verdict judged = judge(capture(depth), *drawn_.scene);
+    const JudgeOutcome judged = judge(capture(depth), *drawn_.scene);
     ASSERT_TRUE(judged.result) << name << ": " << reason(judged);
     EXPECT_GT(share_as_drawn(judged), 1.0 - border_share) << name;
     double agreement = 0.0;
@@ -236,7 +237,7 @@ TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
   const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
   for (const bool positions : {true, false}) {
     const CaptureParts parts{.positions = positions, .map = true, .ratio = true};
-    const Verdict judged = judge(self_capture(drawn, folder_for("ratio"), parts), *drawn.scene);
+    const JudgeOutcome judged = judge(self_capture(drawn, folder_for("ratio"), parts), *drawn.scene);
     ASSERT_TRUE(judged.result) << reason(judged);
     EXPECT_TRUE(judged.result->judged->of_ratio);
     EXPECT_GT(share_as_drawn(judged), 1.0 - border_share);
@@ -271,7 +272,7 @@ TEST(JudgeRatios, OfEightBitsAreNotSuspectedWhereLittleLightArrives) {
           channel.values[i] = before > 0.0F ? std::round(255.0F * falloff(i) / brightest) / 255.0F : 0.0F;
         }
     });
-  const Verdict judged = judge(capture, *drawn.scene);
+  const JudgeOutcome judged = judge(capture, *drawn.scene);
   EXPECT_TRUE(judged.result) << reason(judged);
 }
 

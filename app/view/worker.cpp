@@ -171,7 +171,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   comparison.lights = std::move(*compared);
   comparison.exposure = scene_->exposure ? *scene_->exposure : auto_exposure(comparison.raytraced.color);
   draw_pictures(outcome);
-  outcome.verdict = compare::verdict_sentence(comparison, comparison.lights.front());
+  outcome.verdict = compare::verdict_on(comparison, comparison.lights.front());
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);

@@ -13,6 +13,7 @@
 
 #include "compare/compare.h"
 #include "compare/report/shown_materials.h"
+#include "compare/verdict.h"
 #include "scene/effects.h"
 #include "scene/expected.h"
 #include "scene/world.h"
@@ -47,7 +48,7 @@ struct ComparisonOutcome {
   compare::Comparison comparison;  ///< without the receivers, by far its largest part
   Image<Vec3f> normals;            ///< of the receivers: geometric, on the viewer's side
   ShownSurfaces shown;
-  std::string verdict;  ///< compare's sentence
+  compare::Verdict verdict;
   Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
 };
 

@@ -36,6 +36,31 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+namespace {
+
+// A browser breaks lines at hyphens, also at those of "--adaptive-bias".
+std::string with_whole_options(std::string_view html) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
+  constexpr std::string_view name = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  std::string out;
+  std::size_t copied = 0;
+  for (std::size_t at = html.find("--"); at != std::string_view::npos; at = html.find("--", copied)) {
+    const std::size_t end = std::min(html.find_first_not_of(name, at), html.size());
+    out += html.substr(copied, at - copied);
+    const bool is_option = end > at + 2 && letters.find(html[at + 2]) != std::string_view::npos;
+    const std::string_view word = html.substr(at, end - at);
+    if (is_option)
+      out += fmt::format(R"(<span class="option">{}</span>)", word);
+    else
+      out += word;
+    copied = end;
+  }
+  out += html.substr(copied);
+  return out;
+}
+
+}  // namespace
+
 std::string flowing(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -46,7 +71,7 @@ std::string flowing(std::string_view text) {
     else
       out += text[i];
   }
-  return escaped(out);
+  return with_whole_options(escaped(out));
 }
 
 std::string data_uri(std::string_view mime, std::string_view bytes) {

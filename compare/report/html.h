@@ -12,7 +12,7 @@ namespace gnomon::compare {
 
 /// Text for element content and quoted attributes. Control characters become spaces.
 std::string escaped(std::string_view text);
-/// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break).
+/// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break), and options whole.
 std::string flowing(std::string_view text);
 std::string data_uri(std::string_view mime, std::string_view bytes);
 /// Appends JSON text that may stand inside <script>: no '<' is left in it.

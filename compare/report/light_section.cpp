@@ -222,7 +222,7 @@ std::string light_section(const PageInput& in, std::size_t i) {
       in.comparison.lights.size() == 1 ? ""
                                        : fmt::format(R"(<p class="lead">{}</p>
 )",
-                                                     flowing(verdict_sentence(in.comparison, b.light))));
+                                                     flowing(verdict_on(in.comparison, b.light).whole())));
   out += viewer(b);
   out += R"(<div class="pair">
 )" + difference_figure(b);

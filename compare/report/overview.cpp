@@ -166,9 +166,9 @@ pixels that are left.</p>
 {}</div>
 )",
                 budget_table(c, i));
-  return fmt::format(R"(<div class="card"><div>{}<p class="verdict">{}</p></div>{}</div>
+  return fmt::format(R"(<div class="card"><div>{}{}</div>{}</div>
 )",
-                     title, flowing(verdict_sentence(c, light)), budget);
+                     title, verdict_block(verdict_on(c, light)), budget);
 }
 
 }  // namespace
@@ -210,6 +210,17 @@ scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></th
 {}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td class="n" colspan="2">{}</td></tr></tbody></table>
 )",
       rows, two_sided_bar({}, left, scale), signed_number(light.rung_mean.back() - light.rung_mean.front()));
+}
+
+std::string verdict_block(const Verdict& verdict) {
+  std::string out = fmt::format(R"(<p class="verdict">{}</p>
+)",
+                                flowing(verdict.headline));
+  if (!verdict.detail.empty())
+    out += fmt::format(R"(<p class="verdict-detail">{}</p>
+)",
+                       flowing(verdict.detail));
+  return out;
 }
 
 std::string overview_section(const PageInput& in) {

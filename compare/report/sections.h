@@ -4,11 +4,14 @@
 #include <string>
 
 #include "compare/report/page.h"
+#include "compare/verdict.h"
 
 namespace gnomon::compare {
 
 /// The pictures side by side, the verdicts and the budgets: what a projector shows first.
 std::string overview_section(const PageInput& input);
+/// The headline large, what else there is to say below it.
+std::string verdict_block(const Verdict& verdict);
 /// The light whose labelled picture stands on the first screen: that with the most wrong pixels.
 std::size_t labelled_light(const Comparison& comparison);
 /// Its wrong pixels in the colours of their labels.
@@ -17,9 +20,9 @@ std::string label_figure(const PageInput& input, std::size_t index);
 std::string light_section(const PageInput& input, std::size_t index);
 /// Times and what does not depend on the machine.
 std::string cost_section(const PageInput& input);
-/// Every stage of the run with its time, and their sum.
 /// What shadows cost apart from what the picture costs, on both sides.
 std::string shadow_cost_table(const PageInput& input);
+/// Every stage of the run with its time, and their sum.
 std::string time_budget_block(const TimeBudget& budget);
 /// What was simulated and what was not, and what the loader had to say.
 std::string effects_section(const PageInput& input);

@@ -238,21 +238,22 @@ void spoil(const std::string& file, const Spoil& change) {
   write(file, image->size, image->channels);
 }
 
-Verdict judge(const compare::Capture& capture, const compare::JudgeOptions& options) {
+JudgeOutcome judge(const compare::Capture& capture, const compare::JudgeOptions& options) {
   const auto scene = load_scene(capture.scene);
-  return scene ? judge(capture, *scene, options) : Verdict{};
+  return scene ? judge(capture, *scene, options) : JudgeOutcome{};
 }
 
-Verdict judge(const compare::Capture& capture, const Scene& scene, const compare::JudgeOptions& options) {
-  Verdict out;
+JudgeOutcome judge(const compare::Capture& capture, const Scene& scene,
+                   const compare::JudgeOptions& options) {
+  JudgeOutcome out;
   out.scene = std::make_unique<Scene>(scene);
   out.world = std::make_unique<World>(make_world(*out.scene));
   out.result = compare::judge_capture(capture, *out.scene, *out.world, options);
   return out;
 }
 
-std::string reason(const Verdict& verdict) {
-  return verdict.result ? std::string("judged") : verdict.result.error().message();
+std::string reason(const JudgeOutcome& outcome) {
+  return outcome.result ? std::string("judged") : outcome.result.error().message();
 }
 
 }  // namespace gnomon::test

@@ -45,14 +45,15 @@ using Spoil = std::function<void(ChannelImage&)>;
 void spoil(const std::string& file, const Spoil& change);
 
 /// Judges with a scene of its own, since --fix changes it.
-struct Verdict {
+struct JudgeOutcome {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<World> world;
   Expected<compare::Comparison> result = fail(ErrorKind::internal, "not judged");
 };
-Verdict judge(const compare::Capture& capture, const compare::JudgeOptions& options = {});
-Verdict judge(const compare::Capture& capture, const Scene& scene, const compare::JudgeOptions& options = {});
+JudgeOutcome judge(const compare::Capture& capture, const compare::JudgeOptions& options = {});
+JudgeOutcome judge(const compare::Capture& capture, const Scene& scene,
+                   const compare::JudgeOptions& options = {});
 /// "judged", or why not.
-std::string reason(const Verdict& verdict);
+std::string reason(const JudgeOutcome& outcome);
 
 }  // namespace gnomon::test

@@ -118,7 +118,8 @@ void results_panel(PanelContext& context) {
   const ComparisonOutcome* outcome = context.outcome();
   if (outcome == nullptr) return faint("Comparing ...");
   const LightComparison& light = outcome->comparison.lights.front();
-  wrapped(outcome->verdict);
+  wrapped(outcome->verdict.headline);
+  if (!outcome->verdict.detail.empty()) faint(outcome->verdict.detail);
   if (!context.is_current()) {
     faint("Of the setting before; the new one is being compared.");
   } else if (outcome->preview) {
