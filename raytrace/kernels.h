@@ -36,7 +36,7 @@ struct Structures {
 template <class Stats, class Visit>
 bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
   if (s.structure.index() != 0) [[unlikely]]
-    return traverse_structure(s.structure, ray, stats.work(), leaf_visitor_of(visit));
+    return traverse_structure(s.structure, ray, stats.work(), visit);
   return traverse(s.bvh, ray, stats, visit);
 }
 

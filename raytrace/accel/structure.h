@@ -13,6 +13,7 @@
 #include "raytrace/accel/median_bvh.h"
 #include "raytrace/accel/octree.h"
 #include "raytrace/accel/two_level.h"
+#include "raytrace/function_ref.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
@@ -29,20 +30,10 @@ struct StructureSize {
 };
 StructureSize size_of(const Structure& structure);
 
-/// What a traversal reports to: visit(self, place in leaf order); true ends it.
-struct LeafVisitor {
-  bool (*visit)(const void* self, std::uint32_t leaf);
-  const void* self;
-  bool operator()(std::uint32_t leaf) const { return visit(self, leaf); }
-};
-template <class Visit>
-LeafVisitor leaf_visitor_of(const Visit& visit) {
-  return {[](const void* self, std::uint32_t leaf) { return (*static_cast<const Visit*>(self))(leaf); },
-          &visit};
-}
+/// What a traversal reports to: visit(place in leaf order); true ends it.
+using LeafVisitor = FunctionRef<bool(std::uint32_t leaf)>;
 
-/// traverse() of the one that it holds; given `work`, adds what is tested. The visitor is behind a pointer, so that these
-/// traversals are compiled once and not for every test of a primitive.
+/// traverse() of the one that it holds; given `work`, adds what is tested.
 bool traverse_structure(const Structure& structure, BoxRay& ray, WorkCounts* work, const LeafVisitor& visit);
 
 }  // namespace gnomon::raytrace

@@ -48,8 +48,7 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
       if (visit(leaf)) limited.limit(float_above(left.t.max));
       return false;
     };
-    traversed =
-        visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visitor_of(visit_leaf), work);
+    traversed = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visit_leaf, work);
   });
   return traversed != WideTraversal::refused;
 }
@@ -72,8 +71,8 @@ bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& f
   const auto visit = [&](std::uint32_t leaf, WideRay&) {
     return arithmetic.leaf(s, frame, leaf, hit) && blocks();
   };
-  const WideTraversal traversed = masks ? visit_candidates(tree, ray, {}, visitor_of(visit), work)
-                                        : visit_ambiguous(tree, ray, visitor_of(visit), work);
+  const WideTraversal traversed =
+      masks ? visit_candidates(tree, ray, {}, visit, work) : visit_ambiguous(tree, ray, visit, work);
   found = traversed == WideTraversal::ended;
   return traversed != WideTraversal::refused;
 }

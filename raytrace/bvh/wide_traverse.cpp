@@ -213,22 +213,21 @@ HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandida
 }
 
 template <class Test, class Counts>
-HWY_INLINE WideTraversal visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visitor,
+HWY_INLINE WideTraversal visit_all(const WideTree& tree, WideRay& ray, const CandidateVisitor& visit,
                                    const Counts& counts) {
   return traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
-    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) {
-      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
-    });
+    return each_candidate<Test>(
+        leaf, ray, [&](unsigned i, const Test&) { return visit(leaf.triangles.first() + i, ray); });
   });
 }
 
 template <class Test, class Counts>
 HWY_INLINE WideTraversal visit_ambiguous_hits(const WideTree& tree, WideRay& ray,
-                                              const CandidateVisitor& visitor, const Counts& counts) {
+                                              const CandidateVisitor& visit, const Counts& counts) {
   return traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       if (is_surely_hit(i, test, ray)) return true;
-      return visitor.visit(visitor.self, leaf.triangles.first() + i, ray);
+      return visit(leaf.triangles.first() + i, ray);
     });
   });
 }
@@ -244,20 +243,20 @@ HWY_INLINE WideTraversal closest_of(const WideTree& tree, const Ray& given, Leaf
 
 template <class Counts>
 HWY_INLINE WideTraversal visit_of(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
-                                  const CandidateVisitor& visitor, const Counts& counts) {
+                                  const CandidateVisitor& visit, const Counts& counts) {
   WideRay ray;
   if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
-  return tree.plain ? visit_all<PlainTest>(tree, ray, visitor, counts)
-                    : visit_all<LeafTest>(tree, ray, visitor, counts);
+  return tree.plain ? visit_all<PlainTest>(tree, ray, visit, counts)
+                    : visit_all<LeafTest>(tree, ray, visit, counts);
 }
 
 template <class Counts>
-HWY_INLINE WideTraversal ambiguous_of(const WideTree& tree, const Ray& given, const CandidateVisitor& visitor,
+HWY_INLINE WideTraversal ambiguous_of(const WideTree& tree, const Ray& given, const CandidateVisitor& visit,
                                       const Counts& counts) {
   WideRay ray;
   if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
-  return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visitor, counts)
-                    : visit_ambiguous_hits<LeafTest>(tree, ray, visitor, counts);
+  return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visit, counts)
+                    : visit_ambiguous_hits<LeafTest>(tree, ray, visit, counts);
 }
 
 WideTraversal closest_kernel(const WideTree& tree, const Ray& ray, LeafCandidates& found) {
@@ -268,12 +267,12 @@ WideTraversal closest_counted(const WideTree& tree, const Ray& ray, LeafCandidat
 }
 
 WideTraversal visit_kernel(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                           CandidateVisitor visitor) {
-  return visit_of(tree, ray, limits, visitor, NoCounts{});
+                           CandidateVisitor visit) {
+  return visit_of(tree, ray, limits, visit, NoCounts{});
 }
 WideTraversal visit_counted(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                            CandidateVisitor visitor, WorkCounts& work) {
-  return visit_of(tree, ray, limits, visitor, CountTests{work});
+                            CandidateVisitor visit, WorkCounts& work) {
+  return visit_of(tree, ray, limits, visit, CountTests{work});
 }
 
 WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
@@ -298,12 +297,12 @@ WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const Trave
   return full ? WideTraversal::refused : traversed;
 }
 
-WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visitor) {
-  return ambiguous_of(tree, ray, visitor, NoCounts{});
+WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visit) {
+  return ambiguous_of(tree, ray, visit, NoCounts{});
 }
-WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                                 WorkCounts& work) {
-  return ambiguous_of(tree, ray, visitor, CountTests{work});
+  return ambiguous_of(tree, ray, visit, CountTests{work});
 }
 
 }  // namespace
@@ -326,14 +325,14 @@ WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandi
                          : HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
 }
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                               CandidateVisitor visitor, WorkCounts* work) {
-  return work != nullptr ? HWY_DYNAMIC_DISPATCH(visit_counted)(tree, ray, limits, visitor, *work)
-                         : HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visitor);
+                               CandidateVisitor visit, WorkCounts* work) {
+  return work != nullptr ? HWY_DYNAMIC_DISPATCH(visit_counted)(tree, ray, limits, visit, *work)
+                         : HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visit);
 }
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work) {
-  return work != nullptr ? HWY_DYNAMIC_DISPATCH(ambiguous_counted)(tree, ray, visitor, *work)
-                         : HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visitor);
+  return work != nullptr ? HWY_DYNAMIC_DISPATCH(ambiguous_counted)(tree, ray, visit, *work)
+                         : HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visit);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found) {

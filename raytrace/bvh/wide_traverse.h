@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "raytrace/bvh/wide_ray.h"
+#include "raytrace/function_ref.h"
 #include "scene/ray.h"
 
 namespace gnomon::raytrace {
@@ -31,33 +32,21 @@ WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandi
                                  WorkCounts* work = nullptr);
 
 /// Near ones first, roughly. The visitor may limit the ray, and returns true to end the traversal.
-struct CandidateVisitor {
-  bool (*visit)(const void* self, std::uint32_t leaf, WideRay& ray);
-  const void* self;
-};
+using CandidateVisitor = FunctionRef<bool(std::uint32_t leaf, WideRay& ray)>;
 struct TraversalLimits {
   float t_above = std::numeric_limits<float>::infinity();  ///< none from here on; in the units of RayFrame
   double origin_error = 0.0;  ///< how far the ray's true origin may lie from its own, along any axis
   double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                               CandidateVisitor visitor, WorkCounts* work = nullptr);
+                               CandidateVisitor visit, WorkCounts* work = nullptr);
 /// The same, but a triangle that is surely hit in range ends it, too, and is not reported.
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visitor,
+WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work = nullptr);
 
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
 /// `refused` also where there would be too many.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found);
-
-/// visit(leaf, ray)
-template <class Visit>
-CandidateVisitor visitor_of(const Visit& visit) {
-  return {[](const void* self, std::uint32_t leaf, WideRay& ray) {
-            return (*static_cast<const Visit*>(self))(leaf, ray);
-          },
-          &visit};
-}
 
 }  // namespace gnomon::raytrace

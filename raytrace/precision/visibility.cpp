@@ -23,7 +23,7 @@ class Query {
       : s_(s), tree_(tree), given_(ray), ambiguous_(ambiguous), exact_(exact) {}
 
   template <bool masks>
-  PointVisibility run(Candidates among) {
+  PointVisibility run(LeavesAmong among) {
     for (const std::uint32_t plane : s_.planes)
       if (plane != ambiguous_.from().primitive &&
           count<masks>(plane, ambiguous_.intersects_plane(plane), -1, false))
@@ -52,8 +52,8 @@ class Query {
       const auto visit_one = [&](std::uint32_t leaf, WideRay&) { return visit_leaf(leaf); };
       Ray ray = given_;
       ray.t.max = ambiguous_.surely_out() / ambiguous_.frame().kernel_t_from_t;
-      const WideTraversal traversed = visit_candidates(
-          *tree_, ray, {.origin_error = max_component(ambiguous_.error())}, visitor_of(visit_one));
+      const WideTraversal traversed =
+          visit_candidates(*tree_, ray, {.origin_error = max_component(ambiguous_.error())}, visit_one);
       if (traversed != WideTraversal::refused) return traversed == WideTraversal::ended;
     }
     BoxRay boxes(ambiguous_.frame(), s_.bvh.center, ambiguous_.error());
@@ -178,7 +178,7 @@ bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& f
   return traversed != WideTraversal::refused;
 }
 
-PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ray, Candidates among,
+PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ray, LeavesAmong among,
                     const ExactShadow* exact) {
   const WideTree* tree = among == nullptr ? wide_tree(s) : nullptr;
   LeafCandidates found;
@@ -201,12 +201,12 @@ PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ra
 }  // namespace
 
 PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                 Candidates among) {
+                                 LeavesAmong among) {
   return ask(structures, from, ray, among, nullptr);
 }
 
 PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                     const Light& light, Candidates among) {
+                                     const Light& light, LeavesAmong among) {
   const ExactShadow exact(*structures.world, from, light);
   return ask(structures, from, ray, among, &exact);
 }

@@ -9,15 +9,15 @@
 namespace gnomon::raytrace {
 
 /// Positions in leaf order; nullptr: all.
-using Candidates = const std::span<const std::uint32_t>*;
+using LeavesAmong = const std::span<const std::uint32_t>*;
 
 /// `ray` is Tracer::shadow_ray of the point. `among`: whatever else is there, but planes, is surely missed.
 PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                 Candidates among = nullptr);
+                                 LeavesAmong among = nullptr);
 
 /// The same without ambiguity: what the bounds leave open is decided by exact predicates (exact_shadow.h
 /// there).
 PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                     const Light& light, Candidates among = nullptr);
+                                     const Light& light, LeavesAmong among = nullptr);
 
 }  // namespace gnomon::raytrace

@@ -1,0 +1,30 @@
+// Somebody else's callable behind two pointers: what a traversal reports to that is compiled once, not once per visitor.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+namespace gnomon::raytrace {
+
+template <class Signature>
+class FunctionRef;
+
+/// Refers to the callable, which must outlive it.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+ public:
+  template <class Callable>
+  FunctionRef(const Callable& callable)
+      : callable_(std::addressof(callable)), call_([](const void* self, Arguments... arguments) -> Result {
+          return (*static_cast<const Callable*>(self))(std::forward<Arguments>(arguments)...);
+        }) {}
+  Result operator()(Arguments... arguments) const {
+    return call_(callable_, std::forward<Arguments>(arguments)...);
+  }
+
+ private:
+  const void* callable_;
+  Result (*call_)(const void* self, Arguments... arguments);
+};
+
+}  // namespace gnomon::raytrace
