@@ -3,82 +3,20 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "raytrace/packets/double_lanes-inl.h"
 #include "raytrace/packets/quantised_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
 using Half = hn::Rebind<float, D>;
 using Leaf = hn::Rebind<std::uint32_t, D>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-constexpr D d;
 constexpr Half half;
 constexpr Leaf leaves;
 
-inline V all(double v) {
-  return hn::Set(d, v);
-}
-inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0];
-}
-
-struct V3 {
-  V x, y, z;
-};
-inline V dot(const V3& a, const V3& b) {
+inline V fused_dot(const V3& a, const V3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-inline V3 minus(const V3& a, const V3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-inline V3 cross(const V3& a, const V3& b) {
-  const auto part = [](V p, V q, V r, V s) { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
-  return {part(a.y, b.z, a.z, b.y), part(a.z, b.x, a.x, b.z), part(a.x, b.y, a.y, b.x)};
-}
-
-/// Corners of as many triangles as there are lanes; often they are one and the same.
-struct Corners {
-  V3 corner[3];
-  Corners(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
-    const auto first = leaf[std::countr_zero(known)];
-    if (hn::AllTrue(leaves, hn::Eq(hn::LoadU(leaves, leaf), hn::Set(leaves, first)))) {
-      LeafPrimitive scratch;
-      const auto& v = bvh.primitive_at(first, scratch).v;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = {all(v[3 * k]), all(v[3 * k + 1]), all(v[3 * k + 2])};
-      return;
-    }
-    alignas(64) double rows[9][8];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-      LeafPrimitive scratch;
-      const auto& v = bvh.primitive_at((known >> i & 1) != 0 ? leaf[i] : first, scratch).v;
-      for (std::size_t k = 0; k < 9; ++k) rows[k][i] = v[k];
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-      corner[k] = {hn::Load(d, rows[3 * k]), hn::Load(d, rows[3 * k + 1]), hn::Load(d, rows[3 * k + 2])};
-  }
-};
-
-/// The tile's pixels on the plane at distance one.
-struct PixelPlane {
-  alignas(64) double x[tile_rays], y[tile_rays];
-  PixelPlane(const View& view, int x0, int y0) {
-    double column[16], row[16];
-    for (int i = 0; i < 16; ++i) {
-      column[i] = (2.0 * (x0 + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
-      row[i] = (1.0 - 2.0 * (y0 + i + 0.5) / view.size.height) * view.tan_half_y;
-    }
-    for (std::size_t lane = 0; lane < tile_rays; lane += 4) {
-      const TilePixel at = tile_pixel(lane);
-      for (std::size_t i = 0; i < 4; ++i)
-        x[lane + i] = column[static_cast<std::size_t>(at.x) + i], y[lane + i] = row[at.y];
-    }
-  }
-};
 
 class Draft {
  public:
@@ -89,16 +27,17 @@ class Draft {
 
   /// Bits of those written.
   unsigned put(const PixelPlane& plane, const std::uint32_t* leaf, unsigned known, std::size_t lane) {
-    const Corners c(bvh_, leaf, known);
+    corners_.load(bvh_, leaf, known);
+    const V3(&corner)[3] = corners_.corner;
     const V x = hn::Load(d, plane.x + lane), y = hn::Load(d, plane.y + lane);
     const auto along = [&](int a) {
       return hn::MulAdd(y, all(view_.up[a]), hn::MulAdd(x, all(view_.right[a]), all(view_.forward[a])));
     };
     const V3 ray = {along(0), along(1), along(2)};
-    const V3 eye = {all(view_.eye.x), all(view_.eye.y), all(view_.eye.z)};
-    const V3 e1 = minus(c.corner[1], c.corner[0]), e2 = minus(c.corner[2], c.corner[0]);
-    const V3 n = cross(e1, e2), to_corner = minus(c.corner[0], eye);
-    const V height = dot(n, to_corner), slope = dot(n, ray), n2 = dot(n, n);
+    const V3 eye = all(view_.eye);
+    const V3 e1 = minus(corner[1], corner[0]), e2 = minus(corner[2], corner[0]);
+    const V3 n = cross(e1, e2), to_corner = minus(corner[0], eye);
+    const V height = fused_dot(n, to_corner), slope = fused_dot(n, ray), n2 = fused_dot(n, n);
     const V inverse = hn::Div(all(1.0), hn::Mul(slope, hn::Sqrt(n2)));  // one division for both quotients
     const V t = hn::Mul(height, hn::Mul(hn::Sqrt(n2), inverse));
     const unsigned sound = bits_of(well_known(e1, e2, n2, to_corner, height, t)) & known;
@@ -109,8 +48,7 @@ class Draft {
     const V unit = hn::Neg(hn::Mul(hn::Abs(slope), hn::Abs(inverse)));
     const V turned = hn::CopySign(unit, hn::Neg(slope));
     const V normal[3] = {hn::Mul(n.x, turned), hn::Mul(n.y, turned), hn::Mul(n.z, turned)};
-    std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
-    const M here = hn::LoadMaskBits(d, bytes);
+    const M here = mask_of(sound);
     for (std::size_t a = 0; a < 3; ++a) {
       hn::Store(position[a], d, draft_.position[a] + lane);
       hn::Store(hn::DemoteTo(half, normal[a]), half, tile_.normal[a] + lane);
@@ -137,8 +75,8 @@ class Draft {
   // turned by 2^-51 k, the crossing moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
   // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2).
   static M well_known(const V3& e1, const V3& e2, V n2, const V3& to_corner, V height, V t) {
-    const V l1 = dot(e1, e1), l2 = dot(e2, e2), spread = hn::Mul(l1, l2);
-    const V sum = hn::MulAdd(hn::Max(l1, l2), spread, hn::Mul(dot(to_corner, to_corner), n2));
+    const V l1 = fused_dot(e1, e1), l2 = fused_dot(e2, e2), spread = hn::Mul(l1, l2);
+    const V sum = hn::MulAdd(hn::Max(l1, l2), spread, hn::Mul(fused_dot(to_corner, to_corner), n2));
     const M near = hn::Lt(sum, hn::Mul(all(0x1p23), hn::Mul(height, height)));
     const M turned = hn::Lt(spread, hn::Mul(all(0x1p54), n2));
     return hn::And(hn::And(near, turned), hn::And(hn::Gt(t, all(0.0)), hn::Lt(t, all(infinity))));
@@ -148,17 +86,9 @@ class Draft {
   const View& view_;
   QuantisedTile& tile_;
   TileDraft& draft_;
+  HitCorners corners_;
   V low_[3], high_[3];
 };
-
-/// The corners of a packet's triangles on their way to the cache; where all are one they are there.
-inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
-  if (leaf[0] == leaf[packet_rays - 1]) return;
-  const std::uint32_t count = bvh.leaf_count();
-  for (std::size_t i = 0; i < packet_rays; ++i) {
-    if (leaf[i] < count) bvh.prefetch(leaf[i]);
-  }
-}
 
 DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
                        QuantisedTile& tile, TileDraft& draft) {

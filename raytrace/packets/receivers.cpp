@@ -3,67 +3,24 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <bit>
+#include <cstddef>
 
+#include "raytrace/packets/double_lanes-inl.h"
 #include "raytrace/packets/receivers.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
-using Index = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-constexpr D d;
-constexpr Index index;
 
-inline V all(double v) {
-  return hn::Set(d, v);
+template <int axis>
+inline V along(const V3& v) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
-inline V add(V a, V b) {
-  return hn::Add(a, b);
+inline V least_of(V a, V b, V c) {
+  return hn::Min(a, hn::Min(b, c));
 }
-inline V sub(V a, V b) {
-  return hn::Sub(a, b);
-}
-inline V mul(V a, V b) {
-  return hn::Mul(a, b);
-}
-inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0];
-}
-
-struct V3 {
-  V a[3];
-  V operator[](std::size_t i) const { return a[i]; }
-};
-// The orders of glm's operations.
-inline V dot(const V3& x, const V3& y) {
-  return add(add(mul(x[0], y[0]), mul(x[1], y[1])), mul(x[2], y[2]));
-}
-inline V difference(V a, V b, V c, V e) {
-  return sub(mul(a, b), mul(c, e));
-}
-inline V3 cross(const V3& x, const V3& y) {
-  return {{difference(x[1], y[2], y[1], x[2]), difference(x[2], y[0], y[2], x[0]),
-           difference(x[0], y[1], y[0], x[1])}};
-}
-inline V3 minus(const V3& x, const V3& y) {
-  return {{sub(x[0], y[0]), sub(x[1], y[1]), sub(x[2], y[2])}};
-}
-inline V3 times(V s, const V3& x) {
-  return {{mul(s, x[0]), mul(s, x[1]), mul(s, x[2])}};
-}
-
-/// scene/camera.cpp's pixel_ray.
-inline V3 pixel_direction(const View& view, V sx, V sy) {
-  V3 sum;
-  for (int a = 0; a < 3; ++a)
-    sum.a[a] = add(add(all(view.forward[a]), mul(sx, all(view.right[a]))), mul(sy, all(view.up[a])));
-  return times(hn::Div(all(1.0), hn::Sqrt(dot(sum, sum))), sum);
+inline V most_of(V a, V b, V c) {
+  return hn::Max(a, hn::Max(b, c));
 }
 
 struct Weights {
@@ -72,157 +29,193 @@ struct Weights {
 };
 
 /// make_ray_frame, shear and finish_triangle for rays whose largest component is along k.
-inline Weights intersect(const V3& direction, const V3& origin, const V3 (&corner)[3], std::size_t k) {
-  const std::size_t kx = (k + 1) % 3, ky = (k + 2) % 3;
-  const V largest = hn::Abs(direction[k]);
-  const V shear_x = hn::Div(direction[kx], direction[k]), shear_y = hn::Div(direction[ky], direction[k]);
-  const V shear_z = hn::Div(all(1.0), direction[k]);
-  V x[3], y[3], z[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    z[i] = sub(corner[i][k], origin[k]);
-    x[i] = sub(sub(corner[i][kx], origin[kx]), mul(shear_x, z[i]));
-    y[i] = sub(sub(corner[i][ky], origin[ky]), mul(shear_y, z[i]));
-  }
-  const V u = difference(x[2], y[1], y[2], x[1]), v = difference(x[0], y[2], y[0], x[2]);
-  const V w = difference(x[1], y[0], y[1], x[0]);
-  const V det = add(add(u, v), w);
-  const V depth = hn::Div(add(add(mul(u, z[0]), mul(v, z[1])), mul(w, z[2])), det);
-  const V low = hn::Min(z[0], hn::Min(z[1], z[2])), high = hn::Max(z[0], hn::Max(z[1], z[2]));
-  const V t = mul(hn::Min(hn::Max(depth, low), high), shear_z);
-  const V zero = all(0.0), least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
-  const M inside = hn::Or(hn::Gt(least, zero), hn::Lt(most, zero));  // an edge function of zero: not here
-  const M along = hn::And(hn::Gt(largest, hn::Max(hn::Abs(direction[kx]), hn::Abs(direction[ky]))),
-                          hn::Lt(largest, all(1.0)));
+template <int k>
+inline Weights intersect(const V3& direction, const V3& origin, const V3 (&corner)[3]) {
+  constexpr int kx = (k + 1) % 3, ky = (k + 2) % 3;
+  const V dx = along<kx>(direction), dy = along<ky>(direction), dz = along<k>(direction);
+  const V shear_x = hn::Div(dx, dz), shear_y = hn::Div(dy, dz), shear_z = hn::Div(all(1.0), dz);
+  const auto from_origin = [&](const V3& v) {
+    const V z = hn::Sub(along<k>(v), along<k>(origin));
+    const auto sheared = [&](V at, V from, V shear) { return hn::Sub(hn::Sub(at, from), hn::Mul(shear, z)); };
+    return V3{sheared(along<kx>(v), along<kx>(origin), shear_x),
+              sheared(along<ky>(v), along<ky>(origin), shear_y), z};
+  };
+  const V3 p = from_origin(corner[0]), q = from_origin(corner[1]), r = from_origin(corner[2]);
+  const auto edge = [](const V3& a, const V3& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); };
+  const V u = edge(r, q), v = edge(p, r), w = edge(q, p);
+  const V det = hn::Add(hn::Add(u, v), w);
+  const V depth = hn::Div(hn::Add(hn::Add(hn::Mul(u, p.z), hn::Mul(v, q.z)), hn::Mul(w, r.z)), det);
+  const V clamped = hn::Min(hn::Max(depth, least_of(p.z, q.z, r.z)), most_of(p.z, q.z, r.z));
+  const V t = hn::Mul(clamped, shear_z), zero = all(0.0), largest = hn::Abs(dz);
+  // An edge function of zero: not here.
+  const M inside = hn::Or(hn::Gt(least_of(u, v, w), zero), hn::Lt(most_of(u, v, w), zero));
+  const M longest = hn::And(hn::Gt(largest, hn::Max(hn::Abs(dx), hn::Abs(dy))), hn::Lt(largest, all(1.0)));
   const M ahead = hn::And(hn::Gt(t, zero), hn::Lt(t, all(infinity)));
-  return {hn::Div(v, det), hn::Div(w, det), hn::And(inside, hn::And(along, ahead))};
+  return {hn::Div(v, det), hn::Div(w, det), hn::And(inside, hn::And(longest, ahead))};
 }
 
-struct alignas(64) Rows {
-  double value[11][8];
+/// What the pixels' triangles are, whichever rays hit them.
+struct HitTriangles {
+  HitCorners from;
+  V3 normal = all(Vec3(0.0));   ///< unit, on the side of the corners' order
+  V position_error = all(0.0);  ///< the part that comes of their size
+
+  alignas(32) std::uint32_t ids[8] = {};
+
+  void load(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
+    if (!from.load(bvh, leaf, known)) return;
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+      if ((known >> i & 1) != 0) ids[i] = bvh.id_at(leaf[i]);
+    const V3(&corner)[3] = from.corner;
+    const auto extent = [](V p, V q, V r) { return hn::Sub(most_of(p, q, r), least_of(p, q, r)); };
+    position_error = hn::Mul(all(error_gamma(24)), most_of(extent(corner[0].x, corner[1].x, corner[2].x),
+                                                           extent(corner[0].y, corner[1].y, corner[2].y),
+                                                           extent(corner[0].z, corner[1].z, corner[2].z)));
+    const V3 n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
+    const V length = hn::Sqrt(dot(n, n));
+    normal = {hn::Div(n.x, length), hn::Div(n.y, length), hn::Div(n.z, length)};
+  }
 };
 
-/// triangle_point and the normal on the side of the viewer, by rows: position, error, normal, weights.
-inline void point_rows(const V3& direction, const V3 (&corner)[3], const Weights& w, Rows& rows) {
-  const V b0 = sub(sub(all(1.0), w.b1), w.b2);
+/// SurfacePoint, as many as there are lanes, but for their primitives.
+struct Points {
+  V3 position, error, normal;
+  V b1, b2;
+};
+
+/// triangle_point and the normal on the side of the viewer.
+inline Points points_of(const V3& direction, const HitTriangles& triangles, const Weights& w) {
+  const V3(&corner)[3] = triangles.from.corner;
+  const V b0 = hn::Sub(hn::Sub(all(1.0), w.b1), w.b2);
   const V3 a = times(b0, corner[0]), b = times(w.b1, corner[1]), c = times(w.b2, corner[2]);
-  V3 extent, position, reach;
-  for (std::size_t i = 0; i < 3; ++i) {
-    extent.a[i] = sub(hn::Max(corner[0][i], hn::Max(corner[1][i], corner[2][i])),
-                      hn::Min(corner[0][i], hn::Min(corner[1][i], corner[2][i])));
-    position.a[i] = add(add(a[i], b[i]), c[i]);
-    reach.a[i] = add(add(hn::Abs(a[i]), hn::Abs(b[i])), hn::Abs(c[i]));
-  }
-  const V widest = mul(all(error_gamma(24)), hn::Max(extent[0], hn::Max(extent[1], extent[2])));
-  const V3 n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-  const V length = hn::Sqrt(dot(n, n));
-  V3 normal;
-  for (std::size_t i = 0; i < 3; ++i) normal.a[i] = hn::Div(n[i], length);
+  const V widest = triangles.position_error;
+  const V3 reach = times(all(error_gamma(7)), plus(plus(size_of(a), size_of(b)), size_of(c)));
+  const V3& normal = triangles.normal;
   const M away = hn::Gt(dot(normal, direction), all(0.0));
-  for (std::size_t i = 0; i < 3; ++i) {
-    hn::Store(position[i], d, rows.value[i]);
-    hn::Store(add(mul(all(error_gamma(7)), reach[i]), widest), d, rows.value[3 + i]);
-    hn::Store(hn::IfThenElse(away, hn::Neg(normal[i]), normal[i]), d, rows.value[6 + i]);
+  const auto facing = [&](V component) { return hn::IfThenElse(away, hn::Neg(component), component); };
+  return {plus(plus(a, b), c),
+          plus(reach, V3{widest, widest, widest}),
+          {facing(normal.x), facing(normal.y), facing(normal.z)},
+          w.b1,
+          w.b2};
+}
+
+/// Writes a packet's points, lanes from `first` on, in the order of SurfacePoint's members: three times four doubles.
+inline void write(const Points& p, const std::uint32_t* ids, unsigned sound, std::size_t first,
+                  SurfacePoint* packet, std::size_t stride) {
+  static_assert(offsetof(SurfacePoint, position) == 0 && offsetof(SurfacePoint, position_error) == 24 &&
+                offsetof(SurfacePoint, normal) == 48 && offsetof(SurfacePoint, primitive) == 72 &&
+                offsetof(SurfacePoint, barycentric) == 80 && sizeof(SurfacePoint) == 96 &&
+                std::endian::native == std::endian::little);
+  constexpr hn::RebindToUnsigned<D> u64;
+  constexpr hn::Rebind<std::uint32_t, D> u32;
+  constexpr hn::CappedTag<double, 4> four;
+  alignas(64) double part[3][4 * 8];
+  hn::StoreInterleaved4(p.position.x, p.position.y, p.position.z, p.error.x, d, part[0]);
+  hn::StoreInterleaved4(p.error.y, p.error.z, p.normal.x, p.normal.y, d, part[1]);
+  hn::StoreInterleaved4(p.normal.z, hn::BitCast(d, hn::PromoteTo(u64, hn::Load(u32, ids))), p.b1, p.b2, d,
+                        part[2]);
+  for (unsigned left = sound; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left)), lane = first + i;
+    auto* out = reinterpret_cast<double*>(packet + lane / 4 * stride + lane % 4);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 4; j += hn::Lanes(four))
+        hn::StoreU(hn::Load(four, part[k] + 4 * i + j), four, out + 4 * k + j);
   }
-  hn::Store(w.b1, d, rows.value[9]), hn::Store(w.b2, d, rows.value[10]);
 }
 
-inline void write(const Rows& rows, std::size_t i, std::uint32_t primitive, SurfacePoint& out) {
-  const auto& r = rows.value;
-  out.position = {r[0][i], r[1][i], r[2][i]}, out.position_error = {r[3][i], r[4][i], r[5][i]};
-  out.normal = {r[6][i], r[7][i], r[8][i]}, out.primitive = primitive, out.barycentric = {r[9][i], r[10][i]};
-}
-
-/// Least and greatest coordinates.
-struct Reach {
-  V low[3] = {all(infinity), all(infinity), all(infinity)};
-  V high[3] = {all(-infinity), all(-infinity), all(-infinity)};
-  void grow(Aabb& bounds) const {
+/// The same of a quantised tile, where one is asked for; others of its lanes may have been written already.
+class Draft {
+ public:
+  explicit Draft(const ReceiverSinks& sinks) : tile_(sinks.quantised), draft_(sinks.draft) {
+    for (int a = 0; a < 3; ++a) low_[a] = all(infinity), high_[a] = all(-infinity);
+  }
+  void put(const Points& p, const std::uint32_t* ids, unsigned sound, std::size_t lane) {
+    if (tile_ == nullptr) return;
+    constexpr hn::Rebind<float, D> half;
+    constexpr hn::Rebind<std::uint32_t, D> u32;
+    const M here = mask_of(sound);
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
+    const auto here_of_half = hn::LoadMaskBits(half, bytes);
+    const auto put_along = [&](std::size_t axis, V position, V normal) {
+      blend_into(d, draft_->position[axis] + lane, here, position);
+      blend_into(half, tile_->normal[axis] + lane, here_of_half, hn::DemoteTo(half, normal));
+      low_[axis] = hn::Min(low_[axis], hn::IfThenElse(here, position, low_[axis]));
+      high_[axis] = hn::Max(high_[axis], hn::IfThenElse(here, position, high_[axis]));
+    };
+    put_along(0, p.position.x, p.normal.x);
+    put_along(1, p.position.y, p.normal.y);
+    put_along(2, p.position.z, p.normal.z);
+    blend_into(u32, tile_->source + lane, hn::RebindMask(u32, here_of_half), hn::Load(u32, ids));
+    tile_->present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
+  }
+  void finish() const {
+    if (tile_ == nullptr) return;
+    Aabb& bounds = draft_->bounds;
     for (int a = 0; a < 3; ++a) {
-      bounds.min[a] = std::min(bounds.min[a], hn::GetLane(hn::MinOfLanes(d, low[a])));
-      bounds.max[a] = std::max(bounds.max[a], hn::GetLane(hn::MaxOfLanes(d, high[a])));
+      bounds.min[a] = std::min(bounds.min[a], hn::GetLane(hn::MinOfLanes(d, low_[a])));
+      bounds.max[a] = std::max(bounds.max[a], hn::GetLane(hn::MaxOfLanes(d, high_[a])));
     }
   }
+
+ private:
+  /// A masked store takes longer on some processors than all that is done here.
+  template <class Tag, class Mask, class Vector, class T>
+  static void blend_into(Tag tag, T* to, Mask here, Vector values) {
+    hn::Store(hn::IfThenElse(here, values, hn::Load(tag, to)), tag, to);
+  }
+
+  QuantisedTile* tile_;
+  TileDraft* draft_;
+  V low_[3], high_[3];
 };
 
-/// The same rows for a quantised tile; others of its lanes may have been written already.
-inline void write_draft(const Rows& rows, unsigned sound, const std::uint32_t* leaf, const Bvh& bvh,
-                        std::size_t lane, QuantisedTile& tile, TileDraft& draft, Reach& reach) {
-  constexpr hn::Rebind<float, D> half;
-  std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
-  const M here = hn::LoadMaskBits(d, bytes);
-  tile.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
-  for (std::size_t a = 0; a < 3; ++a) {
-    const V position = hn::Load(d, rows.value[a]);
-    hn::BlendedStore(position, here, d, draft.position[a] + lane);
-    reach.low[a] = hn::IfThenElse(here, hn::Min(reach.low[a], position), reach.low[a]);
-    reach.high[a] = hn::IfThenElse(here, hn::Max(reach.high[a], position), reach.high[a]);
-    const auto normal = hn::DemoteTo(half, hn::Load(d, rows.value[6 + a]));
-    hn::BlendedStore(normal, hn::LoadMaskBits(half, bytes), half, tile.normal[a] + lane);
-  }
-  for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-    if ((sound >> i & 1) != 0) tile.source[lane + i] = bvh.id_at(leaf[i]);
-  }
-}
-
-/// A packet's pixels on the plane at distance one.
-inline void place_packet(const View& view, int x0, int y0, std::size_t packet, double* sx, double* sy) {
-  const TilePixel corner = tile_pixel(packet * packet_rays);
-  for (int i = 0; i < 4; ++i) {
-    const double x = (2.0 * (x0 + corner.x + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
-    const double y = (1.0 - 2.0 * (y0 + corner.y + i + 0.5) / view.size.height) * view.tan_half_y;
-    for (int k = 0; k < 4; ++k) sx[4 * k + i] = x, sy[4 * i + k] = y;
-  }
-}
-
-LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
-                          const ReceiverSinks& sinks) {
-  alignas(64) double sx[packet_rays], sy[packet_rays];
-  alignas(64) std::int64_t at[packet_rays];
-  const V3 origin{{all(view.eye.x), all(view.eye.y), all(view.eye.z)}};
-  LeafPrimitive placed[packet_rays]{};  // of instances
-  const bool has_instances = !bvh.instances.empty();
-  const double* corners = (has_instances ? placed : bvh.primitives.data())->v.data();
-  const std::uint32_t count = bvh.leaf_count();
+template <int axis>
+LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
+                         const ReceiverSinks& sinks) {
+  constexpr std::size_t ahead = 3;  // packets
+  const PixelPlane pixels(view, x0, y0);
+  const V3 origin = all(view.eye);
+  Draft draft(sinks);
+  HitTriangles triangles;
   LaneMask left{};
-  Rows rows;
-  Reach reach;
+  for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
-    const std::uint32_t* leaf = hits.leaf + p * packet_rays;
-    const std::size_t corner_pixel = (p / 4 * 4) * sinks.stride + p % 4 * 4;
-    unsigned known = 0, done = 0;
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-      const bool triangle = leaf[i] < count;
-      known |= static_cast<unsigned>(triangle) << i;
-      at[i] = triangle ? 9 * static_cast<std::int64_t>(has_instances ? i : leaf[i]) : 0;
-      if (has_instances && triangle) {
-        LeafPrimitive scratch;
-        placed[i] = bvh.primitive_at(leaf[i], scratch);
-      }
-    }
-    if (known != 0) place_packet(view, x0, y0, p, sx, sy);
+    if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);
+    unsigned done = 0;
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
-      if ((known >> i & ((1u << hn::Lanes(d)) - 1)) == 0) continue;
-      V3 corner[3];
-      for (std::size_t c = 0; c < 9; ++c)
-        corner[c / 3].a[c % 3] = hn::GatherIndex(d, corners + c, hn::Load(index, at + i));
       const std::size_t lane = p * packet_rays + i;
-      const V3 direction = pixel_direction(view, hn::Load(d, sx + i), hn::Load(d, sy + i));
-      const Weights w = intersect(direction, origin, corner, static_cast<std::size_t>(axis));
-      const unsigned sound = bits_of(w.sound) & (known >> i);
+      const std::uint32_t* leaf = hits.leaf + lane;
+      const unsigned known = on_triangles(bvh, leaf);
+      if (known == 0) continue;
+      triangles.load(bvh, leaf, known);
+      const V3 direction = pixel_direction(view, hn::Load(d, pixels.x + lane), hn::Load(d, pixels.y + lane));
+      const Weights weights = intersect<axis>(direction, origin, triangles.from.corner);
+      const unsigned sound = bits_of(weights.sound) & known;
       if (sound == 0) continue;
-      point_rows(direction, corner, w, rows);
-      if (sinks.quantised != nullptr)
-        write_draft(rows, sound, leaf + i, bvh, lane, *sinks.quantised, *sinks.draft, reach);
-      for (std::size_t j = 0; j < hn::Lanes(d) && sinks.points != nullptr; ++j)
-        if ((sound >> j & 1) != 0)
-          write(rows, j, bvh.id_at(leaf[i + j]),
-                sinks.points[corner_pixel + (i + j) / 4 * sinks.stride + (i + j) % 4]);
+      const Points points = points_of(direction, triangles, weights);
+      draft.put(points, triangles.ids, sound, lane);
+      if (sinks.points != nullptr)
+        write(points, triangles.ids, sound, i, sinks.points + p / 4 * 4 * sinks.stride + p % 4 * 4,
+              sinks.stride);
       done |= sound << i;
     }
     left[p] = static_cast<std::uint16_t>(~done);
   }
-  if (sinks.draft != nullptr) reach.grow(sinks.draft->bounds);
+  draft.finish();
   return left;
+}
+
+LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
+                          const ReceiverSinks& sinks) {
+  switch (axis) {
+    case 0:
+      return receivers_along<0>(bvh, view, x0, y0, hits, sinks);
+    case 1:
+      return receivers_along<1>(bvh, view, x0, y0, hits, sinks);
+    default:
+      return receivers_along<2>(bvh, view, x0, y0, hits, sinks);
+  }
 }
 
 }  // namespace
