@@ -1,4 +1,5 @@
-// Several pixels' doubles at once: what the kernels share that find a tile's receivers.
+// Several pixels' doubles at once: what the kernels share that find a tile's receivers. In a namespace of its own, for
+// lanes-inl.h has functions of the same names and parameters that return floats' vectors.
 
 #if defined(GNOMON_RAYTRACE_PACKETS_DOUBLE_LANES_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -17,7 +18,7 @@
 #include "scene/camera.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace gnomon::raytrace::HWY_NAMESPACE::doubles {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
@@ -153,6 +154,6 @@ inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
   }
 }
 
-}  // namespace gnomon::raytrace::HWY_NAMESPACE
+}  // namespace gnomon::raytrace::HWY_NAMESPACE::doubles
 HWY_AFTER_NAMESPACE();
 #endif  // per-target guard

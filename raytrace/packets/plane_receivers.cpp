@@ -9,6 +9,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
+using namespace doubles;
+
 struct alignas(64) PlaneRows {
   double position[3][8], error[3][8], away[8];
 };

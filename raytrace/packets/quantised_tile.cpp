@@ -9,6 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
+using namespace doubles;
 using Half = hn::Rebind<float, D>;
 using Leaf = hn::Rebind<std::uint32_t, D>;
 constexpr Half half;

@@ -11,6 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
+using namespace doubles;
 
 template <int axis>
 inline V along(const V3& v) {
