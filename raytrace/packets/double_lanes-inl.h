@@ -69,6 +69,10 @@ inline V dot(const V3& a, const V3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
+inline V fused_dot(const V3& a, const V3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
 /// scene/camera.cpp's pixel_ray.
 inline V3 pixel_direction(const View& view, V sx, V sy) {
   const auto along = [&](int a) {

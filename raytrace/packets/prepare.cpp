@@ -6,32 +6,19 @@
 #include <cstddef>
 #include <cstring>
 
+#include "raytrace/packets/double_lanes-inl.h"
 #include "raytrace/packets/prepare.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
+using namespace doubles;
 using Half = hn::Rebind<float, D>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-constexpr D d;
 constexpr Half half;
 
-inline V all(double v) {
-  return hn::Set(d, v);
+inline V load(const float* at) {
+  return hn::PromoteTo(d, hn::Load(half, at));
 }
-inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0];
-}
-/// The order of operations of glm::dot, which decides the same sign.
-inline V dot(const V (&a)[3], const Vec3& b) {
-  return hn::Add(hn::Add(hn::Mul(a[0], all(b.x)), hn::Mul(a[1], all(b.y))), hn::Mul(a[2], all(b.z)));
-}
-
 inline void store(V v, float* at) {
   hn::Store(hn::DemoteTo(half, v), half, at);
 }
@@ -41,8 +28,8 @@ class QuantisedRays {
  public:
   QuantisedRays(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile)
       : tile_(tile), directional_(light.type == LightType::directional), light_(light) {
-    for (int a = 0; a < 3; ++a) axes_[a] = setup.axes[a];
-    from_light_ = tile.origin - setup.origin;
+    for (std::size_t k = 0; k < 3; ++k) axes_[k] = all(setup.axes[k]);
+    from_light_ = all(tile.origin - setup.origin);
     // A direction's heights are rounded to floats as well, so that less of their bound is left.
     lateral_ = setup.lateral, height_ = std::min(setup.height, 4.0 * setup.lateral);
     // A component's error moves (u, v) by 1.13 * 2^-24 sqrt(3) extent / depth (1 + |slope|), which is to stay
@@ -52,23 +39,22 @@ class QuantisedRays {
   }
 
   void at(std::size_t lane) {
-    for (int a = 0; a < 3; ++a) {
-      const auto i = static_cast<std::size_t>(a);
-      offset_[a] = hn::Add(hn::PromoteTo(d, hn::Load(half, tile_.position[i] + lane)), all(from_light_[a]));
-      normal_[a] = hn::PromoteTo(d, hn::Load(half, tile_.normal[i] + lane));
-    }
+    const auto at = [lane](const float(&rows)[3][tile_rays]) {
+      return V3{load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
+    };
+    offset_ = plus(at(tile_.position), from_light_), normal_ = at(tile_.normal);
   }
 
   /// Bits of those that surely face the light, and of those that may.
   void facing(unsigned& surely, unsigned& perhaps) const {
     V cosine, size;
     if (directional_) {
-      cosine = dot(normal_, -light_.direction), size = all(glm::dot(glm::abs(light_.direction), Vec3(1.0)));
+      cosine = dot(normal_, all(-light_.direction));
+      size = all(glm::dot(glm::abs(light_.direction), Vec3(1.0)));
     } else {
-      cosine = hn::Neg(hn::MulAdd(normal_[0], offset_[0],
-                                  hn::MulAdd(normal_[1], offset_[1], hn::Mul(normal_[2], offset_[2]))));
-      size = hn::Add(hn::Add(hn::Abs(offset_[0]), hn::Abs(offset_[1])),
-                     hn::Add(hn::Abs(offset_[2]), all(2.0 * tile_.extent)));
+      cosine = hn::Neg(fused_dot(normal_, offset_));
+      const V3 distance = size_of(offset_);
+      size = hn::Add(hn::Add(distance.x, distance.y), hn::Add(distance.z, all(2.0 * tile_.extent)));
     }
     const V error = hn::Mul(all(0x1p-22), size);  // the roundings of the normal and of the position to floats
     surely = bits_of(hn::Gt(cosine, error));
@@ -77,21 +63,17 @@ class QuantisedRays {
 
   /// Stores the rays; bits of those in range.
   unsigned project_to(std::size_t lane, TileRays& rays) const {
-    V out[3];
-    for (int a = 0; a < 3; ++a)
-      out[a] = hn::MulAdd(offset_[0], all(axes_[a].x),
-                          hn::MulAdd(offset_[1], all(axes_[a].y), hn::Mul(offset_[2], all(axes_[a].z))));
+    V u = fused_dot(offset_, axes_[0]), v = fused_dot(offset_, axes_[1]), far = fused_dot(offset_, axes_[2]);
+    const auto widest = [&] { return hn::Max(hn::Abs(u), hn::Abs(v)); };
     M fits;
     if (directional_) {
-      fits = hn::And(hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(lateral_)),
-                     hn::Lt(hn::Abs(out[2]), all(height_)));
+      fits = hn::And(hn::Lt(widest(), all(lateral_)), hn::Lt(hn::Abs(far), all(height_)));
     } else {
-      const V inverse = hn::Div(all(1.0), out[2]);
-      fits = hn::Gt(out[2], all(least_depth_));
-      out[0] = hn::Mul(out[0], inverse), out[1] = hn::Mul(out[1], inverse), out[2] = inverse;
-      fits = hn::And(fits, hn::Lt(hn::Max(hn::Abs(out[0]), hn::Abs(out[1])), all(widest_slope)));
+      fits = hn::Gt(far, all(least_depth_));
+      far = hn::Div(all(1.0), far), u = hn::Mul(u, far), v = hn::Mul(v, far);
+      fits = hn::And(fits, hn::Lt(widest(), all(widest_slope)));
     }
-    store(out[0], rays.u + lane), store(out[1], rays.v + lane), store(out[2], rays.far + lane);
+    store(u, rays.u + lane), store(v, rays.v + lane), store(far, rays.far + lane);
     return bits_of(fits);
   }
 
@@ -99,9 +81,9 @@ class QuantisedRays {
   const QuantisedTile& tile_;
   bool directional_;
   const Light& light_;
-  Vec3 axes_[3], from_light_;
+  V3 axes_[3], from_light_;
   double lateral_, height_, least_depth_;
-  V offset_[3], normal_[3];
+  V3 offset_, normal_;
 };
 
 void quantised_kernel(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,

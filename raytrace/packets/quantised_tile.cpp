@@ -15,10 +15,6 @@ using Leaf = hn::Rebind<std::uint32_t, D>;
 constexpr Half half;
 constexpr Leaf leaves;
 
-inline V fused_dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
 class Draft {
  public:
   Draft(const Bvh& bvh, const View& view, QuantisedTile& tile, TileDraft& draft)

@@ -211,9 +211,7 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
       if (sound == 0) continue;
       const Points points = points_of(direction, triangles, weights);
       draft.put(points, triangles.ids, sound, lane);
-      if (sinks.points != nullptr)
-        write(points, triangles.ids, sound, i, sinks.points + p / 4 * 4 * sinks.stride + p % 4 * 4,
-              sinks.stride);
+      if (sinks.points != nullptr) write(points, triangles.ids, sound, i, packet_at(sinks, p), sinks.stride);
       done |= sound << i;
     }
     left[p] = static_cast<std::uint16_t>(~done);
