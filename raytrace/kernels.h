@@ -40,17 +40,16 @@ bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit
   return traverse(s.bvh, ray, stats, visit);
 }
 
-/// A leaf's primitive; `scratch` holds it where the structure keeps no copies.
-inline const LeafPrimitive& leaf_at(const Structures& s, std::uint32_t index, LeafPrimitive& scratch) {
+/// A leaf's primitive.
+inline LeafPrimitive leaf_at(const Structures& s, std::uint32_t index) {
   if (s.bvh.has_primitives()) [[likely]]
-    return s.bvh.primitive_at(index, scratch);
-  return scratch = leaf_primitive(*s.world, s.bvh.id_at(index));
+    return s.bvh.primitive_at(index);
+  return leaf_primitive(*s.world, s.bvh.id_at(index));
 }
 
 /// One candidate against the ray: fills `hit` (t in kernel units) if the ray intersects it inside ray.t.
 inline bool intersect_leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) {
-  LeafPrimitive scratch;
-  const LeafPrimitive& primitive = leaf_at(s, index, scratch);
+  const LeafPrimitive primitive = leaf_at(s, index);
   hit.primitive = s.bvh.id_at(index);
   if (s.has_shapes && !s.world->is_triangle(hit.primitive)) {
     hit.barycentric = Vec2(0.0);

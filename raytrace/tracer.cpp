@@ -58,10 +58,8 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
       ++s.bvh.dropped;
   }
   if (precision == Precision::fast)
-    for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i) {
-      LeafPrimitive scratch;
-      s.fast.push_back(fast_primitive(leaf_at(s, i, scratch), world.is_triangle(s.bvh.ids[i])));
-    }
+    for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i)
+      s.fast.push_back(fast_primitive(leaf_at(s, i), world.is_triangle(s.bvh.ids[i])));
   s.has_masks = any_material(world, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
   s.hides_backs = any_triangle_material(world, [](const Material& m) { return !shows_back(m); });
   return s;
@@ -69,8 +67,8 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
 
 std::uint64_t bytes_of(const Bvh& bvh) {
   std::uint64_t bytes = bvh.nodes.size() * sizeof(BvhNode) + bvh.below.size() * sizeof(LeafRange) +
-                        bvh.primitives.size() * sizeof(LeafPrimitive) +
-                        bvh.ids.size() * sizeof(std::uint32_t) + bvh.instances.size() * sizeof(BvhInstance);
+                        bvh.primitives.bytes() + bvh.ids.size() * sizeof(std::uint32_t) +
+                        bvh.instances.size() * sizeof(BvhInstance);
   for (const Bvh& tree : bvh.trees) bytes += bytes_of(tree);
   return bytes;
 }

@@ -230,13 +230,14 @@ TEST(TwoLevel, MemoryIsThatOfOneMesh) {
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
   Random random(81);
   for (int i = 0; i < 400; ++i) placed.emplace_back(0, moved(random.in_box(40.0), turned(random)));
-  const TestWorld w(instances_of({test::uv_sphere(Vec3(0.0), 1.0, 16, 24, 0.1, 3)}, placed));
-  const Tracer two(w.world(), Accel::two_level), one(w.world(), Accel::bvh);
+  const Mesh ball = test::uv_sphere(Vec3(0.0), 1.0, 16, 24, 0.1, 3);
+  const TestWorld w(instances_of({ball}, placed)), one(test::scene_of({ball}));
+  const Tracer two(w.world(), Accel::two_level), mesh(one.world(), Accel::bvh);
   const TwoLevel structure = structure_of(w.world());
   EXPECT_EQ(structure.trees.size(), 1u);
   EXPECT_TRUE(structure.leaves.primitives.empty());
-  // Four bytes a triangle for its id, and some three hundred an instance.
-  EXPECT_LT(two.stats().bytes, one.stats().bytes / 10);
+  // Four bytes a triangle for its id, and fewer than three hundred an instance.
+  EXPECT_LT(two.stats().bytes, mesh.stats().bytes + 4 * w.world().triangle_count() + 300 * placed.size());
 }
 
 TEST(TwoLevel, SameForAnyNumberOfThreads) {

@@ -165,8 +165,6 @@ TEST(Wide, NeedlesAndATriangleAsLargeAsTheRest) {
 TEST(Wide, LeafOfTooManyCornersIsHalved) {
   const TestWorld w(test::scene_of({test::triangle_soup(15, 1.0, 1.0, 25)}));
   Bvh bvh = build_flat(w.world());
-  bvh.primitives.clear();
-  for (const std::uint32_t id : bvh.ids) bvh.primitives.push_back(leaf_primitive(w.world(), id));
   BvhNode root{};
   for (std::size_t i = 0; i < 4; ++i) {
     root.child[i] = i == 0 ? BvhChild::leaf(0, 15) : BvhChild::empty();
@@ -204,7 +202,7 @@ void expect_packed_within_bounds(const World& world) {
     double extent = 0x1p-14 * static_cast<double>(tree->reach);
     for (unsigned i = 0; i <= leaf.triangles.last(); ++i, ++triangles)
       for (std::size_t at = 0; at < 9; ++at) {
-        const auto& v = bvh.primitives[leaf.triangles.first() + i].v;
+        const auto v = bvh.primitives[leaf.triangles.first() + i].v;
         const auto number = leaf.triangles.index[at / 3][i % 2] >> (4 * (i / 2)) & 15u;
         ASSERT_GT(number, 0u);
         const double corner = v[at] - tree->center[at % 3], anchor = static_cast<double>(leaf.anchor(at % 3));

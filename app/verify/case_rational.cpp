@@ -34,7 +34,7 @@ bool kernel_meets(Precision precision, const AimedTriangle& t) {
   s.world = &world;
   raytrace::LeafPrimitive p{};
   for (std::size_t i = 0; i < 9; ++i) p.v[i] = t.corners[i / 3][static_cast<int>(i % 3)];
-  s.bvh.primitives = {p}, s.bvh.ids = {0};
+  s.bvh.primitives = raytrace::LeafPrimitives({&p, 1}), s.bvh.ids = {0};
   const auto frame = raytrace::make_ray_frame({t.origin, t.direction, interval(precision)});
   if (!frame) return false;
   switch (precision) {

@@ -74,11 +74,10 @@ std::uint32_t nearest_of(const ClosePair& pair) {
   World world;
   raytrace::Structures s;
   s.world = &world;
-  for (const auto& corners : pair.corners) {
-    raytrace::LeafPrimitive p{};
-    for (std::size_t i = 0; i < 9; ++i) p.v[i] = corners[i / 3][static_cast<int>(i % 3)];
-    s.bvh.primitives.push_back(p);
-  }
+  std::array<raytrace::LeafPrimitive, 2> primitives{};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < 9; ++i) primitives[k].v[i] = pair.corners[k][i / 3][static_cast<int>(i % 3)];
+  s.bvh.primitives = raytrace::LeafPrimitives(primitives);
   s.bvh.ids = {0, 1};
   const auto frame = raytrace::make_ray_frame({pair.origin, pair.direction});
   if (!frame) return no_id;

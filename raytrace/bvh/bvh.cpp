@@ -35,9 +35,23 @@ LeafPrimitive leaf_primitive(const World& world, std::uint32_t id) {
 
 namespace {
 
-void set_leaf(const World& world, std::size_t i, std::uint32_t id, Bvh& bvh) {
-  bvh.ids[i] = id;
-  bvh.primitives[i] = leaf_primitive(world, id);
+/// A shape's numbers count as three vertices behind the triangles'.
+void read_primitives(const World& world, Bvh& bvh) {
+  const std::uint32_t triangles = world.triangle_count(), vertices = world.vertex_count();
+  const auto vertices_of = [&](std::size_t leaf) {
+    const std::uint32_t id = bvh.ids[leaf];
+    if (id < triangles) return world.triangle(id);
+    const std::uint32_t first = vertices + 3 * (id - triangles);
+    return std::array{first, first + 1, first + 2};
+  };
+  const auto position_of = [&](std::uint32_t vertex) {
+    if (vertex < vertices) return world.position(vertex);
+    const std::uint32_t number = vertex - vertices;
+    const LeafPrimitive shape = leaf_primitive(world, triangles + number / 3);
+    const double* v = shape.v.data() + number % 3 * 3;
+    return Vec3(v[0], v[1], v[2]);
+  };
+  bvh.primitives = LeafPrimitives(bvh.ids.size(), {vertices_of, position_of});
 }
 
 Box centroids_of(std::span<const Ref> refs) {
@@ -64,12 +78,7 @@ std::size_t most_nodes(std::size_t primitives) {
 
 class Builder {
  public:
-  /// world: where leaves' primitives are; none: they get ids alone.
-  Builder(const World* world, Bvh& bvh, std::size_t count)
-      : world_(world), bvh_(bvh), nodes_(bvh, most_nodes(count)) {
-    bvh.ids.resize(count);
-    if (world != nullptr) bvh.primitives.resize(count);
-  }
+  Builder(Bvh& bvh, std::size_t count) : bvh_(bvh), nodes_(bvh, most_nodes(count)) { bvh.ids.resize(count); }
 
   void run(std::span<const BoxRef> boxes) {
     const BvhChild root = build(boxes, centroid_bounds(boxes), 0, 0);
@@ -93,15 +102,10 @@ class Builder {
 
   BvhChild treelet(TreeletScratch& scratch, std::uint32_t first, int depth) {
     const BvhChild root = build_treelet(scratch, first, depth, nodes_);
-    for (std::size_t i = 0; i < scratch.refs.size(); ++i)
-      if (world_ != nullptr)
-        set_leaf(*world_, first + i, scratch.refs[i].id(), bvh_);
-      else
-        bvh_.ids[first + i] = scratch.refs[i].id();
+    for (std::size_t i = 0; i < scratch.refs.size(); ++i) bvh_.ids[first + i] = scratch.refs[i].id();
     return root;
   }
 
-  const World* world_;
   Bvh& bvh_;
   NodeStore nodes_;
   tbb::enumerable_thread_specific<TreeletScratch> scratches_;
@@ -218,18 +222,20 @@ BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint3
 }  // namespace
 
 Bvh build_bvh(const World& world) {
-  const FinitePrimitives finite = flattened_primitives(world);
+  FinitePrimitives finite = flattened_primitives(world);
   Bvh bvh;
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
-  if (!finite.boxes.empty()) Builder(&world, bvh, finite.boxes.size()).run(finite.boxes);
+  if (!finite.boxes.empty()) Builder(bvh, finite.boxes.size()).run(finite.boxes);
+  finite.boxes = {};  // before more memory is asked for
+  read_primitives(world, bvh);
   if (world.keeps_instances()) put_instances(world, bvh);
   return bvh;
 }
 
 Bvh build_bvh(std::span<const BoxRef> boxes) {
   Bvh bvh;
-  if (!boxes.empty()) Builder(nullptr, bvh, boxes.size()).run(boxes);
+  if (!boxes.empty()) Builder(bvh, boxes.size()).run(boxes);
   return bvh;
 }
 
@@ -238,10 +244,9 @@ Bvh build_flat(const World& world) {
   Bvh bvh;
   bvh.dropped = finite.dropped;
   bvh.center = finite.center;
-  bvh.primitives.resize(finite.boxes.size()), bvh.ids.resize(finite.boxes.size());
-  tbb::parallel_for(std::size_t{0}, finite.boxes.size(),
-                    [&](std::size_t i) { set_leaf(world, i, finite.boxes[i].id, bvh); });
-  leave_if_given_up();
+  bvh.ids.resize(finite.boxes.size());
+  for (std::size_t i = 0; i < finite.boxes.size(); ++i) bvh.ids[i] = finite.boxes[i].id;
+  read_primitives(world, bvh);
   return bvh;
 }
 

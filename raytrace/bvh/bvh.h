@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/bvh/leaf_primitives.h"
 #include "raytrace/error_bounds.h"
 #include "raytrace/huge_array.h"
 #include "scene/world.h"
@@ -42,12 +43,6 @@ struct alignas(16) BvhNode {
   BvhChild child[4];
 };
 
-/// A triangle's corners (x0 y0 z0 x1 ... z2), or a sphere's centre and radius in the first four; nothing
-/// for a solid (scene/solid.h), which is looked up by its id.
-struct LeafPrimitive {
-  std::array<double, 9> v;
-};
-
 /// Leaf primitives one after another.
 struct LeafRange {
   std::uint32_t first, count;
@@ -66,11 +61,11 @@ struct BvhInstance {
 };
 
 struct Bvh {
-  HugeVector<BvhNode> nodes;             ///< node 0 is the root; empty: traverse all primitives
-  HugeVector<LeafRange> below;           ///< of each node: what all its leaves hold
-  HugeVector<LeafPrimitive> primitives;  ///< in leaf order; none where they are read from the world
-  HugeVector<std::uint32_t> ids;         ///< of the primitives, in leaf order
-  std::uint64_t dropped = 0;             ///< primitives left out: not finite, zero area or zero radius
+  HugeVector<BvhNode> nodes;      ///< node 0 is the root; empty: traverse all primitives
+  HugeVector<LeafRange> below;    ///< of each node: what all its leaves hold
+  LeafPrimitives primitives;      ///< in leaf order; none where they are read from the world
+  HugeVector<std::uint32_t> ids;  ///< of the primitives, in leaf order
+  std::uint64_t dropped = 0;      ///< primitives left out: not finite, zero area or zero radius
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
   std::vector<Bvh> trees;  ///< of kept instances' meshes, in object space; ids: the mesh's own triangles
   std::vector<BvhInstance> instances;
@@ -90,11 +85,17 @@ struct Bvh {
     const BvhInstance& instance = instance_of(leaf);
     return instance.first_triangle + trees[instance.tree].ids[leaf - instance.first_leaf];
   }
-  /// A leaf primitive itself, which is in `scratch` where it is an instance's. Requires `primitives`.
-  const LeafPrimitive& primitive_at(std::uint32_t leaf, LeafPrimitive& scratch) const {
+  /// A leaf primitive itself. Requires `primitives`.
+  LeafPrimitive primitive_at(std::uint32_t leaf) const {
     if (leaf < ids.size()) [[likely]]
       return primitives[leaf];
-    return scratch = placed_primitive(leaf);
+    return placed_primitive(leaf);
+  }
+  /// Its corners, which are in `scratch` where it is an instance's.
+  CornerPointers corners_at(std::uint32_t leaf, PlacedCorners& scratch) const {
+    if (leaf < ids.size()) [[likely]]
+      return primitives.corners(leaf);
+    return scratch.put(placed_primitive(leaf));
   }
   /// Of a leaf that is an instance's.
   const BvhInstance& instance_of(std::uint32_t leaf) const {
@@ -105,8 +106,7 @@ struct Bvh {
   /// Asks memory for a primitive ahead of need; not for an instance's.
   void prefetch(std::size_t leaf) const {
     if (leaf >= primitives.size()) return;
-    const char* bytes = reinterpret_cast<const char*>(&primitives[leaf]);
-    __builtin_prefetch(bytes), __builtin_prefetch(bytes + sizeof(LeafPrimitive) - 1);
+    for (const double* corner : primitives.corners(leaf)) __builtin_prefetch(corner);
     __builtin_prefetch(&ids[leaf]);
   }
 };

@@ -171,7 +171,7 @@ void put_instances(const World& world, Bvh& bvh) {
 
 LeafPrimitive Bvh::placed_primitive(std::uint32_t leaf) const {
   const BvhInstance& instance = instance_of(leaf);
-  const auto& v = trees[instance.tree].primitives[leaf - instance.first_leaf].v;
+  const auto v = trees[instance.tree].primitives[leaf - instance.first_leaf].v;
   LeafPrimitive out;
   for (std::size_t k = 0; k < 9; k += 3) {
     const Vec3 p = placed_vertex(instance.world_from_object, {v[k], v[k + 1], v[k + 2]});

@@ -125,9 +125,9 @@ class Collapse {
   /// False: more than a leaf has room for.
   bool corners_of(std::uint32_t first, std::uint32_t count, Corners& corners) const {
     for (std::uint32_t i = 0; i < count && is_triangle(first); ++i) {
-      const double* v = bvh_.primitives[first + i].v.data();
+      const CornerPointers at = bvh_.primitives.corners(first + i);
       for (std::size_t k = 0; k < 3; ++k)
-        if (!corners.put(v + 3 * k, i, k)) return false;
+        if (!corners.put(at[k], i, k)) return false;
     }
     return true;
   }

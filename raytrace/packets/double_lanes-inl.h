@@ -120,30 +120,26 @@ class HitCorners {
     const bool same = hn::AllTrue(ids, hn::Eq(hn::LoadU(ids, leaf), hn::Set(ids, first)));
     if (same && first == only_) return false;
     only_ = same ? first : nothing_hit;
-    LeafPrimitive scratch;
-    const auto& one = bvh.primitive_at(first, scratch).v;
+    PlacedCorners scratch;
+    const CornerPointers one = bvh.corners_at(first, scratch);
     if (same)
-      for (std::size_t k = 0; k < 3; ++k)
-        corner[k] = {all(one[3 * k]), all(one[3 * k + 1]), all(one[3 * k + 2])};
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = {all(one[k][0]), all(one[k][1]), all(one[k][2])};
     else
       load_each(bvh, leaf, known, one);
     return true;
   }
 
  private:
-  void load_each(const Bvh& bvh, const std::uint32_t* leaf, unsigned known,
-                 const std::array<double, 9>& other) {
-    alignas(64) double begin[4 * 8], middle[4 * 8], end[8];  // coordinates 0 to 3, 4 to 7 and 8 of each
+  void load_each(const Bvh& bvh, const std::uint32_t* leaf, unsigned known, const CornerPointers& other) {
+    alignas(64) double row[3][4 * 8];
     for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-      LeafPrimitive scratch;
-      const auto& v = (known >> i & 1) != 0 ? bvh.primitive_at(leaf[i], scratch).v : other;
-      std::memcpy(begin + 4 * i, v.data(), 4 * sizeof(double));
-      std::memcpy(middle + 4 * i, v.data() + 4, 4 * sizeof(double));
-      end[i] = v[8];
+      PlacedCorners scratch;
+      const CornerPointers at = (known >> i & 1) != 0 ? bvh.corners_at(leaf[i], scratch) : other;
+      for (std::size_t k = 0; k < 3; ++k) std::memcpy(row[k] + 4 * i, at[k], 4 * sizeof(double));
     }
-    hn::LoadInterleaved4(d, begin, corner[0].x, corner[0].y, corner[0].z, corner[1].x);
-    hn::LoadInterleaved4(d, middle, corner[1].y, corner[1].z, corner[2].x, corner[2].y);
-    corner[2].z = hn::Load(d, end);
+    V nothing;
+    for (std::size_t k = 0; k < 3; ++k)
+      hn::LoadInterleaved4(d, row[k], corner[k].x, corner[k].y, corner[k].z, nothing);
   }
 
   std::uint32_t only_ = nothing_hit;  ///< what all lanes show

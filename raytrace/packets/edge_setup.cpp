@@ -114,9 +114,9 @@ unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span
                        EdgeSetupRows& rows) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < 8; ++i) {
-    LeafPrimitive scratch;
-    const LeafPrimitive& p = s.bvh.primitive_at(leaves[std::min(i, leaves.size() - 1)], scratch);
-    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = p.v[k];
+    PlacedCorners scratch;
+    const CornerPointers at = s.bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
+    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = at[k / 3][k % 3];
   }
   set_up_eight_triangles(rows, pass);
   if (!s.has_shapes && !s.has_masks) return 0;

@@ -29,29 +29,26 @@ class LeafCorners {
     constexpr D d;
     constexpr hn::Rebind<float, D> half;
     const Vec3& c = bvh.center;
-    const double center[12] = {c.x, c.y, c.z, c.x, c.y, c.z, c.x, c.y, c.z};
+    alignas(32) const double center[4] = {c.x, c.y, c.z, 0.0};
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      LeafPrimitive scratch;
-      const auto& v = bvh.primitive_at(leaves[i], scratch).v;
-      for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-        const auto put = [&](std::size_t from, float* to) {
-          const auto p = hn::Sub(hn::LoadU(d, v.data() + from + k), hn::LoadU(d, center + from + k));
-          hn::Store(hn::DemoteTo(half, p), half, to + 4 * i + k);
-        };
-        put(0, first_), put(4, next_);
-      }
-      last_[i] = static_cast<float>(v[8] - c.z);
+      PlacedCorners scratch;
+      const CornerPointers at = bvh.corners_at(leaves[i], scratch);
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t a = 0; a < 4; a += hn::Lanes(d)) {
+          const auto p = hn::Sub(hn::LoadU(d, at[k] + a), hn::Load(d, center + a));
+          hn::Store(hn::DemoteTo(half, p), half, corner_[k] + 4 * i + a);
+        }
     }
   }
   /// From lane i on: corner[k][axis] of the k-th corners.
   void get(std::size_t i, V8 (&corner)[3][3]) const {
-    hn::LoadInterleaved4(eight, first_ + 4 * i, corner[0][0], corner[0][1], corner[0][2], corner[1][0]);
-    hn::LoadInterleaved4(eight, next_ + 4 * i, corner[1][1], corner[1][2], corner[2][0], corner[2][1]);
-    corner[2][2] = hn::Load(eight, last_ + i);
+    V8 nothing;
+    for (std::size_t k = 0; k < 3; ++k)
+      hn::LoadInterleaved4(eight, corner_[k] + 4 * i, corner[k][0], corner[k][1], corner[k][2], nothing);
   }
 
  private:
-  alignas(32) float first_[32] = {}, next_[32] = {}, last_[8] = {};
+  alignas(32) float corner_[3][32] = {};
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

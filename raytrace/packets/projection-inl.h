@@ -162,8 +162,7 @@ class Projection {
     return bytes[0];
   }
   BoxRef triangle_box(std::uint32_t leaf) const {
-    LeafPrimitive scratch;
-    const LeafPrimitive& p = s_.bvh.primitive_at(leaf, scratch);
+    const LeafPrimitive p = s_.bvh.primitive_at(leaf);
     BoxRef box{};
     for (std::size_t a = 0; a < 3; ++a) {
       const double center = s_.bvh.center[static_cast<int>(a)];

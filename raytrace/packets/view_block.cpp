@@ -176,8 +176,7 @@ class BlockClosest {
       const std::uint32_t leaf = leaves[i], id = s_.bvh.id_at(leaf);
       if (!s_.world->is_triangle(id) || shows_back(s_.world->scene->materials[s_.world->material_of(id)]))
         continue;
-      LeafPrimitive scratch;
-      const Facing facing = facing_of(s_.bvh.primitive_at(leaf, scratch).v.data(), setup_.origin);
+      const Facing facing = facing_of(s_.bvh.primitive_at(leaf).v.data(), setup_.origin);
       if (facing == Facing::back) backs |= 1u << i;
       if (facing == Facing::ambiguous) never |= 1u << i;
     }

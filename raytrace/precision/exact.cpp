@@ -74,8 +74,7 @@ bool ExactArithmetic::leaf(const Structures& s, const RayFrame& ray, std::uint32
   const std::uint32_t id = s.bvh.id_at(index);
   if (s.has_shapes && !s.world->is_triangle(id)) return intersect_leaf(s, ray, index, hit);
   hit.primitive = id;
-  LeafPrimitive scratch;
-  return triangle(ray, leaf_at(s, index, scratch), hit);
+  return triangle(ray, leaf_at(s, index), hit);
 }
 
 std::optional<ExactArithmetic::Intersection> ExactArithmetic::intersect(const RayFrame& ray,

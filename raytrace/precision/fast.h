@@ -30,10 +30,8 @@ class FastArithmetic {
 
   bool leaf(const Structures& s, const RayFrame& ray, std::uint32_t index, Hit& hit) const {
     hit.primitive = s.bvh.id_at(index);
-    if (index >= s.fast.size()) [[unlikely]] {  // an instance's triangle
-      LeafPrimitive scratch;
-      return triangle(fast_primitive(leaf_at(s, index, scratch), true), ray, hit);
-    }
+    if (index >= s.fast.size()) [[unlikely]]  // an instance's triangle
+      return triangle(fast_primitive(leaf_at(s, index), true), ray, hit);
     const FastPrimitive& p = s.fast[index];
     if (s.has_shapes && !s.world->is_triangle(hit.primitive))
       return is_solid(s.world->shape(hit.primitive).geometry) ? intersect_leaf(s, ray, index, hit)

@@ -68,8 +68,7 @@ class Query {
     const std::uint32_t id = s_.bvh.id_at(index);
     if (s_.has_shapes && !s_.world->is_triangle(id))
       return count<masks>(id, ambiguous_.intersects_shape(id), -1, false);
-    LeafPrimitive scratch;
-    const LeafPrimitive& triangle = leaf_at(s_, index, scratch);
+    const LeafPrimitive triangle = leaf_at(s_, index);
     const ShearedTriangle t = shear(ambiguous_.frame(), triangle);
     if (ambiguous_.clearly_misses(t)) return false;
     if (id == ambiguous_.from().primitive) return false;

@@ -134,8 +134,7 @@ class Collector {
       Candidate& c = candidates_[i];
       c.id = bvh_.id_at(found_[i]);
       if (!s_.world->is_triangle(c.id)) continue;
-      LeafPrimitive scratch;
-      const auto& v = bvh_.primitive_at(found_[i], scratch).v;
+      const auto v = bvh_.primitive_at(found_[i]).v;
       for (std::size_t k = 0; k < 3; ++k)
         c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
     }

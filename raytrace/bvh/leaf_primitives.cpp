@@ -1,0 +1,115 @@
+#include "raytrace/bvh/leaf_primitives.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "raytrace/given_up.h"
+
+namespace gnomon::raytrace {
+
+/// The corners of a group of leaves, each once: equal vertices first, which is quick to see, and then those of equal
+/// bits, for files give a vertex twice where its normal or its texture has a seam.
+class LeafGroup {
+ public:
+  LeafGroup() { known_.reserve(LeafPrimitives::group_size), corners_.reserve(LeafPrimitives::group_size); }
+
+  LeafPrimitives::Triangle triangle(const LeafPrimitives::Source& source, std::size_t leaf) {
+    const auto vertices = source.vertices(leaf);
+    LeafPrimitives::Triangle out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = corner_of(vertices[k], source);
+    return out;
+  }
+  const std::vector<Vec3>& corners() const { return corners_; }
+
+ private:
+  /// Hashed numbers, with linear probing.
+  class Numbers {
+   public:
+    Numbers() { slots_.fill(vacant); }
+    /// The number that is equal(number), or the new one of add().
+    template <class Equal, class Add>
+    std::uint16_t find(std::uint64_t hash, const Equal& equal, const Add& add) {
+      for (std::size_t at = hash >> (64 - slot_bits);; at = (at + 1) % slots_.size()) {
+        if (slots_[at] == vacant) return slots_[at] = static_cast<std::uint16_t>(add());
+        if (equal(slots_[at])) return slots_[at];
+      }
+    }
+
+   private:
+    static constexpr std::size_t slot_bits = LeafPrimitives::group_bits + 2;
+    static constexpr std::uint16_t vacant = 0xffff;
+    static_assert(3 * LeafPrimitives::group_size < std::size_t{1} << slot_bits && slot_bits < 16);
+    std::array<std::uint16_t, std::size_t{1} << slot_bits> slots_;
+  };
+  struct Known {
+    std::uint32_t vertex;
+    std::uint16_t corner;
+  };
+  static constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
+
+  std::uint16_t corner_of(std::uint32_t vertex, const LeafPrimitives::Source& source) {
+    const auto number = by_vertex_.find(
+        vertex * factor, [&](std::size_t i) { return known_[i].vertex == vertex; },
+        [&] {
+          known_.push_back({vertex, corner_at(source.position(vertex))});
+          return known_.size() - 1;
+        });
+    return known_[number].corner;
+  }
+  std::uint16_t corner_at(const Vec3& position) {
+    const auto bits = std::bit_cast<std::array<std::uint64_t, 3>>(position);
+    return by_position_.find(
+        ((bits[0] * factor ^ bits[1]) * factor ^ bits[2]) * factor,
+        [&](std::size_t i) { return std::bit_cast<std::array<std::uint64_t, 3>>(corners_[i]) == bits; },
+        [&] {
+          corners_.push_back(position);
+          return corners_.size() - 1;
+        });
+  }
+
+  Numbers by_vertex_, by_position_;
+  std::vector<Known> known_;
+  std::vector<Vec3> corners_;
+};
+
+LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triangles_(count) {
+  const std::size_t groups = (count + group_size - 1) / group_size;
+  std::vector<std::vector<Vec3>> corners(groups);
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    LeafGroup group;
+    const std::size_t end = std::min(count, (g + 1) * group_size);
+    for (std::size_t i = g * group_size; i < end; ++i) triangles_[i] = group.triangle(source, i);
+    corners[g] = group.corners();
+  });
+  leave_if_given_up();
+  std::vector<std::size_t> first(groups + 1, 0);
+  for (std::size_t g = 0; g < groups; ++g) first[g + 1] = first[g] + corners[g].size();
+  corners_ = HugeArray<Vec3>(first[groups] + 1);
+  corners_[first[groups]] = Vec3(0.0);
+  for (std::size_t g = 0; g < groups; ++g) groups_.push_back(corners_.data() + first[g]);
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    std::copy(corners[g].begin(), corners[g].end(), corners_.data() + first[g]);
+  });
+  leave_if_given_up();
+}
+
+LeafPrimitives::LeafPrimitives(std::span<const LeafPrimitive> primitives)
+    : LeafPrimitives(primitives.size(), {.vertices =
+                                             [](std::size_t leaf) {
+                                               const auto i = static_cast<std::uint32_t>(3 * leaf);
+                                               return std::array{i, i + 1, i + 2};
+                                             },
+                                         .position =
+                                             [&](std::uint32_t vertex) {
+                                               const double* v =
+                                                   primitives[vertex / 3].v.data() + vertex % 3 * 3;
+                                               return Vec3(v[0], v[1], v[2]);
+                                             }}) {}
+
+std::uint64_t LeafPrimitives::bytes() const {
+  return triangles_.bytes() + corners_.bytes() + groups_.size() * sizeof(const Vec3*);
+}
+
+}  // namespace gnomon::raytrace
