@@ -176,9 +176,9 @@ void put_parts(World& world, const std::vector<char>& kept) {
 }  // namespace
 
 InstancePlan plan_instances(const Scene& scene) {
-  // Bytes that a triangle takes in the tracer's and the comparison's structures (235, measured on five million) and in
+  // Bytes that a triangle takes in the tracer's and the comparison's structures (190, measured on five million) and in
   // the rasterizer's buffers (80, where triangles share no vertices); and what an instance takes in all of them.
-  constexpr std::uint64_t flat_triangle = 235 + 80, kept_instance = 1024;
+  constexpr std::uint64_t flat_triangle = 190 + 80, kept_instance = 1024;
   constexpr std::uint64_t small = std::uint64_t{512} << 20;  // flattened scenes are traced faster
   InstancePlan plan;
   const std::vector<std::uint32_t> uses = uses_of_meshes(scene);
