@@ -47,9 +47,7 @@ void read_primitives(const World& world, Bvh& bvh) {
   const auto position_of = [&](std::uint32_t vertex) {
     if (vertex < vertices) return world.position(vertex);
     const std::uint32_t number = vertex - vertices;
-    const LeafPrimitive shape = leaf_primitive(world, triangles + number / 3);
-    const double* v = shape.v.data() + number % 3 * 3;
-    return Vec3(v[0], v[1], v[2]);
+    return leaf_primitive(world, triangles + number / 3).corner(number % 3);
   };
   bvh.primitives = LeafPrimitives(bvh.ids.size(), {vertices_of, position_of});
 }

@@ -171,11 +171,11 @@ void put_instances(const World& world, Bvh& bvh) {
 
 LeafPrimitive Bvh::placed_primitive(std::uint32_t leaf) const {
   const BvhInstance& instance = instance_of(leaf);
-  const auto v = trees[instance.tree].primitives[leaf - instance.first_leaf].v;
+  const LeafPrimitive there = trees[instance.tree].primitives[leaf - instance.first_leaf];
   LeafPrimitive out;
-  for (std::size_t k = 0; k < 9; k += 3) {
-    const Vec3 p = placed_vertex(instance.world_from_object, {v[k], v[k + 1], v[k + 2]});
-    out.v[k] = p.x, out.v[k + 1] = p.y, out.v[k + 2] = p.z;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 p = placed_vertex(instance.world_from_object, there.corner(k));
+    out.v[3 * k] = p.x, out.v[3 * k + 1] = p.y, out.v[3 * k + 2] = p.z;
   }
   return out;
 }

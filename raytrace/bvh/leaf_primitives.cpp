@@ -95,18 +95,20 @@ LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triang
   leave_if_given_up();
 }
 
+namespace {
+
+/// Vertices of primitives that are given by themselves.
+constexpr auto own_vertices = [](std::size_t leaf) {
+  const auto first = static_cast<std::uint32_t>(3 * leaf);
+  return std::array{first, first + 1, first + 2};
+};
+
+}  // namespace
+
 LeafPrimitives::LeafPrimitives(std::span<const LeafPrimitive> primitives)
-    : LeafPrimitives(primitives.size(), {.vertices =
-                                             [](std::size_t leaf) {
-                                               const auto i = static_cast<std::uint32_t>(3 * leaf);
-                                               return std::array{i, i + 1, i + 2};
-                                             },
-                                         .position =
-                                             [&](std::uint32_t vertex) {
-                                               const double* v =
-                                                   primitives[vertex / 3].v.data() + vertex % 3 * 3;
-                                               return Vec3(v[0], v[1], v[2]);
-                                             }}) {}
+    : LeafPrimitives(primitives.size(), {own_vertices, [&](std::uint32_t vertex) {
+                                           return primitives[vertex / 3].corner(vertex % 3);
+                                         }}) {}
 
 std::uint64_t LeafPrimitives::bytes() const {
   return triangles_.bytes() + corners_.bytes() + groups_.size() * sizeof(const Vec3*);

@@ -19,6 +19,7 @@ namespace gnomon::raytrace {
 /// for a solid (scene/solid.h), which is looked up by its id.
 struct LeafPrimitive {
   std::array<double, 9> v;
+  Vec3 corner(std::size_t k) const { return {v[3 * k], v[3 * k + 1], v[3 * k + 2]}; }
 };
 
 /// Where a triangle's corners are: three doubles each, and a fourth that may be read but means nothing.

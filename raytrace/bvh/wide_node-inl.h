@@ -192,9 +192,9 @@ struct IntersectedChildren<false> {
       }
     }
     HWY_INLINE std::uint32_t take_nearest() {
-      const unsigned last = static_cast<unsigned>(std::bit_width(left)) - 1;
-      left ^= 1u << last;
-      return node.child[place[last]];
+      const unsigned nearest = std::bit_floor(left);
+      left ^= nearest;
+      return node.child[place[std::countr_zero(nearest)]];
     }
     HWY_INLINE void push(Stack& stack, std::size_t& size) const {
       for (unsigned rest = left; rest != 0; rest &= rest - 1, ++size) {

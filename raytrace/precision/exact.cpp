@@ -24,8 +24,7 @@ PlaneIntersection intersection_with_plane(const Vec3& origin, const Vec3& direct
 }
 
 std::array<Vec3, 3> corners_of(const LeafPrimitive& triangle) {
-  const auto& v = triangle.v;
-  return {Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]), Vec3(v[6], v[7], v[8])};
+  return {triangle.corner(0), triangle.corner(1), triangle.corner(2)};
 }
 Vec3 vector_of(const std::array<double, 3>& v) {
   return {v[0], v[1], v[2]};

@@ -144,8 +144,7 @@ class LightShaft {
 bool spares_triangle(const LightShaft& shaft, const LeafPrimitive& triangle, bool is_source) {
   constexpr double least_sine = 0x1p-5;
   std::array<Vec3, 3> a;
-  for (std::size_t k = 0; k < 3; ++k)
-    a[k] = shaft.seen({triangle.v[3 * k], triangle.v[3 * k + 1], triangle.v[3 * k + 2]});
+  for (std::size_t k = 0; k < 3; ++k) a[k] = shaft.seen(triangle.corner(k));
   const Vec3 e1 = a[1] - a[0], e2 = a[2] - a[0], normal = glm::cross(e1, e2);
   const double edge = std::max(sum_abs(e1), sum_abs(e2)), far = edge + sum_abs(a[0]);
   if (is_source) return sum_abs(normal) > least_sine * edge * edge;

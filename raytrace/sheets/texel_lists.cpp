@@ -134,9 +134,8 @@ class Collector {
       Candidate& c = candidates_[i];
       c.id = bvh_.id_at(found_[i]);
       if (!s_.world->is_triangle(c.id)) continue;
-      const auto v = bvh_.primitive_at(found_[i]).v;
-      for (std::size_t k = 0; k < 3; ++k)
-        c.corners[k] = column.vertex({v[3 * k], v[3 * k + 1], v[3 * k + 2]});
+      const LeafPrimitive triangle = bvh_.primitive_at(found_[i]);
+      for (std::size_t k = 0; k < 3; ++k) c.corners[k] = column.vertex(triangle.corner(k));
     }
   }
 
