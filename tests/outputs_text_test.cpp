@@ -10,6 +10,7 @@
 #include "compare/outputs.h"
 #include "compare/report/html.h"
 #include "compare/report/lessons.h"
+#include "compare/report/log_chart.h"
 #include "compare/report/shell.h"
 #include "compare/shadow_cost.h"
 #include "compare/text_layout.h"
@@ -243,6 +244,14 @@ TEST(Lessons, HaveTheirParts) {
     const std::string_view next = lessons[(i + 1) % lessons.size()].name;
     EXPECT_EQ(times(last_paragraph(text), std::string("(").append(next).append(".md)")), 1u) << name;
   }
+}
+
+TEST(LogChart, TicksAreWrittenWithoutExponents) {
+  const LogPlot plot{.min_x = 1000.0, .max_x = 20000.0, .min_y = 10.0, .max_y = 50000.0, .shares = false};
+  const std::string svg = chart_frame(plot, {1024.0, 16384.0, 0.5}, "texels");
+  for (const char* tick : {">1024<", ">16384<", ">0.5<", ">10000<"})
+    EXPECT_NE(svg.find(tick), std::string::npos) << tick << " in " << svg;
+  EXPECT_EQ(svg.find("e+"), std::string::npos);
 }
 
 TEST(PageShell, DataFilesHoldWhatWasPutIn) {

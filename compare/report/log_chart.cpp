@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/number_text.h"
 #include "compare/report/html.h"
 
 namespace gnomon::compare {
@@ -100,13 +101,13 @@ std::string chart_frame(const LogPlot& plot, const std::vector<double>& ticks_x,
     out += fmt::format("<line class=\"grid\" x1=\"{:.0f}\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", left,
                        right, plot.y(v), plot.y(v));
     out += chart_text(left - 8, plot.y(v) + 4, "tick end",
-                      plot.shares ? fmt::format("{:.3g} %", 100.0 * v) : fmt::format("{:.3g}", v));
+                      plot.shares ? fmt::format("{:.3g} %", 100.0 * v) : plain_number(v));
   }
   out += chart_text(left - 8, plot.y(plot.min_y) + 4, "tick end", "none");
   for (const double v : ticks_x) {
     out += fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>",
                        plot.x(v), floor + 4, floor + 9);
-    out += chart_text(plot.x(v), floor + 24, "tick middle", fmt::format("{:.4g}", v));
+    out += chart_text(plot.x(v), floor + 24, "tick middle", plain_number(v));
   }
   return out + chart_text(right, LogPlot::height - 8, "tick end", unit_x);
 }
