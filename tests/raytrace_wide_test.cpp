@@ -170,7 +170,7 @@ TEST(Wide, LeafOfTooManyCornersIsHalved) {
     root.child[i] = i == 0 ? BvhChild::leaf(0, 15) : BvhChild::empty();
     for (std::size_t row = 0; row < 6; ++row) root.bounds[row][i] = (row < 3) == (i == 0) ? -3.0f : 3.0f;
   }
-  bvh.nodes.push_back(root);
+  bvh.nodes.push_back(root), bvh.below.push_back({0, 15});
   const auto tree = collapse_bvh(bvh, w.world());
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(tree->leaves.size(), 4u);

@@ -58,6 +58,20 @@ class LeafPrimitives {
     const Vec3* group = groups_[leaf >> group_bits];
     return {&group[t[0]].x, &group[t[1]].x, &group[t[2]].x};
   }
+  /// The leaf's corners by number; leaves that share a corner give it the same number, unless they are more than a few
+  /// thousand leaves apart.
+  std::array<std::uint32_t, 3> corner_numbers(std::size_t leaf) const {
+    const Triangle& t = triangles_[leaf];
+    const auto first = static_cast<std::uint32_t>(groups_[leaf >> group_bits] - corners_.data());
+    return {first + t[0], first + t[1], first + t[2]};
+  }
+  const Vec3& corner(std::uint32_t number) const { return corners_[number]; }
+  /// Asks memory for what says which corners the leaves from `first` on have. `count` is not 0.
+  [[gnu::always_inline]] void prefetch_triangles(std::size_t first, std::size_t count) const {
+    constexpr std::size_t line = 64 / sizeof(Triangle);
+    for (std::size_t i = first; i < first + count; i += line) __builtin_prefetch(&triangles_[i]);
+    __builtin_prefetch(&triangles_[first + count - 1]);
+  }
 
  private:
   using Triangle = std::array<std::uint16_t, 3>;  ///< numbers of corners in the group

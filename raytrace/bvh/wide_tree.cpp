@@ -16,7 +16,8 @@ namespace gnomon::raytrace {
 namespace {
 
 constexpr float inf = WideBox::inf;
-constexpr int parallel_depth = 4;                    // below it one thread does all
+constexpr std::uint32_t parallel_size = 4096;        // of fewer primitives one thread makes the parts,
+constexpr int parallel_depth = 2;                    // and the nodes below
 constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
 
 /// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
@@ -45,24 +46,18 @@ bool is_empty(const BvhChild& child) {
 
 /// A leaf's corners, each once.
 struct Corners {
-  std::array<const double*, leaf_corners> at;
-  std::array<std::uint32_t, leaf_corners> hash{};
-  std::uint32_t index[3][2] = {};  // as in LeafTriangles
+  std::array<std::uint32_t, leaf_corners> number{};  // as LeafPrimitives has them
+  std::uint32_t index[3][2] = {};                    // as in LeafTriangles
   std::uint32_t count = 0;
 
   /// The k-th corner of the leaf's i-th triangle; false: no room.
-  bool put(const double* corner, std::size_t i, std::size_t k) {
-    std::uint64_t mixed = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-      mixed = (mixed + std::bit_cast<std::uint64_t>(corner[a])) * 0x9e3779b97f4a7c15u;
-    const auto h = static_cast<std::uint32_t>(mixed >> 32);
+  bool put(std::uint32_t corner, std::size_t i, std::size_t k) {
     std::uint32_t equal = 0;  // bit j: to the j-th; without branches
-    for (std::uint32_t j = 0; j < leaf_corners; ++j) equal |= hash[j] == h ? 1u << j : 0u;
-    for (equal &= (1u << count) - 1; equal != 0; equal &= equal - 1)
-      if (std::equal(corner, corner + 3, at[static_cast<std::size_t>(std::countr_zero(equal))])) break;
+    for (std::uint32_t j = 0; j < leaf_corners; ++j) equal |= number[j] == corner ? 1u << j : 0u;
+    equal &= (1u << count) - 1;
     const std::uint32_t found = equal != 0 ? static_cast<std::uint32_t>(std::countr_zero(equal)) : count;
     if (found == leaf_corners) return false;
-    if (found == count) at[count] = corner, hash[count++] = h;
+    if (found == count) number[count++] = corner;
     index[k][i % 2] |= (found + 1) << (4 * (i / 2));
     return true;
   }
@@ -82,13 +77,16 @@ double longest_edge(const LeafPrimitive& triangle) {
 class Collapse {
  public:
   Collapse(const Bvh& bvh, const World& world, WideTree& tree)
-      : bvh_(bvh), world_(world), tree_(tree), has_shapes_(world.primitive_count() > world.triangle_count()) {
-    pairs_.resize(bvh.primitives.size());  // without values: pages that are not reached cost nothing
+      : bvh_(bvh),
+        world_(world),
+        tree_(tree),
+        has_shapes_(world.primitive_count() > world.triangle_count()),
+        pairs_(bvh.primitives.size()) {
     tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
     WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(bvh.nodes[0].child[i])) all.grow(wide_box_of(bvh.nodes[0], i));
-    collapse(part_of(BvhChild::node(0), all, 0), nodes_++, 0);
+    collapse(part_of(BvhChild::node(0), all), nodes_++, 0);
     tree.nodes.resize(nodes_), resize_leaves(leaves_);
   }
 
@@ -125,9 +123,9 @@ class Collapse {
   /// False: more than a leaf has room for.
   bool corners_of(std::uint32_t first, std::uint32_t count, Corners& corners) const {
     for (std::uint32_t i = 0; i < count && is_triangle(first); ++i) {
-      const CornerPointers at = bvh_.primitives.corners(first + i);
+      const std::array<std::uint32_t, 3> numbers = bvh_.primitives.corner_numbers(first + i);
       for (std::size_t k = 0; k < 3; ++k)
-        if (!corners.put(at[k], i, k)) return false;
+        if (!corners.put(numbers[k], i, k)) return false;
     }
     return true;
   }
@@ -137,7 +135,7 @@ class Collapse {
     return count <= leaf_corners / 3 || corners_of(first, count, corners);
   }
 
-  Part part_of(const BvhChild& child, const WideBox& box, int depth) {
+  Part part_of(const BvhChild& child, const WideBox& box) {
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
     if (is_short(child, first, end) && fits(first, end - first)) return {box, 0, first, end - first};
     if (child.is_leaf()) return halved(child.first(), child.count(), box);
@@ -148,9 +146,9 @@ class Collapse {
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(node.child[i])) used[count++] = i;
     const auto make = [&](std::size_t k) {
-      parts[k] = part_of(node.child[used[k]], wide_box_of(node, used[k]), depth + 1);
+      parts[k] = part_of(node.child[used[k]], wide_box_of(node, used[k]));
     };
-    if (depth < 2 * parallel_depth)
+    if (bvh_.below[child.index()].count > parallel_size)
       tbb::parallel_for(std::size_t{0}, count, make);
     else
       for (std::size_t k = 0; k < count; ++k) make(k);
@@ -183,8 +181,12 @@ class Collapse {
     return pair_of(joined(parts, best), joined(parts, set & ~best), around(set));
   }
 
-  float cost_of(const Part& part, std::size_t children) const {
-    return part.is_leaf() ? leaf_cost * part.box.half_area() : pairs_[part.pair].cost[children - 1];
+  /// Of as many children and one more.
+  std::array<float, node_lanes> costs_of(const Part& part) const {
+    if (!part.is_leaf()) return pairs_[part.pair].cost;
+    std::array<float, node_lanes> costs;
+    costs.fill(leaf_cost * part.box.half_area());
+    return costs;
   }
 
   Part pair_of(const Part& one, const Part& other, const WideBox& box) {
@@ -195,19 +197,36 @@ class Collapse {
     const std::uint32_t index = used_pairs_++;
     Pair& pair = pairs_[index];
     pair.parts = {one, other};
-    for (std::size_t children = 2; children <= node_lanes; ++children) {
-      float least = children > 2 ? pair.cost[children - 2] : inf;
-      std::size_t left = 0;
-      for (std::size_t k = 1; k < children; ++k) {
-        const float cost = cost_of(one, k) + cost_of(other, children - k);
-        if (cost < least || (left == 0 && children == 2)) least = cost, left = k;
-      }
-      pair.cost[children - 1] = least, pair.left[children - 1] = static_cast<std::uint8_t>(left);
-    }
+    share_children(costs_of(one), costs_of(other), pair);
     pair.cost[0] = node_cost * box.half_area() + pair.cost[node_lanes - 1];
     for (std::size_t i = 1; i < node_lanes; ++i)
       if (pair.cost[i] > pair.cost[0]) pair.cost[i] = pair.cost[0], pair.left[i] = 0;
     return {box, index, 0, 0};
+  }
+
+  /// The cheapest way to share so many children among two parts, and not more than as with one child fewer. All numbers of
+  /// children at once, in plain loops that compilers make vectors of.
+  static void share_children(const std::array<float, node_lanes>& one,
+                             const std::array<float, node_lanes>& other, Pair& pair) {
+    std::array<float, 2 * node_lanes> shifted;  // no number of children below one
+    std::fill_n(shifted.begin(), node_lanes, inf);
+    std::copy(other.begin(), other.end(), shifted.begin() + node_lanes);
+    std::array<float, node_lanes> least;
+    std::array<std::uint32_t, node_lanes> left{};
+    least.fill(inf);
+    for (std::uint32_t k = 1; k < node_lanes; ++k)
+      for (std::size_t i = 0; i < node_lanes; ++i) {
+        const float cost = one[k - 1] + shifted[node_lanes + i - k];
+        left[i] = cost < least[i] ? k : left[i];
+        least[i] = std::min(least[i], cost);
+      }
+    left[1] = 1;  // also where areas are infinite
+    pair.cost[1] = least[1], pair.left[1] = 1;
+    for (std::size_t i = 2; i < node_lanes; ++i) {
+      const bool better = least[i] < pair.cost[i - 1];
+      pair.cost[i] = better ? least[i] : pair.cost[i - 1];
+      pair.left[i] = static_cast<std::uint8_t>(better ? left[i] : 0);
+    }
   }
 
   /// Appends what the part becomes as so many children.
@@ -250,23 +269,25 @@ class Collapse {
     leave_if_given_up();
   }
 
-  /// Nearest first by the boxes' middles along the octant's diagonal.
+  /// Nearest first by the boxes' middles along the octant's diagonal, and of equals the first. Ranks are counted, in plain
+  /// loops that compilers make vectors of.
   static void put_order(std::span<const Part> pieces, WideNode& node) {
     for (unsigned octant = 0; octant < 4; ++octant) {
-      std::array<std::pair<float, std::uint8_t>, node_lanes> far;
-      for (std::uint8_t i = 0; i < node_lanes; ++i) {
-        far[i] = {inf, i};
-        if (i >= pieces.size()) continue;
+      std::array<float, node_lanes> far;
+      far.fill(inf);
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
         const auto& box = pieces[i].box.at;
-        float sum = 0.0f;
+        far[i] = 0.0f;
         for (std::size_t a = 0; a < 3; ++a) {
           const float middle = box[a] + box[3 + a];
-          sum += (octant >> a & 1u) != 0 ? -middle : middle;
+          far[i] += (octant >> a & 1u) != 0 ? -middle : middle;
         }
-        far[i].first = sum;
       }
-      std::sort(far.begin(), far.end());
-      for (std::size_t i = 0; i < node_lanes; ++i) node.order[octant][i] = far[i].second;
+      std::array<std::uint32_t, node_lanes> rank{};
+      for (std::uint32_t j = 0; j < node_lanes; ++j)
+        for (std::uint32_t i = 0; i < node_lanes; ++i)
+          rank[i] += (far[j] < far[i] || (far[j] == far[i] && j < i)) ? 1u : 0u;
+      for (std::uint8_t i = 0; i < node_lanes; ++i) node.order[octant][rank[i]] = i;
     }
   }
 
@@ -285,17 +306,21 @@ class Collapse {
     }
   }
 
-  static void put_plain_corners(const Corners& corners, PlainLeaf& leaf) {
-    for (std::size_t a = 0; a < 3; ++a)
+  void put_plain_corners(const Corners& corners, PlainLeaf& leaf) const {
+    for (int a = 0; a < 3; ++a)
       for (std::size_t i = 0; i <= leaf_corners; ++i)
-        leaf.corner[a][i] = i > 0 && i <= corners.count ? static_cast<float>(corners.at[i - 1][a]) : 0.0f;
+        leaf.corner[static_cast<std::size_t>(a)][i] =
+            i > 0 && i <= corners.count ? static_cast<float>(bvh_.primitives.corner(corners.number[i - 1])[a])
+                                        : 0.0f;
   }
 
   void put_corners(const Part& piece, const Corners& corners, WideLeaf& leaf) const {
     std::array<std::array<double, 3>, leaf_corners> from_center;
     double longest = 0.0;
-    for (std::size_t i = 0; i < corners.count; ++i)
-      for (std::size_t a = 0; a < 3; ++a) from_center[i][a] = corners.at[i][a] - tree_.center[a];
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Vec3& corner = bvh_.primitives.corner(corners.number[i]);
+      from_center[i] = {corner.x - tree_.center[0], corner.y - tree_.center[1], corner.z - tree_.center[2]};
+    }
     for (std::uint32_t i = 0; i < piece.count && !leaf.triangles.shapes(); ++i)
       longest = std::max(longest, longest_edge(bvh_.primitives[piece.first + i]));
     pack_corners(piece.box, {from_center.data(), corners.count}, longest, tree_.reach, leaf);
@@ -305,7 +330,7 @@ class Collapse {
   const World& world_;
   WideTree& tree_;
   bool has_shapes_;
-  HugeVector<Pair> pairs_;
+  HugeArray<Pair> pairs_;
   std::atomic<std::uint32_t> used_pairs_{0}, nodes_{0}, leaves_{0};
 };
 

@@ -270,6 +270,10 @@ class Bench {
            .goal = goal});
     };
     row("build", build, peer_build, "Embree medium", std::nullopt);
+    const auto [with_single, peer_again] = in_turn(
+        settings_.runs, 2, [&] { raytrace::prepare_single_rays(Tracer(world_, Accel::bvh)); },
+        [&] { const Embree embree(world_, embree_settings(settings_)); });
+    row("build, with single rays", with_single, peer_again, "Embree medium", std::nullopt);
     row("build, primary, point", ms.first, ms.second, "Embree medium, packets", 1.2);
   }
 
