@@ -91,14 +91,6 @@ void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, 
   });
 }
 
-/// Asks memory for a run's primitives. Always inline: GCC takes a function that does nothing else for one without effects,
-/// and leaves its calls out.
-HWY_INLINE void prefetch_run(const Bvh& bvh, const LeafRange& run) {
-  if (run.first + std::size_t{run.count} > bvh.primitives.size()) return;  // an instance's
-  for (std::uint32_t i = 0; i < run.count; ++i) __builtin_prefetch(bvh.primitives.corners(run.first + i)[0]);
-  __builtin_prefetch(&bvh.ids[run.first]), __builtin_prefetch(&bvh.ids[run.first + run.count - 1]);
-}
-
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif  // per-target guard

@@ -47,8 +47,8 @@ V3 cross(const V3& a, const V3& b) {
 V3 times(const V3& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
-V length(const V3& a) {
-  return hn::Sqrt(dot(a, a));
+V square(const V3& a) {
+  return dot(a, a);
 }
 V max3(V a, V b, V c) {
   return hn::Max(a, hn::Max(b, c));
@@ -58,6 +58,21 @@ V min3(V a, V b, V c) {
 }
 V all(double v) {
   return hn::Set(d, v);
+}
+
+/// To within 2^-23 of themselves, which the errors' rounding covers: roots of floats where floats can hold the squares, for
+/// those of doubles take several times as long.
+template <std::size_t count>
+void roots_of(const V (&squares)[count], V (&roots)[count]) {
+  constexpr hn::Rebind<float, D> half;
+  V least = squares[0], most = squares[0];
+  for (const V& s : squares) least = hn::Min(least, s), most = hn::Max(most, s);
+  if (hn::AllTrue(d, hn::And(hn::Gt(least, all(0x1p-120)), hn::Lt(most, all(0x1p120))))) [[likely]] {
+    for (std::size_t k = 0; k < count; ++k)
+      roots[k] = hn::PromoteTo(d, hn::Sqrt(hn::DemoteTo(half, squares[k])));
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) roots[k] = hn::Sqrt(squares[k]);
 }
 
 // What is to be written: rows of PrimitiveEdges.
@@ -109,10 +124,16 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
   const V3 n[3] = {cross(b, e0), cross(c, e1), cross(a, e2)};
   const V3 normal = cross(e1, e2);
   const V det = dot(normal, a), size = hn::Abs(det), sign = hn::CopySign(all(1.0), det);
-  const V corner = hn::Sqrt(max3(dot(a, a), dot(b, b), dot(c, c)));
-  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
-  const V l[3] = {length(n[0]), length(n[1]), length(n[2])};
-  const V kernel_error = hn::Mul(all(0x1p-39 * m), corner), area = length(normal);
+  const V squares[6] = {square(n[0]),
+                        square(n[1]),
+                        square(n[2]),
+                        max3(square(a), square(b), square(c)),
+                        max3(square(e0), square(e1), square(e2)),
+                        square(normal)};
+  V root[6];
+  roots_of(squares, root);
+  const V l[3] = {root[0], root[1], root[2]}, corner = root[3], extent = root[4], area = root[5];
+  const V kernel_error = hn::Mul(all(0x1p-39 * m), corner);
   const Inverses inverse(l);
   Out out;
   out.edge_error = hn::MulAdd(kernel_error, inverse.most, all(0x1p-20));
@@ -145,16 +166,18 @@ Out from_point(const V3& a, const V3& b, const V3& c, double m) {
 V3 line(const V3& p, const V3& e, V scale) {
   return times({hn::Neg(e.y), e.x, product_difference(e.y, p.x, e.x, p.y)}, scale);
 }
-V length2(const V3& e) {
-  return hn::Sqrt(hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y)));
+V square2(const V3& e) {
+  return hn::MulAdd(e.x, e.x, hn::Mul(e.y, e.y));
 }
 
 Out along_direction(const V3& a, const V3& b, const V3& c, const EdgeSetupPass& pass) {
   const V3 e0 = c - b, e1 = a - c, e2 = b - a;
   const V3 normal = cross(e1, e2);
   const V size = hn::Abs(normal.z), sign = hn::CopySign(all(1.0), normal.z);
-  const V extent = hn::Sqrt(max3(dot(e0, e0), dot(e1, e1), dot(e2, e2)));
-  const V l[3] = {length2(e0), length2(e1), length2(e2)};
+  const V squares[4] = {square2(e0), square2(e1), square2(e2), max3(square(e0), square(e1), square(e2))};
+  V root[4];
+  roots_of(squares, root);
+  const V l[3] = {root[0], root[1], root[2]}, extent = root[3];
   const double m = pass.largest, radius = pass.radius, corner = pass.farthest;
   const V kernel_error = all(0x1p-39 * m * corner);
   Out out;

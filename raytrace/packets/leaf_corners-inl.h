@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <span>
 
 #include "raytrace/packets/lanes-inl.h"
@@ -21,7 +22,7 @@ using Eight = hn::CappedTag<float, 8>;
 using V8 = hn::Vec<Eight>;
 constexpr Eight eight;
 
-/// Triangles' corners as floats from the hierarchy's centre.
+/// Up to eight triangles' corners as floats from the hierarchy's centre; where there are fewer, the last one's again.
 class LeafCorners {
  public:
   LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves) {
@@ -30,9 +31,9 @@ class LeafCorners {
     constexpr hn::Rebind<float, D> half;
     const Vec3& c = bvh.center;
     alignas(32) const double center[4] = {c.x, c.y, c.z, 0.0};
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
+    for (std::size_t i = 0; i < 8; ++i) {
       PlacedCorners scratch;
-      const CornerPointers at = bvh.corners_at(leaves[i], scratch);
+      const CornerPointers at = bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t a = 0; a < 4; a += hn::Lanes(d)) {
           const auto p = hn::Sub(hn::LoadU(d, at[k] + a), hn::Load(d, center + a));
@@ -48,7 +49,7 @@ class LeafCorners {
   }
 
  private:
-  alignas(32) float corner_[3][32] = {};
+  alignas(32) float corner_[3][32];
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <utility>
 
@@ -90,8 +91,9 @@ class Projection {
       hn::Store(bounds.v_min, eight, rows.v_min + i), hn::Store(bounds.v_max, eight, rows.v_max + i);
       hn::Store(bounds.nearest, eight, rows.nearest + i);
     }
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if ((thin >> i & 1) == 0 && !s_.has_shapes) continue;
+    unsigned others = (s_.has_shapes ? 0xffu : thin) & ((1u << leaves.size()) - 1);
+    for (; others != 0; others &= others - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(others));
       const std::uint32_t id = s_.bvh.id_at(leaves[i]);
       if (!s_.world->is_triangle(id))
         rows.set(i, of(shape_box(*s_.world, id, s_.bvh.center)));

@@ -6,6 +6,7 @@
 
 #include "raytrace/packets/block_traverse-inl.h"
 #include "raytrace/packets/edge_setup_rows.h"
+#include "raytrace/packets/pending_leaves-inl.h"
 #include "raytrace/packets/shadow_block.h"
 #include "raytrace/packets/tile_state-inl.h"
 
@@ -37,7 +38,12 @@ constexpr hn::Rebind<std::uint8_t, decltype(eight_ids)> eight_bytes;
 class BlockShadows {
  public:
   BlockShadows(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles)
-      : s_(s), setup_(setup), pass_(edge_setup_pass(s, setup)), projection_(s, setup), count_(tiles.size()) {
+      : s_(s),
+        setup_(setup),
+        pass_(edge_setup_pass(s, setup)),
+        projection_(s, setup),
+        count_(tiles.size()),
+        pending_(s.bvh) {
     for (std::size_t t = 0; t < most_shadow_tiles; ++t) {
       for (Packets& part : regions_.part) Extent{}.store(part, t), part.far_min[t] = inf;
       if (t >= count_) continue;
@@ -60,9 +66,9 @@ class BlockShadows {
       traverse_block(
           s_.bvh, frustum, [&] { return limit_; },
           [&](const BoxRef& box, LeafRange leaves) {
-            if (is_touched(LaneBounds(projection_.of(box)))) put(leaves);
+            if (const unsigned tiles = touched_tiles(LaneBounds(projection_.of(box)))) put(leaves, tiles);
           });
-      while (begin_ < end_) flush();
+      while (pending_.count() > 0) flush();
       while (ready_ > 0) test_eight();
     }
     for (std::size_t t = 0; t < count_; ++t) tiles_[t].finish();
@@ -82,40 +88,45 @@ class BlockShadows {
     return all_of;
   }
 
-  bool is_touched(const LaneBounds& bounds) const {
-    for (unsigned tiles = regions_.touched_by(bounds); tiles != 0; tiles &= tiles - 1)
-      if (tiles_[std::countr_zero(tiles)].packets().touched_by(bounds) != 0) return true;
-    return false;
+  /// Bits of the tiles that may be touched; none where no packet of theirs is.
+  unsigned touched_tiles(const LaneBounds& bounds) const {
+    const unsigned tiles = regions_.touched_by(bounds);
+    for (unsigned left = tiles; left != 0; left &= left - 1)
+      if (tiles_[std::countr_zero(left)].packets().touched_by(bounds) != 0) return tiles;
+    return 0;
   }
 
-  void put(LeafRange run) {
-    prefetch_run(s_.bvh, run);
-    for (std::uint32_t k = 0; k < run.count; ++k) pending_[end_++] = run.first + k;
-    while (end_ - begin_ >= run_size) flush();
-    end_ = static_cast<std::size_t>(std::copy(pending_ + begin_, pending_ + end_, pending_) - pending_),
-    begin_ = 0;
+  void put(LeafRange run, unsigned tiles) {
+    pending_.put(run, static_cast<std::uint16_t>(tiles));
+    while (pending_.count() >= std::size_t{2} * run_size) flush();
   }
 
   /// Of the longest waiting ones finds which tiles each may concern, and which packets of these, in plain loops, because
   /// branches that nobody can foresee would cost more than the tests.
   void flush() {
-    const std::size_t count = std::min<std::size_t>(end_ - begin_, batch);
-    projection_.of_leaves({pending_ + begin_, count}, bounds_);
+    const std::size_t count = std::min<std::size_t>(pending_.count(), batch);
+    const std::span<const std::uint32_t> leaves = pending_.first(count);
+    projection_.of_leaves(leaves, bounds_);
     std::size_t tiles = 0;
-    for (std::size_t i = 0; i < count; ++i)
-      tiles += list_bits(regions_.touched_by({bounds_, i}), i, tiles_of_ + tiles);
+    for (std::size_t i = 0; i < count; ++i) {
+      unsigned touched = pending_.tiles_of(i);
+      if (!std::has_single_bit(touched)) touched &= regions_.touched_by({bounds_, i});
+      tiles += list_bits(touched, i, tiles_of_ + tiles);
+    }
     unsigned concern = 0;
+    std::size_t pairs = pair_end_;
     for (std::size_t k = 0; k < tiles; ++k) {
       const std::uint32_t i = tiles_of_[k] / 16, tile = tiles_of_[k] % 16;
       const std::size_t place = ready_ + static_cast<std::size_t>(std::popcount(concern & ((1u << i) - 1)));
       const std::size_t packets =
-          list_bits(tiles_[tile].packets().touched_by({bounds_, i}), 16 * place + tile, pairs_ + pair_end_);
-      pair_end_ += packets, concern |= static_cast<unsigned>(packets != 0) << i;
+          list_bits(tiles_[tile].packets().touched_by({bounds_, i}), 16 * place + tile, pairs_ + pairs);
+      pairs += packets, concern |= static_cast<unsigned>(packets != 0) << i;
     }
+    pair_end_ = pairs;
     for (std::size_t k = 0; k < batch; ++k)
-      ready_leaves_[ready_ + k] = pending_[begin_ + places_of_bits[concern][k] % batch];
+      ready_leaves_[ready_ + k] = leaves[std::min<std::size_t>(places_of_bits[concern][k], count - 1)];
     ready_ += static_cast<std::size_t>(std::popcount(concern));
-    begin_ += count;
+    pending_.drop(count);
     if (ready_ >= batch) test_eight();
   }
 
@@ -188,8 +199,7 @@ class BlockShadows {
   std::uint32_t pairs_[2 * batch * most_shadow_tiles * tile_packets + packet_rays];
   EdgeSetupRows rows_;
   Blocker blockers_[batch];
-  std::uint32_t pending_[2 * std::size_t{run_size} + batch];
-  std::size_t begin_ = 0, end_ = 0;  ///< of the pending ones
+  PendingLeaves pending_;
 };
 
 void block_kernel(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles) {

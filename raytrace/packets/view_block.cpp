@@ -8,6 +8,7 @@
 #include "raytrace/packets/block_plane-inl.h"
 #include "raytrace/packets/edge_setup_rows.h"
 #include "raytrace/packets/packet_grid.h"
+#include "raytrace/packets/pending_leaves-inl.h"
 #include "raytrace/packets/view_block.h"
 #include "raytrace/precision/facing.h"
 
@@ -27,7 +28,8 @@ class BlockClosest {
         plane_(s, setup, view, rect),
         packets_(plane_.packets),
         rect_(rect),
-        out_(out) {
+        out_(out),
+        pending_(s.bvh) {
     start();
   }
 
@@ -49,7 +51,7 @@ class BlockClosest {
         [&](const BoxRef& box, LeafRange leaves) {
           if (!is_hidden(box)) put(leaves);
         });
-    while (pending_count_ > 0) flush();
+    while (pending_.count() > 0) flush();
     finish();
   }
 
@@ -89,9 +91,8 @@ class BlockClosest {
   std::uint32_t* leaf_at(std::size_t place) { return out_.tiles[place / tile_rays].leaf + place % tile_rays; }
 
   void put(LeafRange run) {
-    prefetch_run(s_.bvh, run);
-    for (std::uint32_t k = 0; k < run.count; ++k) pending_[pending_count_++] = run.first + k;
-    while (pending_count_ >= batch + run_size) flush();
+    pending_.put(run, 0);
+    while (pending_.count() >= std::size_t{2} * run_size) flush();
   }
 
   /// Whether no ray of the block can find anything in the box that is nearer than what it has.
@@ -123,15 +124,15 @@ class BlockClosest {
 
   /// Finds the numbers of those of the longest waiting ones that packets ask for, and tries the nearest of them first.
   void flush() {
-    const std::size_t waiting = std::min<std::size_t>(pending_count_, batch);
+    const std::size_t waiting = std::min<std::size_t>(pending_.count(), batch);
     alignas(64) float nearest[batch + packet_rays] = {};
     alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
     unsigned never[batch / 8], backs[batch / 8] = {};
     std::size_t count = 0;
     for (std::size_t first = 0; first < waiting; first += 8)
-      count = find_asked({pending_ + first, std::min<std::size_t>(8, waiting - first)}, count, nearest);
-    pending_count_ -= waiting;
-    std::copy_n(pending_ + waiting, pending_count_, pending_);
+      count = find_asked(pending_.first(waiting).subspan(first, std::min<std::size_t>(8, waiting - first)),
+                         count, nearest);
+    pending_.drop(waiting);
     for (std::size_t first = 0; first < count; first += 8) {
       std::uint32_t leaves[8];
       const std::size_t together = std::min<std::size_t>(8, count - first);
@@ -288,8 +289,7 @@ class BlockClosest {
   BlockRect rect_;
   BlockHits& out_;
   float limit_ = -inf;
-  std::uint32_t pending_[batch + 2 * run_size];
-  std::size_t pending_count_ = 0;
+  PendingLeaves pending_;
   EdgeSetupRows rows_[batch / 8];
   Asked asked_[batch];
   alignas(64) float nearest_asked_[block_side]
