@@ -118,7 +118,8 @@ class Panel:
         self.title, self.points, self.x0 = title, points, left
         values = [v for _, s, b in points for v in (s, b / 1e9)]
         self.x = self.decades([p[0] for p in points])
-        self.y = self.decades(values)
+        low, high = self.decades(values)
+        self.y = low - 0.1, high  # room for the words below the lower line
 
     @staticmethod
     def decades(values):
@@ -154,8 +155,8 @@ class Panel:
             path = 'M' + 'L'.join(f'{x:.1f} {y:.1f}' for x, y in places)
             out.append(f'<path class="{name}" d="{path}"/>')
             out += [f'<circle class="{name}" cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in places]
-            x, y = places[-1]
-            out.append(f'<text class="{name}" x="{x - 6:.1f}" y="{y - 8:.1f}" text-anchor="end">{name}, {unit}</text>')
+            x, y = places[0]  # where the lines are flat and apart
+            out.append(f'<text class="{name}" x="{x + 8:.1f}" y="{y + 16:.1f}">{name}, {unit}</text>')
         return '\n'.join(out)
 
 
