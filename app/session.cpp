@@ -81,12 +81,15 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
                                             name, fmt::join(names, ", "), more, suggestion));
 }
 
+Expected<std::unique_ptr<raster::Context>> make_context(raster::Backend backend) {
+  if (const auto fits = check_memory({0, 0}, 0.0, graphics_bytes); !fits) return fail(fits.error());
+  const TimedStage stage("context");
+  return raster::create_context(backend);
+}
+
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
                                                           const std::string& shader_folder) {
-  if (const auto fits = check_memory({0, 0}, 0.0, graphics_bytes); !fits) return fail(fits.error());
-  TimedStage stage("context");
-  Expected<std::unique_ptr<raster::Context>> context = raster::create_context(backend);
-  stage.end();
+  auto context = make_context(backend);
   if (!context) return fail(context.error());
   return make_renderer(std::move(*context), loaded, shader_folder);
 }

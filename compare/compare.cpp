@@ -28,27 +28,28 @@ Expected<std::vector<LightComparison>> compare_frames(const World& world, const 
   return lights;
 }
 
-Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
+raster::RasterOptions drawing_options(const CompareOptions& options) {
+  raster::RasterOptions drawing = options.raster;
+  drawing.seed = options.raytrace.seed, drawing.shadow_samples = options.raytrace.shadow_samples;
+  return drawing;
+}
+
+Expected<Comparison> compare_drawn(const raytrace::Tracer& tracer, raster::RasterFrame drawn,
                                    std::span<const std::uint32_t> lights, const CompareOptions& options,
                                    const Progress& progress) {
   const auto report = [&](std::string_view stage, double done) {
     if (progress) progress(stage, done);
   };
+  const World& world = tracer.world();
   const Scene& scene = *world.scene;
   Comparison out;
   out.world = &world;
   out.threads =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   out.plan = plan_effects(scene);
-  report("shadow maps", 0.0);
-  raster::RasterOptions drawing = options.raster;
-  drawing.seed = options.raytrace.seed, drawing.shadow_samples = options.raytrace.shadow_samples;
-  auto drawn = renderer.render(drawing, lights);
-  if (!drawn) return tl::unexpected(drawn.error());
-  out.raster = std::move(*drawn);
+  out.raster = std::move(drawn);
 
   report("ray tracing", 0.3);
-  const raytrace::Tracer tracer(world, options.accel, options.precision);
   out.precision = options.precision;
   out.accel_build_ms = tracer.stats().build_ms;
   out.raytraced = raytrace::trace_frame(tracer, out.plan, scene.camera, lights, options.raytrace);
@@ -60,6 +61,15 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
   out.exposure = scene.exposure ? *scene.exposure : auto_exposure(out.raytraced.color);
   report("compared", 1.0);
   return out;
+}
+
+Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
+                                   std::span<const std::uint32_t> lights, const CompareOptions& options,
+                                   const Progress& progress) {
+  const raytrace::Tracer tracer(world, options.accel, options.precision);
+  auto drawn = renderer.render(drawing_options(options), lights);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return compare_drawn(tracer, std::move(*drawn), lights, options, progress);
 }
 
 }  // namespace gnomon::compare

@@ -25,7 +25,15 @@ struct CompareOptions {
 /// Called as work proceeds with a stage name and the share done in [0, 1].
 using Progress = std::function<void(std::string_view stage, double done)>;
 
-/// Renders and compares the lights of those indices. The renderer must have been created for `world`.
+/// What the drawing of a comparison asks of the rasterizer.
+raster::RasterOptions drawing_options(const CompareOptions& options);
+
+/// Traces what was drawn so, and compares the lights of those indices. `tracer` is of `options`.
+Expected<Comparison> compare_drawn(const raytrace::Tracer& tracer, raster::RasterFrame drawn,
+                                   std::span<const std::uint32_t> lights, const CompareOptions& options,
+                                   const Progress& progress = {});
+
+/// Draws, and compares. The renderer must have been created for `world`.
 Expected<Comparison> compare_world(const World& world, raster::Renderer& renderer,
                                    std::span<const std::uint32_t> lights, const CompareOptions& options,
                                    const Progress& progress = {});

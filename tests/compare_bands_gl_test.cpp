@@ -98,7 +98,8 @@ TEST_P(CompareBands, AreTheWhole) {
   const auto whole = compare_world(world_, *renderer(), lights_, options_);
   ASSERT_TRUE(whole) << whole.error().reason;
   const auto drawn = renderer();
-  auto banded = compare_in_bands({.world = world_,
+  const raytrace::Tracer tracer(world_, options_.accel, options_.precision);
+  auto banded = compare_in_bands({.tracer = tracer,
                                   .renderer = *drawn,
                                   .lights = lights_,
                                   .options = options_,

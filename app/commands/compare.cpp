@@ -59,12 +59,12 @@ std::string folder_of_rows(const CompareCommand& command) {
                         : std::filesystem::absolute(folder).parent_path().string();
 }
 
-Expected<Compared> compare_bands(const CompareCommand& command, const LoadedScene& loaded,
+Expected<Compared> compare_bands(const CompareCommand& command, const raytrace::Tracer& tracer,
                                  raster::Renderer& renderer, const std::vector<std::uint32_t>& lights,
                                  std::vector<PictureRows> bands, const compare::Progress& progress) {
   if (const std::string& aov = command.output.aov; !aov.empty())
     if (const auto made = make_folder_for(aov); !made) return fail(made.error());
-  auto compared = compare::compare_in_bands({.world = *loaded.world,
+  auto compared = compare::compare_in_bands({.tracer = tracer,
                                              .renderer = renderer,
                                              .lights = lights,
                                              .options = command.setting.options,
@@ -78,19 +78,34 @@ Expected<Compared> compare_bands(const CompareCommand& command, const LoadedScen
   return Compared{std::move(compared->comparison), std::move(compared->parts)};
 }
 
+/// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for: memory
+/// that one of them frees the next one takes.
 Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
-                                   raster::Renderer& renderer, const std::vector<std::uint32_t>& lights,
-                                   Console& console) {
-  const raster::RasterOptions& raster = command.setting.options.raster;
-  const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, wants_page(command));
-  auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(renderer, raster.map));
-  if (!bands) return fail(bands.error());
+                                   const std::vector<std::uint32_t>& lights, Console& console) {
+  const compare::CompareOptions& options = command.setting.options;
+  const raster::RasterOptions& raster = options.raster;
   const compare::Progress progress = [&](std::string_view stage, double done) {
     console.progress(stage, done);
   };
-  if (bands->size() > 1) return compare_bands(command, loaded, renderer, lights, std::move(*bands), progress);
-  auto comparison =
-      compare::compare_world(*loaded.world, renderer, lights, command.setting.options, progress);
+  auto context = make_context(command.backend);
+  if (!context) return fail(context.error());
+  progress("building", 0.0);
+  const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
+  auto renderer = make_renderer(std::move(*context), loaded, command.shader_folder);
+  if (!renderer) return fail(renderer.error());
+  const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, wants_page(command));
+  auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(**renderer, raster.map));
+  if (!bands) return fail(bands.error());
+  if (bands->size() > 1)
+    return compare_bands(command, tracer, **renderer, lights, std::move(*bands), progress);
+  progress("shadow maps", 0.1);
+  auto drawn = (*renderer)->render(compare::drawing_options(options), lights);
+  if (!drawn) return fail(drawn.error());
+  {
+    const TimedStage stage("exit");
+    renderer->reset();
+  }
+  auto comparison = compare::compare_drawn(tracer, std::move(*drawn), lights, options, progress);
   if (!comparison) return fail(comparison.error());
   return Compared{std::move(*comparison), nullptr};
 }
@@ -123,17 +138,11 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));
   const auto fits = check_memory(command.memory, raster.size, bytes, graphics_bytes + map_bytes);
   if (!fits) return fail(fits.error());
-  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
-  if (!renderer) return fail(renderer.error());
-  auto compared = compare_picture(command, loaded, **renderer, *lights, console);
+  auto compared = compare_picture(command, loaded, *lights, console);
   if (!compared) return compared;
   compare::Comparison& comparison = compared->comparison;
   const auto used = check_shaders_used(command.shader_folder, comparison.raster, *loaded.scene, console);
   if (!used) return fail(used.error());
-  {
-    const TimedStage stage("exit");
-    renderer->reset();
-  }
   comparison.command = command.command_line;
   comparison.seed = command.seed;
   comparison.machine = machine_info();

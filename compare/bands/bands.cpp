@@ -17,10 +17,8 @@ namespace {
 /// The work from the first band to the last.
 class BandedWork {
  public:
-  BandedWork(const BandedInput& in, const raytrace::Tracer& tracer, const raytrace::Topology& topology,
-             BandedComparison& out)
+  BandedWork(const BandedInput& in, const raytrace::Topology& topology, BandedComparison& out)
       : in_(in),
-        tracer_(tracer),
         topology_(topology),
         out_(out),
         step_{image_step(size()), size().height},
@@ -39,7 +37,7 @@ class BandedWork {
   Expected<void> finish();
 
  private:
-  const Scene& scene() const { return *in_.world.scene; }
+  const Scene& scene() const { return *in_.tracer.world().scene; }
   ImageSize size() const { return in_.options.raster.size; }
   PictureStore& store() { return out_.parts->pictures; }
   const Light& light(std::size_t i) const { return scene().lights[in_.lights[i]]; }
@@ -52,8 +50,8 @@ class BandedWork {
   Expected<void> measure_neighbours(int end);
   Expected<void> finish_exposure();
   LadderInput near_input(std::size_t i) const {
-    return {in_.world,
-            tracer_,
+    return {in_.tracer.world(),
+            in_.tracer,
             topology_,
             light(i),
             near_.drawn,
@@ -64,7 +62,6 @@ class BandedWork {
   }
 
   const BandedInput& in_;
-  const raytrace::Tracer& tracer_;
   const raytrace::Topology& topology_;
   BandedComparison& out_;
   Reduction step_;             ///< of what the page shows
@@ -89,7 +86,7 @@ Expected<raster::RasterFrame> BandedWork::draw(const PictureRows& rows) {
 raytrace::RayTracedFrame BandedWork::trace(const PictureRows& rows) {
   raytrace::RaytraceOptions options = in_.options.raytrace;
   options.warm_up = options.warm_up && rows.first == 0;
-  return raytrace::trace_band(tracer_, out_.comparison.plan, scene().camera, in_.lights, options, rows);
+  return raytrace::trace_band(in_.tracer, out_.comparison.plan, scene().camera, in_.lights, options, rows);
 }
 
 Expected<void> BandedWork::add(const PictureRows& rows) {
@@ -118,8 +115,8 @@ Expected<void> BandedWork::add(const PictureRows& rows) {
 
 Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterFrame& drawn,
                                             const raytrace::RayTracedFrame& traced, const PictureRows& rows) {
-  const LadderInput input{in_.world,
-                          tracer_,
+  const LadderInput input{in_.tracer.world(),
+                          in_.tracer,
                           topology_,
                           light(i),
                           drawn,
@@ -138,7 +135,7 @@ Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterF
     return fail(stored.error());
   LightComparison& shown = out_.comparison.lights[i];
   if (!in_.aov.empty()) {
-    const AovRows channels{in_.world, drawn, drawn.lights[i], traced, climbed.rungs, climbed.labels};
+    const AovRows channels{in_.tracer.world(), drawn, drawn.lights[i], traced, climbed.rungs, climbed.labels};
     const auto written =
         out_.parts->channels[i].write(rows, aov_channels(channels), aov_attributes(out_.comparison, shown));
     if (!written) return fail(written.error());
@@ -250,19 +247,18 @@ Expected<BandedComparison> compare_in_bands(const BandedInput& in, const Progres
   const ImageSize size = in.options.raster.size;
   out.parts = std::make_unique<BandedParts>(BandedParts{{size, in.lights.size()}, {}, {}});
   Comparison& c = out.comparison;
-  c.world = &in.world;
+  const World& world = in.tracer.world();
+  c.world = &world;
   c.command = in.command;
   c.threads =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  c.plan = plan_effects(*in.world.scene);
-  if (progress) progress("building", 0.0);
-  const raytrace::Tracer tracer(in.world, in.options.accel, in.options.precision);
+  c.plan = plan_effects(*world.scene);
   c.precision = in.options.precision;
-  c.accel_build_ms = tracer.stats().build_ms;
+  c.accel_build_ms = in.tracer.stats().build_ms;
   const Stopwatch joining;
-  const raytrace::Topology topology(in.world);
+  const raytrace::Topology topology(world);
   c.topology_ms = joining.elapsed_ms();
-  BandedWork work(in, tracer, topology, out);
+  BandedWork work(in, topology, out);
   for (const PictureRows& rows : in.bands) {
     if (progress) progress("comparing in bands", double(rows.first) / size.height);
     if (const auto added = work.add(rows); !added) return fail(added.error());

@@ -14,7 +14,7 @@
 namespace gnomon::compare {
 
 struct BandedInput {
-  const World& world;
+  const raytrace::Tracer& tracer;  ///< of `options`
   raster::Renderer& renderer;
   std::span<const std::uint32_t> lights;
   const CompareOptions& options;
@@ -40,7 +40,7 @@ struct BandedComparison {
 /// Rows that bands keep beside themselves: near_margin() of the lights, above and below.
 int margin_of_bands(const Scene& scene, std::span<const std::uint32_t> lights);
 
-/// As compare_world().
+/// As compare_world(), of the tracer's world.
 Expected<BandedComparison> compare_in_bands(const BandedInput& input, const Progress& progress = {});
 
 /// Of a picture with more pixels than a page can hold, the page shows every so-manieth pixel and row: 1 up to 8
