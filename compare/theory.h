@@ -14,8 +14,6 @@
 #pragma once
 
 #include <array>
-
-#include <array>
 #include <span>
 #include <vector>
 
