@@ -181,7 +181,7 @@ class Collapse {
     return pair_of(joined(parts, best), joined(parts, set & ~best), around(set));
   }
 
-  /// Of as many children and one more.
+  /// [i]: the least cost as i + 1 children.
   std::array<float, node_lanes> costs_of(const Part& part) const {
     if (!part.is_leaf()) return pairs_[part.pair].cost;
     std::array<float, node_lanes> costs;
@@ -220,7 +220,6 @@ class Collapse {
         left[i] = cost < least[i] ? k : left[i];
         least[i] = std::min(least[i], cost);
       }
-    left[1] = 1;  // also where areas are infinite
     pair.cost[1] = least[1], pair.left[1] = 1;
     for (std::size_t i = 2; i < node_lanes; ++i) {
       const bool better = least[i] < pair.cost[i - 1];
