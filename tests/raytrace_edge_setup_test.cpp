@@ -69,59 +69,53 @@ void expect_unit_edges(const EdgeSetupRows& rows, std::size_t i, std::size_t com
   }
 }
 
-constexpr std::array exponents{-85, -61, -40, -10, 0, 10, 40, 61, 85};
+/// Rays from the origin, or along z, over eight random triangles at every scale and for every instruction set:
+/// check(pass, rows, i, the i-th triangle's sides, scale).
+template <class Check>
+void for_each_triangle(bool directional, const Check& check) {
+  std::mt19937 random(41);
+  const auto check_scale = [&](double scale) {
+    EdgeSetupRows rows = random_corners(scale, random);
+    EdgeSetupPass pass;
+    pass.directional = directional;
+    pass.axes[0] = Vec3(1, 0, 0), pass.axes[1] = Vec3(0, 1, 0), pass.axes[2] = Vec3(0, 0, 1);
+    pass.largest = 2.0 * scale, pass.radius = 2.0 * scale, pass.farthest = 4.0 * scale;
+    raytrace::set_up_eight_triangles(rows, pass);
+    for (std::size_t i = 0; i < together; ++i) check(pass, rows, i, sides_of(rows, i), scale);
+  };
+  test::for_each_target([&] {
+    for (const int exponent : {-85, -61, -40, -10, 0, 10, 40, 61, 85}) check_scale(std::ldexp(1.0, exponent));
+  });
+}
 
 TEST(EdgeSetup, FromAPoint) {
-  std::mt19937 random(41);
-  test::for_each_target([&] {
-    for (const int exponent : exponents) {
-      const double scale = std::ldexp(1.0, exponent);
-      EdgeSetupRows rows = random_corners(scale, random);
-      EdgeSetupPass pass;
-      pass.axes[0] = Vec3(1, 0, 0), pass.axes[1] = Vec3(0, 1, 0), pass.axes[2] = Vec3(0, 0, 1);
-      pass.largest = 2.0 * scale;
-      raytrace::set_up_eight_triangles(rows, pass);
-      for (std::size_t i = 0; i < together; ++i) {
-        expect_unit_edges(rows, i, 3, scale);
-        const Sides s = sides_of(rows, i);
-        Real shortest = HUGE_VALL;
-        for (std::size_t k = 0; k < 3; ++k)
-          shortest = std::min(shortest, length(cross(s.corner[(k + 1) % 3], s.edge[k])));
-        const Real m = pass.largest;
-        expect_just_above(rows.out[12][i], 0x1p-20L + 0x1p-39L * m * s.farthest / shortest, scale);
-        const Real3 normal = cross(s.edge[1], s.edge[2]);
-        const Real size =
-            std::abs(normal[0] * s.corner[0][0] + normal[1] * s.corner[0][1] + normal[2] * s.corner[0][2]);
-        const Real steep = length(normal) / size;
-        expect_just_above(
-            rows.out[13][i],
-            steep * (0x1p-19L + 0x1p-35L * m * s.farthest * s.extent / size) + 0x1p-40L * m * steep * steep,
-            scale);
-      }
-    }
+  for_each_triangle(false, [](const EdgeSetupPass& pass, const EdgeSetupRows& rows, std::size_t i,
+                              const Sides& s, double scale) {
+    expect_unit_edges(rows, i, 3, scale);
+    Real shortest = HUGE_VALL;
+    for (std::size_t k = 0; k < 3; ++k)
+      shortest = std::min(shortest, length(cross(s.corner[(k + 1) % 3], s.edge[k])));
+    const Real m = pass.largest;
+    expect_just_above(rows.out[12][i], 0x1p-20L + 0x1p-39L * m * s.farthest / shortest, scale);
+    const Real3 normal = cross(s.edge[1], s.edge[2]);
+    const Real size =
+        std::abs(normal[0] * s.corner[0][0] + normal[1] * s.corner[0][1] + normal[2] * s.corner[0][2]);
+    const Real steep = length(normal) / size;
+    expect_just_above(
+        rows.out[13][i],
+        steep * (0x1p-19L + 0x1p-35L * m * s.farthest * s.extent / size) + 0x1p-40L * m * steep * steep,
+        scale);
   });
 }
 
 TEST(EdgeSetup, AlongADirection) {
-  std::mt19937 random(42);
-  test::for_each_target([&] {
-    for (const int exponent : exponents) {
-      const double scale = std::ldexp(1.0, exponent);
-      EdgeSetupRows rows = random_corners(scale, random);
-      EdgeSetupPass pass;
-      pass.directional = true;
-      pass.axes[0] = Vec3(1, 0, 0), pass.axes[1] = Vec3(0, 1, 0), pass.axes[2] = Vec3(0, 0, 1);
-      pass.largest = 2.0 * scale, pass.radius = 2.0 * scale, pass.farthest = 4.0 * scale;
-      raytrace::set_up_eight_triangles(rows, pass);
-      for (std::size_t i = 0; i < together; ++i) {
-        expect_unit_edges(rows, i, 2, scale);
-        const Sides s = sides_of(rows, i);
-        Real shortest = HUGE_VALL;
-        for (const Real3& e : s.edge) shortest = std::min(shortest, std::hypot(e[0], e[1]));
-        const Real kernel = 0x1p-39L * pass.largest * pass.farthest;
-        expect_just_above(rows.out[12][i], 0x1p-20L * pass.radius + kernel / shortest, scale);
-      }
-    }
+  for_each_triangle(true, [](const EdgeSetupPass& pass, const EdgeSetupRows& rows, std::size_t i,
+                             const Sides& s, double scale) {
+    expect_unit_edges(rows, i, 2, scale);
+    Real shortest = HUGE_VALL;
+    for (const Real3& e : s.edge) shortest = std::min(shortest, std::hypot(e[0], e[1]));
+    const Real kernel = 0x1p-39L * pass.largest * pass.farthest;
+    expect_just_above(rows.out[12][i], 0x1p-20L * pass.radius + kernel / shortest, scale);
   });
 }
 

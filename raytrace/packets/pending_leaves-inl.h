@@ -24,7 +24,8 @@ class PendingLeaves {
  public:
   explicit PendingLeaves(const Bvh& bvh) : bvh_(bvh) {}
 
-  /// `tiles`: those that the run may touch. No more than 7 run_size may be waiting.
+  /// `tiles`: those that the run may touch, or anything where nobody asks tiles_of(). No more than 7 run_size may be
+  /// waiting.
   void put(LeafRange run, std::uint16_t tiles) {
     prefetch_triangles(run), prefetch_corners(last_);
     last_ = run;
