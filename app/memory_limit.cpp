@@ -110,7 +110,7 @@ PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>&
   // four. In bands what the camera sees, the longest list and a picture on its way to its file are whole, and what
   // the page shows; half as much as of a band is kept of the rows around it.
   const double light = static_cast<double>(lights.size());
-  const double piece = 260.0 + 57.0 * light, shown = 120.0 + 54.0 * light, step = compare::image_step(size);
+  const double piece = 260.0 + 57.0 * light, shown = 30.0 + 80.0 * light, step = compare::image_step(size);
   return {.piece = piece,
           .whole = 20.0 + (page ? shown / (step * step) : 0.0),
           .band = piece,

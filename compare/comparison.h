@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compare/seen_surfaces.h"
 #include "compare/threshold.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
@@ -258,6 +259,8 @@ struct Comparison {
   raytrace::Precision precision = raytrace::Precision::robust;  ///< of the ray tracer
   raster::RasterFrame raster;
   raytrace::RayTracedFrame raytraced;
+  /// Of a picture in bands, whose receivers are not kept; else empty.
+  Image<SeenSurface> seen;
   std::vector<LightComparison> lights;
   std::optional<Threshold> fail_above;  ///< what the errors were held against
   double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding

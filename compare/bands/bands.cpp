@@ -6,13 +6,18 @@
 
 #include "compare/aov.h"
 #include "compare/bands/reduced.h"
+#include "compare/bands/run_all.h"
 #include "compare/output_parts.h"
 #include "raster/bands.h"
 #include "raytrace/band.h"
 #include "scene/exposure.h"
+#include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {
+
+/// In the time budget, what bands cost alone.
+constexpr std::string_view band_stage = "rows kept";
 
 /// The work from the first band to the last.
 class BandedWork {
@@ -22,7 +27,8 @@ class BandedWork {
         topology_(topology),
         out_(out),
         step_{image_step(size()), size().height},
-        margin_(margin_of_bands(scene(), in.lights)) {
+        margin_(margin_of_bands(scene(), in.lights)),
+        near_(2 * margin_) {
     for (std::size_t i = 0; i < in.lights.size(); ++i)
       measures_.emplace_back(in.folder, in.options.bias_curve_points, in.options.perceptual);
     classify_.resize(in.lights.size());
@@ -45,8 +51,11 @@ class BandedWork {
   raytrace::RayTracedFrame trace(const PictureRows& rows);
   Expected<NearLight> climb_light(std::size_t i, const raster::RasterFrame& drawn,
                                   const raytrace::RayTracedFrame& traced, const PictureRows& rows);
-  Expected<void> store_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
-                             const raster::LightRecord& record);
+  Expected<void> keep(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
+                      const std::vector<NearLight>& lights, const PictureRows& rows);
+  Expected<void> keep_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
+                            const raster::LightRecord& record, const PictureRows& rows);
+  Expected<void> keep_maps(std::size_t i, const FinishedMaps& maps, const PictureRows& rows);
   Expected<void> measure_neighbours(int end);
   Expected<void> finish_exposure();
   LadderInput near_input(std::size_t i) const {
@@ -101,16 +110,29 @@ Expected<void> BandedWork::add(const PictureRows& rows) {
     if (!near) return fail(near.error());
     lights.push_back(std::move(*near));
   }
-  if (const auto stored = store().raster.append(in_.folder, drawn->color); !stored) return stored;
-  if (const auto stored = store().raytraced.append(in_.folder, traced.color); !stored) return stored;
-  exposure_.count(traced.color.data);
-  if (in_.page) {
-    append_reduced(out_.comparison.raster, *drawn, rows.first, step_);
-    append_reduced(out_.comparison.raytraced, traced, rows.first, step_);
-  }
-  near_.add(*drawn, traced, lights);
+  if (const auto kept = keep(*drawn, traced, lights, rows); !kept) return kept;
   const bool last = rows.end() == size().height;
   return measure_neighbours(last ? rows.end() : std::max(measured_, rows.end() - margin_));
+}
+
+/// What of the band is needed later.
+Expected<void> BandedWork::keep(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
+                                const std::vector<NearLight>& lights, const PictureRows& rows) {
+  const TimedStage stage(band_stage);
+  std::vector<Step> steps{[&] { return store().raster.append(in_.folder, drawn.color); },
+                          [&] { return store().raytraced.append(in_.folder, traced.color); },
+                          [&]() -> Expected<void> {
+                            exposure_.count(traced.color.data);
+                            near_.add(drawn, traced, lights);
+                            return {};
+                          }};
+  if (in_.page)
+    steps.emplace_back([&]() -> Expected<void> {
+      append_reduced(out_.comparison.raster, drawn, rows.first, step_);
+      append_reduced(out_.comparison, traced, rows.first, step_);
+      return {};
+    });
+  return run_all(steps);
 }
 
 Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterFrame& drawn,
@@ -131,35 +153,40 @@ Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterF
   near.climbed = labels_climbed(input, climbed.labels);
   const auto detached = measures_[i].add_pixels(input, climbed, near.climbed, {size(), rows});
   if (!detached) return fail(detached.error());
-  if (const auto stored = store_light(i, climbed, *detached, drawn.lights[i]); !stored)
-    return fail(stored.error());
-  LightComparison& shown = out_.comparison.lights[i];
+  if (const auto kept = keep_light(i, climbed, *detached, drawn.lights[i], rows); !kept)
+    return fail(kept.error());
   if (!in_.aov.empty()) {
     const AovRows channels{in_.tracer.world(), drawn, drawn.lights[i], traced, climbed.rungs, climbed.labels};
     const auto written =
-        out_.parts->channels[i].write(rows, aov_channels(channels), aov_attributes(out_.comparison, shown));
+        out_.parts->channels[i].write(rows, aov_channels(channels), aov_attributes(out_.comparison, out_.comparison.lights[i]));
     if (!written) return fail(written.error());
-  }
-  if (in_.page) {
-    for (std::size_t k = 0; k < rung_count; ++k)
-      append_reduced(shown.rungs[k], climbed.rungs[k], rows.first, step_);
-    append_reduced(shown.labels, climbed.labels, rows.first, step_);
-    if (in_.options.perceptual) append_reduced(shown.detachment_map, *detached, rows.first, step_);
   }
   near.truth = std::move(climbed.rungs.front()), near.drawn = std::move(climbed.rungs.back());
   near.labels = std::move(climbed.labels);
   return near;
 }
 
-Expected<void> BandedWork::store_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
-                                       const raster::LightRecord& record) {
+Expected<void> BandedWork::keep_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
+                                      const raster::LightRecord& record, const PictureRows& rows) {
+  const TimedStage stage(band_stage);
   StoredLight& stored = store().lights[i];
-  if (const auto done = stored.truth.append(in_.folder, climbed.rungs.front()); !done) return done;
-  if (const auto done = stored.drawn.append(in_.folder, climbed.rungs.back()); !done) return done;
-  if (const auto done = stored.labels.append(in_.folder, climbed.labels); !done) return done;
+  std::vector<Step> steps{[&] { return stored.truth.append(in_.folder, climbed.rungs.front()); },
+                          [&] { return stored.drawn.append(in_.folder, climbed.rungs.back()); },
+                          [&] { return stored.labels.append(in_.folder, climbed.labels); }};
   if (in_.options.perceptual)
-    if (const auto done = stored.detachment.append(in_.folder, detached); !done) return done;
-  return record.external ? stored.decisions.append(in_.folder, record.external->decision) : Expected<void>{};
+    steps.emplace_back([&] { return stored.detachment.append(in_.folder, detached); });
+  if (record.external)
+    steps.emplace_back([&] { return stored.decisions.append(in_.folder, record.external->decision); });
+  if (in_.page)
+    steps.emplace_back([&]() -> Expected<void> {
+      LightComparison& shown = out_.comparison.lights[i];
+      for (std::size_t k = 0; k < rung_count; ++k)
+        append_reduced(shown.rungs[k], climbed.rungs[k], rows.first, step_);
+      append_reduced(shown.labels, climbed.labels, rows.first, step_);
+      if (in_.options.perceptual) append_reduced(shown.detachment_map, detached, rows.first, step_);
+      return {};
+    });
+  return run_all(steps);
 }
 
 /// Of the rows above `end`, which have all that they hang on.
@@ -170,19 +197,28 @@ Expected<void> BandedWork::measure_neighbours(int end) {
     const auto maps =
         measures_[i].add_neighbours(near_input(i), near_.lights[i], near_.first(), {size(), rows});
     if (!maps) return fail(maps.error());
-    StoredLight& stored = store().lights[i];
-    if (const auto done = stored.edges.append(in_.folder, maps->edges); !done) return done;
-    if (const auto done = stored.flip.append(in_.folder, maps->flip); !done) return done;
-    if (const auto done = stored.ssim.append(in_.folder, maps->ssim); !done) return done;
-    if (!in_.page) continue;
-    LightComparison& shown = out_.comparison.lights[i];
-    append_reduced(shown.edge_map, maps->edges, rows.first, step_);
-    append_reduced(shown.flip_map, maps->flip, rows.first, step_);
-    append_reduced(shown.ssim_map, maps->ssim, rows.first, step_);
+    if (const auto kept = keep_maps(i, *maps, rows); !kept) return kept;
   }
   measured_ = end;
   near_.forget_above(std::max(0, measured_ - margin_));
   return {};
+}
+
+Expected<void> BandedWork::keep_maps(std::size_t i, const FinishedMaps& maps, const PictureRows& rows) {
+  const TimedStage stage(band_stage);
+  StoredLight& stored = store().lights[i];
+  std::vector<Step> steps{[&] { return stored.edges.append(in_.folder, maps.edges); },
+                          [&] { return stored.flip.append(in_.folder, maps.flip); },
+                          [&] { return stored.ssim.append(in_.folder, maps.ssim); }};
+  if (in_.page)
+    steps.emplace_back([&]() -> Expected<void> {
+      LightComparison& shown = out_.comparison.lights[i];
+      append_reduced(shown.edge_map, maps.edges, rows.first, step_);
+      append_reduced(shown.flip_map, maps.flip, rows.first, step_);
+      append_reduced(shown.ssim_map, maps.ssim, rows.first, step_);
+      return {};
+    });
+  return run_all(steps);
 }
 
 Expected<void> BandedWork::finish_exposure() {
@@ -228,7 +264,7 @@ Expected<void> BandedWork::finish() {
   raytrace::RayTracedFrame traced = std::move(out.raytraced);
   out.raytraced = std::move(ray_costs_);
   out.raytraced.options = in_.options.raytrace;
-  out.raytraced.color = std::move(traced.color), out.raytraced.receiver = std::move(traced.receiver);
+  out.raytraced.color = std::move(traced.color);
   for (std::size_t i = 0; i < in_.lights.size(); ++i)  // says that the light has a size
     if (has_size(light(i))) out.raytraced.lights[i].visibility = Image<float>({1, 1});
   return finish_exposure();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/bands/run_all.h"
 #include "compare/cascades.h"
 #include "compare/flip.h"
 #include "compare/shadow_cost.h"
@@ -97,9 +98,14 @@ Expected<FinishedMaps> LightMeasures::add_neighbours(const LadderInput& near, co
     SeamCount& sum = seams_ ? *seams_ : seams_.emplace();
     sum.at_border += seams->at_border, sum.changed += seams->changed;
   }
-  const TheoryValues values = theory_values(near, light.labels, here, place.picture.height);
+  TheoryValues values = theory_values(near, light.labels, here, place.picture.height);
+  std::vector<Step> steps;
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (const auto added = theory_[k].append(folder_, values[k]); !added) return fail(added.error());
+    steps.emplace_back([this, k, &values] {
+      std::erase_if(values[k], [](double v) { return !std::isfinite(v); });
+      return theory_[k].append(folder_, values[k]);
+    });
+  if (const auto added = run_all(steps); !added) return fail(added.error());
   if (!perceptual_) return maps;
   maps.edges = edge_displacement_rows(edges, here);
   add_perception(light, first_row, place, maps);
@@ -171,11 +177,18 @@ Expected<void> LightMeasures::finish_lists(const LadderInput& in, LightCompariso
   }
   out.texel_world = low_middle_high(texel_width_);
   texel_width_ = {};
-  for (std::size_t k = 0; k < theory_.size(); ++k) {
-    auto values = theory_[k].take();
-    if (!values) return fail(values.error());
-    distribution_of(out.theory, k) = distribution(*values);
-  }
+  std::vector<Step> steps;
+  for (std::size_t k = 0; k < theory_.size(); ++k)
+    steps.emplace_back([this, k, &out]() -> Expected<void> {
+      auto values = theory_[k].take();
+      if (!values) return fail(values.error());
+      distribution_of(out.theory, k) = distribution(*values);
+      return {};
+    });
+  const auto most = std::max_element(theory_.begin(), theory_.end(), [](const auto& a, const auto& b) {
+    return a.count() < b.count();
+  });
+  if (const auto done = run_all(steps, steps_together(8.0 * double(most->count()))); !done) return done;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record);
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }
@@ -197,21 +210,28 @@ Expected<GapLists> sorted_lists(std::array<NumberFile<float>, 2>& files) {
 
 Expected<void> LightMeasures::finish_curve(const LadderInput& in, LightComparison& out) {
   const TimedStage stage("curve");
-  {
+  const double bytes_of_lists = 12.0 * double(gaps_[0].count() + gaps_[1].count());  // with what sorts them
+  std::vector<Step> steps{[&]() -> Expected<void> {
     const auto gaps = sorted_lists(gaps_);
     if (!gaps) return fail(gaps.error());
     out.best_bias = find_best_bias(*gaps);
     out.bias_curve = draw_bias_curve(*gaps, out.bias_texel_world, in.record.bias_constant_world,
                                      out.best_bias.constant_world, curve_points_);
-  }
-  if (!has_kinds_ || out.pixels.compared == 0) return {};
-  for (const KindOfBias kind : kinds_in_order) {
-    auto lists = sorted_lists(kinds_[kind]);
-    if (!lists) return fail(lists.error());
-    lists->lit_left_out = kinds_left_out_[kind];
-    out.bias_kinds.push_back(kind_of_bias(kind, in, *lists));
-  }
-  sort_kinds(out.bias_kinds);
+    return {};
+  }};
+  const bool kinds = has_kinds_ && out.pixels.compared > 0;
+  if (kinds) out.bias_kinds.resize(kinds_in_order.size());
+  for (std::size_t k = 0; k < out.bias_kinds.size(); ++k)
+    steps.emplace_back([&, k]() -> Expected<void> {
+      const KindOfBias kind = kinds_in_order[k];
+      auto lists = sorted_lists(kinds_[kind]);
+      if (!lists) return fail(lists.error());
+      lists->lit_left_out = kinds_left_out_[kind];
+      out.bias_kinds[k] = kind_of_bias(kind, in, *lists);
+      return {};
+    });
+  if (const auto done = run_all(steps, steps_together(bytes_of_lists)); !done) return done;
+  if (kinds) sort_kinds(out.bias_kinds);
   return {};
 }
 

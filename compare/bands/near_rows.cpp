@@ -26,17 +26,17 @@ void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFra
     for (std::size_t i = 0; i < rays.lights.size(); ++i) traced.lights[i].light = rays.lights[i].light;
     lights.resize(more.size());
   }
-  append_rows(drawn.primitive, band.primitive);
-  append_rows(traced.receiver, rays.receiver);
+  append_rows(drawn.primitive, band.primitive, kept_);
+  append_rows(traced.receiver, rays.receiver, kept_);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     raster::LightRecord& record = drawn.lights[i];
-    append_rows(record.visibility, band.lights[i].visibility);
-    append_rows(record.texel_uv, band.lights[i].texel_uv);
-    append_rows(record.face, band.lights[i].face);
-    append_rows(lights[i].truth, more[i].truth);
-    append_rows(lights[i].drawn, more[i].drawn);
-    append_rows(lights[i].labels, more[i].labels);
-    append_rows(lights[i].climbed, more[i].climbed);
+    append_rows(record.visibility, band.lights[i].visibility, kept_);
+    append_rows(record.texel_uv, band.lights[i].texel_uv, kept_);
+    append_rows(record.face, band.lights[i].face, kept_);
+    append_rows(lights[i].truth, more[i].truth, kept_);
+    append_rows(lights[i].drawn, more[i].drawn, kept_);
+    append_rows(lights[i].labels, more[i].labels, kept_);
+    append_rows(lights[i].climbed, more[i].climbed, kept_);
   }
 }
 

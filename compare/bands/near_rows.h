@@ -9,9 +9,10 @@
 
 namespace gnomon::compare {
 
-/// Puts rows under those that are there.
+/// Puts rows under those that are there. `kept`: how many are there at most.
 template <class T>
-void append_rows(Image<T>& rows, const Image<T>& more) {
+void append_rows(Image<T>& rows, const Image<T>& more, int kept) {
+  rows.data.reserve(ImageSize{more.size.width, kept + more.size.height}.pixels());
   rows.size = {more.size.width, rows.size.height + more.size.height};
   rows.data.insert(rows.data.end(), more.data.begin(), more.data.end());
 }
@@ -41,6 +42,9 @@ struct NearLight {
 
 class NearRows {
  public:
+  /// `kept`: rows that are there at most when a band comes.
+  explicit NearRows(int kept) : kept_(kept) {}
+
   /// The band under those that are there. Of its frames only what is needed is kept.
   void add(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
            const std::vector<NearLight>& lights);
@@ -57,7 +61,7 @@ class NearRows {
   std::vector<NearLight> lights;
 
  private:
-  int first_ = 0;
+  int kept_, first_ = 0;
 };
 
 }  // namespace gnomon::compare

@@ -22,6 +22,8 @@ class NumberFile {
     return file_.append(std::span<const T>(numbers));
   }
 
+  std::size_t count() const { return count_; }
+
   /// All of them, in their order; the file is gone then.
   Expected<std::vector<T>> take() {
     std::vector<T> numbers(count_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "compare/bands/run_all.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "scene/files/image_io.h"
@@ -77,13 +78,15 @@ std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
   return jobs;
 }
 
-Expected<void> encode_light(const Comparison& c, const PictureStore& store, std::size_t i,
-                            LightPictures& out) {
-  for (const Job& job : jobs_of(store.lights[i], out)) {
+void add_steps(std::vector<Step>& steps, const Comparison& c, const PictureStore& store, std::size_t i,
+               LightPictures& out) {
+  for (Job& job : jobs_of(store.lights[i], out)) {
     job.target->file_name = job.name + light_suffix(c, c.lights[i]) + ".png";
-    if (const auto done = encode(c, store, i, job.draw, *job.target); !done) return done;
+    steps.emplace_back([&c, &store, i, job = std::move(job)] {
+      return encode(c, store, i, job.draw, *job.target);
+    });
   }
-  return encode_depth_maps(c, c.lights[i], out);
+  steps.emplace_back([&c, i, &out] { return encode_depth_maps(c, c.lights[i], out); });
 }
 
 }  // namespace
@@ -122,16 +125,22 @@ Expected<PictureSet> encode_pictures(const Comparison& c, const PictureStore& st
   set.raster.file_name = "raster.png";
   set.raytraced.file_name = "raytrace.png";
   set.lights.resize(c.lights.size());
-  const auto raster = encode(
-      c, store, 0, [](const Comparison& part, const LightComparison&) { return raster_picture(part); },
-      set.raster);
-  if (!raster) return fail(raster.error());
-  const auto rays = encode(
-      c, store, 0, [](const Comparison& part, const LightComparison&) { return raytraced_picture(part); },
-      set.raytraced);
-  if (!rays) return fail(rays.error());
-  for (std::size_t i = 0; i < c.lights.size(); ++i)
-    if (const auto done = encode_light(c, store, i, set.lights[i]); !done) return fail(done.error());
+  std::vector<Step> steps{
+      [&] {
+        return encode(
+            c, store, 0, [](const Comparison& part, const LightComparison&) { return raster_picture(part); },
+            set.raster);
+      },
+      [&] {
+        return encode(
+            c, store, 0,
+            [](const Comparison& part, const LightComparison&) { return raytraced_picture(part); },
+            set.raytraced);
+      }};
+  for (std::size_t i = 0; i < c.lights.size(); ++i) add_steps(steps, c, store, i, set.lights[i]);
+  constexpr double bytes_per_pixel = 9.0;  // as drawn, as rows of a file, and compressed
+  const double bytes = bytes_per_pixel * static_cast<double>(store.size().pixels());
+  if (const auto done = run_all(steps, steps_together(bytes)); !done) return fail(done.error());
   return set;
 }
 

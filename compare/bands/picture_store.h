@@ -61,7 +61,7 @@ class PictureStore {
   ImageSize size_;
 };
 
-/// encode_pictures() of what is stored, one picture after the other.
+/// encode_pictures() of what is stored, as many pictures at a time as memory has room for.
 Expected<PictureSet> encode_pictures(const Comparison& comparison, const PictureStore& store);
 
 }  // namespace gnomon::compare

@@ -36,10 +36,10 @@ void append_reduced(raster::RasterFrame& to, const raster::RasterFrame& from, in
   }
 }
 
-void append_reduced(raytrace::RayTracedFrame& to, const raytrace::RayTracedFrame& from, int first_row,
+void append_reduced(Comparison& to, const raytrace::RayTracedFrame& from, int first_row,
                     const Reduction& step) {
-  append_reduced(to.color, from.color, first_row, step);
-  append_reduced(to.receiver, from.receiver, first_row, step);
+  append_reduced(to.raytraced.color, from.color, first_row, step);
+  append_reduced(to.seen, seen_surfaces(from.receiver), first_row, step);
 }
 
 Comparison reduced_images(const Comparison& whole, int every) {
@@ -52,7 +52,7 @@ Comparison reduced_images(const Comparison& whole, int every) {
   }
   out.raytraced.color = {}, out.raytraced.receiver = {};
   append_reduced(out.raster, whole.raster, 0, step);
-  append_reduced(out.raytraced, whole.raytraced, 0, step);
+  append_reduced(out, whole.raytraced, 0, step);
   for (std::size_t i = 0; i < out.lights.size(); ++i) {
     const auto reduce = [&](auto& image) {
       auto all = std::move(image);

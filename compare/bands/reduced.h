@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/comparison.h"
+#include "scene/paging.h"
 
 namespace gnomon::compare {
 
@@ -16,10 +17,15 @@ void append_reduced(Image<T>& to, const Image<T>& rows, int first_row, const Red
   if (rows.data.empty()) return;
   const int step = reduction.step;
   to.size.width = (rows.size.width + step - 1) / step;
-  if (to.data.empty())
+  if (to.data.empty()) {
     to.data.reserve(ImageSize{to.size.width, (reduction.height + step - 1) / step}.pixels());
+    page_in(to.data.data(), to.data.capacity() * sizeof(T));
+  }
   for (int y = (step - first_row % step) % step; y < rows.size.height; y += step) {
-    for (int x = 0; x < rows.size.width; x += step) to.data.push_back(rows.at(x, y));
+    if (const T* row = &rows.at(0, y); step == 1)
+      to.data.insert(to.data.end(), row, row + rows.size.width);
+    else
+      for (int x = 0; x < rows.size.width; x += step) to.data.push_back(row[x]);
     ++to.size.height;
   }
 }
@@ -27,7 +33,7 @@ void append_reduced(Image<T>& to, const Image<T>& rows, int first_row, const Red
 /// The images that the report page shows of a whole picture or of its rows from first_row on.
 void append_reduced(raster::RasterFrame& to, const raster::RasterFrame& from, int first_row,
                     const Reduction& reduction);
-void append_reduced(raytrace::RayTracedFrame& to, const raytrace::RayTracedFrame& from, int first_row,
+void append_reduced(Comparison& to, const raytrace::RayTracedFrame& from, int first_row,
                     const Reduction& reduction);
 
 }  // namespace gnomon::compare

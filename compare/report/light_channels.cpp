@@ -170,9 +170,9 @@ class ExpectedGaps {
   /// from the face's axis: per unit of distance of a perspective map.
   double tilt(const LightFace& f, std::size_t i, double x, double y) const {
     if (bias_.slope == 0.0 && !bias_.receiver_plane) return 0.0;
+    const Vec3 normal = surfaces_.normal(i);
     const auto across = [&](const Vec3& axis) {
-      return signed_value(surfaces_.normals[0][i]) * axis.x + signed_value(surfaces_.normals[1][i]) * axis.y +
-             signed_value(surfaces_.normals[2][i]) * axis.z;
+      return normal.x * axis.x + normal.y * axis.y + normal.z * axis.z;
     };
     const double right = across(f.right), up = across(f.up), ahead = across(f.forward) + x * right + y * up;
     if (!(ahead < 0.0))
@@ -258,8 +258,8 @@ void add_decisions(Channels& channels, const raster::LightRecord& record) {
 void add_stored_glass(Channels& channels, const raster::LightRecord& record, const PixelSurfaces& surfaces,
                       const ShownMaterials& materials) {
   if (!materials.any_glass()) return;
-  channels.add("stored_glass", surfaces.primitives.size(), {2, From::previous},
-               [&](std::size_t i) { return materials.stored_glass(record, i, surfaces.primitives[i]); });
+  channels.add("stored_glass", surfaces.count(), {2, From::previous},
+               [&](std::size_t i) { return materials.stored_glass(record, i, surfaces.primitive(i)); });
 }
 
 }  // namespace

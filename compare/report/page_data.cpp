@@ -24,7 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double normal_steps = 32767.0;
 constexpr double corner_bits = 20.0;
 
 // --- words ---
@@ -87,12 +86,13 @@ void add_pictures(Channels& channels, const ColorImage& drawn, const ColorImage&
 }
 
 void add_receiver(Channels& channels, const PixelSurfaces& surfaces) {
-  const std::size_t n = surfaces.primitives.size();
+  const std::size_t n = surfaces.count();
   channels.add("primitive", n, {4, From::previous},
-               [&surfaces](std::size_t i) { return surfaces.primitives[i]; });
-  for (std::size_t k = 0; k < 3; ++k)
-    channels.add(fmt::format("n{}", "xyz"[k]), n, {2, From::surface},
-                 [&surfaces, k](std::size_t i) { return surfaces.normals[k][i]; });
+               [&surfaces](std::size_t i) { return surfaces.primitive(i); });
+  for (int k = 0; k < 3; ++k)
+    channels.add(fmt::format("n{}", "xyz"[k]), n, {2, From::surface}, [&surfaces, k](std::size_t i) {
+      return static_cast<std::uint32_t>(std::int32_t{surfaces.seen.data[i].normal[k]});
+    });
 }
 
 Json rays_json(const PixelRays& rays) {
@@ -115,8 +115,8 @@ Json pixels_json(const Comparison& c, Packer& packer, const PixelSurfaces& surfa
   Channels channels(packer, &surfaces.sources);
   add_receiver(channels, surfaces);
   if (!materials.empty())
-    channels.add("material", surfaces.primitives.size(), {2, From::surface},
-                 [&](std::size_t i) { return materials.of(surfaces.primitives[i]); });
+    channels.add("material", surfaces.count(), {2, From::surface},
+                 [&](std::size_t i) { return materials.of(surfaces.primitive(i)); });
   add_pictures(channels, c.raster.color, c.raytraced.color);
   return channels.json();
 }
@@ -195,8 +195,8 @@ PageData page_data(const PageInput& in) {
   Json head{{"kind", "compare"},
             {"labels", labels_json()},
             {"rungs", rungs_json()},
-            {"width", c.raytraced.receiver.size.width},
-            {"height", c.raytraced.receiver.size.height},
+            {"width", c.raytraced.color.size.width},
+            {"height", c.raytraced.color.size.height},
             {"position_steps", position_steps},
             {"visibility_steps", visibility_steps},
             {"colour_steps", colour_steps},
@@ -217,7 +217,7 @@ PageData page_data(const PageInput& in) {
     parts.push_back({std::move(name), make(), first});
   };
   const SectionMesh mesh = section_mesh(*c.world);
-  const PixelSurfaces surfaces = pixel_surfaces(c, normal_steps);
+  const PixelSurfaces surfaces = pixel_surfaces(c);
   const ShownMaterials materials(*c.world);
   head["rays"] = rays_json(surfaces.rays);
   head["materials"] = materials_json(materials);

@@ -60,11 +60,11 @@ std::array<std::uint32_t, 3> predicted(const PixelSurfaces& s, const LightView& 
   if (i == 0) return {0, 0, 0};
   const std::size_t from = s.sources[i];
   const std::array<std::uint32_t, 3> same{numbers.u[from], numbers.v[from], numbers.distance[from]};
-  if (s.primitives[i] != s.primitives[from] || s.primitives[i] == no_id) return same;
-  const Vec3 normal{value(s.normals[0][from]), value(s.normals[1][from]), value(s.normals[2][from])};
+  if (s.primitive(i) != s.primitive(from) || s.primitive(i) == no_id) return same;
+  const Vec3 normal = s.normal(from);
   const Vec3 known = position(light, light.face(faces.data[from]), value(same[0]), value(same[1]),
                               value(same[2]) * depth_step);
-  const auto width = static_cast<std::size_t>(s.width);
+  const auto width = static_cast<std::size_t>(s.seen.size.width);
   const double x = static_cast<double>(i % width) + 0.5, y = static_cast<double>(i / width) + 0.5;
   const Vec3 ray = sum(sum(s.rays.corner, s.rays.across, x), s.rays.down, y);
   const double t = dot3(normal, sum(known, s.rays.eye, -1.0)) / dot3(normal, ray);
@@ -83,21 +83,13 @@ PixelRays pixel_rays(const View& view) {
   return {view.eye, view.forward - view.right * view.tan_half_x + view.up * view.tan_half_y, across, down};
 }
 
-PixelSurfaces pixel_surfaces(const Comparison& c, double normal_steps) {
-  const auto& receivers = c.raytraced.receiver;
+PixelSurfaces pixel_surfaces(const Comparison& c) {
   PixelSurfaces out;
-  out.width = receivers.size.width;
-  out.rays = pixel_rays(make_view(c.world->scene->camera, receivers.size));
-  out.primitives.resize(receivers.data.size());
-  for (auto& axis : out.normals) axis.resize(receivers.data.size());
-  tbb::parallel_for(std::size_t{0}, receivers.data.size(), [&](std::size_t i) {
-    const raytrace::SurfacePoint& receiver = receivers.data[i];
-    const bool seen = receiver.primitive != no_id;
-    out.primitives[i] = receiver.primitive;
-    for (int k = 0; k < 3; ++k)
-      out.normals[static_cast<std::size_t>(k)][i] = seen ? rounded(normal_steps * receiver.normal[k]) : 0u;
-  });
-  out.sources = surface_sources(out.primitives);
+  out.seen = c.seen.data.empty() ? seen_surfaces(c.raytraced.receiver) : c.seen;
+  out.rays = pixel_rays(make_view(c.world->scene->camera, out.seen.size));
+  std::vector<std::uint32_t> primitives(out.count());
+  for (std::size_t i = 0; i < primitives.size(); ++i) primitives[i] = out.primitive(i);
+  out.sources = surface_sources(primitives);
   return out;
 }
 

@@ -27,13 +27,15 @@ PixelRays pixel_rays(const View& view);
 
 /// What both sides know of the pixels' surfaces.
 struct PixelSurfaces {
-  int width = 0;
   PixelRays rays;
-  std::vector<std::uint32_t> primitives;
-  std::array<std::vector<std::uint32_t>, 3> normals;  ///< of any length
+  Image<SeenSurface> seen;
   Sources sources;
+
+  std::size_t count() const { return seen.data.size(); }
+  std::uint32_t primitive(std::size_t pixel) const { return seen.data[pixel].primitive; }
+  Vec3 normal(std::size_t pixel) const { return Vec3(seen.data[pixel].normal); }  ///< of any length
 };
-PixelSurfaces pixel_surfaces(const Comparison& comparison, double normal_steps);
+PixelSurfaces pixel_surfaces(const Comparison& comparison);
 
 /// Of every pixel, from the numbers before it.
 LookupNumbers predicted_lookups(const PixelSurfaces& surfaces, const LightView& light,

@@ -15,7 +15,7 @@ namespace {
 
 /// What goes on in a stage, where its name alone does not say it.
 std::string_view stage_words(std::string_view stage) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 19> words{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> words{{
       {"start", "until the command begins"},
       {"rest", "what belongs to no other stage"},
       {"load", "reading and preparing the scene"},
@@ -33,6 +33,7 @@ std::string_view stage_words(std::string_view stage) {
       {"columns and sheets", "what lies in the texels that pixels look up"},
       {"labels", "naming the cause of each wrong pixel"},
       {"metrics", "FLIP, SSIM, edges and penumbrae"},
+      {"rows kept", "what a picture in bands needs later, on the disk and for this page"},
       {"curve", "the error of every bias"},
       {"exit", "giving memory back, so far"},
   }};

@@ -1,0 +1,33 @@
+// Steps that do not hang on each other, over all threads.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "scene/expected.h"
+
+namespace gnomon::compare {
+
+using Step = std::function<Expected<void>()>;
+
+/// Returns the first one's error, in their order, when all are done. `together`: how many run at a time at most.
+inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t together = 64) {
+  for (std::size_t first = 0; first < steps.size(); first += together) {
+    std::vector<Expected<void>> results(std::min(together, steps.size() - first));
+    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) { results[i] = steps[first + i](); });
+    for (const Expected<void>& result : results)
+      if (!result) return result;
+  }
+  return {};
+}
+
+/// How many steps to run at a time that take so many bytes each.
+inline std::size_t steps_together(double bytes) {
+  constexpr double most_bytes = 640e6;
+  return static_cast<std::size_t>(std::max(1.0, std::min(64.0, most_bytes / bytes)));
+}
+
+}  // namespace gnomon::compare
