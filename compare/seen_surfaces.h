@@ -11,7 +11,8 @@ namespace gnomon::compare {
 struct SeenSurface {
   static constexpr double normal_steps = 32767.0;
   std::uint32_t primitive = no_id;
-  glm::i16vec3 normal{0};  ///< the geometric one, in normal_steps, on the side of the camera; 0 where there is none
+  glm::i16vec3 normal{
+      0};  ///< the geometric one, in normal_steps, on the side of the camera; 0 where there is none
 
   SeenSurface() = default;
   explicit SeenSurface(const raytrace::SurfacePoint& receiver);

@@ -157,8 +157,8 @@ Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterF
     return fail(kept.error());
   if (!in_.aov.empty()) {
     const AovRows channels{in_.tracer.world(), drawn, drawn.lights[i], traced, climbed.rungs, climbed.labels};
-    const auto written =
-        out_.parts->channels[i].write(rows, aov_channels(channels), aov_attributes(out_.comparison, out_.comparison.lights[i]));
+    const auto written = out_.parts->channels[i].write(
+        rows, aov_channels(channels), aov_attributes(out_.comparison, out_.comparison.lights[i]));
     if (!written) return fail(written.error());
   }
   near.truth = std::move(climbed.rungs.front()), near.drawn = std::move(climbed.rungs.back());

@@ -185,9 +185,8 @@ Expected<void> LightMeasures::finish_lists(const LadderInput& in, LightCompariso
       distribution_of(out.theory, k) = distribution(*values);
       return {};
     });
-  const auto most = std::max_element(theory_.begin(), theory_.end(), [](const auto& a, const auto& b) {
-    return a.count() < b.count();
-  });
+  const auto most = std::max_element(theory_.begin(), theory_.end(),
+                                     [](const auto& a, const auto& b) { return a.count() < b.count(); });
   if (const auto done = run_all(steps, steps_together(8.0 * double(most->count()))); !done) return done;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record);
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};

@@ -11,13 +11,13 @@
 namespace gnomon::compare {
 namespace {
 
-/// Rows of one image into their place; false on an error, which is kept.
+/// Rows of one image into their place; the first error is kept.
 class Reader {
  public:
   explicit Reader(const PictureRows& rows) : rows_(rows) {}
   template <class T>
-  void operator()(const StoredImage<T>& from, Image<T>& to) {
-    if (!result_) return;
+  void operator()(bool wanted, const StoredImage<T>& from, Image<T>& to) {
+    if (!wanted || !result_) return;
     auto image = from.read(rows_);
     if (image)
       to = std::move(*image);
@@ -32,13 +32,14 @@ class Reader {
 };
 
 using Draw = std::function<Rgb8Image(const Comparison&, const LightComparison&)>;
+using Wanted = PictureStore::Wanted;
 
 /// A whole picture from rows of it; `light`: the one whose images are read.
-Expected<void> encode(const Comparison& whole, const PictureStore& store, std::size_t light, const Draw& draw,
-                      EncodedPicture& out) {
+Expected<void> encode(const Comparison& whole, const PictureStore& store, std::size_t light,
+                      const Wanted& wanted, const Draw& draw, EncodedPicture& out) {
   Rgb8Image image(store.size());
   for (const PictureRows& rows : bands_of(store.size(), band_step)) {
-    const auto part = store.rows_of(whole, light, rows);
+    const auto part = store.rows_of(whole, light, rows, wanted);
     if (!part) return fail(part.error());
     const Rgb8Image drawn = draw(*part, part->lights.front());
     std::copy(drawn.data.begin(), drawn.data.end(), &image.at(0, rows.first));
@@ -53,28 +54,43 @@ Expected<void> encode(const Comparison& whole, const PictureStore& store, std::s
 struct Job {
   EncodedPicture* target;
   const char* name;
+  Wanted wanted;
   Draw draw;
 };
 
 std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
   std::vector<Job> jobs{
-      {&out.difference, "difference",
+      {&out.difference,
+       "difference",
+       {.raster = true, .visibility = true},
        [](const Comparison& c, const LightComparison& l) { return difference_picture(c, l); }},
-      {&out.labels, "labels",
+      {&out.labels,
+       "labels",
+       {.visibility = true},
        [](const Comparison& c, const LightComparison& l) { return label_picture(c, l); }},
-      {&out.error, "error", [](const Comparison&, const LightComparison& l) { return error_picture(l); }}};
+      {&out.error, "error", {.visibility = true}, [](const Comparison&, const LightComparison& l) {
+         return error_picture(l);
+       }}};
   if (!stored.decisions.empty())
-    jobs.push_back({&out.decisions, "decisions",
+    jobs.push_back({&out.decisions,
+                    "decisions",
+                    {.raster = true, .decisions = true},
                     [](const Comparison& c, const LightComparison& l) { return decision_picture(c, l); }});
   if (stored.edges.empty()) return jobs;
-  jobs.push_back({&out.edges, "edge-displacement",
+  jobs.push_back({&out.edges,
+                  "edge-displacement",
+                  {.visibility = true, .edges = true},
                   [](const Comparison&, const LightComparison& l) { return edge_picture(l); }});
-  jobs.push_back({&out.detachment, "detachment",
-                  [](const Comparison&, const LightComparison& l) { return detachment_picture(l); }});
   jobs.push_back(
-      {&out.flip, "flip", [](const Comparison&, const LightComparison& l) { return flip_picture(l); }});
-  jobs.push_back(
-      {&out.ssim, "ssim", [](const Comparison&, const LightComparison& l) { return ssim_picture(l); }});
+      {&out.detachment, "detachment", {.detachment = true}, [](const Comparison&, const LightComparison& l) {
+         return detachment_picture(l);
+       }});
+  jobs.push_back({&out.flip, "flip", {.flip = true}, [](const Comparison&, const LightComparison& l) {
+                    return flip_picture(l);
+                  }});
+  jobs.push_back({&out.ssim, "ssim", {.ssim = true}, [](const Comparison&, const LightComparison& l) {
+                    return ssim_picture(l);
+                  }});
   return jobs;
 }
 
@@ -83,7 +99,7 @@ void add_steps(std::vector<Step>& steps, const Comparison& c, const PictureStore
   for (Job& job : jobs_of(store.lights[i], out)) {
     job.target->file_name = job.name + light_suffix(c, c.lights[i]) + ".png";
     steps.emplace_back([&c, &store, i, job = std::move(job)] {
-      return encode(c, store, i, job.draw, *job.target);
+      return encode(c, store, i, job.wanted, job.draw, *job.target);
     });
   }
   steps.emplace_back([&c, i, &out] { return encode_depth_maps(c, c.lights[i], out); });
@@ -92,13 +108,13 @@ void add_steps(std::vector<Step>& steps, const Comparison& c, const PictureStore
 }  // namespace
 
 Expected<Comparison> PictureStore::rows_of(const Comparison& whole, std::size_t light,
-                                           const PictureRows& rows) const {
+                                           const PictureRows& rows, const Wanted& wanted) const {
   Comparison out;
   out.world = whole.world;
   out.exposure = whole.exposure;
   Reader read(rows);
-  read(raster, out.raster.color);
-  read(raytraced, out.raytraced.color);
+  read(wanted.raster, raster, out.raster.color);
+  read(wanted.raytraced, raytraced, out.raytraced.color);
   if (lights.empty()) {
     out.lights.emplace_back();
     if (!read.result()) return fail(read.result().error());
@@ -107,15 +123,15 @@ Expected<Comparison> PictureStore::rows_of(const Comparison& whole, std::size_t 
   const StoredLight& stored = lights[light];
   LightComparison& compared = out.lights.emplace_back();
   compared.texel_world = whole.lights[light].texel_world;
-  read(stored.truth, compared.rungs.front());
-  read(stored.drawn, compared.rungs.back());
-  read(stored.labels, compared.labels);
-  read(stored.edges, compared.edge_map);
-  read(stored.detachment, compared.detachment_map);
-  read(stored.flip, compared.flip_map);
-  read(stored.ssim, compared.ssim_map);
+  read(wanted.visibility, stored.truth, compared.rungs.front());
+  read(wanted.visibility, stored.drawn, compared.rungs.back());
+  read(wanted.visibility, stored.labels, compared.labels);
+  read(wanted.edges, stored.edges, compared.edge_map);
+  read(wanted.detachment, stored.detachment, compared.detachment_map);
+  read(wanted.flip, stored.flip, compared.flip_map);
+  read(wanted.ssim, stored.ssim, compared.ssim_map);
   out.raster.lights.emplace_back().external.emplace();
-  read(stored.decisions, out.raster.lights.front().external->decision);
+  read(wanted.decisions, stored.decisions, out.raster.lights.front().external->decision);
   if (!read.result()) return fail(read.result().error());
   return out;
 }
@@ -128,12 +144,12 @@ Expected<PictureSet> encode_pictures(const Comparison& c, const PictureStore& st
   std::vector<Step> steps{
       [&] {
         return encode(
-            c, store, 0, [](const Comparison& part, const LightComparison&) { return raster_picture(part); },
-            set.raster);
+            c, store, 0, {.raster = true},
+            [](const Comparison& part, const LightComparison&) { return raster_picture(part); }, set.raster);
       },
       [&] {
         return encode(
-            c, store, 0,
+            c, store, 0, {.raytraced = true},
             [](const Comparison& part, const LightComparison&) { return raytraced_picture(part); },
             set.raytraced);
       }};

@@ -54,8 +54,14 @@ class PictureStore {
   StoredImage<Vec3f> raster, raytraced;
   std::vector<StoredLight> lights;
 
-  /// The comparison and its light with the images of these rows alone, as far as pictures are drawn from them.
-  Expected<Comparison> rows_of(const Comparison& whole, std::size_t light, const PictureRows& rows) const;
+  /// What pictures are drawn from; `visibility`: of rays and of maps, and the labels.
+  struct Wanted {
+    bool raster = false, raytraced = false, visibility = false, edges = false, detachment = false,
+         flip = false, ssim = false, decisions = false;
+  };
+  /// The comparison and its light with the wanted images of these rows alone.
+  Expected<Comparison> rows_of(const Comparison& whole, std::size_t light, const PictureRows& rows,
+                               const Wanted& wanted) const;
 
  private:
   ImageSize size_;

@@ -17,7 +17,8 @@ using Step = std::function<Expected<void>()>;
 inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t together = 64) {
   for (std::size_t first = 0; first < steps.size(); first += together) {
     std::vector<Expected<void>> results(std::min(together, steps.size() - first));
-    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) { results[i] = steps[first + i](); });
+    tbb::parallel_for(std::size_t{0}, results.size(),
+                      [&](std::size_t i) { results[i] = steps[first + i](); });
     for (const Expected<void>& result : results)
       if (!result) return result;
   }
