@@ -58,39 +58,27 @@ struct Job {
   Draw draw;
 };
 
+/// A picture of what is known of the light alone.
+Draw of_light(Rgb8Image (*draw)(const LightComparison&)) {
+  return [draw](const Comparison&, const LightComparison& light) { return draw(light); };
+}
+
 std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
-  std::vector<Job> jobs{
-      {&out.difference,
-       "difference",
-       {.raster = true, .visibility = true},
-       [](const Comparison& c, const LightComparison& l) { return difference_picture(c, l); }},
-      {&out.labels,
-       "labels",
-       {.visibility = true},
-       [](const Comparison& c, const LightComparison& l) { return label_picture(c, l); }},
-      {&out.error, "error", {.visibility = true}, [](const Comparison&, const LightComparison& l) {
-         return error_picture(l);
-       }}};
+  std::vector<Job> jobs;
+  const auto add = [&](EncodedPicture& target, const char* name, const Wanted& wanted, Draw draw) {
+    jobs.push_back({&target, name, wanted, std::move(draw)});
+  };
+  add(out.difference, "difference", {.raster = true, .visibility = true},
+      [](const Comparison& c, const LightComparison& l) { return difference_picture(c, l); });
+  add(out.labels, "labels", {.visibility = true}, label_picture);
+  add(out.error, "error", {.visibility = true}, of_light(error_picture));
   if (!stored.decisions.empty())
-    jobs.push_back({&out.decisions,
-                    "decisions",
-                    {.raster = true, .decisions = true},
-                    [](const Comparison& c, const LightComparison& l) { return decision_picture(c, l); }});
+    add(out.decisions, "decisions", {.raster = true, .decisions = true}, decision_picture);
   if (stored.edges.empty()) return jobs;
-  jobs.push_back({&out.edges,
-                  "edge-displacement",
-                  {.visibility = true, .edges = true},
-                  [](const Comparison&, const LightComparison& l) { return edge_picture(l); }});
-  jobs.push_back(
-      {&out.detachment, "detachment", {.detachment = true}, [](const Comparison&, const LightComparison& l) {
-         return detachment_picture(l);
-       }});
-  jobs.push_back({&out.flip, "flip", {.flip = true}, [](const Comparison&, const LightComparison& l) {
-                    return flip_picture(l);
-                  }});
-  jobs.push_back({&out.ssim, "ssim", {.ssim = true}, [](const Comparison&, const LightComparison& l) {
-                    return ssim_picture(l);
-                  }});
+  add(out.edges, "edge-displacement", {.visibility = true, .edges = true}, of_light(edge_picture));
+  add(out.detachment, "detachment", {.detachment = true}, of_light(detachment_picture));
+  add(out.flip, "flip", {.flip = true}, of_light(flip_picture));
+  add(out.ssim, "ssim", {.ssim = true}, of_light(ssim_picture));
   return jobs;
 }
 
