@@ -204,29 +204,40 @@ Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& r
   const ImageSize size{input.labels.size.width, rows.count};
   const std::size_t first = input.labels.index(0, rows.first);
   Image<float> map(size, std::numeric_limits<float>::quiet_NaN());
-  const auto paint = [&](std::size_t pixel, float texels) {
-    if (pixel < first || pixel - first >= map.data.size()) return;
-    float& there = map.data[pixel - first];
-    if (std::isnan(there) || std::abs(there) < std::abs(texels)) there = texels;
+  struct Stroke {
+    std::uint32_t pixel;  ///< of the map
+    float texels;
   };
-  const auto paint_edge = [&](int px, int py, int qx, int qy) {
+  const auto add_strokes = [&](int px, int py, int qx, int qy, std::vector<Stroke>& strokes) {
     const EdgeWalk::Found found = walk.find_drawn(px, py, qx, qy);
     if (!std::isfinite(found.offset)) return;
     const std::size_t p = input.labels.index(px, py);
     const double texels = walk.moved(found.start, found.end, std::abs(found.offset)).texels;
     const auto value = static_cast<float>(std::copysign(texels, found.offset));
-    paint(p, value);
-    paint(input.labels.index(qx, qy), value);
+    const auto add = [&](std::size_t pixel) {
+      if (pixel >= first && pixel - first < map.data.size())
+        strokes.push_back({static_cast<std::uint32_t>(pixel - first), value});
+    };
+    add(p), add(input.labels.index(qx, qy));
     const bool outwards = found.offset > 0.0;
     walk.follow(found.start.middle, outwards ? found.normal : -found.normal, outwards, walk.object(p),
                 [&](std::size_t pixel, double offset) {
-                  if (offset < std::abs(found.offset)) paint(pixel, value);
+                  if (offset < std::abs(found.offset)) add(pixel);
                   return offset >= std::abs(found.offset);
                 });
   };
   constexpr int beside = static_cast<int>(reach) + 2;  // rows whose walks may come into these
+  const int begin = std::max(0, rows.first - beside);
   const int end = std::min(rows.end() + beside, input.labels.size.height);
-  for (int y = std::max(0, rows.first - beside); y < end; ++y) walk.at_edges_of_row(y, paint_edge);
+  std::vector<std::vector<Stroke>> strokes(static_cast<std::size_t>(end - begin));
+  tbb::parallel_for(begin, end, [&](int y) {
+    std::vector<Stroke>& own = strokes[static_cast<std::size_t>(y - begin)];
+    walk.at_edges_of_row(y, [&](int px, int py, int qx, int qy) { add_strokes(px, py, qx, qy, own); });
+  });
+  for (const std::vector<Stroke>& row : strokes)  // one after the other: of equal ones the first stays
+    for (const auto& [pixel, texels] : row)
+      if (float& there = map.data[pixel]; std::isnan(there) || std::abs(there) < std::abs(texels))
+        there = texels;
   return map;
 }
 

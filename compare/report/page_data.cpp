@@ -3,11 +3,13 @@
 #include "compare/report/page_data.h"
 
 #include <fmt/format.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <unordered_map>
 
 #include "compare/outputs.h"
@@ -138,7 +140,7 @@ struct Corners {
 
 Corners rounded_corners(const SectionMesh& mesh, const Vec3& low, double step) {
   Corners out;
-  std::unordered_map<Corner, std::uint32_t, CornerHash> known;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> known(mesh.positions.size());
   std::vector<std::uint32_t> place(mesh.positions.size());
   for (std::size_t i = 0; i < place.size(); ++i) {
     const Vec3 p = (mesh.positions[i] - low) / step;
@@ -152,11 +154,13 @@ Corners rounded_corners(const SectionMesh& mesh, const Vec3& low, double step) {
   return out;
 }
 
-Json triangles_json(const SectionMesh& mesh, const Aabb& bounds, Packer& packer) {
-  const Vec3 low = bounds.min, extent = bounds.max - low;
-  const double step =
-      std::exp2(std::ceil(std::log2(std::max({extent.x, extent.y, extent.z, 1e-300}))) - corner_bits);
-  const auto corners = std::make_shared<const Corners>(rounded_corners(mesh, low, step));
+double corner_step(const Aabb& bounds) {
+  const Vec3 extent = bounds.max - bounds.min;
+  return std::exp2(std::ceil(std::log2(std::max({extent.x, extent.y, extent.z, 1e-300}))) - corner_bits);
+}
+
+/// `corners`: of the mesh, rounded to corner_step().
+Json triangles_json(const std::shared_ptr<const Corners>& corners, const Aabb& bounds, Packer& packer) {
   constexpr PackOptions options{4, From::previous};
   Channels channels(packer);
   for (std::size_t k = 0; k < 3; ++k)
@@ -164,10 +168,21 @@ Json triangles_json(const SectionMesh& mesh, const Aabb& bounds, Packer& packer)
                  [corners, k](std::size_t i) { return corners->places[i][k]; });
   channels.add("corner", corners->of_triangles.size(), options,
                [corners](std::size_t i) { return corners->of_triangles[i]; });
-  return {{"low", vector3(low)}, {"step", step}, {"channels", channels.json()}};
+  return {{"low", vector3(bounds.min)}, {"step", corner_step(bounds)}, {"channels", channels.json()}};
 }
 
-Json geometry_json(const World& world, const SectionMesh& mesh, Packer& packer) {
+/// What can be cut through at a pixel.
+struct Geometry {
+  SectionMesh mesh;
+  std::shared_ptr<const Corners> corners;
+  explicit Geometry(const World& world)
+      : mesh(section_mesh(world)),
+        corners(std::make_shared<const Corners>(
+            rounded_corners(mesh, world.finite_bounds.min, corner_step(world.finite_bounds)))) {}
+};
+
+Json geometry_json(const World& world, const Geometry& geometry, Packer& packer) {
+  const SectionMesh& mesh = geometry.mesh;
   Json shapes = Json::array();
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
@@ -179,7 +194,8 @@ Json geometry_json(const World& world, const SectionMesh& mesh, Packer& packer) 
   }
   Json json{
       {"shapes", std::move(shapes)}, {"solid_sectors", mesh.solid_sectors}, {"complete", mesh.complete}};
-  if (!mesh.triangles.empty()) json["triangles"] = triangles_json(mesh, world.finite_bounds, packer);
+  if (!mesh.triangles.empty())
+    json["triangles"] = triangles_json(geometry.corners, world.finite_bounds, packer);
   return json;
 }
 
@@ -216,16 +232,19 @@ PageData page_data(const PageInput& in) {
     const std::size_t first = packer.count();
     parts.push_back({std::move(name), make(), first});
   };
-  const SectionMesh mesh = section_mesh(*c.world);
+  std::optional<Geometry> geometry;
+  tbb::task_group meanwhile;
+  meanwhile.run([&] { geometry.emplace(*c.world); });
   const PixelSurfaces surfaces = pixel_surfaces(c);
   const ShownMaterials materials(*c.world);
   head["rays"] = rays_json(surfaces.rays);
   head["materials"] = materials_json(materials);
   out.head = head.dump();
   add("pixels", [&] { return pixels_json(c, packer, surfaces, materials); });
-  add("geometry", [&] { return geometry_json(*c.world, mesh, packer); });
   for (std::size_t i = 0; i < c.lights.size(); ++i)
     add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, surfaces, materials); });
+  meanwhile.wait();
+  add("geometry", [&] { return geometry_json(*c.world, *geometry, packer); });
   packer.run();
   for (const Part& part : parts) out.parts.push_back({part.name, packer.filled(part.json, part.first)});
   return out;

@@ -2,6 +2,8 @@
 // per texel.
 #include "scene/generate/noise.h"
 
+#include <tbb/parallel_for.h>
+
 #include "scene/generate/random.h"
 
 namespace gnomon {
@@ -40,7 +42,7 @@ void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::u
   }
   const std::vector<Between> across = place(sum.size.width, cells.x), down = place(sum.size.height, cells.y);
   const auto stride = static_cast<std::size_t>(cells.x);
-  for (std::size_t y = 0; y < down.size(); ++y) {
+  tbb::parallel_for(std::size_t{0}, down.size(), [&](std::size_t y) {
     const float *above = &values[down[y].first * stride], *below = &values[down[y].second * stride];
     float* row = &sum.data[y * across.size()];
     for (std::size_t x = 0; x < across.size(); ++x) {
@@ -48,7 +50,7 @@ void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::u
       const float top = above[a] + s * (above[b] - above[a]), bottom = below[a] + s * (below[b] - below[a]);
       row[x] += top + down[y].weight * (bottom - top);
     }
-  }
+  });
 }
 
 }  // namespace
