@@ -28,7 +28,7 @@ class BandedWork {
         out_(out),
         step_{image_step(size()), size().height},
         margin_(margin_of_bands(scene(), in.lights)),
-        near_(2 * margin_) {
+        near_(margin_) {
     for (std::size_t i = 0; i < in.lights.size(); ++i)
       measures_.emplace_back(in.folder, in.options.bias_curve_points, in.options.perceptual);
     classify_.resize(in.lights.size());

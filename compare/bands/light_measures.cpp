@@ -69,20 +69,22 @@ Expected<void> LightMeasures::add_lists(const LadderInput& in, const Climb& clim
   }
   if (!has_curve_) return {};
   const Image<float>& truth = climbed.rungs[0];
-  for (const bool lit : {false, true}) {
-    const auto gaps = gaps_where(in.record, truth, climbed.labels, lit);
-    if (const auto added = gaps_[lit ? 1 : 0].append(folder_, gaps); !added) return added;
-  }
-  if (!has_kinds_) return {};
-  const KindSettings found = settings_of_kinds(in, truth, climbed.labels);
-  for (std::size_t k = 0; k < kind_count; ++k) {
-    GapLists lists;
-    put_into_lists(found.settings[k], found.lit, lists);
-    kinds_left_out_[k] += lists.lit_left_out;
-    if (const auto added = kinds_[k][0].append(folder_, lists.shadowed); !added) return added;
-    if (const auto added = kinds_[k][1].append(folder_, lists.lit); !added) return added;
-  }
-  return {};
+  std::vector<Step> steps;
+  for (const bool lit : {false, true})
+    steps.emplace_back([&, lit] {
+      return gaps_[lit ? 1 : 0].append(folder_, gaps_where(in.record, truth, climbed.labels, lit));
+    });
+  KindSettings found;
+  if (has_kinds_) found = settings_of_kinds(in, truth, climbed.labels);
+  for (std::size_t k = 0; has_kinds_ && k < kind_count; ++k)
+    steps.emplace_back([this, &found, k]() -> Expected<void> {
+      GapLists lists;
+      put_into_lists(found.settings[k], found.lit, lists);
+      kinds_left_out_[k] += lists.lit_left_out;
+      if (const auto added = kinds_[k][0].append(folder_, lists.shadowed); !added) return added;
+      return kinds_[k][1].append(folder_, lists.lit);
+    });
+  return run_all(steps);
 }
 
 Expected<FinishedMaps> LightMeasures::add_neighbours(const LadderInput& near, const NearLight& light,

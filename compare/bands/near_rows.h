@@ -42,13 +42,14 @@ struct NearLight {
 
 class NearRows {
  public:
-  /// `kept`: rows that are there at most when a band comes.
-  explicit NearRows(int kept) : kept_(kept) {}
+  /// `margin`: rows above and below those that are measured next. Up to as many more stay until they are worth the
+  /// moving of the others.
+  explicit NearRows(int margin) : margin_(margin), kept_(3 * margin) {}
 
   /// The band under those that are there. Of its frames only what is needed is kept.
   void add(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
            const std::vector<NearLight>& lights);
-  /// Forgets the rows above this one of the picture.
+  /// The rows above this one of the picture are not needed any more.
   void forget_above(int row);
 
   int first() const { return first_; }  ///< of the picture: row 0 here
@@ -61,7 +62,7 @@ class NearRows {
   std::vector<NearLight> lights;
 
  private:
-  int kept_, first_ = 0;
+  int margin_, kept_, first_ = 0;
 };
 
 }  // namespace gnomon::compare

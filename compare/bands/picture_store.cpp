@@ -142,7 +142,7 @@ Expected<PictureSet> encode_pictures(const Comparison& c, const PictureStore& st
             set.raytraced);
       }};
   for (std::size_t i = 0; i < c.lights.size(); ++i) add_steps(steps, c, store, i, set.lights[i]);
-  constexpr double bytes_per_pixel = 9.0;  // as drawn, as rows of a file, and compressed
+  constexpr double bytes_per_pixel = 7.0;  // as drawn, as rows of a file, and compressed
   const double bytes = bytes_per_pixel * static_cast<double>(store.size().pixels());
   if (const auto done = run_all(steps, steps_together(bytes)); !done) return fail(done.error());
   return set;

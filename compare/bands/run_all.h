@@ -27,7 +27,7 @@ inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t togeth
 
 /// How many steps to run at a time that take so many bytes each.
 inline std::size_t steps_together(double bytes) {
-  constexpr double most_bytes = 640e6;
+  constexpr double most_bytes = 1e9;
   return static_cast<std::size_t>(std::max(1.0, std::min(64.0, most_bytes / bytes)));
 }
 
