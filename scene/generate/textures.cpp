@@ -1,7 +1,5 @@
 // Generated textures: checker, fractal noise, paving or bricks, wood. Texels are sRGB-encoded from linear
 // colours. Everything is sampled at texel centres of the unit square and repeats without a seam.
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "scene/generate/generator.h"
@@ -32,14 +30,13 @@ struct Texel {
 template <class Color>
 Texture draw(std::string_view name, ImageSize size, const Color& color_at) {
   Texture t{std::string(name), size, {}, true, false, true, true};
-  t.texels.resize(size.pixels());
-  tbb::parallel_for(0, size.height, [&](int y) {
-    glm::u8vec4* row = &t.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width)];
+  t.texels.reserve(size.pixels());
+  for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const Vec3 c = color_at(Texel{x, y, Vec2((x + 0.5) / size.width, (y + 0.5) / size.height)});
-      row[x] = {encode_srgb(c.x), encode_srgb(c.y), encode_srgb(c.z), std::uint8_t{255}};
+      t.texels.emplace_back(encode_srgb(c.x), encode_srgb(c.y), encode_srgb(c.z), std::uint8_t{255});
     }
-  });
+  }
   return t;
 }
 
