@@ -42,7 +42,7 @@ void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFra
 
 void NearRows::forget_above(int row) {
   const int count = row - first_;
-  if (count < margin_) return;
+  if (count < spare_) return;
   first_ = row;
   drop_rows(drawn.primitive, count);
   drop_rows(traced.receiver, count);

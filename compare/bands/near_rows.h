@@ -2,6 +2,7 @@
 // measured at a row hangs on rows above and below it.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "compare/ladder.h"
@@ -42,9 +43,9 @@ struct NearLight {
 
 class NearRows {
  public:
-  /// `margin`: rows above and below those that are measured next. Up to as many more stay until they are worth the
-  /// moving of the others.
-  explicit NearRows(int margin) : margin_(margin), kept_(3 * margin) {}
+  /// `margin`: rows above and below those that are measured next. Some more stay until they are worth the moving of the
+  /// others.
+  explicit NearRows(int margin) : spare_(std::min(margin, most_spare)), kept_(2 * margin + spare_) {}
 
   /// The band under those that are there. Of its frames only what is needed is kept.
   void add(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
@@ -62,7 +63,8 @@ class NearRows {
   std::vector<NearLight> lights;
 
  private:
-  int margin_, kept_, first_ = 0;
+  static constexpr int most_spare = 256;  ///< rows
+  int spare_, kept_, first_ = 0;
 };
 
 }  // namespace gnomon::compare
