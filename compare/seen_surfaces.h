@@ -1,4 +1,4 @@
-// What each pixel shows, as far as the report page needs it: a ninth of the size of the ray tracer's receivers.
+// What each pixel shows, as far as the report page needs it: an eighth of the size of the ray tracer's receivers.
 #pragma once
 
 #include <glm/ext/vector_int3_sized.hpp>
@@ -11,8 +11,8 @@ namespace gnomon::compare {
 struct SeenSurface {
   static constexpr double normal_steps = 32767.0;
   std::uint32_t primitive = no_id;
-  glm::i16vec3 normal{
-      0};  ///< the geometric one, in normal_steps, on the side of the camera; 0 where there is none
+  /// The geometric one, in normal_steps, on the side of the camera; 0 where there is none.
+  glm::i16vec3 normal{0};
 
   SeenSurface() = default;
   explicit SeenSurface(const raytrace::SurfacePoint& receiver);

@@ -13,7 +13,8 @@ namespace gnomon::compare {
 
 using Step = std::function<Expected<void>()>;
 
-/// Returns the first one's error, in their order, when all are done. `together`: how many run at a time at most.
+/// Of those that failed the first one's error; after a failure none is begun that was not to run at the same time.
+/// `together`: how many run at a time at most.
 inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t together = 64) {
   for (std::size_t first = 0; first < steps.size(); first += together) {
     std::vector<Expected<void>> results(std::min(together, steps.size() - first));
