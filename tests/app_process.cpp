@@ -100,6 +100,24 @@ void interrupt_when_ready(pid_t process, int after_ms, int signal_number) {
   kill(process, signal_number);
 }
 
+/// Waits for the end. What the kernel knows of a process is there until it has been waited for.
+void take_end(pid_t process, ProcessResult& result) {
+  siginfo_t ended{};
+  waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT);
+  double ran_ns = 0.0, waited_ns = 0.0;
+  std::ifstream("/proc/" + std::to_string(process) + "/schedstat") >> ran_ns >> waited_ns;
+  result.waited_ms = waited_ns / 1e6;
+  int status = 0;
+  rusage used{};
+  wait4(process, &status, 0, &used);
+  const auto ms = [](const timeval& t) {
+    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
+  };
+  result.cpu_ms = ms(used.ru_utime) + ms(used.ru_stime);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
 }  // namespace
 
 ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) {
@@ -115,10 +133,7 @@ ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) 
   ProcessResult result;
   read_both(out.read_end, err.read_end, result);
   if (interrupter.joinable()) interrupter.join();
-  int status = 0;
-  waitpid(child, &status, 0);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  take_end(child, result);
   return result;
 }
 
