@@ -9,8 +9,6 @@
 namespace gnomon::hybrid {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-
 /// Groups with more pieces are not asked whether they lie apart.
 constexpr std::size_t most_members = 6;
 
@@ -127,9 +125,10 @@ ColumnBounds by_overlap(std::span<Piece> pieces, const PieceRelations& relations
 }
 
 /// Sheets by their edges, as raytrace::find_sheets makes them.
-class Sheets {
+class EdgeSheets {
  public:
-  Sheets(std::span<Piece> pieces, const PieceRelations& relations) : pieces_(pieces), relations_(relations) {
+  EdgeSheets(std::span<Piece> pieces, const PieceRelations& relations)
+      : pieces_(pieces), relations_(relations) {
     std::sort(pieces.begin(), pieces.end(),
               [](const Piece& a, const Piece& b) { return a.triangle < b.triangle; });
     for (std::uint32_t i = 0; i < pieces.size(); ++i) pieces[i].parent = i;
@@ -230,8 +229,8 @@ ColumnBounds quick_bounds_of(std::span<Piece> pieces, float half_texels, const P
 ColumnBounds bounds_of(std::span<Piece> pieces, float half_texels, const PieceRelations& relations) {
   const ColumnBounds plain = by_overlap(pieces, relations);
   if (plain.decisive) return plain;
-  const ColumnBounds sheets =
-      without_slope(pieces, half_texels, &relations, [&] { return Sheets(pieces, relations).evaluate(); });
+  const ColumnBounds sheets = without_slope(pieces, half_texels, &relations,
+                                            [&] { return EdgeSheets(pieces, relations).evaluate(); });
   return is_better(sheets, plain) ? sheets : plain;
 }
 

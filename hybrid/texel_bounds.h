@@ -29,7 +29,8 @@ struct TexelBounds {
   float lit_above, dark_below;
   float slope_u, slope_v;
 };
-inline constexpr float no_reciprocal_depth = std::numeric_limits<float>::infinity();
+inline constexpr float inf = std::numeric_limits<float>::infinity();
+inline constexpr float no_reciprocal_depth = inf;
 inline constexpr TexelBounds ambiguous_texel{no_reciprocal_depth, -no_reciprocal_depth, 0.0f, 0.0f};
 inline constexpr TexelBounds empty_texel{-no_reciprocal_depth, -no_reciprocal_depth, 0.0f, 0.0f};
 

@@ -9,8 +9,6 @@ using raytrace::error_gamma;
 using raytrace::float_above;
 using raytrace::float_below;
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-
 /// Linear functions are used where their divisor is known to 1 in `well`.
 constexpr double well = 0x1p22;
 

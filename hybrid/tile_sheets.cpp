@@ -5,7 +5,6 @@
 namespace gnomon::hybrid {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr std::size_t texel_count = std::size_t{tile_texels} * tile_texels;
 constexpr float slack = static_cast<float>(texel_slack);
 

@@ -8,8 +8,6 @@ namespace {
 using raytrace::float_above;
 using raytrace::float_below;
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-
 /// The plane is used where its coefficients are known to this relative error; else the corners' reciprocal depth.
 constexpr double plane_error = 0x1p-22;
 
