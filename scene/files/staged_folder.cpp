@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -28,13 +30,38 @@ std::string prefix_for(const fs::path& folder, bool exists) {
   return exists ? ".gnomon." : folder.filename().string().substr(0, longest) + ".";
 }
 
-/// A lock that the system takes back when its process ends; -1 where somebody holds it.
-int lock_folder(const fs::path& folder) {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
-  if (lock >= 0) ::close(lock);
-  return -1;
-}
+enum class Wait : std::uint8_t { no, yes };
+
+/// A lock that the system takes back when its process ends. Holds none where there is no such folder (any more), where
+/// its file system has no locks, and where somebody else holds it, unless that is waited for.
+class FolderLock {
+ public:
+  FolderLock(const fs::path& folder, Wait wait)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0) return;
+    int result = 0;
+    do result = ::flock(descriptor_, LOCK_EX | (wait == Wait::no ? LOCK_NB : 0));
+    while (result != 0 && errno == EINTR);
+    // While it was opened or waited for, another process may have put a new folder in its place.
+    if (result != 0 || !is_of(folder)) ::close(std::exchange(descriptor_, -1));
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  bool held() const { return descriptor_ >= 0; }
+  int release() { return std::exchange(descriptor_, -1); }
+
+ private:
+  bool is_of(const fs::path& folder) const {
+    struct stat locked {
+    }, there{};
+    return ::fstat(descriptor_, &locked) == 0 && ::stat(folder.c_str(), &there) == 0 &&
+           locked.st_dev == there.st_dev && locked.st_ino == there.st_ino;
+  }
+  int descriptor_;
+};
 
 void remove_abandoned(const fs::path& parent, const std::string& prefix) {
   std::error_code error;
@@ -43,10 +70,8 @@ void remove_abandoned(const fs::path& parent, const std::string& prefix) {
     if (!name.starts_with(prefix) || !name.ends_with(".part") || !entry.is_directory(error)) continue;
     const std::string middle = name.substr(prefix.size(), name.size() - prefix.size() - 5);
     if (middle.empty() || middle.find_first_not_of("0123456789") != std::string::npos) continue;
-    const int lock = lock_folder(entry.path());
-    if (lock < 0) continue;
-    fs::remove_all(entry.path(), error);
-    ::close(lock);
+    const FolderLock lock(entry.path(), Wait::no);
+    if (lock.held()) fs::remove_all(entry.path(), error);
   }
 }
 
@@ -117,10 +142,15 @@ Expected<StagedFolder> StagedFolder::open(const std::string& folder) {
   const std::string prefix = prefix_for(target, exists);
   remove_abandoned(parent, prefix);
   const fs::path staged = parent / fmt::format("{}{}.part", prefix, ::getpid());
-  if (!fs::create_directory(staged, error))
-    return cannot_write(staged.string(), "cannot create the folder",
-                        error ? error.message() : std::string("it exists"));
-  return StagedFolder(target.string(), staged.string(), lock_folder(staged));
+  // Until it is locked, another process that starts may take the folder for an abandoned one.
+  for (;;) {
+    if (!fs::create_directory(staged, error))
+      return cannot_write(staged.string(), "cannot create the folder",
+                          error ? error.message() : std::string("it exists"));
+    FolderLock lock(staged, Wait::yes);
+    if (lock.held() || fs::exists(staged, error))
+      return StagedFolder(target.string(), staged.string(), lock.release());
+  }
 }
 
 Expected<void> StagedFolder::seal(std::span<const std::string> inputs) {
@@ -139,6 +169,7 @@ Expected<void> StagedFolder::publish(const std::string& last) {
     path_.clear();
     return {};
   }
+  const FolderLock others(folder, Wait::yes);  // that put their files here at the same time
   std::error_code error;
   fs::remove(folder / last, error);
   for (const std::string& file : files_)
