@@ -101,7 +101,8 @@ double default_memory() {
 double PictureBytes::of(const ImageSize& size, int rows) const {
   const auto pixels = static_cast<double>(size.pixels());
   if (rows >= size.height) return piece * pixels;
-  return whole * pixels + band * size.width * std::min(rows + margin, size.height);
+  return whole * pixels + band * size.width * std::min(rows + margin, size.height) +
+         soft * size.width * std::min(rows + compare::penumbra_rows_kept, size.height);
 }
 
 PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>& lights,
@@ -110,11 +111,14 @@ PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>&
   // four. In bands what the camera sees, the longest list and a picture on its way to its file are whole, and what
   // the page shows; half as much as of a band is kept of the rows around it.
   const double light = static_cast<double>(lights.size());
+  const auto soft =
+      std::count_if(lights.begin(), lights.end(), [&](std::uint32_t i) { return has_size(scene.lights[i]); });
   const double piece = 260.0 + 57.0 * light, shown = 30.0 + 80.0 * light, step = compare::image_step(size);
   return {.piece = piece,
           .whole = 20.0 + (page ? shown / (step * step) : 0.0),
           .band = piece,
-          .margin = compare::margin_of_bands(scene, lights)};
+          .margin = compare::edge_margin,
+          .soft = 36.0 * static_cast<double>(soft)};
 }
 
 Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const ImageSize& size,
@@ -127,8 +131,8 @@ Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const Im
         ErrorKind::graphics,
         fmt::format("--memory: too little for a picture of {}x{} (got {}, allowed {} and more)", size.width,
                     size.height, text_of_bytes(allowed), text_of_bytes(bytes.of(size, band_step))));
-  const double left = allowed - bytes.whole * static_cast<double>(size.pixels());
-  double rows = fits ? size.height : left / (bytes.band * size.width) - bytes.margin;
+  const double left = allowed - bytes.of(size, 0);
+  double rows = fits ? size.height : left / ((bytes.band + bytes.soft) * size.width);
   if (most_pixels > 0) rows = std::min(rows, static_cast<double>(most_pixels) / size.width);
   return bands_of(size, in_steps(rows));
 }

@@ -33,6 +33,7 @@ struct PictureBytes {
   double whole = 0.0;  ///< in bands: of the whole picture all the while
   double band = 0.0;   ///< in bands: of the one that is worked on
   int margin = 0;      ///< rows that a band is worked on with beside its own
+  double soft = 0.0;   ///< in bands: of the rows on which the widths of soft shadows hang
 
   /// In bands of so many rows.
   double of(const ImageSize& size, int rows) const;

@@ -22,25 +22,22 @@ struct Crossing {
 
 class PenumbraMeasure::Walker {
  public:
-  Walker(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels, int first_row)
-      : in_(in), truth_(truth), labels_(labels), first_row_(first_row) {}
+  Walker(const Pixels& pixels, int first_row) : pixels_(pixels), first_row_(first_row) {}
 
   bool same_object(int x, int y, std::uint32_t own) const {
-    const ImageSize& s = labels_.size;
-    return x >= 0 && y >= 0 && x < s.width && y < s.height && is_compared(labels_.at(x, y)) &&
-           object(labels_.index(x, y)) == own;
+    const ImageSize& s = pixels_.objects.size;
+    return x >= 0 && y >= 0 && x < s.width && y < s.height && pixels_.objects.at(x, y) == own;
   }
-  std::uint32_t object(std::size_t i) const { return in_.world.object_of(in_.drawn.primitive.data[i]); }
 
   /// The way on the picture that runs straight across the edge on the receiver, from shadow to light, unit
   /// length; zero where the window is balanced or its surroundings are another object's.
   Vec2 towards_light(int x, int y) const {
-    const std::uint32_t own = object(labels_.index(x, y));
+    const std::uint32_t own = pixels_.objects.at(x, y);
     Vec2 slope(0.0);
     for (int dy = -gradient_window; dy <= gradient_window; ++dy)
       for (int dx = -gradient_window; dx <= gradient_window; ++dx)
         if (same_object(x + dx, y + dy, own))
-          slope += Vec2(dx, dy) * (2.0 * double{truth_.at(x + dx, y + dy)} - 1.0);
+          slope += Vec2(dx, dy) * (2.0 * double{pixels_.truth.at(x + dx, y + dy)} - 1.0);
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
       if (!same_object(x + dx, y + dy, own)) return Vec2(0.0);
     // The steepest way on the surface: its metric in pixels, inverted, times the slope in the picture.
@@ -117,24 +114,23 @@ class PenumbraMeasure::Walker {
   }
 
   void measure(int px, int py, int qx, int qy, std::vector<Sample>& out) const {
-    if (!same_object(px, py, object(labels_.index(px, py)))) return;
-    const std::uint32_t own = object(labels_.index(px, py));
-    if (!same_object(qx, qy, own) || (truth_.at(px, py) > 0.5f) == (truth_.at(qx, qy) > 0.5f)) return;
+    const std::uint32_t own = pixels_.objects.at(px, py);
+    const Image<float>& truth = pixels_.truth;
+    if (own == no_id || !same_object(qx, qy, own) || (truth.at(px, py) > 0.5f) == (truth.at(qx, qy) > 0.5f))
+      return;
     const Vec2 normal = towards_light(px, py);
     if (normal == Vec2(0.0)) return;
     const Vec2 middle(0.5 * (px + qx) + 0.5, 0.5 * (py + qy + 2 * first_row_) + 0.5);  // in the whole picture
-    Sample sample{width(truth_, middle, normal, own), {}};
+    Sample sample{width(truth, middle, normal, own), {}};
     if (!sample.truth.penumbra) return;
-    if (const auto crossing = nearest_crossing(in_.record.visibility, middle, normal, own))
-      sample.drawn = width(in_.record.visibility, *crossing, normal, own);
+    if (const auto crossing = nearest_crossing(pixels_.drawn, middle, normal, own))
+      sample.drawn = width(pixels_.drawn, *crossing, normal, own);
     out.push_back(sample);
   }
 
  private:
-  const Vec3& receiver(int x, int y) const { return in_.traced.receiver.at(x, y).position; }
-  const LadderInput& in_;
-  const Image<float>& truth_;
-  const Image<Label>& labels_;
+  const Vec3& receiver(int x, int y) const { return pixels_.positions.at(x, y); }
+  const Pixels& pixels_;
   int first_row_;
 };
 
@@ -147,7 +143,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void count(float visibility, std::uint64_t& umbra, std::uint64_t& penumbra) {
+void count_one(float visibility, std::uint64_t& umbra, std::uint64_t& penumbra) {
   if (visibility <= 0.0f)
     ++umbra;
   else if (visibility < 1.0f)
@@ -176,25 +172,74 @@ void PenumbraMeasure::add_widths(const std::vector<Sample>& samples, PenumbraSta
   out.drawn_umbra_world = median(std::move(drawn_umbra));
 }
 
-void PenumbraMeasure::add(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels,
-                          int first_row, const PictureRows& rows) {
-  const Walker walker(in, truth, labels, first_row);
+PenumbraMeasure::Pixels PenumbraMeasure::pixels_of(const LadderInput& in, const Image<float>& truth,
+                                                   const Image<Label>& labels) {
+  Pixels out{Image<Vec3>(labels.size), Image<std::uint32_t>(labels.size), truth, in.record.visibility};
+  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+    out.positions.data[i] = in.traced.receiver.data[i].position;
+    out.objects.data[i] =
+        is_compared(labels.data[i]) ? in.world.object_of(in.drawn.primitive.data[i]) : no_id;
+  });
+  return out;
+}
+
+void PenumbraMeasure::keep(Pixels&& rows, int height) {
+  if (rows.objects.size.height == height) {
+    pixels_ = std::move(rows);
+    return;
+  }
+  const int kept = std::min(penumbra_rows_kept, height);
+  append_rows(pixels_.positions, rows.positions, kept);
+  append_rows(pixels_.objects, rows.objects, kept);
+  append_rows(pixels_.truth, rows.truth, kept);
+  append_rows(pixels_.drawn, rows.drawn, kept);
+}
+
+void PenumbraMeasure::count(const Pixels& rows) {
+  for (std::size_t i = 0; i < rows.objects.data.size(); ++i) {
+    if (rows.objects.data[i] == no_id) continue;
+    count_one(rows.truth.data[i], counts_.true_umbra_pixels, counts_.true_penumbra_pixels);
+    count_one(rows.drawn.data[i], counts_.drawn_umbra_pixels, counts_.drawn_penumbra_pixels);
+  }
+}
+
+void PenumbraMeasure::measure(const PictureRows& rows) {
+  const Walker walker(pixels_, first_);
   std::vector<std::vector<Sample>> by_row(static_cast<std::size_t>(rows.count));
   tbb::parallel_for(0, rows.count, [&](int i) {
-    const int y = rows.first + i;
+    const int y = rows.first - first_ + i;
     std::vector<Sample>& row = by_row[static_cast<std::size_t>(i)];
-    for (int x = 0; x < labels.size.width; ++x) {
-      if (!is_compared(labels.at(x, y))) continue;
+    for (int x = 0; x < pixels_.objects.size.width; ++x) {
       walker.measure(x, y, x + 1, y, row);
       walker.measure(x, y, x, y + 1, row);
     }
   });
   for (const auto& row : by_row) samples_.insert(samples_.end(), row.begin(), row.end());
-  for (std::size_t i = labels.index(0, rows.first); i < labels.index(0, rows.end()); ++i) {
-    if (!is_compared(labels.data[i])) continue;
-    count(truth.data[i], counts_.true_umbra_pixels, counts_.true_penumbra_pixels);
-    count(in.record.visibility.data[i], counts_.drawn_umbra_pixels, counts_.drawn_penumbra_pixels);
-  }
+}
+
+void PenumbraMeasure::forget_above(int row) {
+  const int dropped = row - first_;
+  if (dropped < most_spare_rows) return;
+  first_ = row;
+  drop_rows(pixels_.positions, dropped);
+  drop_rows(pixels_.objects, dropped);
+  drop_rows(pixels_.truth, dropped);
+  drop_rows(pixels_.drawn, dropped);
+}
+
+void PenumbraMeasure::add(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
+  const int height = in.place.picture_height > 0 ? in.place.picture_height : labels.size.height;
+  Pixels rows = pixels_of(in, truth, labels);
+  count(rows);
+  keep(std::move(rows), height);
+  const int end = first_ + pixels_.objects.size.height;
+  const int measurable = end == height ? end : std::max(measured_, end - penumbra_margin);
+  measure({measured_, measurable - measured_});
+  measured_ = measurable;
+  if (measured_ == height)
+    pixels_ = {};
+  else
+    forget_above(measured_ - penumbra_margin);
 }
 
 PenumbraStats PenumbraMeasure::stats() const {
@@ -205,7 +250,7 @@ PenumbraStats PenumbraMeasure::stats() const {
 
 PenumbraStats measure_penumbra(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
   PenumbraMeasure measure;
-  measure.add(in, truth, labels, 0, {0, labels.size.height});
+  measure.add(in, truth, labels);
   return measure.stats();
 }
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "compare/image_rows.h"
 #include "compare/ladder.h"
-#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 
@@ -19,17 +19,23 @@ PenumbraStats measure_penumbra(const LadderInput& input, const Image<float>& tru
                                const Image<Label>& labels);
 
 inline constexpr int penumbra_margin = 1032;  ///< rows above and below a row on which its widths hang
+inline constexpr int penumbra_rows_kept = 2 * penumbra_margin + most_spare_rows;
 
-/// The same of a picture that comes in parts, each of whole rows, from the top.
+/// The same of a picture that comes in parts, each of whole rows, from the top. Keeps 36 bytes a pixel of at most
+/// penumbra_rows_kept rows and of what was added last.
 class PenumbraMeasure {
  public:
-  /// Those rows of the images, row 0 of which is first_row of the picture; all within penumbra_margin of them must
-  /// be there.
-  void add(const LadderInput& input, const Image<float>& truth, const Image<Label>& labels, int first_row,
-           const PictureRows& rows);
+  /// The rows under those that were added before: input.place says where they lie.
+  void add(const LadderInput& input, const Image<float>& truth, const Image<Label>& labels);
   PenumbraStats stats() const;
 
  private:
+  /// What a walk asks of a pixel.
+  struct Pixels {
+    Image<Vec3> positions;
+    Image<std::uint32_t> objects;  ///< no_id where nothing is measured
+    Image<float> truth, drawn;
+  };
   struct Width {
     std::optional<double> penumbra, umbra;  // world units; none where a walk left the object or the picture
   };
@@ -37,7 +43,16 @@ class PenumbraMeasure {
     Width truth, drawn;
   };
   class Walker;
+  static Pixels pixels_of(const LadderInput& input, const Image<float>& truth, const Image<Label>& labels);
   static void add_widths(const std::vector<Sample>& samples, PenumbraStats& out);
+  void keep(Pixels&& rows, int height);
+  void count(const Pixels& rows);
+  void measure(const PictureRows& rows);
+  void forget_above(int row);
+
+  Pixels pixels_;
+  int first_ = 0;     ///< of the picture: row 0 of pixels_
+  int measured_ = 0;  ///< rows of the picture
   std::vector<Sample> samples_;
   PenumbraStats counts_;
 };

@@ -18,20 +18,21 @@ namespace {
 
 using namespace compare;  // its functions, by their names
 
-// Six bands, the last of ten rows; more rows than edges hang on.
-constexpr ImageSize size{160, 330};
-
 struct BandCase {
   const char* scene;
   raster::Technique technique;
   raster::Bias bias{};
+  ImageSize size{160, 330};  ///< six bands, the last of ten rows; more rows than edges hang on
 };
+
+/// More rows than are kept for the widths of soft shadows.
+constexpr ImageSize tall{40, compare::penumbra_rows_kept + 300};
 
 class CompareBands : public testing::TestWithParam<BandCase> {
  protected:
   CompareBands() : scene_(*load_scene(GetParam().scene)), world_(make_world(scene_)) {
     for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) lights_.push_back(i);
-    options_.raster.size = options_.raytrace.size = size;
+    options_.raster.size = options_.raytrace.size = GetParam().size;
     options_.raster.map.size = 128;
     options_.raster.map.technique = GetParam().technique;
     options_.raster.map.bias = GetParam().bias;
@@ -103,7 +104,7 @@ TEST_P(CompareBands, AreTheWhole) {
                                   .renderer = *drawn,
                                   .lights = lights_,
                                   .options = options_,
-                                  .bands = bands_of(size, band_step),
+                                  .bands = bands_of(GetParam().size, band_step),
                                   .folder = folder_.string(),
                                   .aov = path("bands.exr")});
   ASSERT_TRUE(banded) << banded.error().reason;
@@ -116,6 +117,8 @@ TEST_P(CompareBands, AreTheWhole) {
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const auto& edges = banded->comparison.lights[i].edges;
     EXPECT_GT(edges.edges, 0U) << "nothing hangs on rows nearby";
+    const auto& penumbra = banded->comparison.lights[i].penumbra;
+    EXPECT_TRUE(!penumbra || penumbra->edges > 0U) << "no width was measured";
   }
   if (GetParam().technique == raster::Technique::csm) {
     ASSERT_EQ(banded->parts->cascades.size(), lights_.size());
@@ -135,15 +138,14 @@ TEST_P(CompareBands, AreTheWhole) {
 }
 
 using raster::Technique;
-INSTANTIATE_TEST_SUITE_P(Cases, CompareBands,
-                         testing::Values(BandCase{"fence", Technique::hard},
-                                         BandCase{"floating-box",
-                                                  Technique::hard,
-                                                  {.constant = 0.6, .unit = raster::BiasUnit::world}},
-                                         BandCase{"fence", Technique::csm}, BandCase{"fence", Technique::vsm},
-                                         BandCase{"penumbra", Technique::pcss},
-                                         BandCase{"whitted", Technique::pcf},
-                                         BandCase{"shapes", Technique::hybrid}));
+INSTANTIATE_TEST_SUITE_P(
+    Cases, CompareBands,
+    testing::Values(BandCase{"fence", Technique::hard},
+                    BandCase{
+                        "floating-box", Technique::hard, {.constant = 0.6, .unit = raster::BiasUnit::world}},
+                    BandCase{"fence", Technique::csm}, BandCase{"fence", Technique::vsm},
+                    BandCase{"penumbra", Technique::pcss}, BandCase{"penumbra", Technique::pcss, {}, tall},
+                    BandCase{"whitted", Technique::pcf}, BandCase{"shapes", Technique::hybrid}));
 
 }  // namespace
 }  // namespace gnomon::test

@@ -27,8 +27,7 @@ class BandedWork {
         topology_(topology),
         out_(out),
         step_{image_step(size()), size().height},
-        margin_(margin_of_bands(scene(), in.lights)),
-        near_(margin_) {
+        near_(edge_margin) {
     for (std::size_t i = 0; i < in.lights.size(); ++i)
       measures_.emplace_back(in.folder, in.options.bias_curve_points, in.options.perceptual);
     classify_.resize(in.lights.size());
@@ -73,8 +72,8 @@ class BandedWork {
   const BandedInput& in_;
   const raytrace::Topology& topology_;
   BandedComparison& out_;
-  Reduction step_;             ///< of what the page shows
-  int margin_, measured_ = 0;  ///< rows
+  Reduction step_;    ///< of what the page shows
+  int measured_ = 0;  ///< rows
   std::vector<LightMeasures> measures_;
   std::vector<double> classify_;  ///< ms, by light
   NearRows near_;
@@ -112,7 +111,7 @@ Expected<void> BandedWork::add(const PictureRows& rows) {
   }
   if (const auto kept = keep(*drawn, traced, lights, rows); !kept) return kept;
   const bool last = rows.end() == size().height;
-  return measure_neighbours(last ? rows.end() : std::max(measured_, rows.end() - margin_));
+  return measure_neighbours(last ? rows.end() : std::max(measured_, rows.end() - edge_margin));
 }
 
 /// What of the band is needed later.
@@ -200,7 +199,10 @@ Expected<void> BandedWork::measure_neighbours(int end) {
     if (const auto kept = keep_maps(i, *maps, rows); !kept) return kept;
   }
   measured_ = end;
-  near_.forget_above(std::max(0, measured_ - margin_));
+  if (measured_ == size().height)
+    near_.forget_images();
+  else
+    near_.forget_above(std::max(0, measured_ - edge_margin));
   return {};
 }
 
@@ -271,12 +273,6 @@ Expected<void> BandedWork::finish() {
 }
 
 }  // namespace
-
-int margin_of_bands(const Scene& scene, std::span<const std::uint32_t> lights) {
-  int margin = 0;
-  for (const std::uint32_t light : lights) margin = std::max(margin, near_margin(scene.lights[light]));
-  return margin;
-}
 
 Expected<BandedComparison> compare_in_bands(const BandedInput& in, const Progress& progress) {
   BandedComparison out;

@@ -37,9 +37,6 @@ struct BandedComparison {
   std::unique_ptr<BandedParts> parts;
 };
 
-/// Rows that bands keep beside themselves: near_margin() of the lights, above and below.
-int margin_of_bands(const Scene& scene, std::span<const std::uint32_t> lights);
-
 /// As compare_world(), of the tracer's world.
 Expected<BandedComparison> compare_in_bands(const BandedInput& input, const Progress& progress = {});
 

@@ -27,10 +27,6 @@ PictureRows widened(const PictureRows& rows, int by, int height) {
 
 }  // namespace
 
-int near_margin(const Light& light) {
-  return has_size(light) ? std::max(edge_margin, penumbra_margin) : edge_margin;
-}
-
 Expected<Image<float>> LightMeasures::add_pixels(const LadderInput& in, const Climb& climbed,
                                                  const Image<Label>& labels_climbed, const BandPlace& place) {
   const TimedStage stage("metrics");
@@ -45,7 +41,10 @@ Expected<Image<float>> LightMeasures::add_pixels(const LadderInput& in, const Cl
   sums_.add(climbed.rungs, labels);
   for (CascadeSums& cascade : cascades_) cascade.add(in.record, climbed.rungs, labels);
   climbed_compared_ += count_pixels(labels_climbed).compared;
-  if (soft_) standard_errors_.add(in.truth, labels);
+  if (soft_) {
+    standard_errors_.add(in.truth, labels);
+    penumbra_.add(in, climbed.rungs.front(), labels_climbed);
+  }
   Image<float> detached = detachment_map(in.tracer, in.light, in.traced.receiver, labels);
   for (const float distance : detached.data)
     if (!std::isnan(distance)) detachment_.add(double{distance});
@@ -95,7 +94,6 @@ Expected<FinishedMaps> LightMeasures::add_neighbours(const LadderInput& near, co
                         near.world, first_row};
   FinishedMaps maps;
   add_edges(edges, here, edges_);
-  if (soft_) penumbra_.add(near, light.truth, light.climbed, first_row, here);
   if (const auto seams = count_seams(near, light.labels, here)) {
     SeamCount& sum = seams_ ? *seams_ : seams_.emplace();
     sum.at_border += seams->at_border, sum.changed += seams->changed;

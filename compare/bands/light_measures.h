@@ -34,7 +34,7 @@ class LightMeasures {
   /// What each pixel says by itself. Gives the map of detachment.
   Expected<Image<float>> add_pixels(const LadderInput& in, const Climb& climbed,
                                     const Image<Label>& labels_climbed, const BandPlace& place);
-  /// What pixels say with their neighbours; place.rows and near_margin() rows around them lie in the window.
+  /// What pixels say with their neighbours; place.rows and edge_margin rows around them lie in the window.
   Expected<FinishedMaps> add_neighbours(const LadderInput& near, const NearLight& light, int first_row,
                                         const BandPlace& place);
   /// `in`: its record has the map and is without images.
@@ -72,8 +72,5 @@ class LightMeasures {
   std::array<std::array<NumberFile<float>, 2>, kind_count> kinds_;
   std::array<std::uint64_t, kind_count> kinds_left_out_{};
 };
-
-/// Rows above and below a row on which its measures hang.
-int near_margin(const Light& light);
 
 }  // namespace gnomon::compare

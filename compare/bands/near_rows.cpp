@@ -3,15 +3,13 @@
 namespace gnomon::compare {
 namespace {
 
-/// All but the images.
-raster::LightRecord without_images(const raster::LightRecord& record) {
-  raster::LightRecord out = record;
-  out.visibility = out.distance = out.gap = {};
-  out.texel_uv = {};
-  out.face = out.outside_map = {};
-  out.lookups = {};
-  out.external.reset();
-  return out;
+/// The map stays.
+void forget_images_of(raster::LightRecord& record) {
+  record.visibility = record.distance = record.gap = {};
+  record.texel_uv = {};
+  record.face = record.outside_map = {};
+  record.lookups = {};
+  record.external.reset();
 }
 
 }  // namespace
@@ -20,7 +18,7 @@ void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFra
                    const std::vector<NearLight>& more) {
   if (drawn.lights.empty()) {
     drawn.options = band.options, drawn.context = band.context, drawn.custom_shader = band.custom_shader;
-    for (const raster::LightRecord& record : band.lights) drawn.lights.push_back(without_images(record));
+    for (const raster::LightRecord& record : band.lights) forget_images_of(drawn.lights.emplace_back(record));
     traced.options = rays.options;
     traced.lights.resize(rays.lights.size());
     for (std::size_t i = 0; i < rays.lights.size(); ++i) traced.lights[i].light = rays.lights[i].light;
@@ -37,6 +35,15 @@ void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFra
     append_rows(lights[i].drawn, more[i].drawn, kept_);
     append_rows(lights[i].labels, more[i].labels, kept_);
     append_rows(lights[i].climbed, more[i].climbed, kept_);
+  }
+}
+
+void NearRows::forget_images() {
+  drawn.primitive = {};
+  traced.receiver = {};
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    forget_images_of(drawn.lights[i]);
+    lights[i] = {};
   }
 }
 

@@ -5,35 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "compare/image_rows.h"
 #include "compare/ladder.h"
-#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
-
-/// Puts rows under those that are there. `kept`: how many are there at most.
-template <class T>
-void append_rows(Image<T>& rows, const Image<T>& more, int kept) {
-  rows.data.reserve(ImageSize{more.size.width, kept + more.size.height}.pixels());
-  rows.size = {more.size.width, rows.size.height + more.size.height};
-  rows.data.insert(rows.data.end(), more.data.begin(), more.data.end());
-}
-
-template <class T>
-void drop_rows(Image<T>& rows, int count) {
-  if (rows.data.empty()) return;
-  rows.data.erase(rows.data.begin(), rows.data.begin() + static_cast<std::ptrdiff_t>(rows.index(0, count)));
-  rows.size.height -= count;
-}
-
-template <class T>
-Image<T> cut_rows(const Image<T>& rows, const PictureRows& wanted) {
-  Image<T> out;
-  if (rows.data.empty()) return out;
-  out.size = {rows.size.width, wanted.count};
-  const auto first = rows.data.begin() + static_cast<std::ptrdiff_t>(rows.index(0, wanted.first));
-  out.data.assign(first, first + static_cast<std::ptrdiff_t>(out.size.pixels()));
-  return out;
-}
 
 /// What a light's neighbouring pixels are asked for.
 struct NearLight {
@@ -45,13 +20,15 @@ class NearRows {
  public:
   /// `margin`: rows above and below those that are measured next. Some more stay until they are worth the moving of the
   /// others.
-  explicit NearRows(int margin) : spare_(std::min(margin, most_spare)), kept_(2 * margin + spare_) {}
+  explicit NearRows(int margin) : spare_(std::min(margin, most_spare_rows)), kept_(2 * margin + spare_) {}
 
   /// The band under those that are there. Of its frames only what is needed is kept.
   void add(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
            const std::vector<NearLight>& lights);
   /// The rows above this one of the picture are not needed any more.
   void forget_above(int row);
+  /// No row is needed any more: what is left of the frames is what they cost, and the maps.
+  void forget_images();
 
   int first() const { return first_; }  ///< of the picture: row 0 here
   int end() const { return first_ + drawn.primitive.size.height; }
@@ -63,7 +40,6 @@ class NearRows {
   std::vector<NearLight> lights;
 
  private:
-  static constexpr int most_spare = 256;  ///< rows
   int spare_, kept_, first_ = 0;
 };
 
