@@ -10,8 +10,8 @@
 #include "app/bench/row.h"
 #include "ball_light.h"
 #include "bench_scenes.h"
-#include "cpu_time.h"
 #include "embree_peer.h"
+#include "in_turn.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/single_rays.h"
@@ -38,23 +38,6 @@ struct Settings {
 
 std::string embree_settings(const Settings& settings) {
   return settings.target.empty() ? std::string() : instruction_sets().at(settings.target).embree;
-}
-
-template <class Pass>
-void time_pass(Times& times, int threads, const Pass& pass) {
-  const Stopwatch watch;
-  const double start = cpu_ms();
-  pass();
-  times.runs.push_back(threads == 1 ? cpu_ms() - start : watch.elapsed_ms());
-}
-
-/// Runs both in turn, `runs` times after a warm-up, and gives the median milliseconds of each.
-template <class Ours, class Theirs>
-std::pair<double, double> in_turn(int runs, int threads, const Ours& ours, const Theirs& theirs) {
-  Times a, b;
-  ours(), theirs();
-  for (int i = 0; i < runs; ++i) time_pass(a, threads, ours), time_pass(b, threads, theirs);
-  return {a.median(), b.median()};
 }
 
 class Bench {
