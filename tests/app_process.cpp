@@ -100,13 +100,7 @@ void interrupt_when_ready(pid_t process, int after_ms, int signal_number) {
   kill(process, signal_number);
 }
 
-/// Waits for the end. What the kernel knows of a process is there until it has been waited for.
 void take_end(pid_t process, ProcessResult& result) {
-  siginfo_t ended{};
-  waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT);
-  double ran_ns = 0.0, waited_ns = 0.0;
-  std::ifstream("/proc/" + std::to_string(process) + "/schedstat") >> ran_ns >> waited_ns;
-  result.waited_ms = waited_ns / 1e6;
   int status = 0;
   rusage used{};
   wait4(process, &status, 0, &used);

@@ -20,8 +20,6 @@ struct ProcessResult {
   int exit_code = -1;   ///< -1 when a signal ended it
   int signal = 0;       ///< that did
   double cpu_ms = 0.0;  ///< user and system time of all its threads, by the kernel's account
-  double waited_ms =
-      0.0;  ///< how long its first thread was ready and had no processor; 0 where the kernel does not say
   std::string out, err;
 };
 

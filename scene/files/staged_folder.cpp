@@ -51,12 +51,12 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
   bool held() const { return descriptor_ >= 0; }
+  /// The descriptor, which holds the lock until it is closed; -1 where none is held.
   int release() { return std::exchange(descriptor_, -1); }
 
  private:
   bool is_of(const fs::path& folder) const {
-    struct stat locked {
-    }, there{};
+    struct stat locked = {}, there = {};
     return ::fstat(descriptor_, &locked) == 0 && ::stat(folder.c_str(), &there) == 0 &&
            locked.st_dev == there.st_dev && locked.st_ino == there.st_ino;
   }

@@ -1,8 +1,8 @@
 // A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder
 // appears by one rename. Into one that exists its files move one by one, after all of them have reached the
 // disk; the last of them (the page) is taken away first and put back last, so that a folder which has it is
-// never a mixture; processes that come at the same time take turns. What else lies in the folder stays. Nobody waits until the disk has the new names too: after
-// a cut of power the folder is the old one or the new one.
+// never a mixture; processes that come at the same time take turns. What else lies in the folder stays. Nobody
+// waits until the disk has the new names too: after a cut of power the folder is the old one or the new one.
 #pragma once
 
 #include <span>
