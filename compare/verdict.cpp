@@ -11,6 +11,7 @@
 #include "compare/number_text.h"
 #include "compare/sweep/engine.h"
 #include "compare/text_layout.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -68,6 +69,24 @@ std::string uncertain_part(const PixelCounts& p) {
       p.uncertain == 1 ? "is" : "are");
 }
 
+// Most of the error is that a light with size was taken for its centre, and no filter makes up for most of that.
+bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
+  if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;
+  const double shrunk = light.budget[static_cast<std::size_t>(Cause::light_size)].absolute_mean;
+  const double error = light.error.mean_absolute;
+  return light.error.fractional > 0 && shrunk >= 0.5 * error && error >= 0.5 * shrunk;
+}
+
+std::string soft_technique_advice() {
+  std::string options;
+  for (const raster::TechniqueTraits& t : raster::all_technique_traits())
+    if (t.soft) options += fmt::format("{}--technique {}", options.empty() ? "" : " or ", t.name);
+  return "Most of the mean error is the light's size: the shadow that was drawn is that of its centre, which "
+         "no "
+         "bias changes. A technique for soft shadows draws its penumbra (" +
+         options + ").";
+}
+
 std::string error_part(const LightComparison& light) {
   return light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light);
 }
@@ -102,6 +121,8 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0) return {nothing_compared(light.pixels), {}};
   const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
   if (c.judged) return {joined_sentences({error, judged_advice(*c.judged, light)}), uncertain};
+  if (lacks_light_size(c.raster, light))
+    return {joined_sentences({error, soft_technique_advice()}), uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
   if (!biases_follow_from_gaps(c.raster)) return {error, uncertain};
   const BiasAdvice advice = bias_advice(light);

@@ -97,6 +97,7 @@ struct TechniqueTraits {
   ShadowTest test;
   LightTypeSet lights;  ///< those that it has a map for
   TexelShape texels;
+  bool soft;  ///< draws the penumbra of a light with size; others draw the shadow of its centre
   /// The slope bias where no bias is asked for and the filter has its default plane (default_bias()); without
   /// effect where the test is exact.
   double default_slope_bias;

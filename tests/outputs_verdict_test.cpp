@@ -187,6 +187,34 @@ TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
             "one half, all of them aliasing. No other constant bias does better.");
 }
 
+TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
+  Case c(5000, {0, 0, 0, 0, 0, 0, 0, 0, 100, 0});
+  c.light.error.fractional = 900;
+  c.light.error.mean_absolute = 0.03;
+  c.light.best_bias = {0.01, 0.01, false, 0.031, 0.012, 213, 97};
+  BudgetStep& size = c.light.budget[static_cast<std::size_t>(Cause::light_size)];
+  size.absolute_mean = 0.015;
+  const std::string advice =
+      "Most of the mean error is the light's size: the shadow that was drawn is that of its centre, which no "
+      "bias changes. A technique for soft shadows draws its penumbra (--technique pcss or --technique "
+      "hybrid).";
+  EXPECT_EQ(c.verdict(),
+            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
+            "one half, all of them light size. " +
+                advice);
+  raster::RasterFrame& drawn = c.made->comparison.raster;
+  drawn.options.map.technique = raster::Technique::pcss;
+  EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
+  drawn.options.map.technique = raster::Technique::pcf;  // whose biases do not follow from one drawing
+  EXPECT_NE(c.verdict().find(advice), std::string::npos) << c.verdict();
+  drawn.options.map.technique = raster::Technique::hard;
+  size.absolute_mean = 0.0149;
+  EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
+  EXPECT_NE(c.verdict().find("A constant bias of 0.01 world units"), std::string::npos) << c.verdict();
+  size.absolute_mean = 0.0601;  // a filter made up for more than half of it
+  EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
+}
+
 TEST(Verdict, CountsWhatIsUncertain) {
   Case c(5000, {});
   c.light.pixels.uncertain = 15000;
