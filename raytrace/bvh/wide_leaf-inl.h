@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "raytrace/bvh/wide_ray.h"
+#include "raytrace/mask_bits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -36,17 +37,6 @@ inline constexpr float inf = std::numeric_limits<float>::infinity();
 inline V all(float v) {
   return hn::Set(f, v);
 }
-template <class Tag, class Mask>
-HWY_INLINE unsigned bits_of(Tag tag, Mask mask) {
-  if constexpr (requires { requires std::is_integral_v<decltype(mask.raw)>; }) return mask.raw;
-  std::uint8_t bytes[8];
-  hn::StoreMaskBits(tag, mask, bytes);
-  if constexpr (hn::MaxLanes(tag) <= 8) return bytes[0];
-  std::uint16_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
-
 static_assert(leaf_lanes == node_lanes && leaf_corners < leaf_lanes);
 inline constexpr std::size_t leaf_steps = leaf_lanes / lanes;
 
@@ -164,7 +154,7 @@ struct LeafTest {
       const auto one_sign = [&](V error) {
         return hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
       };
-      unsigned left = present & bits_of(f, one_sign(coarse));
+      unsigned left = present & mask_bits(f, one_sign(coarse));
       if (left != 0) left = wanted(left << i * lanes) >> i * lanes;
       if (left == 0) continue;
       const V t0 = t.at(k.a), t1 = t.at(k.b), t2 = t.at(k.c);
@@ -180,11 +170,11 @@ struct LeafTest {
       const V depth = hn::Xor(sum, hn::And(det, all(-0.0f)));
       const auto in_range = hn::And(hn::Ge(depth, hn::MulSub(all(ray.t_min), size_of_det, depth_error)),
                                     hn::Le(depth, hn::MulAdd(all(ray.t_max), size_of_det, depth_error)));
-      left &= bits_of(f, hn::And(one_sign(error), in_range));
+      left &= mask_bits(f, hn::And(one_sign(error), in_range));
       if (left == 0) continue;
       candidates |= left << i * lanes;
       const auto is_sure = hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error)));
-      sure |= (left & bits_of(f, is_sure)) << i * lanes;
+      sure |= (left & mask_bits(f, is_sure)) << i * lanes;
       const V per_det = hn::Div(all(1.0f), size_of_det), middle = hn::Mul(depth, per_det);
       const V wider = hn::MulAdd(hn::Abs(middle), all(0x1p-20f), hn::Mul(depth_error, per_det));
       hn::Store(hn::IfThenElse(is_sure, hn::Sub(middle, wider), all(-inf)), f, below + i * lanes);
@@ -246,7 +236,7 @@ struct PlainTest {
                  hn::Gt(hn::Add(u, w), one));
       const M in_range = hn::And(hn::Ge(kernel_t, all(ray.t_min)), hn::Le(kernel_t, all(ray.t_max)));
       candidates |=
-          ((triangles.lanes() >> i * lanes) & bits_of(f, in_range) & ~bits_of(f, missed) & lane_bits)
+          ((triangles.lanes() >> i * lanes) & mask_bits(f, in_range) & ~mask_bits(f, missed) & lane_bits)
           << i * lanes;
       hn::Store(kernel_t, f, t + i * lanes);
     }

@@ -90,7 +90,7 @@ struct IntersectedChildren {
   unsigned bits;
   HWY_INLINE IntersectedChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
     intersect_boxes(node, ray, 0, all(t_max), near, far);
-    bits = bits_of(f, hn::Le(near, far));
+    bits = mask_bits(f, hn::Le(near, far));
   }
 
   /// All onto the stack, the nearest on top.
@@ -148,7 +148,7 @@ struct IntersectedChildren<false> {
       V in, out;
       intersect_boxes(node, ray, i, all(t_max), in, out);
       hn::Store(in, f, near + i);
-      bits |= bits_of(f, hn::Le(in, out)) << i;
+      bits |= mask_bits(f, hn::Le(in, out)) << i;
     }
   }
 
@@ -182,7 +182,7 @@ struct IntersectedChildren<false> {
         std::uint8_t hit_bits[8] = {};
         std::memcpy(hit_bits, &hit.bits, sizeof hit.bits);
         const auto is_hit = hn::VecFromMask(byte_lanes, hn::LoadMaskBits(byte_lanes, hit_bits));
-        left = bits_of(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, order)));
+        left = mask_bits(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, order)));
         hn::Store(order, byte_lanes, place);
       } else {
         for (std::size_t i = 0; i < node_lanes; ++i) {

@@ -59,7 +59,7 @@ HWY_INLINE unsigned intersected_children(const WideNode& node, const SpreadShaft
       else
         far = hn::Min(far, t);
     }
-    hit |= bits_of(f, hn::Le(near, far)) << i;
+    hit |= mask_bits(f, hn::Le(near, far)) << i;
   }
   return hit;
 }

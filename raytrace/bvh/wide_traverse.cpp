@@ -51,7 +51,7 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalL
     const auto widening = hn::Set(half, WideRay::widening);
     hn::Store(hn::Mul(inverse, widening), half, ray.far_inverse + i);
     hn::Store(hn::Mul(hn::Add(middle, slack), widening), half, ray.far + i);
-    const auto bits = [&](auto mask) { return bits_of(half, mask) << i; };
+    const auto bits = [&](auto mask) { return mask_bits(half, mask) << i; };
     good |=
         bits(hn::And(hn::Le(hn::Abs(o), hn::Set(half, 64.0f * r)), hn::Le(hn::Abs(v), hn::Set(half, 1.0f))));
     backwards |= bits(hn::Lt(inverse, hn::Zero(half)));

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstring>
 
+#include "raytrace/mask_bits-inl.h"
 #include "raytrace/packets/tile.h"
 #include "scene/camera.h"
 
@@ -29,9 +30,7 @@ inline V all(double v) {
   return hn::Set(d, v);
 }
 inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0];
+  return mask_bits(d, mask);
 }
 inline M mask_of(unsigned bits) {
   const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
@@ -103,9 +102,7 @@ struct PixelPlane {
 /// Those lanes that show a triangle.
 inline unsigned on_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
   constexpr hn::Rebind<std::uint32_t, D> ids;
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())), bytes);
-  return bytes[0];
+  return mask_bits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())));
 }
 
 /// The corners of as many pixels' triangles as there are lanes; often these are one and the same.

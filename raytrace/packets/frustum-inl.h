@@ -56,9 +56,7 @@ class Frustum {
       const auto order = along(node, 4, i);
       hn::Store(order, four, priority + i);
       const auto keep = hn::And(hn::Ge(least, hn::Zero(four)), hn::Ge(order, hn::Set(four, limit)));
-      std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(four, keep, bytes);
-      hit |= static_cast<unsigned>(bytes[0]) << i;
+      hit |= mask_bits(four, keep) << i;
     }
     return hit;
   }

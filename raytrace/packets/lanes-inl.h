@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 
+#include "raytrace/mask_bits-inl.h"
 #include "raytrace/packets/edge_setup_rows.h"
 #include "raytrace/packets/tile.h"
 
@@ -38,11 +39,7 @@ inline V all(float v) {
   return hn::Set(f, v);
 }
 inline unsigned bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(f, mask, bytes);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+  return mask_bits(f, mask);
 }
 inline M mask_of(unsigned bits) {
   std::uint8_t bytes[8] = {};

@@ -159,9 +159,7 @@ class Projection {
     bounds.v_min = hn::Sub(bounds.v_min, more), bounds.v_max = hn::Add(bounds.v_max, more);
     const V8 least = hn::MulAdd(margin, hn::Set(eight, least_per_margin_), hn::Set(eight, least_width_));
     const auto wide = hn::Gt(area, hn::Mul(size, least));
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(eight, hn::Not(wide), bytes);
-    return bytes[0];
+    return mask_bits(eight, hn::Not(wide));
   }
   BoxRef triangle_box(std::uint32_t leaf) const {
     const LeafPrimitive p = s_.bvh.primitive_at(leaf);

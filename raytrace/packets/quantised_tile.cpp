@@ -94,11 +94,7 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
   const std::uint32_t count = bvh.leaf_count();
   DraftLeft left{};
   Draft some(bvh, view, tile, draft);
-  const auto bits = [](auto mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(leaves, mask, bytes);
-    return static_cast<unsigned>(bytes[0]);
-  };
+  const auto bits = [](hn::Mask<Leaf> mask) { return mask_bits(leaves, mask); };
   for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);

@@ -1,0 +1,46 @@
+// A mask of lanes as the bits of a number.
+
+#if defined(GNOMON_RAYTRACE_MASK_BITS_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_MASK_BITS_INL_H_
+#undef GNOMON_RAYTRACE_MASK_BITS_INL_H_
+#else
+#define GNOMON_RAYTRACE_MASK_BITS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Bit i: lane i of at most 16; the bits above are 0.
+template <class D>
+HWY_INLINE unsigned mask_bits(D d, hn::Mask<D> mask) {
+  constexpr std::size_t lanes = hn::MaxLanes(d);
+  static_assert(lanes <= 16);
+  if constexpr (requires {
+                  requires std::is_integral_v<decltype(mask.raw)>;
+                }) {  // AVX-512's registers of masks
+    auto raw = mask.raw;
+    // GCC 12 may spill such a register by an instruction that stores its 8 or 16 bits, and read 32, of which the upper ones
+    // are anything: as the number that the mask was widened to lives in the same place. A mask that passes through a general
+    // register is widened there. tests/tools/mask_spills.py looks for such places in a program.
+    __asm__("" : "+r"(raw));
+    return raw & ((1u << lanes) - 1);
+  } else {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    std::uint16_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+  }
+}
+
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
