@@ -81,10 +81,10 @@ std::string soft_technique_advice() {
   std::string options;
   for (const raster::TechniqueTraits& t : raster::all_technique_traits())
     if (t.soft) options += fmt::format("{}--technique {}", options.empty() ? "" : " or ", t.name);
-  return "Most of the mean error is the light's size: the shadow that was drawn is that of its centre, which "
-         "no "
-         "bias changes. A technique for soft shadows draws its penumbra (" +
-         options + ").";
+  return fmt::format(
+      "Most of the mean error is the light's size: no bias gives the shadow of its centre a penumbra, a "
+      "technique for soft shadows does ({}).",
+      options);
 }
 
 std::string error_part(const LightComparison& light) {

@@ -195,9 +195,8 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
   BudgetStep& size = c.light.budget[static_cast<std::size_t>(Cause::light_size)];
   size.absolute_mean = 0.015;
   const std::string advice =
-      "Most of the mean error is the light's size: the shadow that was drawn is that of its centre, which no "
-      "bias changes. A technique for soft shadows draws its penumbra (--technique pcss or --technique "
-      "hybrid).";
+      "Most of the mean error is the light's size: no bias gives the shadow of its centre a penumbra, a "
+      "technique for soft shadows does (--technique pcss or --technique hybrid).";
   EXPECT_EQ(c.verdict(),
             "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
             "one half, all of them light size. " +

@@ -23,11 +23,7 @@ constexpr std::string_view band_stage = "rows kept";
 class BandedWork {
  public:
   BandedWork(const BandedInput& in, const raytrace::Topology& topology, BandedComparison& out)
-      : in_(in),
-        topology_(topology),
-        out_(out),
-        step_{image_step(size()), size().height},
-        near_(edge_margin) {
+      : in_(in), topology_(topology), out_(out), step_{image_step(size()), size().height} {
     for (std::size_t i = 0; i < in.lights.size(); ++i)
       measures_.emplace_back(in.folder, in.options.bias_curve_points, in.options.perceptual);
     classify_.resize(in.lights.size());

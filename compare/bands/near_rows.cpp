@@ -24,17 +24,17 @@ void NearRows::add(const raster::RasterFrame& band, const raytrace::RayTracedFra
     for (std::size_t i = 0; i < rays.lights.size(); ++i) traced.lights[i].light = rays.lights[i].light;
     lights.resize(more.size());
   }
-  append_rows(drawn.primitive, band.primitive, kept_);
-  append_rows(traced.receiver, rays.receiver, kept_);
+  append_rows(drawn.primitive, band.primitive, most_kept);
+  append_rows(traced.receiver, rays.receiver, most_kept);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     raster::LightRecord& record = drawn.lights[i];
-    append_rows(record.visibility, band.lights[i].visibility, kept_);
-    append_rows(record.texel_uv, band.lights[i].texel_uv, kept_);
-    append_rows(record.face, band.lights[i].face, kept_);
-    append_rows(lights[i].truth, more[i].truth, kept_);
-    append_rows(lights[i].drawn, more[i].drawn, kept_);
-    append_rows(lights[i].labels, more[i].labels, kept_);
-    append_rows(lights[i].climbed, more[i].climbed, kept_);
+    append_rows(record.visibility, band.lights[i].visibility, most_kept);
+    append_rows(record.texel_uv, band.lights[i].texel_uv, most_kept);
+    append_rows(record.face, band.lights[i].face, most_kept);
+    append_rows(lights[i].truth, more[i].truth, most_kept);
+    append_rows(lights[i].drawn, more[i].drawn, most_kept);
+    append_rows(lights[i].labels, more[i].labels, most_kept);
+    append_rows(lights[i].climbed, more[i].climbed, most_kept);
   }
 }
 
@@ -49,7 +49,7 @@ void NearRows::forget_images() {
 
 void NearRows::forget_above(int row) {
   const int count = row - first_;
-  if (count < spare_) return;
+  if (count < spare) return;
   first_ = row;
   drop_rows(drawn.primitive, count);
   drop_rows(traced.receiver, count);

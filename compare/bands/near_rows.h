@@ -1,10 +1,11 @@
 // The rows of a picture in bands that are at hand at a time: a window that moves down the picture, as high as what is
-// measured at a row hangs on rows above and below it.
+// measured at a row hangs on rows above and below it (edge_margin).
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "compare/edges.h"
 #include "compare/image_rows.h"
 #include "compare/ladder.h"
 
@@ -18,10 +19,6 @@ struct NearLight {
 
 class NearRows {
  public:
-  /// `margin`: rows above and below those that are measured next. Some more stay until they are worth the moving of the
-  /// others.
-  explicit NearRows(int margin) : spare_(std::min(margin, most_spare_rows)), kept_(2 * margin + spare_) {}
-
   /// The band under those that are there. Of its frames only what is needed is kept.
   void add(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
            const std::vector<NearLight>& lights);
@@ -40,7 +37,9 @@ class NearRows {
   std::vector<NearLight> lights;
 
  private:
-  int spare_, kept_, first_ = 0;
+  /// Rows that stay until they are worth the moving of the others, and the most that are at hand.
+  static constexpr int spare = std::min(edge_margin, most_spare_rows), most_kept = 2 * edge_margin + spare;
+  int first_ = 0;
 };
 
 }  // namespace gnomon::compare
