@@ -309,7 +309,7 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
   }
   const std::uint32_t material =
       part.primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(part.primitive.material);
-  mesh.triangle_materials.resize(mesh.triangles.size(), material);
+  extend_paged(mesh.triangle_materials, mesh.triangles.size() - mesh.triangle_materials.size(), material);
   return {};
 }
 
