@@ -107,12 +107,12 @@ std::string range_text(const BiasKind& kind) {
 }
 
 // Of all kinds the best.
-std::string best_kind(const LightComparison& light) {
+std::string best_kind(const LightComparison& light, const raster::MapOptions& drawn) {
   const BiasKind& best = light.bias_kinds.front();
   if (light.error.wrong == 0) return {};
   if (!is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
     return "No other kind of bias does clearly better.";
-  return fmt::format("{} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias),
+  return fmt::format("{} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias, drawn),
                      range_text(best), rest_text(best.wrong_fraction, light));
 }
 
@@ -147,10 +147,10 @@ std::string contradiction(const LightComparison& light) {
   return opposing_needs(light);
 }
 
-BiasAdvice bias_advice(const LightComparison& light) {
+BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn) {
   const std::string why = light.best_bias.feasible ? std::string() : contradiction(light);
   if (light.bias_kinds.empty()) return {constant_part(light), why};
-  return {best_kind(light), joined_sentences({constant_alone(light), why})};
+  return {best_kind(light, drawn), joined_sentences({constant_alone(light), why})};
 }
 
 }  // namespace gnomon::compare

@@ -12,7 +12,8 @@ struct BiasAdvice {
   std::string best;  ///< "A slope bias of 1 (--slope-bias 1) would leave 0.08 %."
   std::string more;  ///< what a constant alone would leave, and why none is right everywhere
 };
-BiasAdvice bias_advice(const LightComparison& light);
+/// `drawn`: the options that the light was drawn with.
+BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn);
 
 /// "No constant bias can be right everywhere: 213 lit pixels need 0.031 (2 texels) or more, …": of a light
 /// whose best bias is not feasible.

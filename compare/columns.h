@@ -22,19 +22,40 @@ struct TexelCentre {
 /// texel_ray(), but that of an orthographic map starts well before the near depth, which lies before all
 /// casters and is where its interval begins: no t is negative then, as single rays are traced fastest.
 Ray caster_ray(const LightView& view, int face, double u, double v);
+/// The hits along a ray, nearest first, of which closest(ray) finds one; until visit(hit) is false, and no more than 64,
+/// for what is looked for is among the first few or not at all. Exact arithmetic compares a hit's exact place with where
+/// the ray starts, and its t is rounded: a ray that starts just behind it may meet it again, and then starts farther on,
+/// by steps that double.
+template <class Closest, class Visit>
+void visit_hits(Ray ray, const Closest& closest, const Visit& visit) {
+  constexpr int most_hits = 64;
+  std::uint32_t last = no_id;
+  double step = 0.0;
+  for (int count = 0; count < most_hits;) {
+    const std::optional<raytrace::Hit> hit = closest(ray);
+    if (!hit) return;
+    if (hit->primitive == last && !(hit->t > ray.t.min)) {
+      ray.t.min += step, step *= 2.0;
+      continue;
+    }
+    if (!visit(*hit)) return;
+    ray.t.min = std::nextafter(hit->t, infinity);
+    ++count, last = hit->primitive, step = ray.t.min - hit->t;
+  }
+}
 /// The first hit along a ray, before t_end, that `wanted` holds of.
 template <class Wanted>
-std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, Ray ray, double t_end,
+std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, const Ray& ray, double t_end,
                                           const Wanted& wanted) {
-  // Deeper chains are not walked: what is looked for is among the first few or not at all.
-  constexpr int max_chain = 64;
-  for (int depth = 0; depth < max_chain; ++depth) {
-    const auto hit = tracer.closest_hit(ray);
-    if (!hit || !(hit->t < t_end)) return std::nullopt;
-    if (wanted(*hit)) return hit;
-    ray.t.min = std::nextafter(hit->t, infinity);
-  }
-  return std::nullopt;
+  std::optional<raytrace::Hit> found;
+  visit_hits(
+      ray, [&](const Ray& from) { return tracer.closest_hit(from); },
+      [&](const raytrace::Hit& hit) {
+        if (!(hit.t < t_end)) return false;
+        if (wanted(hit)) found = hit;
+        return !found.has_value();
+      });
+  return found;
 }
 
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);

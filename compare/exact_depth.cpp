@@ -20,8 +20,9 @@ std::optional<double> depth_of_stored(const LadderInput& in, raytrace::TexelKey 
   const std::uint32_t stored = map.primitive[map.texel_index(key.face(), key.column(), key.row())];
   if (stored == no_id) return std::nullopt;
   const Ray ray = caster_ray(map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
-  const auto met = first_on_ray(in.tracer, ray, infinity,
-                                [&](const raytrace::Hit& hit) { return hit.primitive == stored; });
+  const auto met = first_on_ray(in.tracer, ray, infinity, [&](const raytrace::Hit& hit) {
+    return hit.primitive == stored && is_stored_side(in, ray, hit);
+  });
   if (!met) return std::nullopt;
   return forward_depth(map.view, key.face(), ray.at(met->t));
 }
@@ -42,6 +43,13 @@ double gap_before_exact(const LadderInput& in, const BiasedLookup& lookup,
 }
 
 }  // namespace
+
+bool is_stored_side(const LadderInput& in, const Ray& ray, const raytrace::Hit& hit) {
+  const raster::Cull cull = in.drawn.options.map.cull;
+  if (cull == raster::Cull::none || in.world.is_triangle(hit.primitive)) return true;
+  const Vec3 outwards = geometric_normal(in.world, hit.primitive, ray.at(hit.t));
+  return (glm::dot(outwards, ray.direction) > 0.0) == (cull == raster::Cull::front);
+}
 
 double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t group, std::size_t pixel,
                      std::size_t& texel) {

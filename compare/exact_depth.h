@@ -13,6 +13,10 @@ inline bool is_exact(const LadderInput& input, double stored_depth, double exact
   return std::abs(stored_depth - exact_depth) <= input.record.rounding.float_world;
 }
 
+/// Whether a hit of a ray from the light is what the map's culling leaves in a texel that stores its primitive: a
+/// shape's two sides have one number.
+bool is_stored_side(const LadderInput& input, const Ray& ray, const raytrace::Hit& hit);
+
 /// The gap of rung V5, in double precision (biased_test.h). `group`: the pixel's; `lookup` receives the texel
 /// looked up.
 double gap_with_bias(const LowerClimb& lower, const LadderInput& input, std::size_t group, std::size_t pixel,

@@ -142,7 +142,8 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
   if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
     return flat;
   if (in.drawn.options.map.cull != raster::Cull::none &&
-      (!centre.hit || map.primitive[texel] != centre.hit->primitive))
+      (!centre.hit || map.primitive[texel] != centre.hit->primitive ||
+       !is_stored_side(in, centre.ray, *centre.hit)))
     return flat;
   const double stored = map.depth[texel];
   const double row = key.row();
@@ -238,15 +239,17 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
   return out;
 }
 
-// A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: all of
-// its rungs are what it drew.
+// A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: the rungs from
+// V1 on are what it drew. Under a light without size V1 to V3 are the truth, and rounding is what is left.
 Climb climb_without_map(const LadderInput& in, Climb out) {
   const Image<Label> climbed = labels_climbed(in, out.labels);
+  const bool sized = has_size(in.light);
+  const std::size_t first_drawn = sized ? 1 : 4;
   for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
     if (!is_compared(climbed.data[i])) continue;
-    const float drawn = in.record.visibility.data[i];
-    for (std::size_t k = 1; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
-    if (drawn_wrong(in, out, i)) out.labels.data[i] = Label::light_size;  // the only step left
+    for (std::size_t k = 0; k < rung_count; ++k)
+      out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record.visibility.data[i];
+    if (drawn_wrong(in, out, i)) out.labels.data[i] = sized ? Label::light_size : Label::precision;
   }
   return out;
 }

@@ -48,18 +48,22 @@ std::string_view cull_name(raster::Cull cull) {
   return "unknown";
 }
 
-std::string bias_arguments(const raster::Bias& bias) {
+std::string bias_arguments(const raster::Bias& bias, const raster::MapOptions& drawn) {
+  const bool asked = drawn.bias != raster::default_bias(drawn);  // then what is not needed is set back
   std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
-  if (bias.slope != 0.0) add(fmt::format("--slope-bias {}", bias.slope));
-  if (bias.normal_offset_texels != 0.0) add(fmt::format("--normal-offset {}", bias.normal_offset_texels));
-  if (bias.receiver_plane) add("--receiver-plane");
-  if (bias.adaptive) add("--adaptive-bias");
-  if (bias.unit != raster::BiasUnit::automatic)
-    add(fmt::format("--bias {}{}", bias.constant, bias.unit == raster::BiasUnit::texel ? "texel" : ""));
-  else if (text.empty())
-    add("--bias auto");
-  return text;
+  const auto add_number = [&](std::string_view option, double wanted, double before) {
+    if (wanted != 0.0 || (asked && before != 0.0)) text += fmt::format("--{} {} ", option, wanted);
+  };
+  const auto add_flag = [&](std::string_view option, bool wanted, bool before) {
+    if (wanted || (asked && before)) text += fmt::format("--{}{} ", option, wanted ? "" : "=false");
+  };
+  add_number("slope-bias", bias.slope, drawn.bias.slope);
+  add_number("normal-offset", bias.normal_offset_texels, drawn.bias.normal_offset_texels);
+  add_flag("receiver-plane", bias.receiver_plane, drawn.bias.receiver_plane);
+  add_flag("adaptive-bias", bias.adaptive, drawn.bias.adaptive);
+  if (bias.unit == raster::BiasUnit::automatic) return text + "--bias auto";
+  return text +
+         fmt::format("--bias {}{}", bias.constant, bias.unit == raster::BiasUnit::texel ? "texel" : "");
 }
 
 std::string_view program_version() {

@@ -13,8 +13,9 @@ std::string_view light_type_name(LightType type);                ///< "direction
 using raster::technique_name;                                    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
-/// "--slope-bias 1", "--receiver-plane --bias 0.002": what asks for a bias on the command line.
-std::string bias_arguments(const raster::Bias& bias);
+/// "--slope-bias 1 --bias auto", "--receiver-plane --bias 0.002": what asks for a bias on the command line in place of what
+/// asked for that of `drawn`. The automatic constant is asked for, too, because a scene or a lesson may ask for another.
+std::string bias_arguments(const raster::Bias& bias, const raster::MapOptions& drawn = {});
 /// "0.1.0", with the commit that the program was built from where that is known: "0.1.0+0123456789ab", and
 /// ".changed" after it where files differed from the commit.
 std::string_view program_version();

@@ -264,11 +264,11 @@ Json best_bias_json(const LightComparison& light) {
           {"shadowed_pixels_below", b.shadowed_pixels_below}};
 }
 
-Json bias_kinds_json(const LightComparison& light) {
+Json bias_kinds_json(const LightComparison& light, const raster::MapOptions& drawn) {
   Json json = Json::array();
   for (const BiasKind& kind : light.bias_kinds)
     json.push_back({{"kind", kind.name},
-                    {"options", bias_arguments(kind.bias)},
+                    {"options", bias_arguments(kind.bias, drawn)},
                     {"wrong_fraction", number(kind.wrong_fraction)},
                     {"range_of", kind.of_slope ? "slope" : "constant_world"},
                     {"from", number(kind.from)},
@@ -378,7 +378,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"bias_curve_withheld",
               light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
              {"best_bias", best_bias_json(light)},
-             {"bias_kinds", bias_kinds_json(light)},
+             {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
              {"engine_units", engine_units_json(engine_units(c, light))},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},

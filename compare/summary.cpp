@@ -172,10 +172,12 @@ void add_bleeding(Page& page, const Comparison& c, const LightComparison& light)
 
 // What the truth of a light with size is known by, and median widths across shadow edges.
 void add_penumbra(Page& page, const PenumbraStats& p, int samples) {
-  page.field("truth", fmt::format("{} of the light; where a part of it is seen its standard error is {}, at "
-                                  "most {}",
-                                  counted(static_cast<std::uint64_t>(samples), "sample"),
-                                  plain_number(p.standard_error_mean), plain_number(p.standard_error_max)));
+  const std::string error =
+      samples == 1 ? "how far off one is cannot be told"
+                   : fmt::format("where a part of it is seen its standard error is {}, at most {}",
+                                 plain_number(p.standard_error_mean), plain_number(p.standard_error_max));
+  page.field("truth", fmt::format("{} of the light; {}",
+                                  counted(static_cast<std::uint64_t>(samples), "sample"), error));
   if (p.edges == 0) return;
   page.field("penumbra",
              fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_penumbra_world),

@@ -69,12 +69,19 @@ std::string uncertain_part(const PixelCounts& p) {
       p.uncertain == 1 ? "is" : "are");
 }
 
-// Most of the error is that a light with size was taken for its centre, and no filter makes up for most of that.
+// Most of the error is that a light with size was taken for its centre: no filter makes up for most of that, and no other
+// step stands for more of the error, or for more of the wrong pixels.
 bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
   if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;
-  const double shrunk = light.budget[static_cast<std::size_t>(Cause::light_size)].absolute_mean;
-  const double error = light.error.mean_absolute;
-  return light.error.fractional > 0 && shrunk >= 0.5 * error && error >= 0.5 * shrunk;
+  const auto step = [&](Cause cause) { return light.budget[static_cast<std::size_t>(cause)]; };
+  const double shrunk = step(Cause::light_size).absolute_mean, error = light.error.mean_absolute;
+  if (light.error.fractional == 0 || shrunk < 0.5 * error || error < 0.5 * shrunk) return false;
+  const double biased =  // what the bias leaves of the map's acne, or adds
+      step(Cause::slope).signed_mean + step(Cause::precision).signed_mean + step(Cause::bias).signed_mean;
+  const double others =
+      std::max({step(Cause::filter).absolute_mean, step(Cause::sampling).absolute_mean, std::abs(biased)});
+  const std::uint64_t by_size = light.classes[static_cast<std::size_t>(Label::light_size) - 1];
+  return shrunk > others && by_size == *std::max_element(light.classes.begin(), light.classes.end());
 }
 
 std::string soft_technique_advice() {
@@ -125,7 +132,7 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
     return {joined_sentences({error, soft_technique_advice()}), uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
   if (!biases_follow_from_gaps(c.raster)) return {error, uncertain};
-  const BiasAdvice advice = bias_advice(light);
+  const BiasAdvice advice = bias_advice(light, c.raster.options.map);
   return {joined_sentences({error, advice.best}), joined_sentences({uncertain, advice.more})};
 }
 

@@ -63,9 +63,11 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-// The camera frustum down to `reach`, projected along the light and cut with the rectangle.
+// The camera frustum down to `reach`, projected along the light and cut with the rectangle; the whole rectangle where the
+// camera sees none of it.
 Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view,
                   double reach) {
+  if (!(reach > 0.0)) return rect;
   std::vector<Vec2> corners{Vec2(to_light_space(face, view.eye - reference))};
   for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
     const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;

@@ -105,7 +105,7 @@ TEST(Verdict, LeavesReasonsToItsDetail) {
   EXPECT_EQ(
       verdict.headline,
       "1.6 % of the lit-or-shadowed pixels are wrong, all of them acne. A slope bias of 1 (--slope-bias "
-      "1) would leave 1.0 %.");
+      "1 --bias auto) would leave 1.0 %.");
   EXPECT_EQ(
       verdict.detail,
       "100 more (0.1 %) are uncertain: the truth there lies within its own error bound. A constant bias "
@@ -192,6 +192,7 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
   c.light.error.fractional = 900;
   c.light.error.mean_absolute = 0.03;
   c.light.best_bias = {0.01, 0.01, false, 0.031, 0.012, 213, 97};
+  c.light.budget = {};
   BudgetStep& size = c.light.budget[static_cast<std::size_t>(Cause::light_size)];
   size.absolute_mean = 0.015;
   const std::string advice =
@@ -211,6 +212,14 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
   EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
   EXPECT_NE(c.verdict().find("A constant bias of 0.01 world units"), std::string::npos) << c.verdict();
   size.absolute_mean = 0.0601;  // a filter made up for more than half of it
+  EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
+  size.absolute_mean = 0.02;
+  BudgetStep& filter = c.light.budget[static_cast<std::size_t>(Cause::filter)];
+  filter.absolute_mean = 0.021;  // blurs more than the light does
+  EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
+  filter.absolute_mean = 0.019;
+  EXPECT_NE(c.verdict().find(advice), std::string::npos) << c.verdict();
+  c.light.classes[static_cast<std::size_t>(Label::blur) - 1] = 101;
   EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
 }
 

@@ -110,19 +110,18 @@ StoredSurface surface_of(const raytrace::Tracer& tracer, const raster::ShadowMap
   const double stored = map.depth[map.texel_index(face, column, row)];
   if (!holds_caster(map.view, stored)) return {};
   const double wanted = depth_from_stored(map.view, face, row + 0.5, stored);
-  Ray ray = caster_ray(map.view, face, column + 0.5, row + 0.5);
+  const Ray ray = caster_ray(map.view, face, column + 0.5, row + 0.5);
   const Vec3& forward = map.view.face(face).forward;
   StoredSurface best;
   double nearest = infinity;
-  constexpr int most_hits = 16;
-  for (int k = 0; k < most_hits; ++k) {
-    const auto hit = tracer.closest_seen(ray);
-    if (!hit) break;
-    const double off = std::abs(glm::dot(ray.at(hit->t) - map.view.origin, forward) - wanted);
-    if (off >= nearest) break;
-    nearest = off, best = {hit->primitive, k == 0};
-    ray.t.min = std::nextafter(hit->t, infinity);
-  }
+  visit_hits(
+      ray, [&](const Ray& from) { return tracer.closest_seen(from); },
+      [&](const raytrace::Hit& hit) {
+        const double off = std::abs(glm::dot(ray.at(hit.t) - map.view.origin, forward) - wanted);
+        if (off >= nearest) return false;
+        best = {hit.primitive, nearest == infinity}, nearest = off;
+        return true;
+      });
   return best;
 }
 

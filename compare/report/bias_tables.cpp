@@ -25,7 +25,8 @@ std::string bias_kinds_table(const LightBlock& b) {
     rows += fmt::format(
         R"(<tr><th scope="row">{}</th><td><code>{}</code></td><td class="n">{}</td><td>{}</td></tr>
 )",
-        kind.name, escaped(bias_arguments(kind.bias)), percent(kind.wrong_fraction), range_text(kind));
+        kind.name, escaped(bias_arguments(kind.bias, b.in.comparison.raster.options.map)),
+        percent(kind.wrong_fraction), range_text(kind));
   return R"(<h3>Which kind of bias</h3>
 <p>For each kind of bias the smallest setting that is hardly worse than the best of its kind. The numbers follow from
 this drawing's own map. A slope bias stands beside the automatic constant, every other kind with the constant that suits

@@ -111,6 +111,8 @@ std::string penumbra_facts(const LightBlock& b) {
   if (p.umbra_edges > 0)
     text += fact("Umbra", fact_value(b, "penumbra.drawn_umbra_world", p.drawn_umbra_world),
                  both("umbra", p.true_umbra_world, p.drawn_umbra_world, p.umbra_edges, "umbra_edges"));
+  if (true_record(b.in.comparison, b.light).samples == 1)
+    return text + fact("Standard error of the truth", "unknown", "of one sample it cannot be told");
   return text +
          fact("Standard error of the truth",
               fact_value(b, "penumbra.standard_error_mean", p.standard_error_mean),

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <numeric>
 #include <vector>
 
 #include "raytrace/shading/light_shaft.h"
@@ -90,11 +91,18 @@ double block_variance(std::span<const std::uint8_t> samples, std::span<const std
   return lit * (count - lit) / (count - 1.0);
 }
 
+double unstratified_standard_error(std::span<const std::uint8_t> samples) {
+  if (samples.size() < 2) return 0.0;
+  const auto count = static_cast<double>(samples.size());
+  const double share = std::accumulate(samples.begin(), samples.end(), 0.0) / count;
+  return std::sqrt(share * (1.0 - share) / (count - 1.0));
+}
+
 }  // namespace
 
 double stratified_standard_error(std::span<const std::uint8_t> samples) {
   const std::size_t count = samples.size();
-  if (count < 2) return 0.0;
+  if (count < 16) return unstratified_standard_error(samples);
   // Of 2^m points each cell of a grid with 2^ceil(m/2) rows holds one. Rows are numbered by the point's
   // lowest bits in reverse, columns by the others: these two bits step to the next row and to the next
   // column.

@@ -48,7 +48,8 @@ struct SampledVisibility {
 
 /// The standard error of the mean of stratified samples that are 0 or 1, in the order of StratifiedSquare:
 /// the points of four neighbouring strata (two by two) differ from the mean's trend by what one stratum's
-/// choice changes. Of one sample nothing can be told: 0.
+/// choice changes. Of fewer than 16 there are fewer than four such groups to tell by: the standard error of samples
+/// without strata, which is no smaller. Of one sample nothing can be told: 0.
 double stratified_standard_error(std::span<const std::uint8_t> samples);
 
 /// Any unmasked surface occludes, glass too.

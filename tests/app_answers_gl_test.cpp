@@ -1,0 +1,101 @@
+// What compare says of a scene holds where it is followed, and where it is asked in another way.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+/// Of the scene's only light what result.json says.
+nlohmann::json light_of(const Words& words) {
+  const TemporaryFolder folder;
+  const ProcessResult result =
+      run_gnomon(Words{"compare", "-o", folder / "out", "--runs", "1", "--quiet"} + words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return nlohmann::json::parse(read_file(folder / "out/result.json")).at("lights").at(0);
+}
+
+Words words_of(const std::string& text) {
+  std::istringstream in(text);
+  Words words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+// A lesson that sets a bias of its own, one that sets a slope, and a bias given in every way.
+TEST(Answers, EachKindOfBiasLeavesWhatItPromises) {
+  struct Case {
+    Words scene, bias;
+  };
+  const Case cases[] = {
+      {{"peter-panning"}, {}},
+      {{"precision"}, {}},
+      {{"fence"}, {"--slope-bias", "3", "--normal-offset", "2", "--receiver-plane", "--bias", "4texel"}}};
+  for (const Case& c : cases) {
+    const Words scene = c.scene + Words{"--size", "160x90", "--map-size", "256"};
+    const nlohmann::json kinds = light_of(scene + c.bias).at("bias_kinds");
+    ASSERT_GE(kinds.size(), 4u);
+    for (const nlohmann::json& kind : kinds) {
+      const auto options = kind.at("options").get<std::string>();
+      EXPECT_EQ(light_of(scene + words_of(options)).at("error").at("wrong_fraction"),
+                kind.at("wrong_fraction"))
+          << c.scene[0] << ": " << options;
+    }
+  }
+}
+
+// Exact arithmetic settles what is ambiguous. Where nothing is, what pixels are called is the same.
+TEST(Answers, ExactArithmeticChangesNoLabel) {
+  const Words fence = {"fence", "--size", "160x90"};
+  const nlohmann::json robust = light_of(fence), exact = light_of(fence + Words{"--precision", "exact"});
+  ASSERT_EQ(robust.at("pixels").at("uncertain"), 0);
+  EXPECT_GT(robust.at("classes").at("peter_panning"), 0);
+  EXPECT_EQ(exact.at("classes"), robust.at("classes"));
+}
+
+// Both sides of a shape have its number: the one that culling leaves is no matter of the stored depth's precision.
+TEST(Answers, CullingAShapesFrontIsNoMatterOfPrecision) {
+  for (const Words& culled : {Words{"--technique", "second-depth"}, Words{"--cull", "front"}}) {
+    const nlohmann::json light = light_of(Words{"shapes", "--size", "160x90"} + culled);
+    EXPECT_EQ(light.at("classes").at("precision"), 0) << culled[1];
+    for (const nlohmann::json& step : light.at("budget"))
+      if (step.at("cause") == "precision") {
+        EXPECT_LT(step.at("absolute"), 1e-3) << culled[1];
+      }
+  }
+}
+
+// The float truth is wrong somewhere, which the light's size cannot be the reason of.
+TEST(Answers, ALightWithoutSizeIsNoReason) {
+  for (const char* technique : {"hybrid", "izb"}) {
+    const nlohmann::json light =
+        light_of({"fence", "--size", "320x180", "--precision", "fast", "--technique", technique});
+    EXPECT_GT(light.at("error").at("wrong"), 0) << technique;
+    EXPECT_EQ(light.at("classes").at("light_size"), 0) << technique;
+    EXPECT_EQ(light.at("budget").at(0).at("absolute"), 0.0) << technique;
+  }
+}
+
+// The camera looks away from all there is: nothing is compared, and nothing is wrong with the scene.
+TEST(Answers, ACameraThatSeesNothing) {
+  const TemporaryFolder folder;
+  write_text(folder / "away.json", R"({"schema": "gnomon/scene/1",
+    "camera": {"eye": [4, 4, 8], "target": [8, 8, 16]},
+    "lights": [{"name": "sun", "type": "directional", "direction": [-1, -2, -0.5]}],
+    "materials": [{"name": "m"}],
+    "meshes": [{"name": "floor", "vertices": [[-5, 0, -5], [5, 0, -5], [5, 0, 5], [-5, 0, 5]],
+                "triangles": [[0, 2, 1], [0, 3, 2]]}],
+    "instances": [{"mesh": "floor", "material": "m"}]})");
+  for (const char* technique : {"hard", "csm", "lispsm", "izb", "hybrid"}) {
+    const nlohmann::json light =
+        light_of({folder / "away.json", "--size", "64x36", "--technique", technique});
+    EXPECT_EQ(light.at("pixels").at("compared"), 0) << technique;
+    EXPECT_EQ(light.at("pixels").at("background"), 64 * 36) << technique;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::app_test
