@@ -137,9 +137,9 @@ TEST(SolidsInScenes, AreRead) {
 }
 
 TEST(SolidsInScenes, OpenGlassIsNoted) {
-  const auto notes_of = [](const std::string& geometry) {
+  const auto notes_of = [](const std::string& geometry, const std::string& more = "") {
     const auto scene = load_json_scene(
-        R"({"schema": "gnomon/scene/1", "materials": [{"name": "m", "transmission": 1}],
+        R"({"schema": "gnomon/scene/1", "materials": [{"name": "m", "transmission": 1)" + more + R"(}],
             "camera": {"eye": [0,0,5], "target": [0,0,0]}, "lights": [{"type": "directional", "direction": [0,-1,0]}], )" +
             geometry + "}",
         "s.json", ".", {});
@@ -152,9 +152,12 @@ TEST(SolidsInScenes, OpenGlassIsNoted) {
   EXPECT_EQ(notes_of(R"("meshes": [{"name": "t", )" + tetrahedron + ",[0,3,2]]" + instance), "");
   EXPECT_EQ(notes_of(R"("meshes": [{"name": "t", )" + tetrahedron + "]" + instance),
             "The glass mesh 't' is not closed (3 open edges): it has no inside to refract in.");
-  EXPECT_EQ(notes_of(R"("shapes": [{"name": "pipe", "material": "m",
-              "cylinder": {"base": [0,0,0], "radius": 1, "height": 1, "closed": false}}])"),
-            "The glass shape 'pipe' is open: it has no inside to refract in.");
+  const std::string pipe = R"("shapes": [{"name": "pipe", "material": "m",
+              "cylinder": {"base": [0,0,0], "radius": 1, "height": 1, "closed": false}}])";
+  EXPECT_EQ(notes_of(pipe), "The glass shape 'pipe' is open: it has no inside to refract in.");
+  // A thin sheet refracts nothing, and needs no inside.
+  EXPECT_EQ(notes_of(R"("meshes": [{"name": "t", )" + tetrahedron + "]" + instance, R"(, "thin": true)"), "");
+  EXPECT_EQ(notes_of(pipe, R"(, "thin": true)"), "");
 }
 
 TEST(SolidsInScenes, MistakesAreOneLine) {

@@ -192,6 +192,7 @@ TEST_F(Gltf, MaterialsAreMappedAsDocumented) {
             {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}, {"metallicFactor", 0}}}});
   EXPECT_EQ(material_of(blended).transmission, 0.75f);
   EXPECT_TRUE(has_note(blended, "became a thin sheet with transmission 0.75"));
+  EXPECT_FALSE(has_note(blended, "no inside to refract in"));
 }
 
 TEST_F(Gltf, TexturesComeThroughOpenImageIO) {

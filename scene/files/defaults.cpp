@@ -180,9 +180,12 @@ Camera default_camera(const Scene& scene, const Aabb& bounds) {
   return camera;
 }
 
-// Glass needs an inside: an index of refraction on one side of it. Said once for each mesh.
+// Glass needs an inside: an index of refraction on one side of it. A thin sheet has none. Said once for each mesh.
 void note_open_glass(Scene& scene) {
-  const auto is_glass = [&](std::uint32_t material) { return scene.materials[material].transmission > 0.0f; };
+  const auto is_glass = [&](std::uint32_t material) {
+    const Material& m = scene.materials[material];
+    return m.transmission > 0.0f && !m.thin;
+  };
   std::vector<char> told(scene.meshes.size(), 0);
   for (const MeshInstance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
