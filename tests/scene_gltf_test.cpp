@@ -141,6 +141,29 @@ Material material_of(const Scene& s) {
   return s.materials[s.meshes[0].triangle_materials[0]];
 }
 
+TEST_F(Gltf, ConesThatAreChangedAreSaid) {
+  const auto notes_of = [this](double inner, double outer) {
+    Builder b = simple();
+    b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::array({{{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}}});
+    b.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    b.json["scenes"][0]["nodes"].push_back(b.json["nodes"].size() - 1);
+    std::string all;
+    for (const std::string& note : loaded(b).notes)
+      if (note.find("spot light") != std::string::npos) all += note;
+    return all;
+  };
+  EXPECT_EQ(notes_of(0.25, 0.5), "");
+  for (const double outer : {0.0, 1e-4})
+    EXPECT_EQ(notes_of(0.0, outer),
+              "The cone of a spot light was widened to half-angles of 0.000 and 0.057 degrees.");
+  EXPECT_EQ(notes_of(0.0, 1.5707963267948966),
+            "The cone of a spot light was narrowed to half-angles of 0.000 and 89.943 degrees.");
+  EXPECT_EQ(notes_of(0.5, 0.5),
+            "The inner cone of a spot light was narrowed to a half-angle of 28.642 degrees, within 28.648.");
+}
+
 TEST_F(Gltf, MaterialsAreMappedAsDocumented) {
   const auto with = [&](const Json& material) {
     Builder b = simple();

@@ -254,9 +254,19 @@ class SceneBuilder {
     light.outer_angle = std::clamp(from.spot.outerConeAngle, 1e-3, widest);
     light.inner_angle = std::max(0.0, from.spot.innerConeAngle);
     if (light.inner_angle >= light.outer_angle) light.inner_angle = std::max(0.0, light.outer_angle - 1e-4);
-    if (light.outer_angle != from.spot.outerConeAngle || light.inner_angle != from.spot.innerConeAngle)
-      note(fmt::format("The cone of a spot light was narrowed to half-angles of {:.3f} and {:.3f} degrees.",
-                       light.inner_angle * 180.0 / pi, light.outer_angle * 180.0 / pi));
+    note_cone(light, from.spot);
+  }
+
+  void note_cone(const Light& light, const tinygltf::SpotLight& from) {
+    const double inner = light.inner_angle * 180.0 / pi, outer = light.outer_angle * 180.0 / pi;
+    const auto changed = [](double to, double was) { return to > was ? "widened" : "narrowed"; };
+    if (light.outer_angle != from.outerConeAngle)
+      note(fmt::format("The cone of a spot light was {} to half-angles of {:.3f} and {:.3f} degrees.",
+                       changed(light.outer_angle, from.outerConeAngle), inner, outer));
+    else if (light.inner_angle != from.innerConeAngle)
+      note(fmt::format(
+          "The inner cone of a spot light was {} to a half-angle of {:.3f} degrees, within {:.3f}.",
+          changed(light.inner_angle, from.innerConeAngle), inner, outer));
   }
 
   std::string unique_name(const std::string& wanted) {
