@@ -81,20 +81,21 @@ std::string beside_text(const BiasKind& kind, const LightComparison& light) {
   return seen ? " with a constant of " + texels_text(texels) : std::string();
 }
 
+// "none" as an option says it: the text about --bias follows.
+std::string constant_subject(const raster::Bias& bias, const LightComparison& light) {
+  if (bias.constant == 0.0) return "No constant bias";
+  if (bias.unit == raster::BiasUnit::texel) return "A constant bias of " + texels_text(bias.constant);
+  return (is_tiny(light, bias.constant) ? "A constant bias of less than " : "A constant bias of ") +
+         bound_text(light, bias.constant);
+}
+
 std::string subject(const BiasKind& kind, const LightComparison& light) {
   if (kind.of_slope) return fmt::format("A slope bias of {}", plain_number(kind.bias.slope));
   if (kind.bias.receiver_plane) return "The receiver's plane" + beside_text(kind, light);
   if (kind.bias.adaptive) return "The adaptive bias" + beside_text(kind, light);
   if (kind.bias.normal_offset_texels != 0.0) return "A normal offset of one texel" + beside_text(kind, light);
-  switch (kind.bias.unit) {
-    case raster::BiasUnit::automatic:
-      return "A constant bias of no more than rounding needs";
-    case raster::BiasUnit::texel:
-      return "A constant bias of " + texels_text(kind.bias.constant);
-    case raster::BiasUnit::world:
-      break;
-  }
-  return "A constant bias of " + bound_text(light, kind.bias.constant);
+  if (kind.bias.unit == raster::BiasUnit::automatic) return "A constant bias of no more than rounding needs";
+  return constant_subject(kind.bias, light);
 }
 
 // Settings that do as well, where there is room beside the one named.

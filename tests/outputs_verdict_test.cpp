@@ -144,6 +144,25 @@ TEST(Verdict, NamesAConstantBesideAKindOfBias) {
       << c.verdict();
 }
 
+TEST(Verdict, CallsAConstantOfZeroNone) {
+  Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias.feasible = true;
+  BiasKind constant;
+  constant.name = "constant bias";
+  constant.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
+  constant.wrong_fraction = 0.01;
+  c.light.bias_kinds = {constant};
+  EXPECT_NE(c.verdict().find(" No constant bias (--bias 0) would leave 1.0 %."), std::string::npos)
+      << c.verdict();
+  c.light.bias_kinds[0].bias.unit = raster::BiasUnit::texel;
+  EXPECT_NE(c.verdict().find(" No constant bias (--bias 0texel) would leave 1.0 %."), std::string::npos)
+      << c.verdict();
+  c.light.bias_kinds[0].bias = {.constant = 1e-5, .unit = raster::BiasUnit::world};
+  EXPECT_NE(c.verdict().find(" A constant bias of less than a hundredth of a texel (--bias 1e-05) would"),
+            std::string::npos)
+      << c.verdict();
+}
+
 TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
