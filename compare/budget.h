@@ -36,6 +36,10 @@ ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, cons
 std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
                                           const Image<Label>& labels);
 
+/// For words: `sum`, or 0 where it is no more than what rounding leaves of it. `sizes`: what its terms add up to without
+/// their signs.
+double beyond_rounding(double sum, double sizes);
+
 /// A pixel that the sampling step made wrong and that is drawn right.
 bool is_accident(const std::array<float, rung_count>& rungs);
 RightByAccident count_accidents(const std::array<Image<float>, rung_count>& rungs,

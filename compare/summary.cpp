@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/budget.h"
 #include "compare/filter_parameters.h"
 #include "compare/judge/judged.h"
 #include "compare/number_text.h"
@@ -134,17 +135,17 @@ std::string seams_line(const SeamCount& seams) {
 // What each step took and what it added.
 std::string budget_line(const Comparison& c, const LightComparison& light) {
   std::string text;
-  double sum = 0.0;
+  double sum = 0.0, sizes = 0.0;
   for (std::size_t k = 0; k < cause_count; ++k) {
     const BudgetStep& step = light.budget[k];
-    sum += step.signed_mean;
+    sum += step.signed_mean, sizes += step.absolute_mean;
     if (!(step.absolute_mean > 0.0)) continue;
     text += spoken(step_name(c, static_cast<Cause>(k)));
     if (step.darkened() > 0.0) text += ' ' + signed_number(-step.darkened());
     if (step.lightened() > 0.0) text += ' ' + signed_number(step.lightened());
     text += ", ";
   }
-  return text + "sum " + signed_number(sum);
+  return text + "sum " + signed_number(beyond_rounding(sum, sizes));
 }
 
 std::string median_text(const Times& t) {

@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "compare/bands/bands.h"
+#include "compare/budget.h"
 #include "compare/csv_field.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
@@ -138,6 +139,43 @@ TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
   for (const char* part :
        {"the map: 12 ms", "exact shadows: 95 ms for 41,234 rays", "acne", "budget", "peak memory 188 MB"})
     EXPECT_NE(plain.find(part), std::string::npos) << part << "\n" << plain;
+}
+
+/// Steps that cancel out but for what adding them up leaves.
+void cancel_out(LightComparison& light) {
+  light.budget = {};
+  light.budget[1] = {.signed_mean = 0.1, .absolute_mean = 0.3};
+  light.budget[4] = {.signed_mean = 0.2, .absolute_mean = 0.2};
+  light.budget[5] = {.signed_mean = -0.3, .absolute_mean = 0.3};
+  light.rung_mean.fill(0.3);
+  light.rung_mean.back() = 0.1 + 0.2;
+}
+
+TEST(Summary, WritesNoFigureForTheRoundingOfSums) {
+  const auto made = make_synthetic();
+  LightComparison& light = made->comparison.lights[0];
+  cancel_out(light);
+  EXPECT_NE(light.rung_mean.back(), light.rung_mean.front());
+  EXPECT_NE(summary_table(made->comparison, false).find("sum 0\n"), std::string::npos)
+      << summary_table(made->comparison, false);
+  const std::string page = report_html(made->comparison).value(),
+                    sum = "<tr class=\"sum\"><th scope=\"row\">sum";
+  std::size_t at = 0, rows = 0;
+  for (; (at = page.find(sum, at)) != std::string::npos; ++at, ++rows)
+    EXPECT_NE(page.substr(at, page.find("</tr>", at) - at).find(">0</td>"), std::string::npos)
+        << page.substr(at, 400);
+  EXPECT_EQ(rows, 2u);
+  light.budget[5].signed_mean = -0.3 - 2e-9;  // half of a pixel of the largest picture
+  EXPECT_NE(summary_table(made->comparison, false).find("\u22120.000000002\n"), std::string::npos)
+      << summary_table(made->comparison, false);
+}
+
+TEST(Summary, NoStepIsTheRoundingOfItsOwnSum) {
+  EXPECT_EQ(beyond_rounding(1e-17, 0.25), 0.0);
+  EXPECT_EQ(beyond_rounding(-3e-12, 1.0), 0.0);
+  EXPECT_EQ(beyond_rounding(-1e-9, 1.0), -1e-9);
+  EXPECT_EQ(beyond_rounding(1e-17, 1e-17), 1e-17);
+  EXPECT_EQ(beyond_rounding(0.0, 0.0), 0.0);
 }
 
 TEST(TextLayout, WrapsAtSpacesAndCutsLongWords) {

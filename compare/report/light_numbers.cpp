@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compare/bias_advice.h"
+#include "compare/budget.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
@@ -25,7 +26,8 @@ std::string ladder_step(const LightBlock& b, std::size_t k) {
       lacks_map(b.in.comparison) && k == 1 ? "unexplained" : step_text(static_cast<Cause>(k)).name,
       keyed_decrease(b.key(fmt::format("budget.{}.darkened", k)), step.darkened()),
       keyed(b.key(fmt::format("budget.{}.lightened", k)), step.lightened(), signed_number(step.lightened())),
-      keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean, signed_number(step.signed_mean)),
+      keyed(b.key(fmt::format("budget.{}.signed", k)), step.signed_mean,
+            signed_number(beyond_rounding(step.signed_mean, step.absolute_mean))),
       keyed(b.key(fmt::format("budget.{}.absolute", k)), step.absolute_mean,
             unsigned_number(step.absolute_mean)));
 }
@@ -190,7 +192,7 @@ class="n">lighter</th><th scope="col" class="n">signed step</th>
 <th scope="col" class="n">absolute</th></tr></thead><tbody>
 {}<tr class="sum"><th scope="row">sum of the steps</th><td></td><td></td><td></td><td></td><td class="n">{}</td><td></td></tr>
 </tbody></table>)",
-      rows, signed_number(means.back() - means.front()));
+      rows, signed_number(beyond_rounding(means.back() - means.front(), means.back() + means.front())));
   return R"(<h3>The ladder, from the truth to what was drawn</h3>
 <p>Each rung changes one thing. The signed steps add up to the whole difference, exactly; an
 absolute step much larger than its signed one is error that cancels out on average, but not in the

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/bands/bands.h"
+#include "compare/budget.h"
 #include "compare/judge/judged.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
@@ -199,6 +200,7 @@ std::string budget_table(const Comparison& c, std::size_t index) {
                       static_cast<double>(light.error.missed_shadow) / compared};
   double scale = std::max({left.darker, left.lighter, 1e-9});
   for (const BudgetStep& step : light.budget) scale = std::max({scale, step.darkened(), step.lightened()});
+  const double last = light.rung_mean.back(), first = light.rung_mean.front();
   std::string rows;
   for (std::size_t k = 0; k < cause_count; ++k)
     if (light.budget[k].absolute_mean > 0.0 ||
@@ -209,7 +211,7 @@ std::string budget_table(const Comparison& c, std::size_t index) {
 scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>
 {}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td class="n" colspan="2">{}</td></tr></tbody></table>
 )",
-      rows, two_sided_bar({}, left, scale), signed_number(light.rung_mean.back() - light.rung_mean.front()));
+      rows, two_sided_bar({}, left, scale), signed_number(beyond_rounding(last - first, last + first)));
 }
 
 std::string verdict_block(const Verdict& verdict) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/budget.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/report/html.h"
@@ -37,7 +38,7 @@ std::string budget_table(const ShimmerLight& light, std::size_t i) {
         "class=\"n\">{}</td></tr>\n",
         label_swatch(k), spoken(flip_label_name(k)),
         keyed(key_of(i, fmt::format("budget.{}.signed", k)), mean(total.signed_sum[k], total),
-              signed_number(mean(total.signed_sum[k], total))),
+              signed_number(mean(beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total))),
         keyed(key_of(i, fmt::format("budget.{}.absolute", k)), mean(total.absolute_sum[k], total),
               unsigned_number(mean(total.absolute_sum[k], total))),
         keyed_count(key_of(i, fmt::format("by_label.{}", flip_label_name(k))), total.by_label[k]));
@@ -49,7 +50,7 @@ std::string budget_table(const ShimmerLight& light, std::size_t i) {
       "<tr><th scope=\"row\">sum</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
       "class=\"n\">{}</td></tr>\n",
       keyed(key_of(i, "error.signed"), mean(total.error_sum, total),
-            signed_number(mean(total.error_sum, total))),
+            signed_number(mean(beyond_rounding(total.error_sum, total.error_absolute_sum), total))),
       keyed(key_of(i, "error.absolute"), mean(total.error_absolute_sum, total),
             unsigned_number(mean(total.error_absolute_sum, total))),
       keyed_count(key_of(i, "flips"), total.flips));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/budget.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/shimmer/outputs.h"
@@ -26,9 +27,10 @@ std::string budget_rows(const TemporalSums& total) {
   std::string text = "  step          signed     absolute   flips\n";
   for (std::size_t k = 0; k < cause_count; ++k)
     text += fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", spoken(cause_name(static_cast<Cause>(k))),
-                        per_receiver(total.signed_sum[k], total), per_receiver(total.absolute_sum[k], total),
-                        grouped(total.by_label[k]));
-  text += fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", "sum", per_receiver(total.error_sum, total),
+                        per_receiver(beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total),
+                        per_receiver(total.absolute_sum[k], total), grouped(total.by_label[k]));
+  text += fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", "sum",
+                      per_receiver(beyond_rounding(total.error_sum, total.error_absolute_sum), total),
                       per_receiver(total.error_absolute_sum, total), grouped(total.flips));
   if (total.by_label[outside_map_flip] > 0)
     text +=
