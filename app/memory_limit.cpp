@@ -25,6 +25,15 @@ std::string text_of_bytes(double bytes) {
                      : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
+/// As --memory takes it, rounded up: in the largest unit of which it has ten, so that it is at most a tenth more.
+std::string option_text(double bytes) {
+  double value = std::ceil(bytes / 1024.0);
+  std::string_view units = "KMGT";
+  for (; value >= 10.0 * 1024.0 && units.size() > 1; units.remove_prefix(1))
+    value = std::ceil(value / 1024.0);
+  return fmt::format("{:.0f}{}", value, units.front());
+}
+
 /// A number alone in a file; infinite for "max", and where there is none.
 double number_in(const std::string& path) {
   double value = infinity;
@@ -89,7 +98,7 @@ void add_memory(CLI::App& command, MemoryLimit& bytes) {
       [&bytes](const std::string& text) -> Expected<void> {
         const Expected<double> value = parse_bytes(text);
         if (!value) return fail(value.error());
-        bytes = *value;
+        bytes = GivenBytes{*value, text};
         return {};
       });
 }
@@ -124,14 +133,13 @@ PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>&
 
 Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const ImageSize& size,
                                               const PictureBytes& bytes, std::size_t most_pixels) {
-  const double allowed = limit.value_or(default_memory());
+  const double allowed = limit ? limit->bytes : default_memory();
   const bool fits = bytes.of(size, size.height) <= allowed;
   if (fits && (most_pixels == 0 || size.pixels() <= most_pixels)) return bands_of(size, size.height);
   if (limit && bytes.of(size, band_step) > allowed)
-    return fail(
-        ErrorKind::graphics,
-        fmt::format("--memory: too little for a picture of {}x{} (got {}, allowed {} and more)", size.width,
-                    size.height, text_of_bytes(allowed), text_of_bytes(bytes.of(size, band_step))));
+    return fail(ErrorKind::graphics,
+                fmt::format("--memory: too little for a picture of {}x{} (got {}, allowed {} and more)",
+                            size.width, size.height, limit->text, option_text(bytes.of(size, band_step))));
   const double left = allowed - bytes.of(size, 0);
   double rows = fits ? size.height : left / ((bytes.band + bytes.soft) * size.width);
   if (most_pixels > 0) rows = std::min(rows, static_cast<double>(most_pixels) / size.width);

@@ -15,8 +15,12 @@ class App;
 
 namespace gnomon::app {
 
+struct GivenBytes {
+  double bytes = 0.0;
+  std::string text;  ///< as it was given
+};
 /// What --memory says; nothing: default_memory().
-using MemoryLimit = std::optional<double>;
+using MemoryLimit = std::optional<GivenBytes>;
 
 /// --memory.
 void add_memory(CLI::App& command, MemoryLimit& bytes);
@@ -50,7 +54,8 @@ PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>&
                            const ImageSize& size, bool page);
 
 /// The picture's bands, as large as the limit allows; one where it allows the whole. `most_pixels`: of a band, 0: any
-/// number. ErrorKind::graphics where it does not allow even the smallest, with what they need.
+/// number. ErrorKind::graphics where it does not allow even the smallest, with what they need, as
+/// --memory takes it.
 Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const ImageSize& size,
                                               const PictureBytes& bytes, std::size_t most_pixels = 0);
 

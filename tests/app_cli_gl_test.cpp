@@ -349,8 +349,22 @@ TEST(ExitCodes, APictureWhoseSmallestBandsAreTooLarge) {
   const ProcessResult result =
       run_gnomon({"compare", "acne-floor", "--size", "16384x16384", "--memory", "100M", "-q"},
                  {.folder = folder.path()});
-  expect_one_line(result, 5, "--memory: too little for a picture of 16384x16384 (got 105 MB, allowed ");
+  expect_one_line(result, 5, "--memory: too little for a picture of 16384x16384 (got 100M, allowed ");
   EXPECT_TRUE(folder.entries().empty());
+}
+
+// A limit that is too little is told by the user's own words, and the one that is told instead is enough.
+TEST(ExitCodes, TheMemoryThatIsAskedForSuffices) {
+  const TemporaryFolder folder;
+  const Words words{"raytrace", "fence", "--size", "2000x1000", "-o", "x.png"};
+  const ProcessResult refused =
+      run_gnomon(words + Words{"--memory", "1.5m", "-q"}, {.folder = folder.path()});
+  expect_one_line(refused, 5, "--memory: too little for a picture of 2000x1000 (got 1.5m, allowed ");
+  const std::size_t from = refused.err.find("allowed ") + 8, to = refused.err.find(" and more");
+  ASSERT_LT(from, to) << refused.err;
+  const std::string enough = refused.err.substr(from, to - from);
+  EXPECT_EQ(run_gnomon(words + Words{"--memory", enough, "-q"}, {.folder = folder.path()}).exit_code, 0)
+      << refused.err;
 }
 
 TEST(ExitCodes, Interrupted) {
