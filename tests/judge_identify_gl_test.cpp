@@ -2,6 +2,7 @@
 // Four settings by default; GNOMON_IDENTIFY=all in the environment tries 24 and prints what was found.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,20 @@ struct Found {
   bool size = false, bias = false, technique = false;
 };
 
+/// What the pictures alone decide does not depend on the map that is found below them.
+void expect_same_pictures(const compare::LightComparison& light, const compare::LightComparison& before) {
+  const compare::ErrorStats &now = light.error, &then = before.error;
+  EXPECT_TRUE(std::isfinite(then.flip));
+  EXPECT_EQ(now.flip, then.flip);
+  EXPECT_EQ(now.flip_compared, then.flip_compared);
+  EXPECT_EQ(now.ssim, then.ssim);
+  EXPECT_EQ(now.ssim_compared, then.ssim_compared);
+  EXPECT_EQ(now.wrong, then.wrong);
+  EXPECT_EQ(now.mean_absolute, then.mean_absolute);
+  EXPECT_EQ(light.pixels.compared, before.pixels.compared);
+  EXPECT_EQ(light.pixels.uncertain_by_samples, before.pixels.uncertain_by_samples);
+}
+
 Found identify_one(const std::string& name, const raster::MapOptions& map) {
   const Compared drawn = draw_builtin(name, picture, map);
   const raster::LightRecord& record = drawn.result.raster.lights[0];
@@ -33,6 +48,7 @@ Found identify_one(const std::string& name, const raster::MapOptions& map) {
   EXPECT_TRUE(context);
   auto renderer = raster::Renderer::create(std::move(*context), *judged.world, plan_effects(*judged.scene));
   EXPECT_TRUE(renderer);
+  const compare::LightComparison before = judged.result->lights[0];
   const auto done = compare::identify(*judged.result, **renderer, {});
   EXPECT_TRUE(done) << (done ? "" : done.error().message());
   if (!done) return {};
@@ -44,6 +60,7 @@ Found identify_one(const std::string& name, const raster::MapOptions& map) {
   const nlohmann::json json = nlohmann::json::parse(compare::result_json(*judged.result));
   EXPECT_EQ(json["lights"][0]["map"]["inferred"], true);
   const compare::LightComparison& light = judged.result->lights[0];
+  expect_same_pictures(light, before);
   double signed_sum = 0.0;
   for (const compare::BudgetStep& step : light.budget) signed_sum += step.signed_mean;
   EXPECT_NEAR(signed_sum, light.rung_mean[6] - light.rung_mean[0], 1e-9);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "compare/light_comparison.h"
+#include "compare/budget.h"
+#include "compare/labelling.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "scene/light.h"
@@ -242,7 +243,9 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
     const bool differs = std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
     if (is_wrong(light.labels.data[i]) && differs) light.labels.data[i] = Label::unexplained;
   }
-  measure_pixels(light);
+  // Other reasons for the same wrong pixels: what truth and picture alone decide, FLIP and SSIM among it, stays.
+  light.classes = count_classes(light.labels);
+  light.budget = add_up_budget(light.rungs, light.labels);
   return {};
 }
 
