@@ -64,6 +64,17 @@ TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
+TEST(Usage, ARefusedTechniqueIsNotCommentedOn) {
+  const TemporaryFolder folder;
+  expect_one_line(
+      run_gnomon(Words{"compare", "fence", "--technique", "cube"} + small, {.folder = folder.path()}), 2,
+      "technique cube: is made for point lights alone");
+  const ProcessResult made = run_gnomon(Words{"compare", "fence"} + small, {.folder = folder.path()});
+  EXPECT_NE(made.err.find("follows the camera by parts of a texel"), std::string::npos) << made.err;
+  EXPECT_NE(read_file(folder / "out/fence/result.json").find("follows the camera by parts"),
+            std::string::npos);
+}
+
 // --- Help
 // ----------------------------------------------------------------------------------------------------
 

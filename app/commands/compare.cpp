@@ -110,6 +110,16 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   return Compared{std::move(*comparison), nullptr};
 }
 
+/// Of maps that were made: for the page and the JSON, too.
+void note_swimming(const CompareCommand& command, const LoadedScene& loaded,
+                   const std::vector<std::uint32_t>& lights, Console& console) {
+  const raster::RasterOptions& raster = command.setting.options.raster;
+  std::string swims = swim_note(*loaded.world, raster.map, raster.size, lights);
+  if (swims.empty()) return;
+  console.note(swims);
+  loaded.scene->notes.push_back(std::move(swims));
+}
+
 /// What the page leaves out is said on it and in the JSON, too.
 void note_reduced_page(const CompareCommand& command, Scene& scene, Console& console) {
   const int step = compare::image_step(command.setting.options.raster.size);
@@ -129,17 +139,14 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
        idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
   const raster::RasterOptions& raster = command.setting.options.raster;
-  if (std::string swims = swim_note(*loaded.world, raster.map, raster.size, *lights); !swims.empty()) {
-    console.note(swims);
-    loaded.scene->notes.push_back(std::move(swims));  // for the page and the JSON
-  }
-  note_reduced_page(command, *loaded.scene, console);
   const double map_bytes = bytes_per_texel * std::pow(double(raster.map.size), 2.0);
   const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));
   const auto fits = check_memory(command.memory, raster.size, bytes, graphics_bytes + map_bytes);
   if (!fits) return fail(fits.error());
   auto compared = compare_picture(command, loaded, *lights, console);
   if (!compared) return compared;
+  note_swimming(command, loaded, *lights, console);
+  note_reduced_page(command, *loaded.scene, console);
   compare::Comparison& comparison = compared->comparison;
   const auto used = check_shaders_used(command.shader_folder, comparison.raster, *loaded.scene, console);
   if (!used) return fail(used.error());
