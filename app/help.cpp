@@ -30,13 +30,18 @@ std::string option_help(const CLI::Option& option) {
   return fmt::format("  {}\n{}", names, wrap(option.get_description(), text_indent, help_width));
 }
 
+/// "SCENE", "[SCENE]", "[CAPTURE...]".
+std::string usage_word(const CLI::Option& positional) {
+  const std::string name = positional.get_name(true) + (positional.get_items_expected_max() > 1 ? "..." : "");
+  return positional.get_required() ? name : "[" + name + "]";
+}
+
 std::string command_help(const CLI::App& command) {
-  std::string positionals, options;
+  std::string positionals, options, usage = "gnomon " + command.get_name();
   for (const CLI::Option* option : command.get_options()) {
     (option->get_positional() ? positionals : options) += option_help(*option);
+    if (option->get_positional()) usage += " " + usage_word(*option);
   }
-  std::string usage = "gnomon " + command.get_name();
-  if (!positionals.empty()) usage += " SCENE";
   return fmt::format("{}\n{}\nUsage: {} [OPTIONS]\n{}{}\nOptions:\n{}",
                      wrap(command.get_description(), 0, help_width), examples(command), usage,
                      positionals.empty() ? "" : "\n", positionals, options);

@@ -149,7 +149,39 @@ Expected<void> set_settings(Capture& capture, const std::vector<std::string>& se
   return {};
 }
 
+std::string first_bias_option(const CaptureOptions& o) {
+  return o.bias_constant ? "--map-bias" : o.bias_slope ? "--map-slope-bias" : "--map-normal-offset";
+}
+
+/// "--depth-near" of "depth.near", "--map-rows" of "map[0].rows"; empty of what no option gives.
+std::string option_of(const std::string& field, const CaptureOptions& o) {
+  static constexpr std::string_view same[] = {"renderer",   "scene",    "camera",     "light",    "size",
+                                              "visibility", "shadowed", "unshadowed", "position", "depth"};
+  if (std::find(std::begin(same), std::end(same), field) != std::end(same)) return "--" + field;
+  if (field == "bias") return first_bias_option(o);
+  if (field == "filter") return o.filter_kind ? "--map-filter" : "--map-filter-radius";
+  const std::size_t dot = field.find('.');
+  if (dot == std::string::npos) return field.starts_with("map") ? "--map" : "";
+  const std::string part = field.substr(dot + 1);
+  if (field.starts_with("depth.")) return part == "file" ? "--depth" : "--depth-" + part;
+  if (!field.starts_with("map[")) return {};
+  return part == "depth" ? "--map" : part == "clip_from_world" ? "--map-matrix" : "--map-" + part;
+}
+
 }  // namespace
+
+Error named_by_option(Error error, const CaptureOptions& options) {
+  const std::string option = option_of(error.field, options);
+  if (option.empty()) return error;
+  error.file.clear();
+  error.field = option;
+  return error;
+}
+
+Error usage_error(Error error, const CaptureOptions& options) {
+  error.kind = ErrorKind::usage;
+  return named_by_option(std::move(error), options);
+}
 
 void add_capture_options(CLI::App& app, CaptureOptions& o) {
   Capture& c = o.given;

@@ -50,6 +50,19 @@ TEST(Usage, MissingAndSuperfluousWords) {
   EXPECT_EQ(run_gnomon({}).exit_code, 2);
 }
 
+TEST(Usage, WhatOptionsLeaveOutOfACaptureIsNamedAsAnOption) {
+  const Words scene{"judge", "--scene", "fence"}, renderer{"--renderer", "mine"}, size{"--size", "64x36"};
+  expect_one_line(run_gnomon(scene + size), 2, "gnomon: --renderer: is missing");
+  expect_one_line(run_gnomon(scene + renderer), 2, "gnomon: --size: is missing");
+  const Words all = scene + renderer + size;
+  expect_one_line(run_gnomon(all), 2, "--visibility: is missing, and so are shadowed and unshadowed");
+  const Words seen = all + Words{"--visibility", "v.exr"};
+  expect_one_line(run_gnomon(seen + Words{"--map-bias", "1"}), 2, "--map-bias: says nothing without map");
+  expect_one_line(run_gnomon(seen + Words{"--map-normal-offset", "1"}), 2, "--map-normal-offset: says");
+  expect_one_line(run_gnomon(seen + Words{"--depth-near", "1"}), 2, "--depth: is missing");
+  expect_one_line(run_gnomon(seen + Words{"--map", "m.exr"}), 2, "--map-convention: is missing");
+}
+
 TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
   expect_one_line(run_gnomon({"raytrace", "fence", "--map-size", "64"}), 2, "unknown option --map-size");
   expect_one_line(run_gnomon({"raster", "fence", "--accel", "bvh"}), 2, "unknown option --accel");
@@ -112,6 +125,18 @@ TEST(Help, EveryOptionSaysItsDefaultAndNoLineIsTooLong) {
       EXPECT_NE(option.find('['), std::string::npos) << command << ":" << option;
     }
   }
+}
+
+TEST(Help, UsageNamesWhatTheCommandTakes) {
+  const std::pair<const char*, const char*> usages[] = {
+      {"compare", " SCENE "},  {"judge", " [CAPTURE...] "}, {"grade", " [RUBRIC] [STUDENTS...] "},
+      {"merge", " SHARD... "}, {"export", " [SCENE] "},     {"scenes", " "}};
+  for (const auto& [command, words] : usages) {
+    const std::string help = run_gnomon({command, "--help"}).out;
+    EXPECT_NE(help.find(std::string("Usage: gnomon ") + command + words + "[OPTIONS]\n"), std::string::npos)
+        << help;
+  }
+  EXPECT_NE(run_gnomon({"judge", "--help"}).out.find("\n  CAPTURE\n"), std::string::npos);
 }
 
 TEST(Help, UnitsAreNamed) {

@@ -48,7 +48,8 @@ Expected<compare::Capture> capture_of(const JudgeCommand& command, const std::st
   }
   auto whole = with_options(std::move(capture), command.parts);
   if (!whole) return whole;
-  if (const auto sound = compare::check_capture(*whole); !sound) return fail(sound.error());
+  if (const auto sound = compare::check_capture(*whole); !sound)
+    return fail(whole->path.empty() ? usage_error(sound.error(), command.parts) : sound.error());
   return whole;
 }
 
@@ -75,7 +76,9 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
   auto comparison =
       compare::judge_capture(capture, *out.loaded.scene, *out.loaded.world, command.options,
                              [&](std::string_view stage, double done) { console.progress(stage, done); });
-  if (!comparison) return fail(comparison.error());
+  if (!comparison)
+    return fail(capture.path.empty() ? named_by_option(comparison.error(), command.parts)
+                                     : comparison.error());
   out.comparison = std::move(*comparison);
   if (command.identify)
     if (const auto done = identify_map(command, out, console); !done) return fail(done.error());
@@ -201,7 +204,7 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option("capture", command.captures,
+  app.add_option("CAPTURE", command.captures,
                  "captures (gnomon/capture/1, docs/judge.md) [may be left out where the options say it all]")
       ->type_name("CAPTURE.json");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
