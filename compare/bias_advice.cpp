@@ -81,7 +81,7 @@ std::string beside_text(const BiasKind& kind, const LightComparison& light) {
   return seen ? " with a constant of " + texels_text(texels) : std::string();
 }
 
-// "none" as an option says it: the text about --bias follows.
+// "A constant bias of 0.5 texel"; one of 0 is none.
 std::string constant_subject(const raster::Bias& bias, const LightComparison& light) {
   if (bias.constant == 0.0) return "No constant bias";
   if (bias.unit == raster::BiasUnit::texel) return "A constant bias of " + texels_text(bias.constant);
