@@ -25,7 +25,8 @@ Words words_of(const std::string& text) {
   return words;
 }
 
-// A lesson that sets a bias of its own, one that sets a slope, and a bias given in every way.
+// A lesson that sets a bias of its own, one that sets a slope, and a bias given in every way. A driver's floats may part
+// from the doubles that the promise is made from in one pixel of a thousand (BiasKinds.AreWhatTheyDraw).
 TEST(Answers, EachKindOfBiasLeavesWhatItPromises) {
   struct Case {
     Words scene, bias;
@@ -40,8 +41,8 @@ TEST(Answers, EachKindOfBiasLeavesWhatItPromises) {
     ASSERT_GE(kinds.size(), 4u);
     for (const nlohmann::json& kind : kinds) {
       const auto options = kind.at("options").get<std::string>();
-      EXPECT_EQ(light_of(scene + words_of(options)).at("error").at("wrong_fraction"),
-                kind.at("wrong_fraction"))
+      EXPECT_NEAR(light_of(scene + words_of(options)).at("error").at("wrong_fraction").get<double>(),
+                  kind.at("wrong_fraction").get<double>(), 1e-3)
           << c.scene[0] << ": " << options;
     }
   }
