@@ -77,6 +77,18 @@ TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
+TEST(Usage, AMissingTextureBesideAModelInTheWorkingFolderIsANote) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mtl", "newmtl m\nmap_Kd missing.png\n");
+  write_text(folder / "m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProcessResult made =
+      run_gnomon({"raytrace", "m.obj", "--size", "8x8", "-o", "m.png"}, {.folder = folder.path()});
+  EXPECT_EQ(made.exit_code, 0);
+  EXPECT_NE(made.err.find("the texture missing.png is not there; its plain colour is used"),
+            std::string::npos)
+      << made.err;
+}
+
 TEST(Usage, ARefusedTechniqueIsNotCommentedOn) {
   const TemporaryFolder folder;
   expect_one_line(

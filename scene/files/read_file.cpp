@@ -59,10 +59,12 @@ Expected<std::string> resolve_path(const std::string& folder, const std::string&
   if (options.files != nullptr) options.files->push_back(joined.string());
   if (!options.confine_paths) return joined.string();
   std::error_code error;
+  // A file that is not there has a canonical path only from its absolute one.
+  const auto real = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
   const std::string& top = options.root.empty() ? folder : options.root;
-  const fs::path root = fs::weakly_canonical(top.empty() ? "." : top, error);
-  const fs::path real = fs::weakly_canonical(joined, error);
-  const fs::path relative = real.lexically_relative(root);
+  const fs::path relative = real(joined).lexically_relative(real(top.empty() ? "." : top));
   if (error || relative.empty() || *relative.begin() == "..")
     return fail(ErrorKind::bad_input,
                 fmt::format("the file is outside the scene's folder (got \"{}\", allowed "
