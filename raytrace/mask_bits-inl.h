@@ -27,9 +27,9 @@ HWY_INLINE unsigned mask_bits(D d, hn::Mask<D> mask) {
                   requires std::is_integral_v<decltype(mask.raw)>;
                 }) {  // AVX-512's registers of masks
     auto raw = mask.raw;
-    // GCC 12 may spill such a register by an instruction that stores its 8 or 16 bits, and read 32, of which the upper ones
-    // are anything: as the number that the mask was widened to lives in the same place. A mask that passes through a general
-    // register is widened there. tests/tools/mask_spills.py looks for such places in a program.
+    // GCC 12 may store such a register on the stack by an instruction that writes its 8 or 16 bits, and read 32 from there
+    // as the number that the mask was widened to: the upper bits are then whatever stood there before. A mask that passes
+    // through a general register is widened in it. tests/tools/mask_spills.py looks for such places in a program.
     __asm__("" : "+r"(raw));
     return raw & ((1u << lanes) - 1);
   } else {
