@@ -55,10 +55,12 @@ std::string fractional_part(const LightComparison& light) {
       fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}; ",
                   percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s");
   if (wrong == 0) return lead + "none of them is wrong by more than one half.";
-  const bool few = light.error.wrong_fraction < few_fraction;
+  // Without those that are off by exactly one half, of which the figure of the error counts half.
+  const double share = static_cast<double>(wrong) / static_cast<double>(compared);
+  const bool few = share < few_fraction;
   return lead + fmt::format("{} of them {} wrong by more than one half, {}.",
-                            few ? grouped(wrong) : percent(light.error.wrong_fraction),
-                            few && wrong == 1 ? "is" : "are", main_reasons(light));
+                            few ? grouped(wrong) : percent(share), few && wrong == 1 ? "is" : "are",
+                            main_reasons(light));
 }
 
 std::string uncertain_part(const PixelCounts& p) {

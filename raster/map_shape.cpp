@@ -13,6 +13,18 @@ bool has_map_for(Technique technique, LightType type) {
   return traits_of(technique).lights.has(type);
 }
 
+namespace {
+
+/// "hard, pcf, ...": the techniques that have a map for such lights.
+std::string techniques_for(LightType type) {
+  std::string text;
+  for (const TechniqueTraits& t : all_technique_traits())
+    if (t.lights.has(type)) text += fmt::format("{}{}", text.empty() ? "" : ", ", t.name);
+  return text;
+}
+
+}  // namespace
+
 Expected<void> check_light(Technique technique, const Light& light) {
   if (has_map_for(technique, light.type)) return {};
   constexpr std::string_view types[] = {"directional", "point", "spot"};
@@ -21,7 +33,7 @@ Expected<void> check_light(Technique technique, const Light& light) {
               fmt::format("is made for {} lights alone (got the {} light {}, allowed there {}); --light "
                           "chooses one",
                           cube ? "point" : "directional", types[static_cast<std::size_t>(light.type)],
-                          light.name, cube ? "hard, pcf, izb" : "hard, pcf, cube (point lights), izb")};
+                          light.name, techniques_for(light.type))};
   error.field = fmt::format("technique {}", technique_name(technique));
   return fail(std::move(error));
 }

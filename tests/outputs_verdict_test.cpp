@@ -204,6 +204,10 @@ TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
   EXPECT_EQ(soft.verdict(),
             "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
             "one half, all of them aliasing. No other constant bias does better.");
+  soft.light.error.ties = 50,
+  soft.light.error.wrong_fraction = 0.025;  // no more than one half, and not among them
+  EXPECT_NE(soft.verdict().find("; 2.0 % of them are wrong by more than one half"), std::string::npos)
+      << soft.verdict();
 }
 
 TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
