@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -100,6 +101,13 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
 ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
   ExitCode code = ExitCode::done;
   if (!output.fail_above) return code;
+  // One of several lights may face away from all that is seen.
+  const auto nothing = [](const compare::LightComparison& light) { return light.pixels.compared == 0; };
+  if (std::all_of(comparison.lights.begin(), comparison.lights.end(), nothing)) {
+    console.message("no pixel could be compared, so nothing holds against --fail-above " +
+                    compare::threshold_text(*output.fail_above));
+    return ExitCode::threshold_exceeded;
+  }
   for (const compare::LightComparison& light : comparison.lights)
     if (!passes(*output.fail_above, comparison.world->scene->lights[light.light].name,
                 compare::figures_of(light), console))

@@ -55,9 +55,15 @@ std::string need_of_shadowed(const LightComparison& light) {
                      said ? "" : " than " + bound);
 }
 
-std::string opposing_needs(const LightComparison& light) {
-  return fmt::format("No constant bias can be right everywhere: {}{}.", need_of_lit(light),
-                     need_of_shadowed(light));
+// What the drawing has beside its constant, with which every other constant is tried: " beside the slope bias of 1".
+std::string beside_drawn(const raster::Bias& drawn) {
+  const bool offset = drawn.normal_offset_texels != 0.0;
+  const int parts = int{drawn.slope != 0.0} + int{offset} + int{drawn.receiver_plane} + int{drawn.adaptive};
+  if (parts == 0) return {};
+  if (parts > 1) return " beside the other parts of the bias";
+  if (drawn.slope != 0.0) return fmt::format(" beside the slope bias of {}", plain_number(drawn.slope));
+  if (offset) return " beside the normal offset of " + texels_text(drawn.normal_offset_texels);
+  return drawn.receiver_plane ? " beside the receiver's plane" : " beside the adaptive bias";
 }
 
 // "none", "7 of them", "0.8 %".
@@ -90,6 +96,7 @@ std::string constant_subject(const raster::Bias& bias, const LightComparison& li
 }
 
 std::string subject(const BiasKind& kind, const LightComparison& light) {
+  if (kind.of_slope && kind.bias.slope == 0.0) return "No slope bias";
   if (kind.of_slope) return fmt::format("A slope bias of {}", plain_number(kind.bias.slope));
   if (kind.bias.receiver_plane) return "The receiver's plane" + beside_text(kind, light);
   if (kind.bias.adaptive) return "The adaptive bias" + beside_text(kind, light);
@@ -142,14 +149,15 @@ std::string constant_part(const LightComparison& light) {
 
 }  // namespace
 
-std::string contradiction(const LightComparison& light) {
+std::string contradiction(const LightComparison& light, const raster::Bias& drawn) {
   if (light.best_bias.needs_less_than == -infinity)
     return "No constant bias can be right everywhere: some shadowed pixels find no caster stored in the map.";
-  return opposing_needs(light);
+  const std::string needs = need_of_lit(light) + need_of_shadowed(light);
+  return fmt::format("No constant bias{} can be right everywhere: {}.", beside_drawn(drawn), needs);
 }
 
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn) {
-  const std::string why = light.best_bias.feasible ? std::string() : contradiction(light);
+  const std::string why = light.best_bias.feasible ? std::string() : contradiction(light, drawn.bias);
   if (light.bias_kinds.empty()) return {constant_part(light), why};
   return {best_kind(light, drawn), joined_sentences({constant_alone(light), why})};
 }

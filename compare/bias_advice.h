@@ -15,8 +15,8 @@ struct BiasAdvice {
 /// `drawn`: the options that the light was drawn with.
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn);
 
-/// "No constant bias can be right everywhere: 213 lit pixels need 0.031 (2 texels) or more, …": of a light
-/// whose best bias is not feasible.
-std::string contradiction(const LightComparison& light);
+/// "No constant bias beside the slope bias of 1 can be right everywhere: 213 lit pixels need at least 2 texels and …": of
+/// a light whose best bias is not feasible. `drawn`: the bias that it was drawn with.
+std::string contradiction(const LightComparison& light, const raster::Bias& drawn);
 
 }  // namespace gnomon::compare

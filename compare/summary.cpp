@@ -230,7 +230,7 @@ void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& lig
 // What does not hang on the machine.
 std::string work_line(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
-  std::string text = counted(c.raster.map_texels, "texel") + " drawn";
+  std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
   if (light.lookups)
     text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
                         plain_number(static_cast<double>(*light.lookups) /

@@ -95,6 +95,7 @@ struct LightRecord {
   /// what the technique makes of it (blur, mipmaps ...).
   /// shade_pass: the camera's visibility buffer and this light's shading of every pixel.
   Times map_pass, shade_pass;
+  std::uint64_t map_texels = 0;  ///< texels rendered for this light, blur and the like included
   /// RasterOptions::shadow_cost: run by run beside shade_pass, the same shading by a shader that looks nothing
   /// up and takes every receiver for lit. What shade_pass takes beyond it is the shadows'.
   Times unshadowed_pass;

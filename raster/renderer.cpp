@@ -76,7 +76,9 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
     const auto found = std::find(lights.begin(), lights.end(), light);
     LightRecord* record =
         found == lights.end() ? nullptr : &job.frame.lights[static_cast<std::size_t>(found - lights.begin())];
+    const std::uint64_t texels_before = job.frame.map_texels;
     if (auto ok = draw_light(job, light, record); !ok) return fail(ok.error());
+    if (record != nullptr) record->map_texels = job.frame.map_texels - texels_before;
   }
   if (scene.lights.empty()) {
     if (auto ok = shade_without_light(job); !ok) return fail(ok.error());

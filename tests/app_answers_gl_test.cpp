@@ -80,22 +80,47 @@ TEST(Answers, ALightWithoutSizeIsNoReason) {
   }
 }
 
-// The camera looks away from all there is: nothing is compared, and nothing is wrong with the scene.
-TEST(Answers, ACameraThatSeesNothing) {
-  const TemporaryFolder folder;
-  write_text(folder / "away.json", R"({"schema": "gnomon/scene/1",
+constexpr const char* looks_away = R"({"schema": "gnomon/scene/1",
     "camera": {"eye": [4, 4, 8], "target": [8, 8, 16]},
     "lights": [{"name": "sun", "type": "directional", "direction": [-1, -2, -0.5]}],
     "materials": [{"name": "m"}],
     "meshes": [{"name": "floor", "vertices": [[-5, 0, -5], [5, 0, -5], [5, 0, 5], [-5, 0, 5]],
                 "triangles": [[0, 2, 1], [0, 3, 2]]}],
-    "instances": [{"mesh": "floor", "material": "m"}]})");
+    "instances": [{"mesh": "floor", "material": "m"}]})";
+
+// The camera looks away from all there is: nothing is compared, and nothing is wrong with the scene.
+TEST(Answers, ACameraThatSeesNothing) {
+  const TemporaryFolder folder;
+  write_text(folder / "away.json", looks_away);
   for (const char* technique : {"hard", "csm", "lispsm", "izb", "hybrid"}) {
     const nlohmann::json light =
         light_of({folder / "away.json", "--size", "64x36", "--technique", technique});
     EXPECT_EQ(light.at("pixels").at("compared"), 0) << technique;
     EXPECT_EQ(light.at("pixels").at("background"), 64 * 36) << technique;
   }
+}
+
+// Who asks for a limit wants to know that it was kept.
+TEST(Answers, ALimitIsNotKeptWhereNothingIsCompared) {
+  const TemporaryFolder folder;
+  write_text(folder / "away.json", looks_away);
+  const Words away = {"compare", folder / "away.json", "--size", "64x36", "-o", folder / "out", "--quiet"};
+  EXPECT_EQ(run_gnomon(away).exit_code, 0);
+  const ProcessResult result = run_gnomon(away + Words{"--fail-above", "1%"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("no pixel could be compared, so nothing holds against --fail-above 1%"),
+            std::string::npos)
+      << result.err;
+}
+
+// A sun's map is one picture, a point light's six: each light's work is its own.
+TEST(Answers, TheWorkOfALightIsThatOfItsOwnMap) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_gnomon({"compare", "courtyard", "--size", "64x36", "--map-size", "128",
+                                           "--runs", "1", "--no-report", "-o", folder / "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find(" 16,384 texels drawn"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" 98,304 texels drawn"), std::string::npos) << result.out;
 }
 
 }  // namespace

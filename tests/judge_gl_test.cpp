@@ -1,5 +1,8 @@
 // gnomon judge on captures that Gnomon made of its own pictures: with the map the same ladder, right ones pass,
 // each wrong convention is named, bad ones are refused in one line.
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +15,7 @@
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 #include "support/capture_support.h"
+#include "support/small_scenes.h"
 #include "tests/json_schema_check.h"
 #include "tests/support/places.h"
 
@@ -219,15 +223,7 @@ const std::vector<Convention>& conventions() {
        }},
       {"z-up", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, z, -y)); }},
       {"left-handed", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, y, -z)); }},
-      {"centimetres", {}, [](Capture& c, const Compared&) { map_places(c, Mat3(100.0)); }},
-      {"shines the other way", {.positions = true}, [](Capture& c, const Compared& d) {
-         c = drawn_otherwise(d, "light",
-                             [&](Scene& s) {
-                               Light& light = s.lights[d.light().light];
-                               light.direction = -light.direction;
-                             },
-                             {});
-       }}};
+      {"centimetres", {}, [](Capture& c, const Compared&) { map_places(c, Mat3(100.0)); }}};
   return all;
 }
 
@@ -260,6 +256,83 @@ INSTANTIATE_TEST_SUITE_P(OnScenes, JudgeConventions,
                          testing::ValuesIn(try_all()
                                                ? std::vector<const char*>{"courtyard", "fence", "teapot"}
                                                : std::vector<const char*>{"teapot"}));
+
+/// The picture as it is under the sun turned round.
+Capture drawn_with_light_turned(const Compared& drawn) {
+  return drawn_otherwise(drawn, "light",
+                         [&](Scene& scene) {
+                           Light& light = scene.lights[drawn.light().light];
+                           light.direction = -light.direction;
+                         },
+                         {});
+}
+
+JudgeOutcome judge_mending(const Capture& capture, const Scene& scene) {
+  compare::JudgeOptions fixing;
+  fixing.fix = true;
+  return judge(capture, scene, fixing);
+}
+
+// Two boxes without a floor, seen from the side: whichever way the sun shines, it lights some of what is seen, and one
+// box shadows the other.
+TEST(JudgeAlignment, MendsALightThatShinesTheOtherWay) {
+  Scene boxes = sunlit_scene(
+      {box_mesh({-1.2, -0.2, -0.9}, {-0.2, 1.2, 0.9}), box_mesh({0.3, 0.1, -0.4}, {1.1, 0.9, 0.4})},
+      {1.0, -0.3, -0.2});
+  boxes.camera = {.eye = {3.0, 2.5, 3.0}, .target = {0.0, 0.5, 0.0}, .vertical_fov = 0.7};
+  const Compared drawn = draw_scene(boxes, small_picture, hard_map(256));
+  const Capture capture = drawn_with_light_turned(drawn);
+  EXPECT_NE(reason(judge(capture, boxes)).find("shines the other way"), std::string::npos);
+  const JudgeOutcome mended = judge_mending(capture, boxes);
+  ASSERT_TRUE(mended.result) << reason(mended);
+  ASSERT_EQ(mended.result->judged->mended.size(), 1U);
+  const compare::LightComparison& light = mended.result->lights[0];
+  EXPECT_GT(light.pixels.compared, 300U);
+  EXPECT_GT(light.rung_mean[0], 0.1);
+  EXPECT_LT(light.error.wrong_fraction, 0.05);
+}
+
+// From below a floor the sun lights nothing, and a black picture says nothing of its shadows.
+TEST(JudgeAlignment, LeavesALightThatWouldLightNothing) {
+  const Compared drawn = draw_builtin("teapot", small_picture, hard_map(256));
+  const Capture turned = drawn_with_light_turned(drawn);
+  Capture black = self_capture(drawn, folder_for("black"), {});
+  spoil(black.visibility, [](ChannelImage& image) {
+    std::fill(image.channels[0].values.begin(), image.channels[0].values.end(), 0.0f);
+  });
+  for (const Capture& capture : {turned, black}) {
+    const JudgeOutcome outcome = judge_mending(capture, *drawn.scene);
+    EXPECT_FALSE(outcome.result);
+    EXPECT_NE(reason(outcome).find("the light shines the other way"), std::string::npos) << reason(outcome);
+    EXPECT_NE(reason(outcome).find("then the light reaches nothing that the picture shows"),
+              std::string::npos)
+        << reason(outcome);
+  }
+}
+
+/// What is said of a capture that is judged.
+std::string notes_of(const Capture& capture, const Scene& scene) {
+  const JudgeOutcome outcome = judge(capture, scene);
+  if (!outcome.result) return reason(outcome);
+  return fmt::format("{}", fmt::join(outcome.result->judged->notes, "\n"));
+}
+
+// Shadows that are some pixels off may be wrong ones: with nothing else in the capture nobody can tell.
+TEST(JudgeAlignment, SaysWhenShadowsAloneTellTooLittle) {
+  const Compared drawn = draw_builtin("teapot", small_picture, hard_map(256));
+  const auto shifted = [](ChannelImage& image) {
+    std::vector<float>& values = image.channels[0].values;
+    std::rotate(values.begin(), values.begin() + 6, values.end());
+  };
+  const std::string note = "whether the rest are wrong or the picture is some pixels off";
+  for (const bool positions : {false, true}) {
+    Capture capture = self_capture(drawn, folder_for("shifted"), {.positions = positions});
+    EXPECT_EQ(notes_of(capture, *drawn.scene), "");
+    spoil(capture.visibility, shifted);
+    EXPECT_EQ(notes_of(capture, *drawn.scene).find(note) != std::string::npos, !positions)
+        << notes_of(capture, *drawn.scene);
+  }
+}
 
 TEST(JudgeAlignment, DoesNotSuspectRightCaptures) {
   int judged = 0;

@@ -39,6 +39,7 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
 
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.made->comparison.raster.options.map.bias.slope = 0.0;
   c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
   EXPECT_EQ(c.verdict(),
             "4.1 % of the lit-or-shadowed pixels are wrong, all of them acne. No other "
@@ -68,6 +69,22 @@ TEST(Verdict, SaysWhenNoBiasCanBeRight) {
       << c.verdict();
   c.light.best_bias.needs_less_than = -infinity;
   EXPECT_NE(c.verdict().find("some shadowed pixels find no caster stored in the map."), std::string::npos);
+}
+
+// The constants are tried with what else the drawing's bias has.
+TEST(Verdict, SaysBesideWhatNoConstantCanBeRight) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
+  const std::pair<raster::Bias, std::string> cases[] = {
+      {{.slope = 1.5}, "No constant bias beside the slope bias of 1.5 can be right everywhere: 213 lit"},
+      {{.normal_offset_texels = 2.0}, "No constant bias beside the normal offset of 2 texels can be"},
+      {{.receiver_plane = true}, "No constant bias beside the receiver's plane can be"},
+      {{.adaptive = true}, "No constant bias beside the adaptive bias can be"},
+      {{.slope = 1.0, .receiver_plane = true}, "No constant bias beside the other parts of the bias can be"}};
+  for (const auto& [bias, words] : cases) {
+    c.made->comparison.raster.options.map.bias = bias;
+    EXPECT_NE(c.verdict().find(words), std::string::npos) << c.verdict();
+  }
 }
 
 TEST(Verdict, OffersNoBiasWhoseGainNoFigureShows) {
@@ -109,8 +126,9 @@ TEST(Verdict, LeavesReasonsToItsDetail) {
   EXPECT_EQ(
       verdict.detail,
       "100 more (0.1 %) are uncertain: the truth there lies within its own error bound. A constant bias "
-      "alone would leave 1.6 % at best. No constant bias can be right everywhere: 213 lit pixels need at "
-      "least 2.5 texels and 97 shadowed pixels need less than 0.96 texel.");
+      "alone would leave 1.6 % at best. No constant bias beside the slope bias of 1 can be right "
+      "everywhere: 213 lit pixels need at least 2.5 texels and 97 shadowed pixels need less than 0.96 "
+      "texel.");
 }
 
 TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {

@@ -11,8 +11,9 @@ namespace {
 /// Right captures agree on more than 0.98 of each (the rest are a rasterizer's own pixels along edges); half a
 /// pixel off leaves 0.7 to 0.85 of the silhouettes and none of the positions.
 constexpr double least_geometry = 0.93;
-/// A suspect must agree clearly better, and undo most of what did not agree.
-constexpr double least_gain = 0.03, most_left = 0.5;
+/// A suspect must agree clearly better, and undo most of what did not agree; more of it where shadows alone tell, since
+/// a picture that is some pixels off agrees a little better under many a wrong view.
+constexpr double least_gain = 0.03, most_left = 0.5, most_left_alone = 1.0 / 3.0;
 /// Of shadows: above it nobody is suspected; below it nothing can be told from chance.
 constexpr double good_shadows = 0.95, no_shadows = 0.6;
 constexpr std::size_t few_samples = 50;
@@ -21,8 +22,8 @@ std::string hundredths_of_percent(double share) {
   return fmt::format("{:.2f} %", 100.0 * share);
 }
 
-bool mends(double before, double after) {
-  return after > before + least_gain && 1.0 - after < most_left * (1.0 - before);
+bool mends(double before, double after, double left = most_left) {
+  return after > before + least_gain && 1.0 - after < left * (1.0 - before);
 }
 
 std::optional<double> share_of(const Evidence& evidence, bool geometric) {
@@ -35,6 +36,7 @@ std::optional<double> share_of(const Evidence& evidence, bool geometric) {
 struct Found {
   Suspect suspect;
   double share = 0.0, tie = 0.0;
+  std::size_t lit = 0;  // samples
 };
 
 /// The suspect that agrees best; of alike ones the one whose shadows do.
@@ -48,7 +50,8 @@ std::optional<Found> best_suspect(const EvidenceInput& in, const Samples& sample
     if (!share) continue;
     const double tie = evidence.visibility.value_or(0.0);
     const bool alike = best && std::abs(*share - best->share) < 0.002;
-    if (!best || (alike ? tie > best->tie + 0.002 : *share > best->share)) best = Found{suspect, *share, tie};
+    if (!best || (alike ? tie > best->tie + 0.002 : *share > best->share))
+      best = Found{suspect, *share, tie, evidence.lit};
   }
   return best;
 }
@@ -90,6 +93,8 @@ class Aligner {
   Expected<void> check_shadows();
   Expected<void> check_encoding();
   Expected<void> mend(const Mended& mended, const Suspect* suspect);
+  Expected<void> mend_shadows(const Found& found, double before);
+  Expected<void> doubt_shadows(double share, bool alone);
 
   const AlignInput& in_;
   Scene& scene_;
@@ -143,22 +148,47 @@ Expected<void> Aligner::check_geometry() {
                   best ? hundredths_of_percent(best->share) : "-"));
 }
 
+/// Where the light, turned, lights nothing, the picture is as dark as any picture without light.
+Expected<void> Aligner::mend_shadows(const Found& found, double before) {
+  const Mended mended{found.suspect.what, "shadows", before, found.share};
+  if (found.lit >= few_samples) return mend(mended, &found.suspect);
+  return capture_error(
+      in_.capture, "",
+      fmt::format(
+          "{}: {} of the shadows agree, with that undone {}; but then the light reaches nothing that the "
+          "picture shows, and nothing is left to judge",
+          mended.what, hundredths_of_percent(mended.before), hundredths_of_percent(mended.after)));
+}
+
+/// Shadows that agree badly, and no suspect that mends it: bad shadows, or those of something else.
+Expected<void> Aligner::doubt_shadows(double share, bool alone) {
+  if (share >= no_shadows) {
+    if (alone)
+      judged_.notes.push_back(fmt::format(
+          "{} of the shadows agree with the truth; whether the rest are wrong or the picture is some "
+          "pixels off, shadows alone cannot tell (positions or depths in the capture can)",
+          hundredths_of_percent(share)));
+    return {};
+  }
+  const std::string words = fmt::format(
+      "the shadows agree with the truth no better than chance would ({}), and no usual difference "
+      "of conventions mends that",
+      hundredths_of_percent(share));
+  if (alone) return capture_error(in_.capture, "", words + ": is it this scene, camera and light?");
+  judged_.notes.push_back(words);
+  return {};
+}
+
 Expected<void> Aligner::check_shadows() {
   const Evidence now = gather(input(), samples_, {});
   if (!now.visibility || now.lit < few_samples || now.shadowed < few_samples) return {};
   if (*now.visibility >= good_shadows) return {};
   const bool alone = !now.geometry();
   const auto best = best_suspect(input(), samples_, suspects_, false, alone);
-  if (best && best->share > no_shadows + least_gain && mends(*now.visibility, best->share))
-    return mend({best->suspect.what, "shadows", *now.visibility, best->share}, &best->suspect);
-  if (*now.visibility >= no_shadows) return {};
-  const std::string words = fmt::format(
-      "the shadows agree with the truth no better than chance would ({}), and no usual difference "
-      "of conventions mends that",
-      hundredths_of_percent(*now.visibility));
-  if (alone) return capture_error(in_.capture, "", words + ": is it this scene, camera and light?");
-  judged_.notes.push_back(words);
-  return {};
+  if (best && best->share > no_shadows + least_gain &&
+      mends(*now.visibility, best->share, alone ? most_left_alone : most_left))
+    return mend_shadows(*best, *now.visibility);
+  return doubt_shadows(*now.visibility, alone);
 }
 
 Expected<void> Aligner::check_encoding() {

@@ -49,7 +49,7 @@ The best is {}{}, which leaves {} wrong.)",
       texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
       keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
   if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
-  return text + " " + escaped(contradiction(b.light));
+  return text + " " + escaped(contradiction(b.light, drawn));
 }
 
 std::string fact(std::string_view name, const std::string& value, const std::string& what) {

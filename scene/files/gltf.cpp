@@ -1,6 +1,6 @@
-// glTF 2.0 and GLB: checked by gltf_check, parsed by tinygltf, brought into the scene model here. One
-// instance for each node with a mesh, or as many as EXT_mesh_gpu_instancing says; lights by KHR_lights_punctual in their own units (lux, candela); the
-// first perspective camera.
+// glTF 2.0 and GLB: checked by gltf_check, parsed by tinygltf, brought into the scene model here. One instance for each
+// node with a mesh, or as many as EXT_mesh_gpu_instancing says; lights by KHR_lights_punctual in their own units (lux,
+// candela); the first perspective camera.
 #include <fmt/format.h>
 
 #include <exception>
@@ -11,6 +11,7 @@
 #include <set>
 
 #include "scene/files/defaults.h"
+#include "scene/files/flat_mesh.h"
 #include "scene/files/formats.h"
 #include "scene/files/gltf_check.h"
 #include "scene/files/gltf_data.h"
@@ -60,7 +61,7 @@ class SceneBuilder {
       if (const auto visited = visit_from(root); !visited) return visited;
     if (orthographic_) note("An orthographic camera was skipped: only perspective is supported.");
     if (flattened_ > 0)
-      note(fmt::format("{} node(s) that flatten their mesh to nothing (a scale of 0) were skipped.",
+      note(fmt::format("{} node(s) that leave a line or a point of their mesh (scales of 0) were skipped.",
                        flattened_));
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
@@ -175,9 +176,20 @@ class SceneBuilder {
 
   void add_instance(const std::string& name, std::uint32_t mesh, const Mat4& world) {
     if (is_singular(Mat3(world)))
-      ++flattened_;
+      add_sheet(name, mesh, world);
     else
       scene_.instances.push_back({name, mesh, world, 0});
+  }
+
+  /// A transform without inverse: a mesh of its own.
+  void add_sheet(const std::string& name, std::uint32_t mesh, const Mat4& world) {
+    Mesh sheet = flattened(scene_.meshes[mesh], world);
+    if (sheet.triangles.empty()) {
+      ++flattened_;
+      return;
+    }
+    scene_.instances.push_back({name, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), 0});
+    scene_.meshes.push_back(std::move(sheet));
   }
 
   Expected<void> add_instances(const std::string& name, std::uint32_t mesh, const Mat4& world,

@@ -1,6 +1,7 @@
 #include "scene/files/gltf_meshes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tiny_gltf.h>
 
 #include <atomic>
@@ -189,6 +190,7 @@ void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
 void GltfMeshReader::add_colors(Mesh& mesh, const Part& part) {
   const int index = attribute(part.primitive, "COLOR_0");
   if (index < 0) return;
+  if (part.primitive.material >= 0) coloured_.insert(static_cast<std::uint32_t>(part.primitive.material));
   mesh.colors.resize(part.first + part.count, Vec4f(1.0f));
   const GltfAccessor from = accessor(index);
   std::atomic<std::size_t> bad = 0;
@@ -322,6 +324,14 @@ void GltfMeshReader::add_notes(Scene& scene) const {
   if (bad_attributes_ > 0)
     note(fmt::format("{} normals, texture coordinates or colours are not finite and count as missing.",
                      bad_attributes_));
+  // They are times the diffuse colour, which a metal has none of.
+  std::vector<std::string> metals;
+  for (const std::uint32_t index : coloured_)
+    if (const Material& m = scene.materials[index]; m.diffuse == Vec3f(0.0f) && m.specular != Vec3f(0.0f))
+      metals.push_back(m.name);
+  if (!metals.empty())
+    note(fmt::format("The vertices' colours of metals are not used (material{} {}).",
+                     metals.size() > 1 ? "s" : "", fmt::join(metals, ", ")));
   if (lost_vertices_ > 0)
     note(fmt::format("{} vertices at the ends of triangle lists do not make a triangle.", lost_vertices_));
   if (unbound_ > 0)

@@ -2,6 +2,7 @@
 // file is stored in. Points and lines are skipped, with a note.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "scene/expected.h"
@@ -63,6 +64,7 @@ class GltfMeshReader {
   const TexcoordSets& sets_;
   std::uint32_t default_material_;
   const std::string& file_;
+  std::set<std::uint32_t> coloured_{};  ///< materials of what has COLOR_0
   std::size_t skipped_ = 0, without_position_ = 0, bad_attributes_ = 0, lost_vertices_ = 0, unbound_ = 0;
 };
 
