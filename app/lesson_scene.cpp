@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/setting.h"
+#include "app/shimmer_options.h"
 #include "compare/report/lessons.h"
 #include "scene/load.h"
 
@@ -59,6 +60,25 @@ bool was_given(const CLI::App& command, const std::string& option) {
   return known != nullptr && known->count() > 0;
 }
 
+/// tune finds the map's options: a lesson's or a scene's would only narrow its search.
+bool finds_map_options(const CLI::App& command) {
+  return command.get_name() == "tune";
+}
+
+bool is_map_setting(const std::string& option) {
+  const std::vector<std::string> names = map_setting_names();
+  return std::find(names.begin(), names.end(), option.substr(2)) != names.end();
+}
+
+/// Whether the command makes a film: sweep and tune do only where errors are flips.
+bool makes_film(const CLI::App& command) {
+  if (command.get_option_no_throw("--metric") == nullptr) return true;
+  const auto starts = [&](const char* name, std::string_view value) {
+    return was_given(command, name) && command.get_option(name)->results().back().starts_with(value);
+  };
+  return starts("--metric", "shimmer") || starts("--max-error", "shimmer:");
+}
+
 }  // namespace
 
 std::string scene_of_lesson(const std::string& path_or_name) {
@@ -86,12 +106,12 @@ std::string scene_settings_text(const std::string& path_or_name) {
 Expected<void> add_scene_settings(CLI::App& command) {
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
   if (scene == nullptr || scene->count() != 1 || was_given(command, "--technique")) return {};
+  if (finds_map_options(command)) return {};
   const std::string& path = scene->results().front();
   const auto asked = scene_settings(scene_of_lesson(path));
   if (asked.empty()) return {};
-  const bool biased =
-      command.get_name() == "tune" || std::any_of(bias_options.begin(), bias_options.end(),
-                                                  [&](const char* name) { return was_given(command, name); });
+  const bool biased = std::any_of(bias_options.begin(), bias_options.end(),
+                                  [&](const char* name) { return was_given(command, name); });
   const std::vector<std::string> known = map_setting_names();
   for (const auto& [name, value] : asked) {
     const std::string option_name = "--" + name;
@@ -121,6 +141,8 @@ void add_lesson_settings(CLI::App& command) {
   for (const auto& [name, value] : lesson->settings) {
     CLI::Option* option = command.get_option_no_throw(name);
     if (option == nullptr || option->count() > 0) continue;
+    if (finds_map_options(command) && is_map_setting(name)) continue;
+    if (is_film_option(name) && !makes_film(command)) continue;
     option->add_result(value.value_or("true"));
     option->run_callback();
   }

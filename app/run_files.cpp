@@ -11,11 +11,20 @@
 
 namespace gnomon::app {
 
-std::string SceneArgument::words() const {
-  std::string words = shell_quoted(name) + (allow_outside ? " --allow-outside" : "");
-  if (instances != InstanceChoice::automatic)
-    words += instances == InstanceChoice::keep ? " --instances keep" : " --instances flatten";
+std::vector<std::string> SceneArgument::plain_words() const {
+  std::vector<std::string> words{name};
+  if (allow_outside) words.emplace_back("--allow-outside");
+  if (instances != InstanceChoice::automatic) {
+    words.emplace_back("--instances");
+    words.emplace_back(instances == InstanceChoice::keep ? "keep" : "flatten");
+  }
   return words;
+}
+
+std::string SceneArgument::words() const {
+  std::string text;
+  for (const std::string& word : plain_words()) text += (text.empty() ? "" : " ") + shell_quoted(word);
+  return text;
 }
 
 void RunFiles::reads(const std::string& path) {

@@ -21,6 +21,8 @@ struct SceneArgument {
 
   /// For a command line that loads the same.
   std::string words() const;
+  /// Each by itself, and not quoted.
+  std::vector<std::string> plain_words() const;
 };
 
 class RunFiles {

@@ -1,6 +1,7 @@
 #include "app/shimmer_options.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "app/option_kinds.h"
@@ -215,6 +216,12 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedSc
   if (const auto taken = take_names(film, path); !taken) return fail(taken.error());
   if (const auto sound = check_path(path, *loaded.scene); !sound) return fail(sound.error());
   return plan;
+}
+
+bool is_film_option(std::string_view name) {
+  constexpr std::array<std::string_view, 7> all{"--frames", "--fps",   "--move",   "--path",
+                                                "--speed",  "--drift", "--anchors"};
+  return std::find(all.begin(), all.end(), name) != all.end();
 }
 
 void add_metric_options(CLI::App& app, MetricOptions& options) {

@@ -24,6 +24,7 @@ struct FilmOptions {
 };
 
 /// --frames, --fps, --move, --path, --speed, --drift, --anchors.
+bool is_film_option(std::string_view name);
 void add_film_options(CLI::App& app, FilmOptions& film);
 /// The file that --path names; empty: none.
 std::string path_file(const FilmOptions& film);

@@ -46,6 +46,27 @@ TEST(Lessons, OptionsGivenComeFirst) {
                       result_of({"compare", "fence", "--technique", "vsm"}));
 }
 
+// What the tuner finds, a lesson does not narrow: of any error the smallest map, where the lesson has one of 128 texels.
+TEST(Lessons, TheTunerFindsTheMapsOptionsItself) {
+  for (const char* lesson : {"acne", "aliasing"}) {
+    const ProcessResult result = run_gnomon({"tune", lesson, "--max-error", "wrong:100%", "--size", "64x36",
+                                             "--runs", "1", "--json", "-", "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << lesson << ": " << result.err;
+    const json answer = json::parse(result.out, nullptr, false);
+    ASSERT_TRUE(answer.is_object()) << lesson;
+    EXPECT_EQ(answer["options"]["map-size"], "64") << lesson;
+  }
+}
+
+// The lesson on shimmer is about a film, which neither makes unless errors are to be flips.
+TEST(Lessons, AFilmsOptionsHoldWhereAFilmIsMade) {
+  const TemporaryFolder folder;
+  const Words sweep = {"sweep",  "shimmer", "--size",      "64x36", "--map-size",   "64,128",
+                       "--runs", "1",       "-o",    folder / "out", "--quiet"};
+  const ProcessResult still = run_gnomon(sweep);
+  EXPECT_EQ(still.exit_code, 0) << still.err;
+}
+
 json bias_of(const Words& words) {
   return result_of(words)["lights"][0]["map"]["bias"];
 }

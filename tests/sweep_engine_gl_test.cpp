@@ -282,6 +282,26 @@ TEST(Engine, CellsEqualSingleComparisons) {
   EXPECT_LT(shop.engine.work().lower_climbs, 3 * shop.engine.work().renders);
 }
 
+// What the map is drawn by beyond its options, such as second-depth's culling, holds for derived cells, too.
+TEST(Engine, DerivedCellsOfEveryTechniqueEqualSingleComparisons) {
+  Scene scene = boxes_and_ball();
+  scene.lights.resize(1);  // the sun, which most techniques serve
+  Workshop shop(scene);
+  Setting setting = shop.first;
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
+    setting.raster.map.technique = traits.technique;
+    if (!compare::biases_follow_from_gaps(setting.raster.map) ||
+        !raster::has_map_for(traits.technique, LightType::directional))
+      continue;
+    setting.raster.map.bias.constant = 0.02, setting.raster.map.bias.unit = raster::BiasUnit::world;
+    EXPECT_EQ(shop.swept(setting), shop.alone(setting)) << traits.name;
+    const auto renders = shop.engine.work().renders;
+    setting.raster.map.bias.constant = 0.05;
+    EXPECT_EQ(shop.swept(setting), shop.alone(setting)) << traits.name << ", derived";
+    EXPECT_EQ(shop.engine.work().renders, renders) << traits.name;
+  }
+}
+
 TEST(Engine, PerceptualMetricsOnlyWhenAsked) {
   Workshop shop(boxes_and_ball(), true);
   EXPECT_EQ(shop.swept(shop.first), shop.alone(shop.first, true));

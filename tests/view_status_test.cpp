@@ -29,6 +29,28 @@ TEST(ViewStatus, CommandSaysWhatDiffers) {
             "--exposure 1.5");
 }
 
+// Camera and light as they are shown, in the picture's shape, and nothing of the map.
+TEST(ViewStatus, TheTunerIsAskedForThePictureShown) {
+  ViewOptions options;
+  options.max_lights = 7;
+  ViewState state = two_light_state();
+  carry_out(state, OrbitTo{-30.0, 20.5});
+  carry_out(state, LightAzimuthTo{45.0});
+  carry_out(state, SetMapOption{"bias", "-0.25"});
+  state.setup.size = {376, 554};
+  std::string words;
+  for (const std::string& word : tuning_words(state, options)) words += " " + word;
+  EXPECT_EQ(words.find(
+                " --size 297x437 --light sun --camera-orbit=-30,20.5 --camera-distance 5 --light-azimuth 45"),
+            0u)
+      << words;
+  EXPECT_NE(words.find(" --max-lights 7"), std::string::npos) << words;
+  EXPECT_EQ(words.find("bias"), std::string::npos) << words;
+  EXPECT_EQ(words.find("map"), std::string::npos) << words;
+  state.setup.size = {96, 64};
+  EXPECT_EQ(tuning_words(state, options)[1], "96x64");
+}
+
 TEST(ViewStatus, LightsThatTheCommandCannotTurnAreNamed) {
   ViewState state = two_light_state();
   carry_out(state, TurnLightBy{5.0, 0.0});

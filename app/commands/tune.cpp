@@ -286,6 +286,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                 return {};
               });
   command->options.add_to(*app);
+  app->get_option("--bias")->description("refused: the tuner finds the constant bias itself [default none]");
   add_max_lights(*app, command->max_lights);
   command->options.mean_techniques(tuned_techniques());
   add_output(

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "app/filter_options.h"
@@ -156,13 +158,11 @@ std::vector<std::string> pose_words(const ViewState& state) {
   return words;
 }
 
-std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
+namespace {
+
+/// What compare and tune take alike: of the view's settings all but the picture's size and the map.
+void add_truth(Words& words, const ViewState& state, const ViewOptions& options) {
   const compare::CompareOptions plain;
-  Words words;
-  add_if(words, !options.camera.empty(), "--camera", options.camera);
-  add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
-  add_if(words, true, "--size", fmt::format("{}x{}", state.setup.size.width, state.setup.size.height));
-  add_map(words, state.setup.map);
   for (std::string& word : pose_words(state)) words.push_back(std::move(word));
   add_if(words, options.compare.accel != plain.accel, "--accel",
          std::string(accel_name(options.compare.accel)));
@@ -173,8 +173,38 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
   add_if(words, options.max_lights != usual_max_lights, "--max-lights", std::to_string(options.max_lights));
   for (std::string& word : backend_words(options.backend)) words.push_back(std::move(word));
   add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
+}
+
+std::string size_text(const ImageSize& size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+/// As wide for its height, and no more pixels than `most`.
+ImageSize with_at_most(const ImageSize& size, double most) {
+  const double scale = std::min(1.0, std::sqrt(most / static_cast<double>(size.pixels())));
+  const auto scaled = [&](int n) { return std::max(1, static_cast<int>(std::lround(scale * n))); };
+  return {scaled(size.width), scaled(size.height)};
+}
+
+}  // namespace
+
+std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
+  Words words;
+  add_if(words, !options.camera.empty(), "--camera", options.camera);
+  add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
+  add_if(words, true, "--size", size_text(state.setup.size));
+  add_map(words, state.setup.map);
+  add_truth(words, state, options);
   if (options.exposure)
     add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+  return words;
+}
+
+std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions& options) {
+  Words words;
+  add_if(words, !options.camera.empty(), "--camera", options.camera);
+  add_if(words, true, "--size", size_text(with_at_most(state.setup.size, tuned_pixels)));
+  add_truth(words, state, options);
   return words;
 }
 

@@ -36,6 +36,11 @@ std::string compare_command(const ViewState& state, const ViewOptions& options, 
 /// The same without "gnomon compare SCENE", each word by itself and not quoted.
 std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options);
 
+/// The tuner draws no more pixels than these: its answer hardly depends on them, its time does.
+inline constexpr double tuned_pixels = 480 * 270;
+/// What `gnomon tune` is told of the view: camera, light and truth as shown, the picture's shape, and no map.
+std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions& options);
+
 /// "--backend", "egl-software"; nothing for auto.
 std::vector<std::string> backend_words(raster::Backend backend);
 /// Its part about the camera and the light.

@@ -85,6 +85,8 @@ class Viewer {
   void save_scene();
   void copy_command();
   void print_command() const;
+  std::vector<std::string> job_words(const std::string& command, const std::vector<std::string>& fixed,
+                                     const std::vector<std::string>& of_view) const;
   void write_report();
   void find_best();
   void look_after_job();

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The size that the tuner draws at: its answer hardly depends on it, its time does.
-constexpr const char* tuned_size = "480x270";
 constexpr const char* tuned_error = "1%";
 
 Expected<void> save_image(const Rgb8Image& image, const std::string& path) {
@@ -117,6 +115,15 @@ void Viewer::print_command() const {
         fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
 }
 
+/// "compare", the scene as it was opened, and the options.
+std::vector<std::string> Viewer::job_words(const std::string& command, const std::vector<std::string>& fixed,
+                                           const std::vector<std::string>& of_view) const {
+  std::vector<std::string> words{command};
+  for (const auto& part : {shown_->scene->argument.plain_words(), fixed, of_view})
+    words.insert(words.end(), part.begin(), part.end());
+  return words;
+}
+
 void Viewer::write_report() {
   if (job_) return note("something runs already; Esc stops it");
   const std::string name = fs::path(shown_->scene->argument.name).stem().string();
@@ -124,9 +131,8 @@ void Viewer::write_report() {
   std::error_code ignored;
   for (int number = 1; folder.empty() || fs::exists(folder, ignored); ++number)
     folder = fmt::format("{}-report-{:03}", name, number);
-  std::vector<std::string> words{"compare", shown_->scene->argument.name, "-o", folder, "--quiet"};
-  for (std::string& word : setting_words(state_, options_)) words.push_back(std::move(word));
-  auto job = Job::start("writing the report to " + folder, words);
+  auto job = Job::start("writing the report to " + folder,
+                        job_words("compare", {"-o", folder, "--quiet"}, setting_words(state_, options_)));
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = false;
@@ -135,16 +141,12 @@ void Viewer::write_report() {
 
 void Viewer::find_best() {
   if (job_) return note("something runs already; Esc stops it");
-  const std::string& light = state_.given.lights[state_.setup.light].name;
-  std::vector<std::string> words{"tune",        shown_->scene->argument.name,
-                                 "--max-error", tuned_error,
-                                 "--size",      tuned_size,
-                                 "--light",     light,
-                                 "--runs",      "1",
-                                 "--json",      "-",
-                                 "--quiet"};
-  for (std::string& word : backend_words(options_.backend)) words.push_back(std::move(word));
-  auto job = Job::start("searching the cheapest setting with at most 1 % wrong", words);
+  for (const std::string& light : other_turned_lights(state_))
+    console_.note(fmt::format("light {} was turned as well; the search turns only the chosen one", light));
+  auto job =
+      Job::start("searching the cheapest setting with at most 1 % wrong",
+                 job_words("tune", {"--max-error", tuned_error, "--runs", "1", "--json", "-", "--quiet"},
+                           tuning_words(state_, options_)));
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = true;
@@ -159,7 +161,11 @@ void Viewer::look_after_job() {
   if (!job_ || !job_->ended()) return;
   const std::unique_ptr<Job> done = std::move(job_);
   const int code = done->exit_code();
-  if (code > 1) return note(fmt::format("it failed ({}): {}", code, done->err()));
+  if (code > 1) {
+    std::string why = done->err();
+    while (why.ends_with('\n')) why.pop_back();
+    return note(fmt::format("it failed ({}): {}", code, why));
+  }
   if (job_tunes_) return use_answer(*done);
   note("done: " + done->status().title);
 }

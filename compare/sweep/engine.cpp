@@ -129,6 +129,7 @@ Expected<void> Engine::Impl::draw(const Setting& setting) {
 
 void Engine::Impl::derive(const Setting& setting, Detail detail) {
   comparison.raster.options = setting.raster;
+  comparison.raster.options.map = raster::effective_options(setting.raster.map);
   for (raster::LightRecord& record : comparison.raster.lights) {
     const double world_units =
         raster::constant_bias_world(setting.raster.map.bias, record.rounding, record.map.view, world);
