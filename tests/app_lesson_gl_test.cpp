@@ -61,8 +61,8 @@ TEST(Lessons, TheTunerFindsTheMapsOptionsItself) {
 // The lesson on shimmer is about a film, which neither makes unless errors are to be flips.
 TEST(Lessons, AFilmsOptionsHoldWhereAFilmIsMade) {
   const TemporaryFolder folder;
-  const Words sweep = {"sweep",  "shimmer", "--size",      "64x36", "--map-size",   "64,128",
-                       "--runs", "1",       "-o",    folder / "out", "--quiet"};
+  const Words sweep = {"sweep",  "shimmer", "--size", "64x36",        "--map-size", "64,128",
+                       "--runs", "1",       "-o",     folder / "out", "--quiet"};
   const ProcessResult still = run_gnomon(sweep);
   EXPECT_EQ(still.exit_code, 0) << still.err;
 }

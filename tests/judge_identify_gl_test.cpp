@@ -36,22 +36,38 @@ void expect_same_pictures(const compare::LightComparison& light, const compare::
   EXPECT_EQ(light.pixels.uncertain_by_samples, before.pixels.uncertain_by_samples);
 }
 
+/// A capture of the drawing without its map, judged.
+JudgeOutcome judge_drawing(const Compared& drawn) {
+  JudgeOutcome judged =
+      judge(self_capture(drawn, testing::TempDir() + "/gnomon-identify", {.positions = true}));
+  EXPECT_TRUE(judged.result) << reason(judged);
+  return judged;
+}
+
+void identify_in(JudgeOutcome& judged) {
+  auto context = raster::create_context(raster::Backend::automatic);
+  ASSERT_TRUE(context);
+  auto renderer = raster::Renderer::create(std::move(*context), *judged.world, plan_effects(*judged.scene));
+  ASSERT_TRUE(renderer);
+  const auto done = compare::identify(*judged.result, **renderer, {});
+  ASSERT_TRUE(done) << done.error().message();
+}
+
+compare::Identified identified(const std::string& name, const raster::MapOptions& map) {
+  JudgeOutcome judged = judge_drawing(draw_builtin(name, picture, map));
+  if (!judged.result) return {};
+  identify_in(judged);
+  return judged.result->judged->identified.value_or(compare::Identified{});
+}
+
 Found identify_one(const std::string& name, const raster::MapOptions& map) {
   const Compared drawn = draw_builtin(name, picture, map);
   const raster::LightRecord& record = drawn.result.raster.lights[0];
-  const compare::Capture capture =
-      self_capture(drawn, testing::TempDir() + "/gnomon-identify", {.positions = true});
-  JudgeOutcome judged = judge(capture);
-  EXPECT_TRUE(judged.result);
+  JudgeOutcome judged = judge_drawing(drawn);
   if (!judged.result) return {};
-  auto context = raster::create_context(raster::Backend::automatic);
-  EXPECT_TRUE(context);
-  auto renderer = raster::Renderer::create(std::move(*context), *judged.world, plan_effects(*judged.scene));
-  EXPECT_TRUE(renderer);
   const compare::LightComparison before = judged.result->lights[0];
-  const auto done = compare::identify(*judged.result, **renderer, {});
-  EXPECT_TRUE(done) << (done ? "" : done.error().message());
-  if (!done) return {};
+  identify_in(judged);
+  if (!judged.result->judged->identified) return {};
   const compare::Identified& found = *judged.result->judged->identified;
   const double off = std::abs(found.bias_world - record.bias_constant_world) / record.texel_world;
   fmt::print("{:14} {:5} {:5} bias {:.4f} -> {} ({:.3f} texels off), explained {:.1f} %, {} drawings\n", name,
@@ -91,6 +107,25 @@ TEST(JudgeIdentify, FindsMapSizeAndBias) {
   // Of 24 settings at least 20.
   EXPECT_GE(size * 24, tried * 20);
   EXPECT_GE(bias * 24, tried * 20);
+}
+
+// Gnomon's own pcf compares with the receiver's plane, which few other renderers do.
+TEST(JudgeIdentify, FindsTheFilterThatGnomonDrawsUnasked) {
+  raster::MapOptions map;
+  map.technique = Technique::pcf, map.size = 512;
+  map.bias = raster::default_bias(map);
+  const compare::Identified found = identified("floating-box", map);
+  EXPECT_TRUE(found.options.starts_with("--technique pcf --map-size 512 --bias auto")) << found.options;
+  EXPECT_EQ(found.options.find("--filter-plane"), std::string::npos) << found.options;
+  EXPECT_GT(found.explained, 0.99);
+}
+
+// The options that are told are those of the drawing, and no other of the sizes tried comes nearer.
+TEST(JudgeIdentify, FindsAFilterWithoutTheReceiversPlane) {
+  const compare::Identified found = identified("courtyard", setting(Technique::pcf, 512, 1.5));
+  EXPECT_TRUE(found.options.starts_with("--technique pcf --map-size 512 --bias ")) << found.options;
+  EXPECT_TRUE(found.options.ends_with(" --filter-plane off")) << found.options;
+  EXPECT_GT(found.explained, 0.9);
 }
 
 }  // namespace

@@ -26,6 +26,11 @@ bool mends(double before, double after, double left = most_left) {
   return after > before + least_gain && 1.0 - after < left * (1.0 - before);
 }
 
+/// Shadows of another scene, camera or light; those that are inverted agree less.
+bool at_chance(const std::optional<double>& shadows) {
+  return shadows && *shadows<no_shadows&& * shadows> 1.0 - no_shadows;
+}
+
 std::optional<double> share_of(const Evidence& evidence, bool geometric) {
   if (!geometric) return evidence.visibility;
   const auto found = evidence.geometry();
@@ -35,8 +40,9 @@ std::optional<double> share_of(const Evidence& evidence, bool geometric) {
 
 struct Found {
   Suspect suspect;
-  double share = 0.0, tie = 0.0;
-  std::size_t lit = 0;  // samples
+  double share = 0.0;
+  std::optional<double> shadows;  // the share of them that agrees
+  std::size_t lit = 0;            // samples
 };
 
 /// The suspect that agrees best; of alike ones the one whose shadows do.
@@ -48,10 +54,11 @@ std::optional<Found> best_suspect(const EvidenceInput& in, const Samples& sample
     const Evidence evidence = gather(in, samples, suspect);
     const auto share = share_of(evidence, geometric);
     if (!share) continue;
-    const double tie = evidence.visibility.value_or(0.0);
-    const bool alike = best && std::abs(*share - best->share) < 0.002;
-    if (!best || (alike ? tie > best->tie + 0.002 : *share > best->share))
-      best = Found{suspect, *share, tie, evidence.lit};
+    const Found found{suspect, *share, evidence.visibility, evidence.lit};
+    const bool alike = best && std::abs(found.share - best->share) < 0.002;
+    const bool better = !best || (alike ? found.shadows.value_or(0.0) > best->shadows.value_or(0.0) + 0.002
+                                        : found.share > best->share);
+    if (better) best = found;
   }
   return best;
 }
@@ -83,6 +90,7 @@ class Aligner {
     if (const auto geometry = check_geometry(); !geometry) return fail(geometry.error());
     if (const auto shadows = check_shadows(); !shadows) return fail(shadows.error());
     if (const auto encoding = check_encoding(); !encoding) return fail(encoding.error());
+    note_range();
     judged_.agreement = gather(input(), samples_, {}).all();
     return out_;
   }
@@ -92,6 +100,7 @@ class Aligner {
   Expected<void> check_geometry();
   Expected<void> check_shadows();
   Expected<void> check_encoding();
+  void note_range();
   Expected<void> mend(const Mended& mended, const Suspect* suspect);
   Expected<void> mend_shadows(const Found& found, double before);
   Expected<void> doubt_shadows(double share, bool alone);
@@ -138,14 +147,20 @@ Expected<void> Aligner::check_geometry() {
   const auto now = gather(input(), samples_, {}).geometry();
   if (!now || now->share >= least_geometry) return {};
   const auto best = best_suspect(input(), samples_, suspects_, true, false);
-  if (best && best->share >= least_geometry && mends(now->share, best->share))
+  const bool likely = best && best->share >= least_geometry && mends(now->share, best->share);
+  if (likely && !at_chance(best->shadows))
     return mend({best->suspect.what, now->what, now->share, best->share}, &best->suspect);
   return capture_error(
       in_.capture, "",
-      fmt::format("the picture does not show this scene as Gnomon sees it: {} of the {} agree, and no usual "
-                  "difference of conventions mends that (nearest: {}, {})",
-                  hundredths_of_percent(now->share), now->what, best ? best->suspect.what : "none",
-                  best ? hundredths_of_percent(best->share) : "-"));
+      fmt::format(
+          "the picture does not show this scene as Gnomon sees it: {} of the {} agree, and no usual "
+          "difference of conventions mends that (nearest: {}, {}{}){}",
+          hundredths_of_percent(now->share), now->what, best ? best->suspect.what : "none",
+          best ? hundredths_of_percent(best->share) : "-",
+          likely ? fmt::format("; its shadows agree by chance, {}", hundredths_of_percent(*best->shadows))
+                 : "",
+          judged_.of_ratio ? "; the two pictures of a ratio show this light alone, without ambient light"
+                           : ""));
 }
 
 /// Where the light, turned, lights nothing, the picture is as dark as any picture without light.
@@ -195,6 +210,22 @@ Expected<void> Aligner::check_encoding() {
   if (out_.trace_again || out_.everywhere) return {};  // the frame is not of this sight
   const auto found = find_srgb(pictures_, in_.frame);
   return found ? mend(*found, nullptr) : Expected<void>();
+}
+
+/// Light of something else in the picture, or a shadow that is drawn lighter than it is, counts as error.
+void Aligner::note_range() {
+  if (has_size(scene_.lights[in_.light])) return;  // penumbrae may be all that is seen
+  const Evidence found = gather(input(), samples_, {});
+  constexpr float seen = 0.02f;  // five steps of eight bits
+  if (found.shadowed >= few_samples && found.darkest > seen && found.darkest < 1.0f - seen)
+    judged_.notes.push_back(
+        fmt::format("the picture is nowhere darker than {:.3g}, where full shadow is 0: other light "
+                    "in it, or a shadow's strength, counts as error",
+                    found.darkest));
+  if (found.lit >= few_samples && found.lightest < 1.0f - seen && found.lightest > seen)
+    judged_.notes.push_back(fmt::format(
+        "the picture is nowhere lighter than {:.3g}, where full light is 1: what is missing counts as error",
+        found.lightest));
 }
 
 }  // namespace

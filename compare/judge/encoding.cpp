@@ -1,6 +1,8 @@
 // sRGB in place of linear values. Lit and shadowed are the same in both; only the greys of a filter that counts
 // its taps tell: they are whole multiples of one part, 1/9, 1/16, 1/25 ..., in linear values alone.
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "compare/judge/align.h"
 #include "scene/files/image_io.h"
@@ -10,16 +12,37 @@ namespace {
 
 constexpr std::size_t few_greys = 100;
 constexpr int most_taps = 64;
-/// Floats and 16 bits lie nearer to a multiple, 8 bits at half a step; between 64 taps' parts lie 0.016.
+/// Of stored values: floats and 16 bits lie nearer to a multiple, 8 bits at half a step.
 constexpr float slack = 0.0021f;
 /// Decoded nearly all greys lie on multiples, and as they are clearly fewer than that.
 constexpr double least_decoded = 0.97, most_as_is = 0.7;
 
-double share_on_multiples(const std::vector<float>& greys, int taps) {
+/// How many of the greys are a multiple of 1/taps as the picture writes it, and how many of the multiples there are.
+struct OnMultiples {
+  double share = 0.0;
+  int levels = 0;
+};
+
+/// `linear`: the greys without their encoding. `encode`: linear to stored.
+template <class Encode>
+OnMultiples on_multiples(const std::vector<float>& greys, const std::vector<float>& linear, int taps,
+                         const Encode& encode) {
   const auto n = static_cast<float>(taps);
-  const auto on = std::count_if(greys.begin(), greys.end(),
-                                [&](float v) { return std::abs(v - std::round(v * n) / n) <= slack; });
-  return static_cast<double>(on) / static_cast<double>(greys.size());
+  std::vector<float> stored;
+  for (int k = 0; k <= taps; ++k) stored.push_back(encode(static_cast<float>(k) / n));
+  std::vector<std::size_t> count(stored.size());
+  for (std::size_t i = 0; i < greys.size(); ++i) {
+    const auto nearest = static_cast<std::size_t>(std::round(linear[i] * n));
+    if (std::abs(greys[i] - stored[nearest]) <= slack) ++count[nearest];
+  }
+  const auto on = std::accumulate(count.begin(), count.end(), std::size_t{0});
+  const auto unseen = std::count(count.begin() + 1, count.end() - 1, std::size_t{0});
+  return {static_cast<double>(on) / static_cast<double>(greys.size()), taps - 1 - static_cast<int>(unseen)};
+}
+
+/// One grey alone, such as that of a shadow that is never quite dark, is a multiple of some part by chance.
+int least_levels(int taps) {
+  return std::max(2, (taps + 1) / 3);
 }
 
 }  // namespace
@@ -34,13 +57,14 @@ std::optional<Mended> find_srgb(const CapturedPictures& pictures, const raytrace
     decoded.push_back(linear_from_srgb(v));
   }
   if (greys.size() < few_greys) return std::nullopt;
+  const auto as_is = [&](int taps) { return on_multiples(greys, greys, taps, [](float v) { return v; }); };
   for (int taps = 3; taps <= most_taps; ++taps) {
-    const double after = share_on_multiples(decoded, taps), before = share_on_multiples(greys, taps);
-    if (after < least_decoded) continue;
+    const OnMultiples after = on_multiples(greys, decoded, taps, srgb_from_linear);
+    if (after.share < least_decoded || after.levels < least_levels(taps)) continue;
     // A right capture would lie on the multiples of some number itself.
     for (int other = 3; other <= taps; ++other)
-      if (share_on_multiples(greys, other) > most_as_is) return std::nullopt;
-    return Mended{"the values are sRGB-encoded", "greys", before, after};
+      if (as_is(other).share > most_as_is) return std::nullopt;
+    return Mended{"the values are sRGB-encoded", "greys", as_is(taps).share, after.share};
   }
   return std::nullopt;
 }

@@ -46,6 +46,16 @@ struct Tally {
 
 struct Tallies {
   Tally places, depths, border, lit, shadowed;
+  float darkest = 1.0f, lightest = 0.0f;
+
+  void show(float visibility) {
+    darkest = std::min(darkest, visibility), lightest = std::max(lightest, visibility);
+  }
+  Tallies& operator+=(const Tallies& o) {
+    places += o.places, depths += o.depths, border += o.border, lit += o.lit, shadowed += o.shadowed;
+    darkest = std::min(darkest, o.darkest), lightest = std::max(lightest, o.lightest);
+    return *this;
+  }
 };
 
 class Gatherer {
@@ -131,7 +141,9 @@ void Gatherer::visibility(const Shown& shown, Tallies& out) const {
   const raytrace::PointVisibility truth =
       reached ? in_.tracer.centre_visibility(point, light_) : raytrace::PointVisibility::shadowed;
   if (truth == raytrace::PointVisibility::uncertain) return;
-  const bool lit = (in_.pictures.visibility.data[shown.shadow] > 0.5f) != suspect_.inverted;
+  const float drawn = in_.pictures.visibility.data[shown.shadow];
+  out.show(drawn);
+  const bool lit = (drawn > 0.5f) != suspect_.inverted;
   Tally& tally = truth == raytrace::PointVisibility::lit ? out.lit : out.shadowed;
   ++tally.count;
   tally.agree += lit == (truth == raytrace::PointVisibility::lit) ? 1 : 0;
@@ -226,14 +238,12 @@ Evidence gather(const EvidenceInput& in, const Samples& samples, const Suspect& 
     }
   });
   Tallies sum;
-  for (const Tallies& part : parts) {
-    sum.places += part.places, sum.depths += part.depths, sum.border += part.border;
-    sum.lit += part.lit, sum.shadowed += part.shadowed;
-  }
+  for (const Tallies& part : parts) sum += part;
   Evidence out;
   out.positions = sum.places.share(), out.depths = sum.depths.share();
   if (sum.border.count >= least_border) out.silhouettes = sum.border.share();
   out.lit = sum.lit.count, out.shadowed = sum.shadowed.count;
+  out.darkest = sum.darkest, out.lightest = sum.lightest;
   // Half for the lit ones and half for the shadowed, however few they are.
   const auto lit = sum.lit.share(), shadowed = sum.shadowed.share();
   if (lit && shadowed) out.visibility = 0.5 * (*lit + *shadowed);

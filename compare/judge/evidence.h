@@ -24,7 +24,8 @@ Samples choose_samples(const EvidenceInput& input, const raytrace::RayTracedFram
 /// Shares in [0, 1]; none where the capture does not tell.
 struct Evidence {
   std::optional<double> positions, depths, silhouettes, visibility;
-  std::size_t lit = 0, shadowed = 0;  ///< samples of visibility
+  std::size_t lit = 0, shadowed = 0;      ///< samples of visibility
+  float darkest = 1.0f, lightest = 0.0f;  ///< of the picture at these
 
   /// By positions, depths or silhouettes, the first that there is: its name and share.
   std::optional<Agreement> geometry() const;

@@ -20,9 +20,16 @@ constexpr std::array map_sizes{128, 256, 512, 1024, 2048, 4096};
 constexpr std::array radii{1.5, 2.5, 3.5};  // texels, of pcf
 /// A picture with fewer greys than this share was not filtered.
 constexpr double least_greys = 0.002;
+/// Of the filtered maps that come nearest, so many sizes' bias is searched.
+constexpr std::size_t sizes_refined = 3;
 /// A setting with one part more must explain clearly more than one without.
 constexpr double simpler = 0.9;
 constexpr int bias_steps = 12;
+
+std::size_t index_of_size(int map_size) {
+  return static_cast<std::size_t>(std::find(map_sizes.begin(), map_sizes.end(), map_size) -
+                                  map_sizes.begin());
+}
 
 /// A drawing of the model, and what it leaves of the picture.
 struct Model {
@@ -51,7 +58,11 @@ class Identifier {
   const Image<float>& picture() const { return judged_.raster.lights.front().visibility; }
   double greys() const;
   Expected<void> try_by_gaps(raster::MapOptions map);
-  Expected<void> try_filtered(raster::MapOptions map, double start);
+  Expected<void> search_bias(const raster::MapOptions& map);
+  Expected<void> find_filter();
+  Expected<Model> nearest_filter(std::size_t size);
+  template <class Attempt>
+  Expected<void> for_sizes(const Attempt& attempt);
   void keep(const raster::MapOptions& map, double bias, double error, double handicap);
   Expected<double> error_at(raster::MapOptions map, double bias);
 
@@ -86,7 +97,7 @@ double Identifier::greys() const {
 }
 
 Expected<raster::RasterFrame> Identifier::draw(const raster::MapOptions& map) {
-  if (progress_) progress_("looking for the nearest setting", std::min(0.95, renders_ / 40.0));
+  if (progress_) progress_("looking for the nearest setting", std::min(0.95, renders_ / 100.0));
   raster::RasterOptions options;
   options.size = judged_.raster.options.size;
   options.map = map, options.runs = 0;
@@ -129,10 +140,9 @@ Expected<void> Identifier::try_by_gaps(raster::MapOptions map) {
   if (to == 0.0) to = steps.empty() ? 0.0 : double{steps.front().first};
   const double bias = 0.5 * (from + to);
   const double error = pixels_.empty() ? 0.0 : least / static_cast<double>(pixels_.size());
-  const auto place = std::find(map_sizes.begin(), map_sizes.end(), map.size) - map_sizes.begin();
   if (map.technique == Technique::hard && map.bias.slope == 0.0) {
-    hard_bias_[static_cast<std::size_t>(place)] = bias;
-    texel_[static_cast<std::size_t>(place)] = record.texel_world;
+    hard_bias_[index_of_size(map.size)] = bias;
+    texel_[index_of_size(map.size)] = record.texel_world;
   }
   if (scales) map.bias.constant = bias / record.texel_world;
   keep(map, bias, error, map.bias.slope != 0.0 || map.technique == Technique::csm ? 1.0 / simpler : 1.0);
@@ -147,7 +157,8 @@ Expected<double> Identifier::error_at(raster::MapOptions map, double bias) {
 }
 
 /// A filter's drawing tells of one bias alone: the bias is searched between a hundredth of a texel and four.
-Expected<void> Identifier::try_filtered(raster::MapOptions map, double texel) {
+Expected<void> Identifier::search_bias(const raster::MapOptions& map) {
+  const double texel = texel_[index_of_size(map.size)];
   double low = std::log(0.01 * texel), high = std::log(4.0 * texel);
   constexpr double golden = 0.6180339887498949;
   double a = high - golden * (high - low), b = low + golden * (high - low);
@@ -167,16 +178,67 @@ Expected<void> Identifier::try_filtered(raster::MapOptions map, double texel) {
   return {};
 }
 
-Expected<void> Identifier::run() {
-  const Light& light = judged_.world->scene->lights[judged_.lights.front().light];
-  const bool filtered = greys() > least_greys && !has_size(light);
+template <class Attempt>
+Expected<void> Identifier::for_sizes(const Attempt& attempt) {
   const int limit = std::min(renderer_.info().max_map_size, map_sizes.back());
-  const auto for_sizes = [&](const auto& attempt) -> Expected<void> {
-    for (std::size_t s = 0; s < map_sizes.size(); ++s)
-      if (map_sizes[s] <= limit)
-        if (const auto done = attempt(s); !done) return done;
+  for (std::size_t s = 0; s < map_sizes.size(); ++s)
+    if (map_sizes[s] <= limit)
+      if (const auto done = attempt(s); !done) return done;
+  return {};
+}
+
+/// Every filter at the bias of hard shadows, without the receiver's plane, as most renderers draw it; and pcf as
+/// Gnomon draws it unasked, which needs no bias searched.
+Expected<Model> Identifier::nearest_filter(std::size_t size) {
+  Model nearest;
+  const auto attempt = [&](const raster::MapOptions& map) -> Expected<void> {
+    const auto frame = draw(map);
+    if (!frame) return fail(frame.error());
+    const double error = model_error(*frame);
+    if (error < nearest.error) nearest = {map, frame->lights.front().bias_constant_world, error};
     return {};
   };
+  for (const Technique technique : {Technique::pcf, Technique::vsm})
+    for (const double radius : radii) {
+      raster::MapOptions map;
+      map.technique = technique, map.size = map_sizes[size];
+      map.filter.radius_texels = radius;
+      map.bias = raster::default_bias(map);
+      if (technique == Technique::pcf)
+        if (const auto unasked = attempt(map); !unasked) return fail(unasked.error());
+      // Moments have no radius here: other biases are tried in its place.
+      const double share = radius == radii[1] ? 0.3 : 1.0;
+      const bool of_hard = technique == Technique::pcf || radius == radii.front();
+      const double bias = of_hard ? std::max(hard_bias_[size], 0.01 * texel_[size]) : share * texel_[size];
+      map.bias = {.constant = bias, .unit = raster::BiasUnit::world};
+      map.filter.receiver_plane = false;
+      if (const auto flat = attempt(map); !flat) return fail(flat.error());
+    }
+  return nearest;
+}
+
+Expected<void> Identifier::find_filter() {
+  best_.error = infinity;
+  std::vector<Model> models;
+  const auto drawn = for_sizes([&](std::size_t size) -> Expected<void> {
+    auto model = nearest_filter(size);
+    if (!model) return fail(model.error());
+    models.push_back(std::move(*model));
+    return {};
+  });
+  if (!drawn) return drawn;
+  std::sort(models.begin(), models.end(), [](const Model& a, const Model& b) { return a.error < b.error; });
+  models.resize(std::min(models.size(), sizes_refined));
+  for (const Model& model : models) {
+    keep(model.map, model.bias_world, model.error, 1.0);
+    if (model.map.bias.unit != raster::BiasUnit::world) continue;
+    if (const auto searched = search_bias(model.map); !searched) return searched;
+  }
+  return {};
+}
+
+Expected<void> Identifier::run() {
+  const Light& light = judged_.world->scene->lights[judged_.lights.front().light];
   const auto by_gaps = [&](Technique technique, double slope) {
     return for_sizes([&](std::size_t s) {
       raster::MapOptions map;
@@ -186,40 +248,18 @@ Expected<void> Identifier::run() {
     });
   };
   if (const auto hard = by_gaps(Technique::hard, 0.0); !hard) return hard;
-  if (!filtered) {
-    if (const auto sloped = by_gaps(Technique::hard, 1.0); !sloped) return sloped;
-    if (!raster::has_map_for(Technique::csm, light.type)) return {};
-    return by_gaps(Technique::csm, 0.0);
-  }
-  // The nearest filter and size at the bias of hard shadows, then that one's bias.
-  best_.error = infinity;
-  const auto coarse = for_sizes([&](std::size_t s) -> Expected<void> {
-    for (const Technique technique : {Technique::pcf, Technique::vsm})
-      for (const double radius : radii) {
-        raster::MapOptions map;
-        map.technique = technique, map.size = map_sizes[s];
-        map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
-        map.filter.radius_texels = radius;
-        map.filter.receiver_plane = false;
-        // Moments have no radius here: other biases are tried in its place.
-        const double share = radius == radii[1] ? 0.3 : 1.0;
-        const bool of_hard = technique == Technique::pcf || radius == radii.front();
-        const double bias = of_hard ? std::max(hard_bias_[s], 0.01 * texel_[s]) : share * texel_[s];
-        const auto error = error_at(map, bias);
-        if (!error) return fail(error.error());
-        keep(map, bias, *error, 1.0);
-      }
-    return {};
-  });
-  if (!coarse) return coarse;
-  const auto place = std::find(map_sizes.begin(), map_sizes.end(), best_.map.size) - map_sizes.begin();
-  return try_filtered(best_.map, texel_[static_cast<std::size_t>(place)]);
+  if (greys() > least_greys && !has_size(light)) return find_filter();
+  if (const auto sloped = by_gaps(Technique::hard, 1.0); !sloped) return sloped;
+  if (!raster::has_map_for(Technique::csm, light.type)) return {};
+  return by_gaps(Technique::csm, 0.0);
 }
 
 std::string options_text(const raster::MapOptions& map) {
   std::string text = fmt::format("--technique {} --map-size {} {}", technique_name(map.technique), map.size,
                                  bias_arguments(map.bias));
   if (map.technique == Technique::pcf) text += fmt::format(" --filter-radius {:g}", map.filter.radius_texels);
+  if (traits_of(map.technique).reads.has(raster::MapOption::filter_plane) && !map.filter.receiver_plane)
+    text += " --filter-plane off";
   return text;
 }
 
