@@ -175,8 +175,10 @@ Scene cut_planes(Scene scene) {
     scene.instances.push_back(
         {shape.name, static_cast<std::uint32_t>(scene.meshes.size()), world_from_object, shape.material});
     scene.meshes.push_back(std::move(mesh));
-    scene.notes.push_back(fmt::format("The infinite plane '{}' ends as a square with sides of {:.4g}.",
-                                      shape.name, 2.0 * static_cast<double>(half)));
+    scene.notes.push_back(
+        fmt::format("The infinite plane '{}' ends as a square with sides of {:.4g}, which "
+                    "shadow maps have to cover.",
+                    shape.name, 2.0 * static_cast<double>(half)));
   }
   std::erase_if(scene.shapes, [](const Shape& s) { return std::holds_alternative<Plane>(s.geometry); });
   return scene;
