@@ -24,6 +24,19 @@ std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
+// A whole log as one line: "error: a; error: b".
+std::string on_one_line(std::string_view log) {
+  std::string out;
+  while (!log.empty()) {
+    const std::size_t end = std::min(log.find('\n'), log.size());
+    std::string_view line = log.substr(0, end);
+    log.remove_prefix(std::min(end + 1, log.size()));
+    line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    if (!line.empty()) out += fmt::format("{}{}", out.empty() ? "" : "; ", line);
+  }
+  return out;
+}
+
 std::optional<Complaint> first_complaint(std::string_view log) {
   const std::string text = first_line(log);
   const std::size_t mark = text.find_first_of(":(");
@@ -99,7 +112,7 @@ Error compile_error(const Expansion& expansion, const ShaderFolder& folder, std:
     legend += fmt::format(" {}={}", i, expansion.files[i].name);
   return {own ? ErrorKind::internal : ErrorKind::bad_input,
           fmt::format("shader {} does not compile (sources:{}): {}", stage_file, legend,
-                      own ? log : first_line(log))};
+                      own ? on_one_line(log) : first_line(log))};
 }
 
 template <class GetLog>
@@ -146,7 +159,7 @@ Expected<void> link_stages(const Gl& gl, GLuint program, std::string_view name, 
       log_text(length, [&](GLint n, char* out) { gl->GetProgramInfoLog(program, n, nullptr, out); });
   if (auto missing = missing_function(last_stage, gl.shader_folder(), log)) return fail(*missing);
   return fail(last_stage.replaced().empty() ? ErrorKind::internal : ErrorKind::bad_input,
-              fmt::format("shader {} does not link: {}", name, log));
+              fmt::format("shader {} does not link: {}", name, on_one_line(log)));
 }
 
 }  // namespace

@@ -38,6 +38,12 @@ std::string right_path(const std::string& name) {
   return near.empty() ? suggestion("technique/" + name, names) : near;
 }
 
+// Editors of Windows begin a file with it; a compiler takes it for a mistake.
+std::string without_byte_order_mark(const std::string& text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 Error error_in(const std::string& file, std::string reason) {
   return {ErrorKind::bad_input, std::move(reason), file};
 }
@@ -67,11 +73,12 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (!is_shader(entry->path()) || entry->is_directory()) continue;
-    auto text = read_file(entry->path().string());
-    if (!text) return fail(text.error());
-    texts += *text + "\n";
+    const auto bytes = read_file(entry->path().string());
+    if (!bytes) return fail(bytes.error());
+    const std::string text = without_byte_order_mark(*bytes);
+    texts += text + "\n";
     const std::string name = entry->path().lexically_relative(folder).generic_string();
-    if (!is_own(name) || embedded::shaders(name) != *text) out.files_[name] = {*text, sha256_hex(*text)};
+    if (!is_own(name) || embedded::shaders(name) != text) out.files_[name] = {text, sha256_hex(*bytes)};
   }
   if (error) return fail(error_in(folder, fmt::format("cannot be read: {}", error.message())));
   for (const auto& [name, file] : out.files_)

@@ -25,9 +25,9 @@ std::string technique_file(const MapOptions& map, const Light& light);
 class ShaderFolder {
  public:
   ShaderFolder() = default;
-  /// Reads the folder's .glsl, .vert, .frag and .h files, deeper ones too; "" is no folder. Error (bad
-  /// input): a file that has no shader's name, nor is included by one that has; it names the path that would
-  /// count.
+  /// Reads the folder's .glsl, .vert, .frag and .h files, deeper ones too; "" is no folder. A byte order mark
+  /// at the start of one is skipped. Error (bad input): a file that has no shader's name, nor is included by
+  /// one that has; it names the path that would count.
   static Expected<ShaderFolder> read(const std::string& folder);
 
   const std::string& path() const { return path_; }
@@ -45,7 +45,7 @@ class ShaderFolder {
 
  private:
   struct File {
-    std::string text, sha256;
+    std::string text, sha256;  ///< without a byte order mark; of the whole file
   };
   std::string path_;
   std::map<std::string, File> files_;  ///< that differ from the program's own, or are new

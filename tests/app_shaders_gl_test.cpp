@@ -87,6 +87,28 @@ TEST_F(ShaderFolder, FilesThatReplaceNothing) {
   expect_one_line(draw("bad.png", {"--shader-dir", "nowhere"}), 2, "no such folder (got nowhere)");
 }
 
+// Editors of Windows begin a file with it.
+TEST_F(ShaderFolder, AByteOrderMarkIsSkipped) {
+  const std::string mark = "\xef\xbb\xbf";
+  write_hard("  return 0.0;");
+  ASSERT_EQ(draw("dark.png").exit_code, 0);
+  write("shadow.glsl", mark + "float nothing() { return 0.0; }\n");
+  write("technique/hard.glsl", mark + "#include \"shadow.glsl\"\n" + head + "  return nothing();\n}\n");
+  const ProcessResult marked = draw("marked.png");
+  ASSERT_EQ(marked.exit_code, 0) << marked.err;
+  EXPECT_EQ(bytes("marked.png"), bytes("dark.png"));
+  // The hash is that of the file, as other programs take it.
+  ASSERT_EQ(draw("again.png", {"--shader-dir", "mine", "--json", "again.json", "-q"}).exit_code, 0);
+  EXPECT_NE(bytes("again.json").find(sha256_hex(bytes("mine/technique/hard.glsl"))), std::string::npos);
+}
+
+TEST_F(ShaderFolder, AFaultOfLinkingIsOneCleanLine) {
+  write("shade.frag", "float not_main() { return 0.0; }\n");
+  const ProcessResult drawn = draw("bad.png");
+  expect_one_line(drawn, 3, "shader shade.frag does not link: ");
+  EXPECT_EQ(drawn.err.find("\\n"), std::string::npos) << drawn.err;
+}
+
 TEST_F(ShaderFolder, MistakesAreNamedWithFileAndLine) {
   write_hard("  return 0.0");
   expect_one_line(draw("bad.png"), 3, "mine/technique/hard.glsl:3: ");
