@@ -199,6 +199,34 @@ TEST_F(Grade, KitsAreWholeAndTheirOwnShadersPass) {
   EXPECT_NE(begun.out.find("\nstudent,5,14,2,2,0,0,0,1\n"), std::string::npos) << begun.out << begun.err;
 }
 
+TEST_F(Grade, WhatIsHandedInHasToBeRead) {
+  const auto write = [&](const std::string& technique, const std::string& hand_in) {
+    write_text(folder / "rubric.json", R"({"schema": "gnomon/rubric/1", "title": "One", "technique": ")" +
+                                           technique + "\",\n\"hand_in\": [" + hand_in + "],\n" + one_check +
+                                           "}");
+  };
+  write("hard", R"("technique/pcf_box.glsl")");
+  expect_one_line(gnomon({"grade", "rubric.json"}), 3,
+                  "rubric.json:2:13: hand_in[0]: is not read by --technique hard (got "
+                  "\"technique/pcf_box.glsl\", allowed technique/hard.glsl or what it shares with others)");
+  write("hard", R"("technique/hard.glsl", "moments.frag")");
+  expect_one_line(gnomon({"grade", "rubric.json"}), 3, "rubric.json:2:36: hand_in[1]: is not read");
+  write("pcf", R"("technique/hard.glsl")");
+  expect_one_line(gnomon({"grade", "rubric.json"}), 3, "technique/pcf_hardware.glsl, ");
+  for (const auto& [technique, read] :
+       std::map<std::string, std::string>{{"hard", "gap.glsl"},
+                                          {"pcf", "technique/pcf_vogel.glsl"},
+                                          {"pcss", "technique/hard.glsl"},
+                                          {"msm", "moments.frag"},
+                                          {"midpoint", "midpoint.frag"},
+                                          {"izb", "izb/insert.frag"},
+                                          {"csm", "technique/cascade_blend.glsl"}}) {
+    write(technique, "\"" + read + "\"");
+    const ProcessResult graded = gnomon({"grade", "rubric.json", "-q"});
+    EXPECT_EQ(graded.exit_code, 0) << technique << ": " << graded.err;
+  }
+}
+
 TEST_F(Grade, BadRubricsAndFolders) {
   expect_one_line(gnomon({"grade"}), 2, "a rubric is needed");
   expect_one_line(gnomon({"grade", "nowhere.json"}), 3, "nowhere.json");

@@ -1,14 +1,18 @@
 #include "app/grade/rubric.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/options.h"
 #include "app/shell.h"
 #include "compare/comparison.h"
 #include "raster/shader_folder.h"
+#include "raster/technique_files.h"
+#include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
@@ -133,6 +137,16 @@ std::vector<std::string> read_hand_in(const JsonNode& node) {
   return files;
 }
 
+/// A class would be graded for nothing.
+void check_files_are_read(const JsonNode& hand_in, raster::Technique technique) {
+  const std::set<std::string> read = raster::files_read_by(technique);
+  for (const JsonNode& file : hand_in.as_array())
+    if (!read.contains(file.as_string()))
+      file.wrong(fmt::format("is not read by --technique {}", raster::technique_name(technique)),
+                 fmt::format("{} or what it shares with others",
+                             fmt::join(raster::technique_files(technique), ", ")));
+}
+
 Rubric read_root(const JsonNode& node, const std::string& folder) {
   const JsonObject object(node, {"schema", "title", "text", "technique", "hand_in", "limits", "checks"});
   Rubric rubric;
@@ -140,9 +154,14 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
   if (const auto title = object.require("title")) rubric.title = title->as_string();
   rubric.text = object.string("text");
   const std::vector<std::string> names = technique_names();
+  std::size_t index = 0;
   if (const auto technique = object.require("technique"))
-    rubric.technique = names[technique->as_choice({names.begin(), names.end()})];
-  if (const auto hand_in = object.require("hand_in")) rubric.hand_in = read_hand_in(*hand_in);
+    index = technique->as_choice({names.begin(), names.end()});
+  rubric.technique = names[index];
+  if (const auto hand_in = object.require("hand_in")) {
+    rubric.hand_in = read_hand_in(*hand_in);
+    check_files_are_read(*hand_in, raster::all_technique_traits()[index].technique);
+  }
   if (const auto limits = object.find("limits")) {
     const JsonObject of(*limits, {"seconds", "memory_mb"});
     rubric.limits.seconds = of.number("seconds", rubric.limits.seconds, seconds_range);
