@@ -147,6 +147,32 @@ TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
   EXPECT_TRUE(fs::exists(folder / "pages/index.html"));
 }
 
+/// The number before " %" in a reason.
+double percentage_in(const std::string& reason) {
+  return std::stod(reason.substr(reason.find(": ") + 2));
+}
+
+// A pixel drawn halfway is half a false shadow or half a missed one, so that the two are what is wrong.
+TEST_F(Grade, WhatIsDrawnHalfwayCountsByHalf) {
+  std::string checks;
+  for (const std::string measure : {"wrong", "false_shadow", "missed_shadow"})
+    checks += (checks.empty() ? "" : ", ") + (R"({"name": ")" + measure) +
+              R"(", "points": 1, "kind": "at_most", "at_most": "0%", "measure": ")" + measure +
+              R"(", "runs": [{"scene": "thin-wall", "options": {"size": "64x36", "map-size": "64"}}]})";
+  write_rubric("\"checks\": [" + checks + "]");
+  const std::string skeleton = solution();
+  hand_in("half", skeleton.substr(0, skeleton.find("#ifdef CUBE")) + "  return 0.5;\n}\n");
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--json", "-", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const json checked = json::parse(graded.out)["students"][0]["checks"];
+  const double wrong = percentage_in(checked[0]["reason"]), too_dark = percentage_in(checked[1]["reason"]),
+               too_light = percentage_in(checked[2]["reason"]);
+  EXPECT_EQ(wrong, 50.0);
+  EXPECT_GT(too_dark, 1.0) << checked.dump(2);
+  EXPECT_GT(too_light, 1.0) << checked.dump(2);
+  EXPECT_NEAR(too_dark + too_light, wrong, 0.1) << "each is given to a tenth of a percent";
+}
+
 TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   // So many pixels that the loop lasts: Mesa ends a loop after 65,536 rounds.
   write_rubric(R"("limits": {"seconds": 5}, "checks": [{"name": "draws", "points": 1, "kind": "draws",

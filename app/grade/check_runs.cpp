@@ -51,6 +51,13 @@ bool CheckRuns::needs_values(const Run& run) const {
   });
 }
 
+bool CheckRuns::needs_sides(const Run& run) const {
+  return std::any_of(rubric_->checks.begin(), rubric_->checks.end(), [&](const Check& check) {
+    const bool asks = check.measure.name == "false_shadow" || check.measure.name == "missed_shadow";
+    return asks && std::find(check.runs.begin(), check.runs.end(), run) != check.runs.end();
+  });
+}
+
 Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, bool timed, bool values) const {
   std::vector<std::string> words = {"compare", run.scene};
   for (const auto& [name, value] : run.options) {
@@ -80,11 +87,22 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, boo
   return drawing;
 }
 
+Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& folder) const {
+  auto drawing = make(run, folder, false, true);
+  if (!drawing || !drawing->result) return drawing;
+  if (const auto added = add_ties(*drawing->result); !added) return fail(added.error());
+  return drawing;
+}
+
 Expected<const Drawing*> CheckRuns::draw(const Run& run) {
   const auto known =
       std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.run == run; });
   if (known != made_.end()) return &known->drawing;
-  auto drawing = make(run, fmt::format("{}/{}", folder_, made_.size()), false, needs_values(run));
+  const std::string folder = fmt::format("{}/{}", folder_, made_.size());
+  auto drawing = make(run, folder, false, needs_values(run));
+  // Few shaders draw anything halfway, so few are drawn twice.
+  if (drawing && drawing->result && drawing->result->ties > 0 && needs_sides(run))
+    drawing = make_with_ties(run, folder);
   if (!drawing) return fail(drawing.error());
   made_.push_back({run, std::move(*drawing)});
   return &made_.back().drawing;

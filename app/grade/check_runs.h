@@ -33,7 +33,11 @@ class CheckRuns {
 
  private:
   bool needs_values(const Run& run) const;
+  /// Whether a check asks on which side of the truth the drawing errs.
+  bool needs_sides(const Run& run) const;
   Expected<Drawing> make(const Run& run, const std::string& folder, bool timed, bool values) const;
+  /// With its values, and with its ties in its figures.
+  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder) const;
 
   struct Made {
     Run run;

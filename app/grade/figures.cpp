@@ -31,8 +31,9 @@ double figure_of_light(const json& light, std::string_view name) {
 }
 
 RunResult figures_in(const json& result, const std::string& folder) {
-  RunResult run{folder, std::vector<double>(measures().size(), 0.0), 0.0};
+  RunResult run{folder, std::vector<double>(measures().size(), 0.0)};
   for (const json& light : result.at("lights")) {
+    run.ties += light.at("error").at("ties").get<std::uint64_t>();
     for (std::size_t i = 0; i < run.figures.size(); ++i)
       run.figures[i] = std::max(run.figures[i], figure_of_light(light, measures()[i].name));
     const auto runs = light.at("times_ms").at("shade_pass").at("runs").get<std::vector<double>>();
@@ -50,6 +51,40 @@ std::vector<std::string> value_files(const std::string& folder) {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// Of one light, as shares of its compared pixels.
+struct TwoErrors {
+  double false_shadow = 0.0, missed_shadow = 0.0;
+};
+
+/// What is exactly one half off counts by half.
+double weight_of(double difference) {
+  if (std::abs(difference) == 0.5) return 0.5;
+  return std::abs(difference) > 0.5 ? 1.0 : 0.0;
+}
+
+Expected<TwoErrors> errors_with_ties(const std::string& values) {
+  const auto image = read_channels(values);
+  if (!image) return fail(image.error());
+  const Channel *drawn = image->find("drawn.V"), *truth = image->find("truth.V"),
+                *label = image->find("class.V");
+  if (drawn == nullptr || truth == nullptr || label == nullptr)
+    return fail(Error{ErrorKind::internal, "holds no visibility to compare", values});
+  double too_dark = 0.0, too_light = 0.0, compared = 0.0;
+  for (std::size_t i = 0; i < drawn->values.size(); ++i) {
+    if (label->values[i] < 0.0f) continue;
+    compared += 1.0;
+    const double difference = double(drawn->values[i]) - double(truth->values[i]);
+    (difference < 0.0 ? too_dark : too_light) += weight_of(difference);
+  }
+  compared = std::max(1.0, compared);
+  return TwoErrors{too_dark / compared, too_light / compared};
+}
+
+void raise_figure(RunResult& result, std::string_view name, double value) {
+  for (std::size_t i = 0; i < measures().size(); ++i)
+    if (measures()[i].name == name) result.figures[i] = std::max(result.figures[i], value);
 }
 
 /// Of one light.
@@ -84,6 +119,17 @@ Expected<RunResult> read_run_result(const std::string& folder) {
   } catch (const json::exception& wrong) {
     return fail(Error{ErrorKind::internal, wrong.what(), path});
   }
+}
+
+Expected<void> add_ties(RunResult& result) {
+  const std::filesystem::path folder = values_folder(result.folder);
+  for (const std::string& name : value_files(folder)) {
+    const auto light = errors_with_ties(folder / name);
+    if (!light) return fail(light.error());
+    raise_figure(result, "false_shadow", light->false_shadow);
+    raise_figure(result, "missed_shadow", light->missed_shadow);
+  }
+  return {};
 }
 
 double figure_of(const RunResult& result, const Measure& measure) {

@@ -18,10 +18,17 @@ struct RunResult {
   std::string folder;
   std::vector<double> figures;  ///< as measures() lists them: the worst of the lights
   double shading_ms = 0.0;      ///< the shortest of the shading passes, summed over the lights
+  /// Compared pixels drawn halfway between right and wrong, over all lights; figures count them in wrong and
+  /// mean_error alone before add_ties().
+  std::uint64_t ties = 0;
 };
 
 /// Errors: the folder holds no result of this version.
 Expected<RunResult> read_run_result(const std::string& folder);
+
+/// Counts the ties in false_shadow and missed_shadow too, each by half, so that the two are what is wrong. Which of
+/// them a tie belongs to stands in the values alone (values_folder).
+Expected<void> add_ties(RunResult& result);
 
 /// The figure of that name.
 double figure_of(const RunResult& result, const Measure& measure);
