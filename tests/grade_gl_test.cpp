@@ -28,14 +28,14 @@ struct Edit {
   std::string from, to;
 };
 /// Checks that lose their points, by a letter: Compiles, Shadows, Light, Acne, Panning, Texel, Outside, spot (K), lamp (M),
-/// Quick. A check that needs a lost one is lost with it.
+/// along the Ray, Quick. A check that needs a lost one is lost with it.
 struct Fault {
   std::string name;
   std::vector<Edit> edits;
   std::string lost;
 };
 
-constexpr std::string_view letters = "CSLAPTOKMQ";
+constexpr std::string_view letters = "CSLAPTOKMRQ";
 
 const std::string test_line = "return gap > light.bias.x ? 0.0 : 1.0";
 const std::string border = "greaterThanEqual(place, vec2(size)))) return 1.0";
@@ -43,18 +43,20 @@ const std::string border = "greaterThanEqual(place, vec2(size)))) return 1.0";
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all = {
       {"right", {}, ""},
+      {"byte-order-mark", {{"// Your first", "\xef\xbb\xbf// Your first"}}, ""},
       {"given-gap", {{"return gap >", "return test.gap >"}}, ""},
-      {"no-bias", {{"> light.bias.x", "> 0.0"}}, "ATKM"},
-      {"negative-bias", {{"> light.bias.x", "> -light.bias.x"}}, "LAPTOKMQ"},
-      {"double-bias", {{"> light.bias.x", "> 2.0 * light.bias.x"}}, "PT"},
-      {"huge-bias", {{"> light.bias.x", "> 10.0 * light.bias.x"}}, "PT"},
-      {"flipped-comparison", {{"? 0.0 : 1.0", "? 1.0 : 0.0"}}, "SLAPTOKMQ"},
-      {"flipped-depth", {{"(texel, stored)", "(texel, 1.0 - stored)"}}, "APTKM"},
-      {"stored-as-depth", {{"depth_from_stored(texel, stored)", "stored"}}, "APTKM"},
+      {"no-bias", {{"> light.bias.x", "> 0.0"}}, "ATKMR"},
+      {"negative-bias", {{"> light.bias.x", "> -light.bias.x"}}, "LAPTOKMRQ"},
+      {"double-bias", {{"> light.bias.x", "> 2.0 * light.bias.x"}}, "PTR"},
+      {"huge-bias", {{"> light.bias.x", "> 10.0 * light.bias.x"}}, "PTR"},
+      {"flipped-comparison", {{"? 0.0 : 1.0", "? 1.0 : 0.0"}}, "SLAPTOKMRQ"},
+      {"flipped-depth", {{"(texel, stored)", "(texel, 1.0 - stored)"}}, "APTKMR"},
+      {"stored-as-depth", {{"depth_from_stored(texel, stored)", "stored"}}, "APTKMR"},
       {"one-texel-right", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(1, 0)"}}, "TK"},
       {"one-texel-up", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(0, 1)"}}, "PTK"},
       {"rounded-texel", {{"floor(place)", "floor(place + 0.5)"}}, "TK"},
-      {"no-divide", {{"  view /= p.z;\n", ""}}, "KM"},
+      {"no-ray-length", {{"  gap *= length(offset) / p.z;\n", ""}}, "R"},
+      {"no-divide", {{"  view /= p.z;\n", ""}}, "KMR"},
       {"no-border",
        {{"if (any(lessThan(place, vec2(0.0))) || any(" + border, "if (size < 0.0) return 1.0"}},
        "O"},
@@ -62,20 +64,25 @@ const std::vector<Fault>& faults() {
       {"wrong-axes",
        {{"dot(light.right[face].xyz, offset), dot(light.up[face]",
          "dot(light.up[face].xyz, offset), dot(light.right[face]"}},
-       "ATKM"},
-      {"upside-down", {{"dot(light.up[face].xyz", "-dot(light.up[face].xyz"}}, "ATKM"},
-      {"mirrored", {{"vec2 view = p.xy", "vec2 view = vec2(-p.x, p.y)"}}, "SAPTOKMQ"},
-      {"no-origin", {{"position - light.origin_and_warp[face].xyz", "position"}}, "TOKM"},
-      {"one-view", {{"cube_face(position - light.origin_and_size.xyz)", "0"}}, "M"},
-      {"one-layer", {{"(floor(place)), face)", "(floor(place)), 0)"}}, "M"},
-      {"half-a-map", {{"0.5) * size", "0.5) * 0.5 * size"}}, "LAPTOKMQ"},
-      {"always-lit", {{test_line, "return 1.0"}}, "SAPTOKMQ"},
-      {"always-dark", {{test_line, "return 0.0"}}, "LAPTOKMQ"},
-      {"half-dark", {{"? 0.0 : 1.0", "? 0.3 : 1.0"}}, "T"},
-      {"writes-nan", {{test_line, "return 0.0 / (size - size)"}}, "CSLAPTOKMQ"},
-      {"writes-two", {{"? 0.0 : 1.0", "? 0.0 : 2.0"}}, "CSLAPTOKMQ"},
-      {"does-not-compile", {{"float gap =", "flaot gap ="}}, "CSLAPTOKMQ"},
-      {"no-function", {{"float technique_visibility", "float my_visibility"}}, "CSLAPTOKMQ"},
+       "ATKMR"},
+      {"upside-down", {{"dot(light.up[face].xyz", "-dot(light.up[face].xyz"}}, "ATKMR"},
+      {"mirrored", {{"vec2 view = p.xy", "vec2 view = vec2(-p.x, p.y)"}}, "SAPTOKMRQ"},
+      {"no-origin", {{"position - light.origin_and_warp[face].xyz", "position"}}, "TOKMR"},
+      {"one-view", {{"cube_face(position - light.origin_and_size.xyz)", "0"}}, "MR"},
+      {"one-layer", {{"(floor(place)), face)", "(floor(place)), 0)"}}, "MR"},
+      {"half-a-map", {{"0.5) * size", "0.5) * 0.5 * size"}}, "LAPTOKMRQ"},
+      {"always-lit", {{test_line, "return 1.0"}}, "SAPTOKMRQ"},
+      {"always-dark", {{test_line, "return 0.0"}}, "LAPTOKMRQ"},
+      {"always-half",
+       {{test_line, "return 0.5"},
+        {"size)))) return 1.0", "size)))) return 0.5"},
+        {"(stored)) return 1.0", "(stored)) return 0.5"}},
+       "SAPTOKMRQ"},
+      {"half-dark", {{"? 0.0 : 1.0", "? 0.3 : 1.0"}}, "TR"},
+      {"writes-nan", {{test_line, "return 0.0 / (size - size)"}}, "CSLAPTOKMRQ"},
+      {"writes-two", {{"? 0.0 : 1.0", "? 0.0 : 2.0"}}, "CSLAPTOKMRQ"},
+      {"does-not-compile", {{"float gap =", "flaot gap ="}}, "CSLAPTOKMRQ"},
+      {"no-function", {{"float technique_visibility", "float my_visibility"}}, "CSLAPTOKMRQ"},
       {"slow",
        {{test_line,
          "float sum = 0.0;\n  for (int i = 0; i < 2000; ++i) sum += texelFetch(depth_map, texel + ivec3(i % "
@@ -143,7 +150,7 @@ TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
   EXPECT_NE(page.find("--shader-dir class/double-bias"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_NE(read_file(folder / "pages/does-not-compile.html").find("flaot gap"), std::string::npos);
-  EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,15,20,"), std::string::npos);
+  EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,14,20,"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "pages/index.html"));
 }
 
