@@ -66,6 +66,14 @@ TEST(BadInput, OptionsOfTexturesMayBeShort) {
   EXPECT_EQ(notes, std::vector<std::string>{"The option map_Kd -mm of textures is not used."});
 }
 
+TEST(BadInput, TheHaloOfADissolve) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(plain_mtl("newmtl a\n  d -halo 0.5\r\nnewmtl b\nd 0.25\ndisp -halo.png\n", notes),
+            "newmtl a\nd 0.5\nnewmtl b\nd 0.25\ndisp -halo.png\n");
+  EXPECT_EQ(notes, std::vector<std::string>{
+                       "The option d -halo is not used: as much is let through at every angle."});
+}
+
 const std::string triangle =
     R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
        "bufferViews":[{"buffer":0,"byteLength":36}],"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}])";

@@ -10,6 +10,7 @@
 #include "scene/files/image_check.h"
 #include "scene/files/image_library.h"
 #include "scene/files/read_file.h"
+#include "scene/files/texture_file.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon {
@@ -77,7 +78,7 @@ glm::u8vec4 rgba(const std::uint8_t* value, std::size_t channels) {
   return {value[0], value[1], value[2], channels == 3 ? std::uint8_t{255} : value[3]};
 }
 
-Expected<Texture> texture_from(const std::string& name, DecodedImage image, bool srgb) {
+Expected<TextureFile> texture_from(const std::string& name, DecodedImage image, bool srgb) {
   const std::size_t channels = image.channels.size();
   if (!image.floats.empty()) {
     auto bytes = floats_as_bytes(name, image.floats, channels, srgb);
@@ -91,7 +92,18 @@ Expected<Texture> texture_from(const std::string& name, DecodedImage image, bool
   texture.texels.reserve(texture.size.pixels());
   for (std::size_t i = 0; i < texture.size.pixels(); ++i)
     texture.texels.push_back(rgba(image.bytes.data() + i * channels, channels));
-  return texture;
+  return TextureFile{std::move(texture), channels == 2 || channels >= 4};
+}
+
+Expected<TextureFile> texture_from_bytes(const std::string& name, std::string_view bytes, bool srgb) {
+  auto image = decode(name, bytes);
+  if (!image) return fail(image.error());
+  return texture_from(name, std::move(*image), srgb);
+}
+
+Expected<Texture> texture_alone(Expected<TextureFile> file) {
+  if (!file) return fail(file.error());
+  return std::move(file->texture);
 }
 
 Expected<void> check_size(ImageSize size) {
@@ -156,10 +168,10 @@ Rgb8Image display_image(const ColorImage& linear, double exposure) {
   return out;
 }
 
-Expected<Texture> read_texture(const std::string& path, bool srgb) {
+Expected<TextureFile> read_texture_file(const std::string& path, bool srgb) {
   const auto bytes = read_file(path);
   if (!bytes) return fail(bytes.error());
-  if (lower_extension(path) != ".tga") return read_texture_bytes(path, *bytes, srgb);
+  if (lower_extension(path) != ".tga") return texture_from_bytes(path, *bytes, srgb);
   const auto library = image_library();
   if (!library) return fail(library.error());
   auto image = (*library)->read(path, max_image_side, DecodeAs::stored);
@@ -167,10 +179,12 @@ Expected<Texture> read_texture(const std::string& path, bool srgb) {
   return texture_from(path, std::move(*image), srgb);
 }
 
+Expected<Texture> read_texture(const std::string& path, bool srgb) {
+  return texture_alone(read_texture_file(path, srgb));
+}
+
 Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb) {
-  auto image = decode(name, bytes);
-  if (!image) return fail(image.error());
-  return texture_from(name, std::move(*image), srgb);
+  return texture_alone(texture_from_bytes(name, bytes, srgb));
 }
 
 Expected<void> write_png(const std::string& path, const Rgb8Image& image) {

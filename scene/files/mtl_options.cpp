@@ -85,21 +85,32 @@ std::string plain_statement(std::string_view key, std::string_view rest, std::se
   return fmt::format("{} {}", out, without_blanks(rest));
 }
 
+/// "d -halo 0.5" as "d 0.5"; any other statement as it is.
+std::string plain_dissolve(std::string_view line, std::string_view rest, bool& has_halo) {
+  if (take_word(rest) != "-halo") return std::string(line);
+  has_halo = true;
+  return fmt::format("d {}", without_blanks(rest));
+}
+
 }  // namespace
 
 std::string plain_mtl(std::string_view text, std::vector<std::string>& notes) {
   std::string out;
   std::set<std::string> unused;
+  bool has_halo = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     std::string_view rest = text.substr(at, end - at);
     const std::string_view line = rest, key = take_word(rest);
-    out += key == "map_Kd" || key == "map_d" ? plain_statement(key, rest, unused) : std::string(line);
+    const bool is_map = key == "map_Kd" || key == "map_d";
+    if (is_map) out += plain_statement(key, rest, unused);
+    if (!is_map) out += key == "d" ? plain_dissolve(line, rest, has_halo) : std::string(line);
     if (end < text.size()) out += '\n';
     at = end + 1;
   }
   for (const std::string& option : unused)
     notes.push_back(fmt::format("The option {} of textures is not used.", option));
+  if (has_halo) notes.emplace_back("The option d -halo is not used: as much is let through at every angle.");
   return out;
 }
 

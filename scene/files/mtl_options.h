@@ -1,4 +1,4 @@
-// Texture statements of MTL files, with their options written out as tinyobjloader reads them.
+// Statements of MTL files whose options tinyobjloader does not read as the format means them, written out for it.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@ namespace gnomon {
 
 /// The same library with every option of map_Kd and map_d that has no effect here left out (it is noted), and with
 /// three numbers after -s and -o, of which the format lets the last two be missing. Names of files may hold blanks.
+/// `d -halo 0.5` (the more transparent, the more squarely it is seen) is `d 0.5`, which is noted.
 std::string plain_mtl(std::string_view text, std::vector<std::string>& notes);
 
 }  // namespace gnomon

@@ -4,11 +4,9 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "scene/files/formats.h"
-#include "scene/files/image_io.h"
-#include "scene/files/read_file.h"
+#include "scene/files/obj_textures.h"
 
 namespace gnomon {
 namespace {
@@ -56,54 +54,12 @@ void note_unused_maps(Scene& scene, const tinyobj::material_t& from) {
     if (!name->empty()) scene.notes.push_back(fmt::format("Material '{}': {} is not used.", from.name, key));
 }
 
-// In v-up terms the lookup is s * v + o; with v' = 1 - v on both sides that is s * v' + (1 - s - o).
-TextureTransform transform_of(const tinyobj::texture_option_t& option) {
-  TextureTransform t;
-  t.scale = {option.scale[0], option.scale[1]};
-  t.offset = {option.origin_offset[0], 1.0 - option.scale[1] - option.origin_offset[1]};
-  return t;
-}
-
-Expected<void> add_texture(Scene& scene, const tinyobj::material_t& from, Material& m,
-                           const std::string& folder, const LoadOptions& options,
-                           std::map<std::string, std::uint32_t>& known) {
-  std::string name = from.diffuse_texname;
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const auto path = resolve_path(folder, name, options);
-  if (!path) {
-    Error error = path.error();
-    error.field = fmt::format("{}.map_Kd", from.name);
-    return fail(std::move(error));
-  }
-  std::error_code ignored;
-  if (!std::filesystem::exists(*path, ignored)) {
-    scene.notes.push_back(fmt::format("Material '{}': the texture {} is not there; its plain colour is used.",
-                                      from.name, *path));
-    return {};
-  }
-  const bool clamp = from.diffuse_texopt.clamp;
-  const std::string key = fmt::format("{}{}", *path, clamp ? " clamped" : "");
-  if (const auto found = known.find(key); found != known.end()) {
-    m.diffuse_texture = found->second;
-  } else {
-    auto texture = read_texture(*path, true);
-    if (!texture) return fail(texture.error());
-    texture->repeat_s = texture->repeat_t = !clamp;
-    m.diffuse_texture = static_cast<std::uint32_t>(scene.textures.size());
-    known.emplace(key, m.diffuse_texture);
-    scene.textures.push_back(std::move(*texture));
-  }
-  m.texture_transform = transform_of(from.diffuse_texopt);
-  if (from.alpha_texname == from.diffuse_texname) m.alpha_mode = AlphaMode::mask;
-  return {};
-}
-
 }  // namespace
 
 Expected<void> add_obj_materials(Scene& scene, const std::vector<tinyobj::material_t>& materials,
                                  const std::set<std::string>& without_diffuse, const std::string& folder,
                                  const LoadOptions& options) {
-  std::map<std::string, std::uint32_t> known_textures;
+  ObjTextures textures(scene, folder, options);
   for (const tinyobj::material_t& from : materials) {
     Material m = model_material(from.name);
     const bool textured = !from.diffuse_texname.empty();
@@ -116,12 +72,7 @@ Expected<void> add_obj_materials(Scene& scene, const std::vector<tinyobj::materi
     m.shininess = std::max(1.0f, static_cast<float>(from.shininess));
     map_transparency(scene, from, m);
     note_unused_maps(scene, from);
-    if (!from.alpha_texname.empty() && from.alpha_texname != from.diffuse_texname)
-      scene.notes.push_back(
-          fmt::format("Material '{}': map_d is used only when it is map_Kd's file.", from.name));
-    if (textured)
-      if (const auto added = add_texture(scene, from, m, folder, options, known_textures); !added)
-        return fail(added.error());
+    if (const auto added = textures.add(from, m); !added) return fail(added.error());
     scene.materials.push_back(std::move(m));
   }
   return {};

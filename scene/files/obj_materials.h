@@ -4,12 +4,10 @@
 //   d (or 1 - Tr)   below 1: transmission = 1 - d, with the index of refraction Ni
 //   illum 3, 5, 7   mirror = the mean of Ks, as far as transmission leaves room
 //   illum 4, 6, 7   glass: with d = 1, transmission = the mean of Tf
-//   map_Kd          diffuse texture (v turned over), with -s, -o and -clamp; map_d of the same file: alpha
-//   mask
+//   map_Kd, map_d   diffuse texture and mask (obj_textures.h)
 // Other maps are noted as not used.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>

@@ -1,0 +1,102 @@
+// Cut-outs of OBJ files: map_d of map_Kd's file, however the two are spelt, and what is used of it.
+#include "scene/files/image_io.h"
+#include "scene/load.h"
+#include "scene_files_support.h"
+
+namespace gnomon {
+namespace {
+
+class ObjAlpha : public ::testing::Test {
+ protected:
+  ObjAlpha() {
+    Texture leaf;
+    leaf.size = {2, 1};
+    leaf.texels = {{200, 100, 50, 255}, {200, 100, 50, 0}};
+    const auto png = encode_png(leaf);
+    EXPECT_TRUE(png);
+    folder.put("rgba.png", *png);
+    folder.put("tex/rgba.png", *png);
+    Rgb8Image grey({2, 1});
+    grey.data = {{0, 0, 0}, {255, 255, 255}};
+    EXPECT_TRUE(write_png(folder.file("grey.png"), grey));
+    Rgb8Image colours({3, 1});
+    colours.data = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+    EXPECT_TRUE(write_png(folder.file("colours.png"), colours));
+  }
+
+  Scene load(const std::string& statements) const {
+    folder.put("m.mtl", "newmtl a\nKd 1 1 1\n" + statements);
+    auto scene =
+        load_scene(folder.put("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"));
+    EXPECT_TRUE(scene) << scene.error().message();
+    return scene ? std::move(*scene) : Scene();
+  }
+  bool is_cut_out(const std::string& statements) const {
+    const Scene scene = load(statements);
+    return scene.materials.front().alpha_mode == AlphaMode::mask && !test::has_note(scene, "map_d");
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(ObjAlpha, OneFileHasManySpellings) {
+  EXPECT_TRUE(is_cut_out("map_Kd rgba.png\nmap_d rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd ./rgba.png\nmap_d rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd rgba.png\nmap_d ./rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd tex\\rgba.png\nmap_d tex/rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd tex/../rgba.png\nmap_d rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd rgba.png\nmap_d " + folder.file("rgba.png") + "\n"));
+  const Scene other = load("map_Kd rgba.png\nmap_d tex/rgba.png\n");
+  EXPECT_EQ(other.materials.front().alpha_mode, AlphaMode::opaque);
+  EXPECT_TRUE(test::has_note(other, "map_d is used only when it is map_Kd's file"));
+}
+
+// A scalar map of an image without alpha is its luminance, of its stored values.
+TEST_F(ObjAlpha, LuminanceStandsForAlpha) {
+  const Scene grey = load("map_Kd grey.png\nmap_d grey.png\n");
+  EXPECT_EQ(grey.materials.front().alpha_mode, AlphaMode::mask);
+  ASSERT_EQ(grey.textures.size(), 1u);
+  EXPECT_EQ(grey.textures[0].texels[0], glm::u8vec4(0, 0, 0, 0));
+  EXPECT_EQ(grey.textures[0].texels[1], glm::u8vec4(255, 255, 255, 255));
+  EXPECT_TRUE(test::has_note(grey, "map_d is the luminance of grey.png, which has no alpha channel"));
+  const Scene colours = load("map_Kd colours.png\nmap_d colours.png\n");
+  const std::vector<glm::u8vec4>& texels = colours.textures[0].texels;
+  EXPECT_EQ(texels[0], glm::u8vec4(255, 0, 0, 54)) << "ITU-R BT.709: 0.2126 of red";
+  EXPECT_EQ(texels[1], glm::u8vec4(0, 255, 0, 182)) << "0.7152 of green";
+  EXPECT_EQ(texels[2], glm::u8vec4(0, 0, 255, 18)) << "0.0722 of blue";
+}
+
+TEST_F(ObjAlpha, LuminanceIsOfTheMaterialThatAsksForIt) {
+  const Scene scene = load(
+      "map_Kd grey.png\nmap_d grey.png\nnewmtl plain\nmap_Kd grey.png\nnewmtl clamped\n"
+      "map_Kd -clamp on grey.png\n");
+  ASSERT_EQ(scene.textures.size(), 3u);
+  EXPECT_EQ(scene.textures[scene.materials[0].diffuse_texture].texels[0].a, 0);
+  EXPECT_EQ(scene.textures[scene.materials[1].diffuse_texture].texels[0].a, 255);
+  EXPECT_EQ(scene.textures[scene.materials[2].diffuse_texture].texels[0].a, 255);
+}
+
+TEST_F(ObjAlpha, AnAlphaChannelIsTakenAsItIs) {
+  const Scene scene = load("map_Kd rgba.png\nmap_d rgba.png\n");
+  EXPECT_EQ(scene.textures[0].texels[0], glm::u8vec4(200, 100, 50, 255));
+  EXPECT_EQ(scene.textures[0].texels[1].a, 0);
+}
+
+TEST_F(ObjAlpha, PlacesOfTheirOwnAreNoted) {
+  const std::string note = "map_d lies as map_Kd does: its own -s, -o and -clamp are not used";
+  for (const std::string option : {"-s 2 1 1", "-o 0.5 0 0", "-clamp on"}) {
+    const Scene scene = load("map_Kd rgba.png\nmap_d " + option + " rgba.png\n");
+    EXPECT_EQ(scene.materials.front().alpha_mode, AlphaMode::mask);
+    EXPECT_TRUE(test::has_note(scene, note)) << option;
+  }
+  EXPECT_TRUE(is_cut_out("map_Kd -s 2 1 1 rgba.png\nmap_d -s 2 1 1 rgba.png\n"));
+  EXPECT_TRUE(is_cut_out("map_Kd -s 2 rgba.png\nmap_d -s 2 1 1 rgba.png\n"));
+}
+
+TEST_F(ObjAlpha, AHaloKeepsItsDissolve) {
+  const Scene scene = load("d -halo 0.25\n");
+  EXPECT_EQ(scene.materials.front().transmission, 0.75f);
+  EXPECT_TRUE(test::has_note(scene, "The option d -halo is not used"));
+}
+
+}  // namespace
+}  // namespace gnomon
