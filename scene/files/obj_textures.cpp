@@ -4,7 +4,6 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "scene/files/read_file.h"
@@ -31,9 +30,10 @@ bool lie_alike(const tinyobj::texture_option_t& a, const tinyobj::texture_option
   return of_a.scale == of_b.scale && of_a.offset == of_b.offset && a.clamp == b.clamp;
 }
 
-/// Rec. ITU-R BT.709-6, item 3.2, of the values as they are stored: a map of numbers is not encoded.
-std::uint8_t stored_luminance(const glm::u8vec4& texel) {
-  return static_cast<std::uint8_t>(std::lround(0.2126 * texel.r + 0.7152 * texel.g + 0.0722 * texel.b));
+/// A picture of numbers, such as a mask.
+bool is_grey(const Texture& texture) {
+  return std::all_of(texture.texels.begin(), texture.texels.end(),
+                     [](const glm::u8vec4& t) { return t.r == t.g && t.g == t.b; });
 }
 
 }  // namespace
@@ -52,9 +52,10 @@ Expected<ObjTextures::Known> ObjTextures::find_or_read(const std::string& path, 
   if (!file) return fail(file.error());
   Texture& texture = file->texture;
   texture.repeat_s = texture.repeat_t = !clamped;
-  const Known known{static_cast<std::uint32_t>(scene_.textures.size()), cut_out && !file->has_alpha};
-  if (known.is_luminance)
-    for (glm::u8vec4& texel : texture.texels) texel.a = stored_luminance(texel);
+  const Mask mask = file->has_alpha ? Mask::alpha : cut_out && is_grey(texture) ? Mask::grey : Mask::none;
+  const Known known{static_cast<std::uint32_t>(scene_.textures.size()), mask};
+  if (mask == Mask::grey)
+    for (glm::u8vec4& texel : texture.texels) texel.a = texel.r;  // as it is stored: numbers are not encoded
   scene_.textures.push_back(std::move(texture));
   known_.emplace(Key{path, clamped, cut_out}, known);
   if (file->has_alpha) known_.emplace(Key{path, clamped, !cut_out}, known);  // one texture serves both
@@ -84,9 +85,13 @@ Expected<void> ObjTextures::add(const tinyobj::material_t& from, Material& mater
   material.diffuse_texture = known->texture;
   material.texture_transform = transform_of(from.diffuse_texopt);
   if (!cut_out) return {};
+  if (known->mask == Mask::none) {
+    note(fmt::format("map_d is not used: {} has colours and no alpha channel", from.diffuse_texname));
+    return {};
+  }
   material.alpha_mode = AlphaMode::mask;
-  if (known->is_luminance)
-    note(fmt::format("map_d is the luminance of {}, which has no alpha channel", from.diffuse_texname));
+  if (known->mask == Mask::grey)
+    note(fmt::format("map_d is the grey of {}, which has no alpha channel", from.diffuse_texname));
   if (!lie_alike(from.diffuse_texopt, from.alpha_texopt))
     note("map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
   return {};

@@ -1,6 +1,6 @@
 // Textures of MTL materials: map_Kd, and map_d where it is of the same file, however the two are spelt.
 //   -s, -o, -clamp  of map_Kd place both; v is turned over
-//   map_d           the image's alpha channel as a mask; its luminance where it has none
+//   map_d           the image's alpha channel as a mask; a grey image without one is the mask itself
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,12 @@ class ObjTextures {
   Expected<void> add(const tinyobj::material_t& from, Material& material);
 
  private:
+  /// What map_d finds in an image. Pictures in colours that have no alpha channel are no masks: files name them as
+  /// map_d, too, and mean what is opaque.
+  enum class Mask : std::uint8_t { none, alpha, grey };
   struct Known {
     std::uint32_t texture;
-    bool is_luminance;  ///< its alpha
+    Mask mask;
   };
   using Key = std::tuple<std::string, bool, bool>;  ///< path, clamped, cut out
 
