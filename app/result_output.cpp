@@ -101,16 +101,17 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
 ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
   ExitCode code = ExitCode::done;
   if (!output.fail_above) return code;
-  // One of several lights may face away from all that is seen.
-  const auto nothing = [](const compare::LightComparison& light) { return light.pixels.compared == 0; };
-  if (std::all_of(comparison.lights.begin(), comparison.lights.end(), nothing)) {
+  std::vector<compare::ErrorFigures> lights;
+  for (const compare::LightComparison& light : comparison.lights)
+    lights.push_back(compare::figures_of(light));
+  if (compare::says_nothing(*output.fail_above, lights)) {
     console.message("no pixel could be compared, so nothing holds against --fail-above " +
                     compare::threshold_text(*output.fail_above));
     return ExitCode::threshold_exceeded;
   }
-  for (const compare::LightComparison& light : comparison.lights)
-    if (!passes(*output.fail_above, comparison.world->scene->lights[light.light].name,
-                compare::figures_of(light), console))
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (!passes(*output.fail_above, comparison.world->scene->lights[comparison.lights[i].light].name,
+                lights[i], console))
       code = ExitCode::threshold_exceeded;
   return code;
 }

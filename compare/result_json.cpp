@@ -56,14 +56,12 @@ Json costs_json(const Comparison& c) {
 // What --fail-above was held against; absent where nothing was asked for.
 void add_threshold(const Comparison& c, Json& json) {
   if (!c.fail_above) return;
-  const auto fails = [&c](const LightComparison& light) {
-    const ErrorFigures figures = figures_of(light);
-    return exceeds(*c.fail_above, figures) || too_uncertain(*c.fail_above, figures);
-  };
+  std::vector<ErrorFigures> lights;
+  for (const LightComparison& light : c.lights) lights.push_back(figures_of(light));
   json["fail_above"] = {{"threshold", threshold_text(*c.fail_above)},
                         {"measure", measure_name(c.fail_above->measure)},
                         {"limit", number(c.fail_above->limit)},
-                        {"failed", std::any_of(c.lights.begin(), c.lights.end(), fails)}};
+                        {"failed", !is_kept(*c.fail_above, lights)}};
 }
 
 Json agreement_json(const std::vector<Agreement>& all) {

@@ -117,4 +117,16 @@ bool exceeds(const Threshold& t, const ErrorFigures& f) {
   return !(figure(f, t.measure) <= t.limit);
 }
 
+bool says_nothing(const Threshold& t, std::span<const ErrorFigures> lights) {
+  return t.measure != ErrorMeasure::shimmer &&
+         std::all_of(lights.begin(), lights.end(),
+                     [](const ErrorFigures& f) { return f.compared + f.uncertain == 0; });
+}
+
+bool is_kept(const Threshold& t, std::span<const ErrorFigures> lights) {
+  return !says_nothing(t, lights) && std::none_of(lights.begin(), lights.end(), [&](const ErrorFigures& f) {
+    return exceeds(t, f) || too_uncertain(t, f);
+  });
+}
+
 }  // namespace gnomon::compare

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -56,5 +57,10 @@ std::uint64_t unknown_pixels(const ErrorFigures& figures, ErrorMeasure measure);
 bool too_uncertain(const Threshold& threshold, const ErrorFigures& figures);
 /// The figure is more than the limit, or not known.
 bool exceeds(const Threshold& threshold, const ErrorFigures& figures);
+/// No light has a lit or shadowed pixel, not even an uncertain one: the figures say nothing. Of films (`shimmer`) never.
+bool says_nothing(const Threshold& threshold, std::span<const ErrorFigures> lights);
+/// Something was compared, and no light exceeds the threshold or is too uncertain. One of several lights may face away
+/// from all that is seen.
+bool is_kept(const Threshold& threshold, std::span<const ErrorFigures> lights);
 
 }  // namespace gnomon::compare

@@ -101,16 +101,32 @@ TEST(Answers, ACameraThatSeesNothing) {
 }
 
 // Who asks for a limit wants to know that it was kept.
-TEST(Answers, ALimitIsNotKeptWhereNothingIsCompared) {
+TEST(Answers, NoLimitIsKeptWhereNothingIsCompared) {
   const TemporaryFolder folder;
   write_text(folder / "away.json", looks_away);
-  const Words away = {"compare", folder / "away.json", "--size", "64x36", "-o", folder / "out"};
-  EXPECT_EQ(run_gnomon(away).exit_code, 0);
-  const ProcessResult result = run_gnomon(away + Words{"--fail-above", "1%"});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("no pixel could be compared, so nothing holds against --fail-above 1%"),
+  const auto run = [&](const Words& command) {
+    return run_gnomon(Words{command[0], folder / "away.json", "--size", "64x36"} +
+                      Words(command.begin() + 1, command.end()));
+  };
+  EXPECT_EQ(run({"compare", "-o", folder / "out"}).exit_code, 0);
+  const ProcessResult compared = run({"compare", "-o", folder / "out", "--fail-above", "1%"});
+  EXPECT_EQ(compared.exit_code, 1);
+  EXPECT_NE(compared.err.find("no pixel could be compared, so nothing holds against --fail-above 1%"),
             std::string::npos)
-      << result.err;
+      << compared.err;
+  const nlohmann::json result = nlohmann::json::parse(read_file(folder / "out/result.json"));
+  EXPECT_EQ(result.at("fail_above").at("failed"), true);
+  const ProcessResult filmed =
+      run({"shimmer", "--frames", "3", "-o", folder / "film", "--fail-above", "0.1"});
+  EXPECT_EQ(filmed.exit_code, 1);
+  EXPECT_NE(filmed.err.find("no receiver could be compared"), std::string::npos) << filmed.err;
+  const ProcessResult tuned = run({"tune", "--max-error", "1%", "--map-size", "64"});
+  EXPECT_EQ(tuned.exit_code, 3);
+  EXPECT_NE(tuned.err.find("no pixel can be compared"), std::string::npos) << tuned.err;
+  const ProcessResult swept =
+      run({"sweep", "--map-size", "64,128", "--max-error", "1%", "-o", folder / "sweep"});
+  EXPECT_EQ(swept.exit_code, 1);
+  EXPECT_NE(swept.out.find("No pixel could be compared in any cell."), std::string::npos) << swept.out;
 }
 
 // A sun's map is one picture, a point light's six: each light's work is its own.

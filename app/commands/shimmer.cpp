@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <memory>
 
@@ -109,6 +110,14 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
 ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& film, Console& console) {
   ExitCode code = ExitCode::done;
   if (!command.fail_above) return code;
+  const auto nothing = [](const compare::ShimmerLight& light) {
+    return light.temporal.total().receivers == 0;
+  };
+  if (std::all_of(film.lights.begin(), film.lights.end(), nothing)) {
+    console.message(fmt::format("no receiver could be compared, so nothing holds against --fail-above {:g}",
+                                *command.fail_above));
+    return ExitCode::threshold_exceeded;
+  }
   for (const compare::ShimmerLight& light : film.lights) {
     const double flips = compare::flips_per_receiver_second(film.options, light);
     if (!(flips > *command.fail_above)) continue;

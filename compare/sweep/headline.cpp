@@ -33,17 +33,15 @@ std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<st
                            [&](std::size_t a, std::size_t b) { return product(a) < product(b); });
 }
 
-bool within(const CellSummary& cell, const Threshold& limit) {
-  return std::all_of(cell.lights.begin(), cell.lights.end(), [&limit](const ErrorFigures& light) {
-    return !exceeds(limit, light) && !too_uncertain(limit, light);
-  });
+bool says_nothing_of(const CellSummary& cell) {
+  return (cell.measure() == ErrorMeasure::shimmer ? cell.receiver_steps : cell.compared) == 0;
 }
 
 // Least time of those within the limit; of untimed cells the fewest texels.
 const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const Threshold& limit) {
   const CellSummary* best = nullptr;
   for (const CellSummary& cell : cells) {
-    if (!within(cell, limit)) continue;
+    if (!is_kept(limit, cell.lights)) continue;
     if (best == nullptr || clearly_faster(cell, *best) ||
         (!clearly_faster(*best, cell) && cell.map_texels < best->map_texels))
       best = &cell;
@@ -80,6 +78,11 @@ std::vector<std::string> Headline::lines() const {
 Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
                         const std::optional<Threshold>& limit) {
   Headline out;
+  if (std::all_of(cells.begin(), cells.end(), says_nothing_of)) {
+    out.items.push_back({"No pixel could be compared in any cell", {}, {}, {}});
+    out.limit_met = !limit;
+    return out;
+  }
   if (limit) add_limit(cells, *limit, out);
   if (cells.size() < 2) return out;
   const ErrorMeasure measure = cells.front().measure();

@@ -58,6 +58,9 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   ++renders_;
   auto probe = engine_.probe(setting, options_.goal.measure());
   if (!probe) return fail(probe.error());
+  if (says_nothing({options_.goal.measure()}, probe->lights))
+    return fail(ErrorKind::bad_input,
+                "no pixel can be compared: the camera sees no surface that a light could reach");
   Attempt attempt;
   attempt.size = size;
   attempt.bias_world = probe->bias_world;
