@@ -124,6 +124,21 @@ TEST(Threshold, IsHeldAgainstItsOwnFigure) {
   EXPECT_TRUE(fails(ErrorMeasure::flip, 1.0)) << "not computed is not passed";
 }
 
+// It has nothing that could be wrong; lights that all have nothing keep no limit.
+TEST(Threshold, OneOfSeveralLightsMayFaceAwayFromAllThatIsSeen) {
+  const Threshold limit{ErrorMeasure::wrong, 0.01};
+  const ErrorFigures nothing;
+  ErrorFigures right, wrong, open;
+  right.compared = wrong.compared = 100, wrong.wrong_fraction = 0.5, open.uncertain = 5;
+  const auto kept = [&](const std::vector<ErrorFigures>& lights) { return is_kept(limit, lights); };
+  EXPECT_TRUE(kept({right}));
+  EXPECT_TRUE(kept({right, nothing}));
+  EXPECT_FALSE(kept({right, nothing, wrong}));
+  EXPECT_FALSE(kept({nothing, nothing}));
+  EXPECT_FALSE(kept({open}));
+  EXPECT_FALSE(says_nothing(limit, std::vector{open}));
+}
+
 TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
   const auto made = make_synthetic(3);
   made->scene.lights[1].name =
