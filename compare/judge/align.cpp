@@ -28,7 +28,7 @@ bool mends(double before, double after, double left = most_left) {
 
 /// Shadows of another scene, camera or light; those that are inverted agree less.
 bool at_chance(const std::optional<double>& shadows) {
-  return shadows && *shadows<no_shadows&& * shadows> 1.0 - no_shadows;
+  return shadows && std::abs(*shadows - 0.5) < no_shadows - 0.5;
 }
 
 std::optional<double> share_of(const Evidence& evidence, bool geometric) {
