@@ -12,6 +12,7 @@
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "compare/report/lessons.h"
+#include "scene/files/json_reader.h"
 #include "scene/load.h"
 
 namespace gnomon::app {
@@ -113,11 +114,14 @@ Expected<void> add_scene_settings(CLI::App& command) {
   const bool biased = std::any_of(bias_options.begin(), bias_options.end(),
                                   [&](const char* name) { return was_given(command, name); });
   const std::vector<std::string> known = map_setting_names();
-  for (const auto& [name, value] : asked) {
+  for (const auto& [name, value, line, column] : asked) {
     const std::string option_name = "--" + name;
-    Error error{ErrorKind::bad_input, "is no option of the shadow map"};
-    error.file = path, error.field = "settings." + name;
-    if (std::find(known.begin(), known.end(), name) == known.end()) return fail(std::move(error));
+    Error error{ErrorKind::bad_input, "is no option of the shadow map", path, line, column,
+                "settings." + name};
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      error.reason += suggestion(name, {known.begin(), known.end()});
+      return fail(std::move(error));
+    }
     CLI::Option* option = command.get_option_no_throw(option_name);
     const bool of_bias =
         std::find(bias_options.begin(), bias_options.end(), option_name) != bias_options.end();

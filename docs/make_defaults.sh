@@ -24,7 +24,7 @@ row() {
     "$(wrong "$2" --adaptive-bias)"
 }
 
-echo '| scene | `--bias 1texel` (the default before), % wrong | the default, % wrong | `--adaptive-bias`, % wrong |'
+echo '| scene | `--bias 1texel`, % wrong | the default, % wrong | `--adaptive-bias`, % wrong |'
 echo '|---|--:|--:|--:|'
 for scene in acne-floor courtyard fence field floating-box orchard penumbra shapes sphere-plane stadium studio teapot thin-wall whitted wires; do
   row $scene $scene

@@ -33,6 +33,7 @@ Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& o
 /// What a scene file asks for: an option of the command line without its dashes ("map-size"), and its value.
 struct SceneSetting {
   std::string option, value;
+  int line = 0, column = 0;  ///< of the value, from 1
 };
 /// "settings" of a scene in the project's own format. Empty where there are none, and where the file does not
 /// parse: load_scene says why.

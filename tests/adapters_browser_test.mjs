@@ -1,6 +1,7 @@
 // The adapters of engines for the web, each run in headless Chromium on small scenes and judged.
 //   node adapters_browser_test.mjs GNOMON FOLDER
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { captured, isThere, judge, makeScenes, refused } from "./support/adapters.mjs";
@@ -62,8 +63,23 @@ async function openReport(engine) {
   await browser.close();
 }
 
+/** The page of several verdicts, whose script finds no comparison to bring to life. */
+async function openSeveral(scenes) {
+  const verdicts = join(folder, "several");
+  execFileSync(gnomon, ["judge", ...scenes.map((scene) => join(folder, `three-${scene}`, "capture.json")), "-o", verdicts, "--quiet"]);
+  const { chromium } = await import(new URL("../adapters/node_modules/playwright-core/index.mjs", import.meta.url));
+  const browser = await chromium.launch({ executablePath: chromiumPath });
+  const page = await browser.newPage(), errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  await page.goto(`file://${resolve(verdicts, "report.html")}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  assert.equal(await page.locator("table.captures tbody tr").count(), scenes.length);
+  assert.deepEqual(errors, []);
+  await browser.close();
+}
+
 const engines = {
-  three: ["three", three],
+  three: ["three", async () => { three(); await openSeveral(["spot-rim", "cube-seams"]); }],
   filament: ["filament", async () => { plain("filament", "Filament"); await openReport("filament"); }],
   babylon: ["babylonjs", () => plain("babylon", "Babylon.js", "--type", "pcf", "--bias", "0.001")],
   playcanvas: ["playcanvas", () => plain("playcanvas", "PlayCanvas")],

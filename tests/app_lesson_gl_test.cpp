@@ -94,6 +94,12 @@ TEST(SceneSettings, ThatAreNoneAreErrors) {
     EXPECT_EQ(result.exit_code, 3) << wrong << result.err;
     EXPECT_NE(result.err.find("settings"), std::string::npos) << result.err;
   }
+  EXPECT_NE(said(R"({"map_size": "64"})")
+                .err.find("s.json:2:86: settings.map_size: is no option of the shadow map; "
+                          "did you mean \"map-size\"?"),
+            std::string::npos)
+      << said(R"({"map_size": "64"})").err;
+  EXPECT_NE(said(R"({"bias": "wide"})").err.find("s.json:2:82: settings.bias: "), std::string::npos);
 }
 
 TEST(Lessons, CommandsWithoutTheSettingsTakeTheScene) {

@@ -21,7 +21,9 @@ void expect_refused(std::string_view kind, const Parameters& parameters, std::st
 
 TEST(GeneratorParameters, WrongOnesAreNamed) {
   expect_refused("fnece", {}, "kind", "fnece");
-  expect_refused("fence", {{"lenght", 3.0}}, "lenght", "no such parameter");
+  expect_refused("fnece", {}, "kind", "column, fence, floor");
+  expect_refused("box", {{"siz", 3.0}}, "siz", "(allowed size, bevel)");
+  expect_refused("fence", {{"lenght", 3.0}}, "lenght", "no such parameter (allowed ");
   expect_refused("fence", {{"length", -1.0}}, "length", "got -1");
   expect_refused("fence", {{"length", std::string("long")}}, "length", "a string");
   expect_refused("fence", {{"length", std::nan("")}}, "length", "out of range");

@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
   const auto one = gnomon::compare::make_synthetic(1), three = gnomon::compare::make_synthetic(3),
              none = gnomon::compare::make_synthetic(1), large = gnomon::compare::make_synthetic(1);
   gnomon::compare::clear_comparison(none->comparison.lights[0]);
+  for (gnomon::raster::LightRecord& record : three->comparison.raster.lights)
+    record.unshadowed_pass.runs = {1.0};                  // so that the page says what shadows alone cost
   large->comparison.raster.options.size = {10000, 5625};  // as it says of itself; its images stay small
   return write(one->comparison, folder + "/one") && write(three->comparison, folder + "/three") &&
                  write(none->comparison, folder + "/none") && write(large->comparison, folder + "/large")

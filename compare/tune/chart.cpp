@@ -11,15 +11,16 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double width = 900.0, height = 360.0;  // SVG units
-constexpr double left = 58.0, right = 262.0, top = 20.0, bottom = 48.0;
-constexpr double most_texels = 4.0;  // of bias, on the chart
-constexpr std::size_t styles = 6;    // line-0 … in report.css
+constexpr double width = 980.0, height = 360.0;  // SVG units
+constexpr double left = 58.0, right = 342.0, top = 20.0, bottom = 48.0;
+constexpr double leader = 16.0;        // from a line's end to its name
+constexpr double most_texels = 4.0;    // of bias, on the chart
+constexpr std::size_t most_lines = 6;  // line-0 … in report.css
 
 struct Line {
   const FamilyResult* family;
   const Attempt* attempt;
-  double label_y;
+  double end_y, label_y;
 };
 
 double share(const Attempt& a, const BiasCurvePoint& p) {
@@ -33,7 +34,11 @@ class Chart {
     for (const FamilyResult& family : result.families) {
       const Attempt& attempt = family.answer ? *family.answer : family.closest;
       if (attempt.curve.size() < 2 || !(attempt.texel_world > 0.0)) continue;
-      lines_.push_back({&family, &attempt, 0.0});
+      lines_.push_back({&family, &attempt, 0.0, 0.0});
+    }
+    keep_nearest();
+    for (const Line& l : lines_) {
+      const Attempt& attempt = *l.attempt;
       // The worst that stands on a curve beyond its beginning sets the scale: a bias of 0 would flatten all.
       for (const BiasCurvePoint& p : attempt.curve)
         if (p.bias >= 0.25 * attempt.texel_world) highest_ = std::max(highest_, share(attempt, p));
@@ -55,6 +60,16 @@ class Chart {
   }
 
  private:
+  /// What is good enough, by its cost, and then the rest, by its error; more lines could not be told apart.
+  void keep_nearest() {
+    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
+      const bool good = a.family->answer.has_value(), also = b.family->answer.has_value();
+      if (good != also) return good;
+      return good ? a.attempt->cost < b.attempt->cost : a.attempt->error < b.attempt->error;
+    });
+    lines_.resize(std::min(lines_.size(), most_lines));
+  }
+
   double x(double texels) const { return left + texels / most_texels * (width - left - right); }
   double y(double wrong) const {
     return height - bottom - std::min(wrong / highest_, 2.0) * (height - top - bottom);
@@ -77,7 +92,7 @@ class Chart {
   void place_labels() {
     std::vector<Line*> order;
     for (Line& l : lines_) {
-      l.label_y = y(share(*l.attempt, last_shown(*l.attempt)));
+      l.end_y = l.label_y = std::max(top, y(share(*l.attempt, last_shown(*l.attempt))));
       order.push_back(&l);
     }
     std::stable_sort(order.begin(), order.end(),
@@ -103,12 +118,13 @@ class Chart {
       if (p.bias <= most_texels * l.attempt->texel_world * (1.0 + 1e-9))
         fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", x(p.bias / l.attempt->texel_world),
                        y(share(*l.attempt, p)));
-    const std::string style = fmt::format("line-{}", i % styles);
+    const std::string style = fmt::format("line-{}", i);
     return fmt::format(
-        R"svg(<g clip-path="url(#tune-clip)"><polyline class="curve {0}" points="{1}"/></g><circle class="{0}" cx="{2:.1f}" cy="{3:.1f}" r="4"/><text class="name {0}" x="{4:.0f}" y="{5:.1f}">{6}</text>)svg",
+        R"svg(<g clip-path="url(#tune-clip)"><polyline class="curve {0}" points="{1}"/></g><circle class="{0}" cx="{2:.1f}" cy="{3:.1f}" r="4"/><polyline class="curve {0}" points="{4:.0f},{5:.1f} {6:.0f},{7:.1f}"/><text class="name" x="{8:.0f}" y="{9:.1f}">{10}</text>)svg",
         style, points,
         x(std::clamp(l.attempt->best.constant_world / l.attempt->texel_world, 0.0, most_texels)),
-        y(l.attempt->best.wrong_fraction), width - right + 8, l.label_y + 4,
+        y(l.attempt->best.wrong_fraction), width - right, l.end_y, width - right + leader, l.label_y,
+        width - right + leader + 6.0, l.label_y + 4,
         escaped(fmt::format("{} ({})", l.family->family.name, l.attempt->size)));
   }
 

@@ -122,10 +122,13 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
                         "error of every constant bias",
                   family_table(in));
   if (const std::string chart = tune_chart(in.result); !chart.empty())
-    out.html += "<h3>How the error depends on the bias</h3>\n<figure>" +
-                scroll_region("Wrong pixels against the bias of each kind", chart) +
-                "<figcaption>Each kind at the map size of its row above; a dot marks the best constant bias. "
-                "Texels of the one map are not as wide as those of another.</figcaption></figure>\n";
+    out.html +=
+        "<h3>How the error depends on the bias</h3>\n<figure>" +
+        scroll_region("Wrong pixels against the bias of each kind", chart) +
+        "<figcaption>At most six kinds: of those that are good enough the cheapest, then the nearest. Each "
+        "at the "
+        "map size of its row above; a dot marks the best constant bias. Texels of the one map are not as "
+        "wide as those of another.</figcaption></figure>\n";
   out.html += "<p>What follows is the comparison at that answer.</p></section>\n";
   return out;
 }

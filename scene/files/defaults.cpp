@@ -20,8 +20,9 @@ constexpr double default_fov = 40.0 * pi / 180.0;
 // Upward and downward areas of the scene's triangles, projected to the ground; and how much of the upward
 // area lies flat near the bottom.
 struct Footprint {
-  double up = 0.0, down = 0.0, floor = 0.0;
-  bool lowest_faces_up = false;  // a triangle that faces up lies in the lowest plane itself
+  double up = 0.0, down = 0.0, floor = 0.0;  // as seen from above and below
+  double area = 0.0;                         // of all triangles
+  bool lowest_faces_up = false;              // a triangle that faces up lies in the lowest plane itself
 };
 
 template <class Visit>
@@ -59,23 +60,24 @@ Footprint footprint(const Scene& scene, const Aabb& bounds) {
   const auto add = [&](Footprint& out, const PlacedTriangle& t) {
     const Vec3 n = 0.5 * t.normal();
     (n.y > 0.0 ? out.up : out.down) += std::abs(n.y);
+    out.area += glm::length(n);
     const double top = std::max({t.a.y, t.b.y, t.c.y});
     if (n.y <= 0.0 || top > floor_top || n.y < flat * glm::length(n)) return;
     out.floor += n.y;
     if (top <= lowest) out.lowest_faces_up = true;
   };
   return over_placed_triangles(scene, Footprint{}, add, [](Footprint& out, const Footprint& more) {
-    out.up += more.up, out.down += more.down, out.floor += more.floor;
+    out.up += more.up, out.down += more.down, out.floor += more.floor, out.area += more.area;
     out.lowest_faces_up = out.lowest_faces_up || more.lowest_faces_up;
   });
 }
 
-// A floor covers half of the ground plan near the bottom; an open sheet (a terrain) covers most of it from
-// anywhere.
+// A floor covers half of the ground plan near the bottom; an open sheet (a terrain) covers most of it from anywhere, and
+// is less steep than 60 degrees in the mean, which a body without a bottom is not.
 bool has_own_ground(const Footprint& areas, const Aabb& bounds) {
   const double plan = bounds.extent().x * bounds.extent().z;
-  const bool floor = areas.floor >= 0.5 * plan;
-  const bool sheet = areas.up >= 0.8 * plan && areas.down <= 0.1 * areas.up;
+  const bool floor = areas.floor > 0.0 && areas.floor >= 0.5 * plan;
+  const bool sheet = areas.up >= 0.8 * plan && areas.down <= 0.1 * areas.up && areas.up >= 0.5 * areas.area;
   return floor || sheet;
 }
 

@@ -133,11 +133,15 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
     if (!bytes) return {};
     text = *bytes;
   }
-  const auto document = parse_json(builtin ? builtin->text : std::string_view(text), path_or_name);
+  const std::string_view source = builtin ? builtin->text : std::string_view(text);
+  const auto document = parse_json(source, path_or_name);
   const JsonMember* settings = document ? document->root.find("settings") : nullptr;
   std::vector<SceneSetting> out;
-  if (settings != nullptr)
-    for (const JsonMember& member : settings->value.members) out.push_back({member.key, member.value.text});
+  if (settings == nullptr) return out;
+  for (const JsonMember& member : settings->value.members) {
+    const LineColumn at = line_column(source, member.value.begin);
+    out.push_back({member.key, member.value.text, at.line, at.column});
+  }
   return out;
 }
 

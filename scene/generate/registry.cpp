@@ -85,6 +85,14 @@ Expected<void> check_value(const ParameterInfo& info, const ParameterValue& valu
   return {};
 }
 
+/// "box, floor, sphere"
+template <class Infos, class Name>
+std::string names_of(const Infos& infos, Name name) {
+  std::string text;
+  for (const auto& info : infos) text += fmt::format("{}{}", text.empty() ? "" : ", ", info.*name);
+  return text.empty() ? "none" : text;
+}
+
 Expected<Values> complete(const GeneratorInfo& generator, const Parameters& given) {
   Parameters all;
   for (const ParameterInfo& info : generator.parameters) all.emplace(info.name, info.default_value);
@@ -93,7 +101,8 @@ Expected<Values> complete(const GeneratorInfo& generator, const Parameters& give
         std::find_if(generator.parameters.begin(), generator.parameters.end(),
                      [wanted = std::string_view(name)](const ParameterInfo& p) { return p.name == wanted; });
     if (info == generator.parameters.end()) {
-      return fail_parameter(name, fmt::format("'{}' has no such parameter", generator.kind));
+      return fail_parameter(name, fmt::format("'{}' has no such parameter (allowed {})", generator.kind,
+                                              names_of(generator.parameters, &ParameterInfo::name)));
     }
     if (auto ok = check_value(*info, value); !ok) return fail(ok.error());
     all[name] = value;
@@ -110,7 +119,9 @@ const GeneratorInfo* find_info(std::span<const GeneratorInfo> infos, std::string
 template <class Result, class Generator>
 Expected<Result> run(const Table<Generator>& table, std::string_view kind, const Parameters& parameters) {
   const Generator* generator = table.find(kind);
-  if (!generator) return fail_parameter("kind", fmt::format("no generator of this kind (got \"{}\")", kind));
+  if (!generator)
+    return fail_parameter("kind", fmt::format("no generator of this kind (got \"{}\", allowed {})", kind,
+                                              names_of(table.infos, &GeneratorInfo::kind)));
   Expected<Values> values = complete(generator->info, parameters);
   if (!values) return fail(values.error());
   return generator->build(*values);
