@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
              none = gnomon::compare::make_synthetic(1), large = gnomon::compare::make_synthetic(1);
   gnomon::compare::clear_comparison(none->comparison.lights[0]);
   for (gnomon::raster::LightRecord& record : three->comparison.raster.lights)
-    record.unshadowed_pass.runs = {1.0};                  // so that the page says what shadows alone cost
+    record.unshadowed_pass.runs = {1.0};  // so that the page says what shadows alone cost
+  three->scene.lights[1].name = "Point_light_over_the_long_table_001";  // as modelling programs name them
   large->comparison.raster.options.size = {10000, 5625};  // as it says of itself; its images stay small
   return write(one->comparison, folder + "/one") && write(three->comparison, folder + "/three") &&
                  write(none->comparison, folder + "/none") && write(large->comparison, folder + "/large")

@@ -68,12 +68,10 @@ std::string shadow_cost_table(const PageInput& in) {
         "everywhere.";
   note += "</p>\n";
   if (rows.empty()) return note;
-  return scroll_region(
-             "The shadows alone",
-             R"(<table class="times"><caption>The shadows alone, without what the picture costs</caption><thead><tr><th scope="col">part</th><th scope="col" class="n">rasterizer</th><th scope="col"
+  return R"(<table class="times"><caption>The shadows alone, without what the picture costs</caption><thead><tr><th scope="col">part</th><th scope="col" class="n">rasterizer</th><th scope="col"
 class="n">rays</th></tr></thead><tbody>
-)" + rows + "</tbody></table>") +
-         "\n" + note;
+)" + rows +
+         "</tbody></table>\n" + note;
 }
 
 }  // namespace gnomon::compare
