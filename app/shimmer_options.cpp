@@ -219,9 +219,10 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedSc
 }
 
 bool is_film_option(std::string_view name) {
-  constexpr std::array<std::string_view, 7> all{"--frames", "--fps",   "--move",   "--path",
-                                                "--speed",  "--drift", "--anchors"};
-  return std::find(all.begin(), all.end(), name) != all.end();
+  CLI::App app;
+  FilmOptions film;
+  add_film_options(app, film);
+  return app.get_option_no_throw(std::string(name)) != nullptr;
 }
 
 void add_metric_options(CLI::App& app, MetricOptions& options) {

@@ -75,6 +75,9 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
     if (!is_shader(entry->path()) || entry->is_directory()) continue;
     const auto bytes = read_file(entry->path().string());
     if (!bytes) return fail(bytes.error());
+    if (bytes->find('\0') != std::string::npos)
+      return fail(
+          error_in(entry->path().string(), "is not UTF-8 text, but seems to be UTF-16 (save it as UTF-8)"));
     const std::string text = without_byte_order_mark(*bytes);
     texts += text + "\n";
     const std::string name = entry->path().lexically_relative(folder).generic_string();

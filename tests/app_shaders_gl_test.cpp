@@ -102,6 +102,11 @@ TEST_F(ShaderFolder, AByteOrderMarkIsSkipped) {
   EXPECT_NE(bytes("again.json").find(sha256_hex(bytes("mine/technique/hard.glsl"))), std::string::npos);
 }
 
+TEST_F(ShaderFolder, AnotherEncodingIsRefused) {
+  write("technique/hard.glsl", std::string("\xff\xfe/\0/\0", 6));
+  expect_one_line(draw("bad.png"), 3, "mine/technique/hard.glsl: is not UTF-8 text, but seems to be UTF-16");
+}
+
 TEST_F(ShaderFolder, AFaultOfLinkingIsOneCleanLine) {
   write("shade.frag", "float not_main() { return 0.0; }\n");
   const ProcessResult drawn = draw("bad.png");

@@ -1,4 +1,4 @@
-// Cut-outs of OBJ files: map_d of map_Kd's file, however the two are spelt, and what is used of it.
+// Cut-outs of OBJ files: map_d of map_Kd's file, however the two are spelt, and of a file of its own.
 #include "scene/files/image_io.h"
 #include "scene/load.h"
 #include "scene_files_support.h"
@@ -45,9 +45,62 @@ TEST_F(ObjAlpha, OneFileHasManySpellings) {
   EXPECT_TRUE(is_cut_out("map_Kd tex\\rgba.png\nmap_d tex/rgba.png\n"));
   EXPECT_TRUE(is_cut_out("map_Kd tex/../rgba.png\nmap_d rgba.png\n"));
   EXPECT_TRUE(is_cut_out("map_Kd rgba.png\nmap_d " + folder.file("rgba.png") + "\n"));
-  const Scene other = load("map_Kd rgba.png\nmap_d tex/rgba.png\n");
-  EXPECT_EQ(other.materials.front().alpha_mode, AlphaMode::opaque);
-  EXPECT_TRUE(test::has_note(other, "map_d is used only when it is map_Kd's file"));
+}
+
+// Crytek's Sponza has its leaves and chains so.
+TEST_F(ObjAlpha, AMaskOfItsOwn) {
+  EXPECT_TRUE(is_cut_out("map_Kd colours.png\nmap_d grey.png\n"));
+  const Scene leaf = load("map_Kd rgba.png\nmap_d grey.png\n");
+  ASSERT_EQ(leaf.textures.size(), 1u);
+  EXPECT_EQ(leaf.textures[0].texels, (std::vector<glm::u8vec4>{{200, 100, 50, 0}, {200, 100, 50, 255}}));
+  const Scene other = load("map_Kd grey.png\nmap_d tex/rgba.png\n");
+  EXPECT_EQ(other.textures[0].texels, (std::vector<glm::u8vec4>{{0, 0, 0, 255}, {255, 255, 255, 0}}));
+  EXPECT_TRUE(other.textures[0].srgb);
+}
+
+// MTL's default for maps that are numbers, -imfchan l; colours are what a JPEG makes of a grey mask.
+TEST_F(ObjAlpha, AMaskInColoursIsItsLuminance) {
+  const Scene scene =
+      load("map_Kd colours.png\nmap_d ./tex/../colours.png\nnewmtl b\nmap_Kd rgba.png\nmap_d colours.png\n");
+  EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(scene.materials[1].alpha_mode, AlphaMode::mask);
+  const std::vector<glm::u8vec4>& texels = scene.textures[scene.materials[1].diffuse_texture].texels;
+  ASSERT_EQ(texels.size(), 3u);
+  EXPECT_EQ(texels[0], glm::u8vec4(200, 100, 50, 54));  // 0.2126 of 255
+  EXPECT_EQ(texels[1].a, 182);
+  EXPECT_EQ(texels[2].a, 18);
+}
+
+TEST_F(ObjAlpha, AMaskAloneLeavesThePlainColour) {
+  const Scene scene = load("Kd 0.5 0.25 1\nmap_d -clamp on -s 2 1 1 grey.png\n");
+  EXPECT_EQ(scene.materials[0].diffuse, Vec3f(0.5f, 0.25f, 1.0f));
+  EXPECT_EQ(scene.materials[0].texture_transform.scale, Vec2(2.0, 1.0));
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_FALSE(scene.textures[0].repeat_s);
+  EXPECT_EQ(scene.textures[0].texels, (std::vector<glm::u8vec4>{{255, 255, 255, 0}, {255, 255, 255, 255}}));
+}
+
+// Six texels of three: the middle of each pair lies where the lookup mixes a quarter of the next texel in.
+TEST_F(ObjAlpha, ColoursAndMaskOfOtherSizesMeetAtTheLarger) {
+  Rgb8Image mask({6, 2});
+  for (std::size_t i = 0; i < mask.data.size(); ++i) mask.data[i] = glm::u8vec3(i % 2 == 0 ? 0 : 255);
+  ASSERT_TRUE(write_png(folder.file("mask.png"), mask));
+  const Scene scene = load("map_Kd -clamp on colours.png\nmap_d -clamp on mask.png\n");
+  const Texture& made = scene.textures.at(0);
+  ASSERT_EQ(made.size, (ImageSize{6, 2}));
+  EXPECT_EQ(made.texels[0], glm::u8vec4(255, 0, 0, 0));
+  EXPECT_EQ(made.texels[1], glm::u8vec4(225, 137, 0, 255));  // 0.75 and 0.25 of light, sRGB-encoded
+  EXPECT_EQ(made.texels[2], glm::u8vec4(137, 225, 0, 0));
+  EXPECT_EQ(made.texels[11], glm::u8vec4(0, 0, 255, 255));
+}
+
+TEST_F(ObjAlpha, WhatIsNotThereIsNoted) {
+  const Scene no_mask = load("map_Kd colours.png\nmap_d none.png\n");
+  EXPECT_EQ(no_mask.materials[0].alpha_mode, AlphaMode::opaque);
+  EXPECT_TRUE(test::has_note(no_mask, "none.png is not there; map_d is not used"));
+  const Scene no_colours = load("map_Kd none.png\nmap_d grey.png\n");
+  EXPECT_EQ(no_colours.materials[0].alpha_mode, AlphaMode::mask);
+  EXPECT_TRUE(test::has_note(no_colours, "none.png is not there; its plain colour is used"));
 }
 
 // A grey image is a picture of numbers; one in colours is no mask, and its material stays opaque.

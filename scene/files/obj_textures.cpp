@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "scene/files/read_file.h"
-#include "scene/files/texture_file.h"
+#include "scene/files/texture_mask.h"
 
 namespace gnomon {
 namespace {
@@ -36,64 +36,116 @@ bool is_grey(const Texture& texture) {
                      [](const glm::u8vec4& t) { return t.r == t.g && t.g == t.b; });
 }
 
-}  // namespace
-
-bool ObjTextures::is_cut_out(const tinyobj::material_t& from) const {
-  const auto path = [&](const std::string& name) {
-    return (std::filesystem::path(folder_) / with_slashes(name)).lexically_normal();
-  };
-  return !from.alpha_texname.empty() && !from.diffuse_texname.empty() &&
-         path(from.alpha_texname) == path(from.diffuse_texname);
+bool is_opaque(const Texture& texture) {
+  return std::all_of(texture.texels.begin(), texture.texels.end(),
+                     [](const glm::u8vec4& t) { return t.a == 255; });
 }
 
-Expected<ObjTextures::Known> ObjTextures::find_or_read(const std::string& path, bool clamped, bool cut_out) {
-  if (const auto found = known_.find({path, clamped, cut_out}); found != known_.end()) return found->second;
-  auto file = read_texture_file(path, true);
-  if (!file) return fail(file.error());
-  Texture& texture = file->texture;
-  texture.repeat_s = texture.repeat_t = !clamped;
-  const Mask mask = file->has_alpha ? Mask::alpha : cut_out && is_grey(texture) ? Mask::grey : Mask::none;
-  const Known known{static_cast<std::uint32_t>(scene_.textures.size()), mask};
-  if (mask == Mask::grey)
-    for (glm::u8vec4& texel : texture.texels) texel.a = texel.r;  // as it is stored: numbers are not encoded
+Texture white() {
+  Texture texture;
+  texture.size = {1, 1};
+  texture.texels = {glm::u8vec4(255)};
+  return texture;
+}
+
+bool is_there(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return a == b || std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+void ObjTextures::note(const std::string& material, const std::string& words) {
+  scene_.notes.push_back(fmt::format("Material '{}': {}.", material, words));
+}
+
+Expected<std::string> ObjTextures::find_file(const std::string& name, const std::string& material,
+                                             const std::string& statement) {
+  auto path = resolve_path(folder_, with_slashes(name), options_);
+  if (path) return path;
+  Error error = path.error();
+  error.field = fmt::format("{}.{}", material, statement);
+  return fail(std::move(error));
+}
+
+Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& from) {
+  Files files;
+  if (!from.diffuse_texname.empty()) {
+    auto path = find_file(from.diffuse_texname, from.name, "map_Kd");
+    if (!path) return fail(path.error());
+    if (is_there(*path))
+      files.colours = std::move(*path);
+    else
+      note(from.name, fmt::format("the texture {} is not there; its plain colour is used", *path));
+  }
+  if (!from.alpha_texname.empty()) {
+    auto path = find_file(from.alpha_texname, from.name, "map_d");
+    if (!path) return fail(path.error());
+    if (!is_there(*path))
+      note(from.name, fmt::format("the mask {} is not there; map_d is not used", *path));
+    else
+      files.mask = are_one_file(*path, files.colours) ? files.colours : std::move(*path);
+  }
+  const auto& placed = files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt;
+  files.clamped = placed.clamp;
+  return files;
+}
+
+Expected<ObjTextures::Known> ObjTextures::make(const Files& files) {
+  auto read = files.colours.empty() ? Expected<TextureFile>(TextureFile{white(), false})
+                                    : read_texture_file(files.colours, true);
+  if (!read) return fail(read.error());
+  Texture& texture = read->texture;
+  texture.repeat_s = texture.repeat_t = !files.clamped;
+  Mask mask = Mask::none;
+  if (files.has_mask_of_its_own()) {
+    auto other = read_texture_file(files.mask, false);
+    if (!other) return fail(other.error());
+    mask = is_opaque(other->texture) ? Mask::grey : Mask::alpha;
+    if (mask == Mask::grey) take_alpha_from_luminance(other->texture);
+    texture = with_alpha_of(std::move(texture), std::move(other->texture));
+  } else if (!files.mask.empty() && !read->has_alpha && is_grey(texture)) {
+    mask = Mask::grey;
+    take_alpha_from_luminance(texture);
+  } else if (!files.mask.empty() && read->has_alpha) {
+    mask = Mask::alpha;
+  }
+  const Known made{static_cast<std::uint32_t>(scene_.textures.size()), mask};
   scene_.textures.push_back(std::move(texture));
-  known_.emplace(Key{path, clamped, cut_out}, known);
-  if (file->has_alpha) known_.emplace(Key{path, clamped, !cut_out}, known);  // one texture serves both
-  return known;
+  return made;
+}
+
+Expected<ObjTextures::Known> ObjTextures::find_or_make(const Files& files) {
+  if (const auto found = known_.find(files); found != known_.end()) return found->second;
+  const auto made = make(files);
+  if (made) known_.emplace(files, *made);
+  return made;
 }
 
 Expected<void> ObjTextures::add(const tinyobj::material_t& from, Material& material) {
-  const auto note = [&](const std::string& words) {
-    scene_.notes.push_back(fmt::format("Material '{}': {}.", from.name, words));
-  };
-  const bool cut_out = is_cut_out(from);
-  if (!from.alpha_texname.empty() && !cut_out) note("map_d is used only when it is map_Kd's file");
-  if (from.diffuse_texname.empty()) return {};
-  const auto path = resolve_path(folder_, with_slashes(from.diffuse_texname), options_);
-  if (!path) {
-    Error error = path.error();
-    error.field = fmt::format("{}.map_Kd", from.name);
-    return fail(std::move(error));
-  }
-  std::error_code ignored;
-  if (!std::filesystem::exists(*path, ignored)) {
-    note(fmt::format("the texture {} is not there; its plain colour is used", *path));
-    return {};
-  }
-  const auto known = find_or_read(*path, from.diffuse_texopt.clamp, cut_out);
+  const auto files = find_files(from);
+  if (!files) return fail(files.error());
+  if (files->colours.empty() && files->mask.empty()) return {};
+  const auto known = find_or_make(*files);
   if (!known) return fail(known.error());
   material.diffuse_texture = known->texture;
-  material.texture_transform = transform_of(from.diffuse_texopt);
-  if (!cut_out) return {};
+  material.texture_transform = transform_of(files->colours.empty() ? from.alpha_texopt : from.diffuse_texopt);
+  if (files->mask.empty()) return {};
   if (known->mask == Mask::none) {
-    note(fmt::format("map_d is not used: {} has colours and no alpha channel", from.diffuse_texname));
+    note(from.name,
+         fmt::format("map_d is not used: {} has colours and no alpha channel", from.alpha_texname));
     return {};
   }
   material.alpha_mode = AlphaMode::mask;
-  if (known->mask == Mask::grey)
-    note(fmt::format("map_d is the grey of {}, which has no alpha channel", from.diffuse_texname));
-  if (!lie_alike(from.diffuse_texopt, from.alpha_texopt))
-    note("map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
+  if (known->mask == Mask::grey && !files->has_mask_of_its_own())
+    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.alpha_texname));
+  if (!files->colours.empty() && !lie_alike(from.diffuse_texopt, from.alpha_texopt))
+    note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
   return {};
 }
 

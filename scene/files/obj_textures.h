@@ -1,13 +1,16 @@
-// Textures of MTL materials: map_Kd, and map_d where it is of the same file, however the two are spelt.
-//   -s, -o, -clamp  of map_Kd place both; v is turned over
-//   map_d           the image's alpha channel as a mask; a grey image without one is the mask itself
+// Textures of MTL materials: map_Kd, with map_d as its mask.
+//   -s, -o, -clamp       of map_Kd place both (of map_d where it stands alone); v is turned over
+//   map_d of one's own   the image's alpha channel where it is not opaque throughout; else its luminance, which MTL
+//                        takes of maps that are numbers
+//   map_d of map_Kd's    the image's alpha channel; a grey image without one is the mask itself
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
 
+#include "scene/files/texture_file.h"
 #include "scene/load.h"
 
 namespace tinyobj {
@@ -28,22 +31,32 @@ class ObjTextures {
   Expected<void> add(const tinyobj::material_t& from, Material& material);
 
  private:
-  /// What map_d finds in an image. Pictures in colours that have no alpha channel are no masks: files name them as
-  /// map_d, too, and mean what is opaque.
+  /// What map_d finds in an image. Pictures in colours without an alpha channel that are map_Kd, too, are no masks:
+  /// files name them as map_d and mean what is opaque.
   enum class Mask : std::uint8_t { none, alpha, grey };
+  /// Paths of files that are there; empty: none.
+  struct Files {
+    std::string colours, mask;
+    bool clamped = false;
+    bool has_mask_of_its_own() const { return !mask.empty() && mask != colours; }
+    auto operator<=>(const Files&) const = default;
+  };
   struct Known {
     std::uint32_t texture;
     Mask mask;
   };
-  using Key = std::tuple<std::string, bool, bool>;  ///< path, clamped, cut out
 
-  Expected<Known> find_or_read(const std::string& path, bool clamped, bool cut_out);
-  bool is_cut_out(const tinyobj::material_t& from) const;
+  Expected<std::string> find_file(const std::string& name, const std::string& material,
+                                  const std::string& statement);
+  Expected<Files> find_files(const tinyobj::material_t& from);
+  Expected<Known> make(const Files& files);
+  Expected<Known> find_or_make(const Files& files);
+  void note(const std::string& material, const std::string& words);
 
   Scene& scene_;
   const std::string& folder_;
   const LoadOptions& options_;
-  std::map<Key, Known> known_;
+  std::map<Files, Known> known_;
 };
 
 }  // namespace gnomon
