@@ -139,6 +139,20 @@ void flip(const std::string& file, bool x, bool y) {
   });
 }
 
+/// The picture moved by so many pixels; what comes in at its border is the border's.
+void move(const std::string& file, int x, int y) {
+  spoil(file, [&](ChannelImage& image) {
+    for (Channel& channel : image.channels) {
+      const std::vector<float> from = channel.values;
+      const int w = image.size.width, h = image.size.height;
+      for (int j = 0; j < h; ++j)
+        for (int i = 0; i < w; ++i)
+          channel.values[std::size_t(j * w + i)] =
+              from[std::size_t(std::clamp(j - y, 0, h - 1) * w + std::clamp(i - x, 0, w - 1))];
+    }
+  });
+}
+
 void map_places(const Capture& capture, const Mat3& captured_from_scene) {
   spoil(capture.position, [&](ChannelImage& image) {
     for (std::size_t i = 0; i < image.size.pixels(); ++i) {
@@ -196,6 +210,9 @@ const std::vector<Convention>& conventions() {
        [](Capture& c, const Compared& d) {
          show_places(c, d, make_view(d.scene->camera, small_picture), 0.5);
        }},
+      {"some pixels off (x +2, y -1)",
+       {.positions = false, .mask = true},
+       [](Capture& c, const Compared&) { move(c.visibility, -2, 1); }},
       {"field of view",
        {.positions = false, .mask = true},
        [](Capture& c, const Compared& d) {

@@ -50,7 +50,7 @@ std::optional<Found> best_suspect(const EvidenceInput& in, const Samples& sample
                                   const std::vector<Suspect>& suspects, bool geometric, bool all) {
   std::optional<Found> best;
   for (const Suspect& suspect : suspects) {
-    if (!all && suspect.geometric != geometric) continue;
+    if (all ? !suspect.by_shadows : suspect.geometric != geometric) continue;
     const Evidence evidence = gather(in, samples, suspect);
     const auto share = share_of(evidence, geometric);
     if (!share) continue;

@@ -18,13 +18,17 @@ void add_flips(std::vector<Suspect>& out) {
     }
 }
 
-void add_shifts(std::vector<Suspect>& out) {
-  for (const double x : {-0.5, 0.0, 0.5})
-    for (const double y : {-0.5, 0.0, 0.5}) {
-      if (x == 0.0 && y == 0.0) continue;
+/// As many steps to each side, of so many pixels. A bias, too, moves shadows by whole pixels.
+void add_shifts(double step, int steps, std::vector<Suspect>& out) {
+  for (int i = -steps; i <= steps; ++i)
+    for (int j = -steps; j <= steps; ++j) {
+      if (i == 0 && j == 0) continue;
       Suspect suspect;
-      suspect.what = fmt::format("the picture is half a pixel off (x {:+.1f}, y {:+.1f})", x, y);
-      suspect.shift = {x, y};
+      suspect.shift = {step * i, step * j};
+      suspect.what =
+          fmt::format("the picture is {} off (x {:+g}, y {:+g})", step < 1.0 ? "half a pixel" : "some pixels",
+                      suspect.shift.x, suspect.shift.y);
+      suspect.by_shadows = step < 1.0;
       out.push_back(suspect);
     }
 }
@@ -109,7 +113,8 @@ void flip(bool flip_x, bool flip_y, Image<T>& image) {
 std::vector<Suspect> usual_suspects(const SuspectInput& in) {
   std::vector<Suspect> out;
   add_flips(out);
-  add_shifts(out);
+  add_shifts(0.5, 1, out);
+  add_shifts(1.0, 3, out);
   add_views(in, out);
   add_axes(in, out);
   if (in.has_depths) {

@@ -20,6 +20,7 @@ struct Suspect {
   bool light_turned = false;            ///< the light shines the other way
   bool inverted = false;                ///< 1 is shadow
   bool geometric = true;                ///< seen by silhouettes, positions or depths; else by shadows alone
+  bool by_shadows = true;               ///< shadows tell it, too, where a capture has nothing else
 };
 
 struct SuspectInput {
