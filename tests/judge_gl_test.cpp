@@ -238,6 +238,13 @@ const std::vector<Convention>& conventions() {
            for (float& v : image.channels[0].values) v = srgb_from_linear(v);
          });
        }},
+      {"gamma of 2.2",
+       {},
+       [](Capture& c, const Compared&) {
+         spoil(c.visibility, [](ChannelImage& image) {
+           for (float& v : image.channels[0].values) v = std::pow(v, 1.0f / 2.2f);
+         });
+       }},
       {"z-up", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, z, -y)); }},
       {"left-handed", {}, [x, y, z](Capture& c, const Compared&) { map_places(c, Mat3(x, y, -z)); }},
       {"centimetres", {}, [](Capture& c, const Compared&) { map_places(c, Mat3(100.0)); }}};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "scene/files/image_io.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -101,7 +100,8 @@ class Aligner {
   Expected<void> check_shadows();
   Expected<void> check_encoding();
   void note_range();
-  Expected<void> mend(const Mended& mended, const Suspect* suspect);
+  Expected<void> accept(const Mended& mended);
+  Expected<void> mend(const Mended& mended, const Suspect& suspect);
   Expected<void> mend_shadows(const Found& found, double before);
   Expected<void> doubt_shadows(double share, bool alone);
 
@@ -115,26 +115,28 @@ class Aligner {
   Aligned out_;
 };
 
-Expected<void> Aligner::mend(const Mended& mended, const Suspect* suspect) {
+/// An error without --fix.
+Expected<void> Aligner::accept(const Mended& mended) {
   if (!in_.fix)
     return capture_error(in_.capture, "",
                          fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)",
                                      mended.what, hundredths_of_percent(mended.before), mended.evidence,
                                      hundredths_of_percent(mended.after)));
   judged_.mended.push_back(mended);
-  if (suspect == nullptr) {
-    for (float& v : pictures_.visibility.data) v = linear_from_srgb(v);
-    return {};
-  }
-  undo(*suspect, pictures_, sight_);
-  if (suspect->light_turned) {
+  return {};
+}
+
+Expected<void> Aligner::mend(const Mended& mended, const Suspect& suspect) {
+  if (const auto accepted = accept(mended); !accepted) return accepted;
+  undo(suspect, pictures_, sight_);
+  if (suspect.light_turned) {
     Light& light = scene_.lights[in_.light];
     light.direction = -light.direction;
     out_.trace_again = true;
   }
-  if (suspect->shift != Vec2(0.0)) out_.everywhere = true;
-  if (!suspect->view) return {};
-  if (const auto camera = camera_of(scene_.camera, *suspect->view)) {
+  if (suspect.shift != Vec2(0.0)) out_.everywhere = true;
+  if (!suspect.view) return {};
+  if (const auto camera = camera_of(scene_.camera, *suspect.view)) {
     scene_.camera = *camera;
     out_.trace_again = true;
   } else {
@@ -149,7 +151,7 @@ Expected<void> Aligner::check_geometry() {
   const auto best = best_suspect(input(), samples_, suspects_, true, false);
   const bool likely = best && best->share >= least_geometry && mends(now->share, best->share);
   if (likely && !at_chance(best->shadows))
-    return mend({best->suspect.what, now->what, now->share, best->share}, &best->suspect);
+    return mend({best->suspect.what, now->what, now->share, best->share}, best->suspect);
   return capture_error(
       in_.capture, "",
       fmt::format(
@@ -166,7 +168,7 @@ Expected<void> Aligner::check_geometry() {
 /// Where the light, turned, lights nothing, the picture is as dark as any picture without light.
 Expected<void> Aligner::mend_shadows(const Found& found, double before) {
   const Mended mended{found.suspect.what, "shadows", before, found.share};
-  if (found.lit >= few_samples) return mend(mended, &found.suspect);
+  if (found.lit >= few_samples) return mend(mended, found.suspect);
   return capture_error(
       in_.capture, "",
       fmt::format(
@@ -208,8 +210,11 @@ Expected<void> Aligner::check_shadows() {
 
 Expected<void> Aligner::check_encoding() {
   if (out_.trace_again || out_.everywhere) return {};  // the frame is not of this sight
-  const auto found = find_srgb(pictures_, in_.frame);
-  return found ? mend(*found, nullptr) : Expected<void>();
+  const auto found = find_encoding(pictures_, in_.frame);
+  if (!found) return {};
+  if (const auto accepted = accept(found->mended); !accepted) return accepted;
+  for (float& v : pictures_.visibility.data) v = found->decode(v);
+  return {};
 }
 
 /// Light of something else in the picture, or a shadow that is drawn lighter than it is, counts as error.

@@ -25,8 +25,14 @@ struct Aligned {
 Expected<Aligned> align(const AlignInput& input, Scene& scene, Sight& sight, CapturedPictures& pictures,
                         Judged& judged);
 
-/// The visibility is sRGB-encoded: its greys, decoded, fit the truth around them far better. None where they
-/// do not, or there are too few.
-std::optional<Mended> find_srgb(const CapturedPictures& pictures, const raytrace::RayTracedFrame& frame);
+/// What the visibility's values were encoded with for a display.
+struct Encoding {
+  Mended mended;
+  float (*decode)(float) = nullptr;  ///< stored to linear, both in [0, 1]
+};
+/// sRGB, or a gamma of 2.2, where the greys are multiples of one part once they are decoded. None where they are not,
+/// or there are too few.
+std::optional<Encoding> find_encoding(const CapturedPictures& pictures,
+                                      const raytrace::RayTracedFrame& frame);
 
 }  // namespace gnomon::compare

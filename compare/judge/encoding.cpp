@@ -1,5 +1,6 @@
-// sRGB in place of linear values. Lit and shadowed are the same in both; only the greys of a filter that counts
-// its taps tell: they are whole multiples of one part, 1/9, 1/16, 1/25 ..., in linear values alone.
+// Values that were encoded for a display in place of linear ones. Lit and shadowed are the same in both; only the
+// greys of a filter that counts its taps tell: they are whole multiples of one part, 1/9, 1/16, 1/25 ..., in linear
+// values alone.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -45,27 +46,46 @@ int least_levels(int taps) {
   return std::max(2, (taps + 1) / 3);
 }
 
+struct Curve {
+  const char* what;
+  float (*encode)(float);  ///< linear to stored
+  float (*decode)(float);
+};
+constexpr Curve curves[] = {
+    {"the values are sRGB-encoded", srgb_from_linear, linear_from_srgb},
+    {"the values are encoded with a gamma of 2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); },
+     [](float v) { return std::pow(v, 2.2f); }}};
+
+std::optional<Mended> find_curve(const std::vector<float>& greys, const Curve& curve) {
+  std::vector<float> decoded;
+  for (const float v : greys) decoded.push_back(curve.decode(v));
+  const auto as_is = [&](int taps) { return on_multiples(greys, greys, taps, [](float v) { return v; }); };
+  for (int taps = 3; taps <= most_taps; ++taps) {
+    const OnMultiples after = on_multiples(greys, decoded, taps, curve.encode);
+    if (after.share < least_decoded || after.levels < least_levels(taps)) continue;
+    // A right capture would lie on the multiples of some number itself.
+    for (int other = 3; other <= taps; ++other)
+      if (const auto now = as_is(other); now.share > most_as_is && now.levels >= least_levels(other))
+        return std::nullopt;
+    return Mended{curve.what, "greys", as_is(taps).share, after.share};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<Mended> find_srgb(const CapturedPictures& pictures, const raytrace::RayTracedFrame& frame) {
-  std::vector<float> greys, decoded;
+std::optional<Encoding> find_encoding(const CapturedPictures& pictures,
+                                      const raytrace::RayTracedFrame& frame) {
+  std::vector<float> greys;
   for (std::size_t i = 0; i < pictures.visibility.data.size(); ++i) {
     const float v = pictures.visibility.data[i];
     if (v < 0.02f || v > 0.99f || frame.receiver.data[i].primitive == no_id || pictures.reached.data[i] == 0)
       continue;
     greys.push_back(v);
-    decoded.push_back(linear_from_srgb(v));
   }
   if (greys.size() < few_greys) return std::nullopt;
-  const auto as_is = [&](int taps) { return on_multiples(greys, greys, taps, [](float v) { return v; }); };
-  for (int taps = 3; taps <= most_taps; ++taps) {
-    const OnMultiples after = on_multiples(greys, decoded, taps, srgb_from_linear);
-    if (after.share < least_decoded || after.levels < least_levels(taps)) continue;
-    // A right capture would lie on the multiples of some number itself.
-    for (int other = 3; other <= taps; ++other)
-      if (as_is(other).share > most_as_is) return std::nullopt;
-    return Mended{"the values are sRGB-encoded", "greys", as_is(taps).share, after.share};
-  }
+  for (const Curve& curve : curves)
+    if (const auto mended = find_curve(greys, curve)) return Encoding{*mended, curve.decode};
   return std::nullopt;
 }
 
