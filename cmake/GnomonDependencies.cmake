@@ -26,6 +26,9 @@ add_library(libdeflate INTERFACE)
 target_link_libraries(libdeflate INTERFACE ${LIBDEFLATE_LIBRARY})
 target_include_directories(libdeflate SYSTEM INTERFACE ${LIBDEFLATE_HEADERS})
 
+# TurboJPEG, for JPEG files; where its CMake file is, it names another package's files.
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+
 # Nettle, for SHA-256 by what the processor has for it; it has no CMake file.
 find_library(NETTLE_LIBRARY nettle REQUIRED)
 

@@ -16,13 +16,4 @@ std::string deflate(std::string_view bytes, int level) {
   return out;
 }
 
-bool inflates_to(std::string_view stream, std::size_t size) {
-  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
-      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-  if (!decompressor) throw std::bad_alloc();
-  std::string out(size, '\0');
-  return libdeflate_zlib_decompress(decompressor.get(), stream.data(), stream.size(), out.data(), out.size(),
-                                    nullptr) == LIBDEFLATE_SUCCESS;
-}
-
 }  // namespace gnomon

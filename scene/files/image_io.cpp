@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/files/image_check.h"
+#include "scene/files/image_decode.h"
 #include "scene/files/image_library.h"
 #include "scene/files/read_file.h"
 #include "scene/files/texture_file.h"
@@ -40,14 +40,12 @@ Expected<DecodedImage> decode(const std::string& name, std::string_view bytes) {
     return bad_image(name,
                      "image in a format that is not known (allowed PNG, JPEG, WebP, BMP, "
                      "EXR, HDR, GIF, TGA)");
-  std::string essential;
-  if (format == "png") {
-    auto png = essential_png(bytes, name);
-    if (!png) return fail(png.error());
-    essential = std::move(*png), bytes = essential;
+  if (format == "png") return decode_png(name, bytes);
+  if (format == "jpeg") {
+    auto jpeg = decode_jpeg(name, bytes);
+    if (!jpeg) return fail(jpeg.error());
+    if (*jpeg) return std::move(**jpeg);
   }
-  if (format == "jpeg")
-    if (const auto whole = check_jpeg_is_whole(bytes, name); !whole) return fail(whole.error());
   const auto library = image_library();
   if (!library) return fail(library.error());
   return (*library)->decode(name, bytes, format, max_image_side);
