@@ -38,12 +38,6 @@ std::string right_path(const std::string& name) {
   return near.empty() ? suggestion("technique/" + name, names) : near;
 }
 
-// Editors of Windows begin a file with it; a compiler takes it for a mistake.
-std::string without_byte_order_mark(const std::string& text) {
-  constexpr std::string_view mark = "\xef\xbb\xbf";
-  return text.starts_with(mark) ? text.substr(mark.size()) : text;
-}
-
 Error error_in(const std::string& file, std::string reason) {
   return {ErrorKind::bad_input, std::move(reason), file};
 }
@@ -78,7 +72,7 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
     if (bytes->find('\0') != std::string::npos)
       return fail(
           error_in(entry->path().string(), "is not UTF-8 text, but seems to be UTF-16 (save it as UTF-8)"));
-    const std::string text = without_byte_order_mark(*bytes);
+    const std::string text(without_byte_order_mark(*bytes));
     texts += text + "\n";
     const std::string name = entry->path().lexically_relative(folder).generic_string();
     if (!is_own(name) || embedded::shaders(name) != text) out.files_[name] = {text, sha256_hex(*bytes)};

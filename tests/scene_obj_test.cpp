@@ -182,6 +182,32 @@ TEST(Obj, CorruptTextureIsAnError) {
   EXPECT_FALSE(load_text(folder, "mtllib m.mtl\nusemtl a\n" + std::string(quad) + "f 1 2 3\n"));
 }
 
+// What programs on Windows write: names with blanks, folders divided by backslashes, a mark at the file's start.
+TEST(Obj, NamesWithBlanksAndBackslashes) {
+  const TemporaryFolder folder;
+  const std::string mark = "\xef\xbb\xbf",
+                    red = "newmtl dark red\t\r\nKd 1 0 0\r\nnewmtl dark\r\nKd 0 1 0\r\n";
+  for (const std::string file : {"my materials.mtl", "tex/my materials.mtl", "plain.mtl"})
+    folder.put(file, mark + red);
+  for (const std::string library : {"my materials.mtl", "my\\ materials.mtl", "tex\\my materials.mtl",
+                                     ".\\plain.mtl", "none.mtl plain.mtl"}) {
+    const auto colour = [&](const std::string& material) {
+      const auto scene = load_text(folder, mark + "mtllib " + library + "\r\n" + std::string(quad) +
+                                               "usemtl " + material + "\r\nf 1 2 3\r\n");
+      EXPECT_TRUE(scene) << scene.error().message();
+      EXPECT_FALSE(test::has_note(*scene, "mtl")) << library;
+      return scene->materials.at(scene->meshes.at(0).triangle_materials.at(0)).diffuse;
+    };
+    EXPECT_EQ(colour("dark red "), Vec3f(1, 0, 0)) << library;
+    EXPECT_EQ(colour("dark"), Vec3f(0, 1, 0)) << library;
+    EXPECT_EQ(colour("dark # and more"), Vec3f(0, 1, 0)) << library;
+  }
+  folder.put("wide.mtl", std::string("n\0e\0w\0", 6));
+  const auto wide = load_text(folder, "mtllib wide.mtl\n" + std::string(quad) + "f 1 2 3\n");
+  ASSERT_TRUE(wide);
+  EXPECT_TRUE(test::has_note(*wide, "wide.mtl cannot be used (it is not UTF-8 text)"));
+}
+
 TEST(Obj, ConfinedLibrary) {
   const TemporaryFolder folder;
   folder.put("m.mtl", "newmtl a\nKd 1 0 0\n");

@@ -103,8 +103,12 @@ std::string plain_mtl(std::string_view text, std::vector<std::string>& notes) {
     std::string_view rest = text.substr(at, end - at);
     const std::string_view line = rest, key = take_word(rest);
     const bool is_map = key == "map_Kd" || key == "map_d";
-    if (is_map) out += plain_statement(key, rest, unused);
-    if (!is_map) out += key == "d" ? plain_dissolve(line, rest, has_halo) : std::string(line);
+    if (is_map)
+      out += plain_statement(key, rest, unused);
+    else if (key == "newmtl")
+      out += fmt::format("newmtl {}", without_blanks(rest));
+    else
+      out += key == "d" ? plain_dissolve(line, rest, has_halo) : std::string(line);
     if (end < text.size()) out += '\n';
     at = end + 1;
   }

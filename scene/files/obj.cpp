@@ -33,28 +33,26 @@ class LibraryReader {
   std::vector<std::string> notes;
   std::set<std::string> without_diffuse, warnings;
 
-  Expected<bool> read(const std::string& name) {
+  /// Nothing, or why it cannot be used.
+  Expected<std::string> read(const std::string& name) {
     const auto path = resolve_path(folder_, name, options_);
     if (!path) {
       Error error = path.error();
       error.field = "mtllib";
       return fail(std::move(error));
     }
-    const auto text = read_file(*path);
-    if (!text) {
-      notes.push_back(
-          fmt::format("The material library {} cannot be used ({}); its materials are neutral grey.",
-                      printable(name), text.error().reason));
-      return false;
-    }
-    note_missing_diffuse(*text);
-    std::istringstream stream(plain_mtl(*text, notes));
+    const auto bytes = read_file(*path);
+    if (!bytes) return bytes.error().reason;
+    if (bytes->find('\0') != std::string::npos) return "it is not UTF-8 text";
+    const std::string text = plain_mtl(without_byte_order_mark(*bytes), notes);
+    note_missing_diffuse(text);
+    std::istringstream stream(text);
     std::string said, errors;
     tinyobj::LoadMtl(&numbers_, &materials, &stream, &said, &errors);
     std::istringstream lines(said);
     for (std::string line; std::getline(lines, line);)
       if (!line.empty()) warnings.insert(line);
-    return true;
+    return std::string();
   }
 
   int find(const std::string& name) const {
@@ -70,7 +68,8 @@ class LibraryReader {
     for (std::string line; std::getline(lines, line);) {
       std::istringstream words(line);
       std::string key, value;
-      words >> key >> value;
+      words >> key >> std::ws;
+      std::getline(words, value);
       if (key == "newmtl") without_diffuse.insert(current = value);
       if (key == "Kd") without_diffuse.erase(current);
     }

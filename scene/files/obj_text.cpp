@@ -56,20 +56,23 @@ std::string_view without_comment(std::string_view line) {
   return line.substr(0, next(line, 0, [](char c) { return c == '#'; }));
 }
 
-/// The names of a `mtllib` statement: divided by spaces; a backslash makes a space, or another backslash, part of
-/// its name.
+/// What a `mtllib` statement may name: one file with blanks in its name, or several that blanks divide. A backslash
+/// makes a blank part of the name; any other divides folders, as those of Windows do.
 std::vector<std::string> library_names(std::string_view line) {
+  std::string whole;
   std::vector<std::string> names(1);
-  bool escaped = false;
-  for (const char c : line) {
-    if (!escaped && c == '\\')
-      escaped = true;
-    else if (!escaped && c == ' ')
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool escapes = line[i] == '\\' && i + 1 < line.size() && is_blank(line[i + 1]);
+    if (escapes) ++i;
+    const char c = line[i] == '\\' ? '/' : line[i];
+    whole += c;
+    if (is_blank(c) && !escapes)
       names.emplace_back();
     else
-      names.back() += c, escaped = false;
+      names.back() += c;
   }
   std::erase(names, std::string());
+  if (names.size() > 1) names.insert(names.begin(), whole);
   return names;
 }
 
@@ -132,7 +135,7 @@ class ObjReader {
     else if (word == "o" || word == "g")
       begin_shape(whole, word == "o" ? std::string(trimmed(line)) : group_name(line));
     else if (word == "usemtl")
-      use_material(std::string(next_word(line)));
+      use_material(line);
     else if (word == "mtllib")
       read_library(trimmed(line));
   }
@@ -242,13 +245,17 @@ class ObjReader {
     if (shape_.faces > 0) out_.shapes.push_back(std::move(shape_));
   }
 
-  void use_material(const std::string& name) {
+  /// A name may hold blanks; what follows a name without them is no part of it.
+  void use_material(std::string_view line) {
+    const std::string name(trimmed(line));
     material_ = libraries_.find(name);
+    if (material_ < 0) material_ = libraries_.find(std::string(next_word(line)));
     if (material_ < 0) out_.warnings.insert(fmt::format("material [ '{}' ] not found in .mtl", name));
   }
 
   /// The first of the names that can be used.
   void read_library(std::string_view line) {
+    std::string why = "no name";
     for (const std::string& name : library_names(line)) {
       if (libraries_read_.count(name) > 0) return;
       const auto done = libraries_.read(name);
@@ -256,11 +263,14 @@ class ObjReader {
         error_ = done.error();
         return;
       }
-      if (!*done) continue;
-      libraries_read_.insert(name);
-      return;
+      if (done->empty()) {
+        libraries_read_.insert(name);
+        return;
+      }
+      why = *done;
     }
-    out_.warnings.insert("Failed to load material file(s). Use default material.");
+    out_.warnings.insert(fmt::format(
+        "The material library {} cannot be used ({}); its materials are neutral grey.", line, why));
   }
 
   int line_of(std::string_view where) const {
@@ -288,6 +298,7 @@ class ObjReader {
 
 Expected<ObjText> parse_obj(std::string_view bytes, const std::string& file,
                             const MaterialLibraries& libraries) {
+  bytes = without_byte_order_mark(bytes);
   if (bytes.find('\\') == std::string_view::npos) return ObjReader(bytes, file, libraries).run();
   const std::string text = join_continued_lines(bytes);
   return ObjReader(text, file, libraries).run();

@@ -47,8 +47,8 @@ struct ObjText {
 };
 
 struct MaterialLibraries {
-  /// Reads a library. False: it cannot be used. Errors end the reading of the text.
-  std::function<Expected<bool>(const std::string& name)> read;
+  /// Reads a library: nothing, or why it cannot be used. Errors end the reading of the text.
+  std::function<Expected<std::string>(const std::string& name)> read;
   /// The number of a material that was read; -1: there is none of that name.
   std::function<int(const std::string& name)> find;
 };

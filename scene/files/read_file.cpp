@@ -73,6 +73,11 @@ Expected<std::string> resolve_path(const std::string& folder, const std::string&
   return joined.string();
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 LineColumn line_column(std::string_view text, std::size_t offset) {
   LineColumn at;
   offset = std::min(offset, text.size());

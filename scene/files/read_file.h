@@ -25,6 +25,9 @@ Expected<std::string> resolve_path(const std::string& folder, const std::string&
 /// The folder that a file's own references are relative to.
 std::string folder_of(const std::string& path);
 
+/// Text as editors of Windows write it begins with a mark (U+FEFF).
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Line and column, both from 1, of a byte offset; a column is a code point of UTF-8.
 struct LineColumn {
   int line = 1, column = 1;
