@@ -76,7 +76,6 @@ void DepthMapPass::set_state(const LightView& view, Cull cull) const {
     gl->Disable(GL_CULL_FACE);
   } else {
     gl->Enable(GL_CULL_FACE);
-    gl->FrontFace(GL_CCW);
     gl->CullFace(cull == Cull::front ? GL_FRONT : GL_BACK);
   }
 }

@@ -283,6 +283,7 @@ void WorldBuffers::make_runs(const SceneFeatures& features) {
       const Material& material = materials[part.material_of(i)];
       run.masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
       run.single_sided = features.single_sided && !shows_back(material);
+      run.inside_out = part.is_inside_out();
       if (!runs_.empty() && run.follows(runs_.back()))
         runs_.back().count += alike;
       else
@@ -354,7 +355,7 @@ void WorldBuffers::bind() const {
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
                                   bool culls) const {
-  if (culls) (*gl_)->CullFace(GL_BACK), (*gl_)->FrontFace(GL_CCW);
+  if (culls) (*gl_)->CullFace(GL_BACK);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;
     std::array<std::uint32_t, 2> left{most_, most_};  // of flattened triangles, and of kept instances
@@ -368,6 +369,7 @@ void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& 
         program.use(), program.set_clip_from_relative(clip_from_relative), used = &program;
       program.set_first_primitive(run.first);
       if (kept) program.set_part(run.part);
+      (*gl_)->FrontFace(run.inside_out ? GL_CW : GL_CCW);
       if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
       const auto offset = static_cast<std::uintptr_t>(run.at) * 3 * sizeof(std::uint32_t);
       (*gl_)->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,

@@ -44,9 +44,10 @@ struct TriangleRun {
   std::uint32_t part = no_id;          ///< of a kept part: its number
   bool masked = false;
   bool single_sided = false;
+  bool inside_out = false;  ///< of a mirrored part: fronts run clockwise
   bool follows(const TriangleRun& run) const {
-    return masked == run.masked && single_sided == run.single_sided && part == run.part &&
-           first == run.first + run.count && at == run.at + run.count;
+    return masked == run.masked && single_sided == run.single_sided && inside_out == run.inside_out &&
+           part == run.part && first == run.first + run.count && at == run.at + run.count;
   }
 };
 
@@ -69,7 +70,8 @@ class WorldBuffers {
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
   /// Draws every run with the program of its kind; all get the matrix. `culls`: single-sided triangles are not drawn
-  /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all.
+  /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is
+  /// that of the mesh in its own space, of mirrored parts, too.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
                       bool culls = false) const;
 

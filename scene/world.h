@@ -34,6 +34,8 @@ struct WorldPart {
   Aabb bounds;  ///< of the triangles' corners, in the world
 
   bool kept() const { return positions == nullptr; }
+  /// Mirrored, its corners as the mesh has them: they run clockwise as seen from a triangle's front.
+  bool is_inside_out() const { return !turned && glm::determinant(Mat3(world_from_object)) < 0.0; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh->positions.size()); }
   /// By the mesh's own numbers.

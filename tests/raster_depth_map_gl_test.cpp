@@ -124,10 +124,15 @@ TEST(DepthMap, AnalysisPassStoresWhatTheTimedPassStores) {
   EXPECT_TRUE(drawn.light().gap.data.empty());
 }
 
-// The front of a closed body is nearer than its back, and each texel keeps the side that is asked for.
-TEST(DepthMap, CullingKeepsTheOtherSide) {
+// The front of a closed body is nearer than its back, and each texel keeps the side that is asked for; the fronts of a
+// mirrored body are those of the mesh (glTF 2.0, section 3.7.4).
+class DepthMapCulling : public testing::TestWithParam<bool> {};
+
+TEST_P(DepthMapCulling, KeepsTheOtherSide) {
   Scene scene = still_life();
   scene.instances.pop_back();
+  if (GetParam())
+    for (MeshInstance& instance : scene.instances) instance.world_from_object[0] *= -1.0;
   scene.lights = {sun({-0.5, -1.0, -0.6})};
   Drawn drawn = make_drawn(scene);
   ASSERT_NE(drawn.renderer, nullptr);
@@ -150,6 +155,8 @@ TEST(DepthMap, CullingKeepsTheOtherSide) {
   EXPECT_GT(covered, 500);
   EXPECT_NE(fronts, backs);
 }
+
+INSTANTIATE_TEST_SUITE_P(Mirrored, DepthMapCulling, testing::Bool());
 
 TEST(DepthMap, CountsItsTexelsAndBytes) {
   Scene scene = still_life();

@@ -190,7 +190,7 @@ TEST(Obj, NamesWithBlanksAndBackslashes) {
   for (const std::string file : {"my materials.mtl", "tex/my materials.mtl", "plain.mtl"})
     folder.put(file, mark + red);
   for (const std::string library : {"my materials.mtl", "my\\ materials.mtl", "tex\\my materials.mtl",
-                                     ".\\plain.mtl", "none.mtl plain.mtl"}) {
+                                    ".\\plain.mtl", "none.mtl plain.mtl"}) {
     const auto colour = [&](const std::string& material) {
       const auto scene = load_text(folder, mark + "mtllib " + library + "\r\n" + std::string(quad) +
                                                "usemtl " + material + "\r\nf 1 2 3\r\n");
