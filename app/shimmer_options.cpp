@@ -139,6 +139,17 @@ bool is_given(const FilmOptions& film, std::string_view option) {
                      [&](const auto& given) { return given.first == option; });
 }
 
+// What would change nothing is refused.
+Expected<void> check_use(const FilmOptions& film, const compare::ShimmerPath& path) {
+  const bool by_keys = path.camera == CameraPath::keys || path.light == LightPath::keys;
+  if (by_keys && is_given(film, "--speed"))
+    return fail(ErrorKind::usage,
+                "--speed: belongs to paths that are built in; keys have times of their own");
+  if (path.camera != CameraPath::drift && is_given(film, "--drift"))
+    return fail(ErrorKind::usage, "--drift: belongs to --path drift");
+  return {};
+}
+
 // Of very many lights some are left out, and their keys with them.
 KeyedPath of_kept_lights(KeyedPath path, const Scene& scene) {
   std::erase_if(path.lights, [&](const auto& keys) {
@@ -208,12 +219,14 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedSc
     const bool camera = path.keys.moves_camera(), light = !path.keys.lights.empty();
     path.camera = camera && film.moves != Moves::light ? CameraPath::keys : CameraPath::still;
     path.light = light && film.moves != Moves::camera ? LightPath::keys : LightPath::still;
+    if (const auto used = check_use(film, path); !used) return fail(used.error());
     return plan;
   }
   const Moves moves = film.moves.value_or(Moves::camera);
   path.camera = moves != Moves::light ? CameraPath::orbit : CameraPath::still;
   path.light = moves != Moves::camera ? usual_light_path(*loaded.scene) : LightPath::still;
   if (const auto taken = take_names(film, path); !taken) return fail(taken.error());
+  if (const auto used = check_use(film, path); !used) return fail(used.error());
   if (const auto sound = check_path(path, *loaded.scene); !sound) return fail(sound.error());
   return plan;
 }

@@ -56,6 +56,11 @@ TEST(ShimmerProgram, PlaysTheScenesOwnPath) {
   EXPECT_EQ(path["name"], "past");
   EXPECT_EQ(path["camera"], "keys");
   EXPECT_EQ(path["light"], "still");
+  // The keys' times are theirs; with a speed alone a built-in path is meant.
+  EXPECT_EQ(run_gnomon(film + Words{"--path", "past", "--speed", "2"}).exit_code, 2);
+  const ProcessResult fast = run_gnomon(film + Words{"--speed", "2"});
+  EXPECT_EQ(json::parse(fast.out)["path"]["camera"], "orbit") << fast.err;
+  EXPECT_EQ(run_gnomon(film + Words{"--drift", "1,0"}).exit_code, 2);
   const ProcessResult noon = run_gnomon(film + Words{"--path", "noon"});
   ASSERT_EQ(noon.exit_code, 0) << noon.err;
   EXPECT_EQ(json::parse(noon.out)["path"]["light"], "keys");
