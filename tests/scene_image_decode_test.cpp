@@ -107,18 +107,18 @@ TEST(ImageDecode, APngIsWholeOrAnError) {
             "a.png: the PNG file is damaged: IDAT: CRC error");
 }
 
-std::string jpeg(int subsampling, int flags) {
+std::string jpeg(int subsampling, int flags, int format = TJPF_RGB) {
   constexpr int width = 61, height = 45;
   std::mt19937 random(7);
-  std::vector<unsigned char> pixels(std::size_t(width * height * 3));
+  std::vector<unsigned char> pixels(std::size_t(width * height * tjPixelSize[format]));
   for (std::size_t i = 0; i < pixels.size(); ++i)
     pixels[i] = static_cast<unsigned char>((i / 40) % 200 + random() % 56);
   const std::unique_ptr<void, decltype(&tjDestroy)> coder(tjInitCompress(), &tjDestroy);
   unsigned char* out = nullptr;
   unsigned long size = 0;
-  EXPECT_EQ(tjCompress2(coder.get(), pixels.data(), width, 0, height, TJPF_RGB, &out, &size, subsampling, 80,
-                        flags),
-            0);
+  EXPECT_EQ(
+      tjCompress2(coder.get(), pixels.data(), width, 0, height, format, &out, &size, subsampling, 80, flags),
+      0);
   const std::string bytes(reinterpret_cast<const char*>(out), size);
   tjFree(out);
   return bytes;
@@ -134,6 +134,17 @@ TEST(ImageDecode, EveryKindOfJpeg) {
       ASSERT_TRUE(*own);
       expect_as_open_image_io(**own, bytes, "jpeg");
     }
+}
+
+TEST(ImageDecode, OfCmykOpenImageIoIsAsked) {
+  const std::string bytes = jpeg(TJSAMP_444, 0, TJPF_CMYK);
+  const auto own = decode_jpeg("own", bytes);
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_FALSE(*own);
+  const auto texture = read_texture_bytes("own", bytes, true);
+  ASSERT_TRUE(texture) << texture.error().message();
+  EXPECT_EQ(texture->size, (ImageSize{61, 45}));
+  EXPECT_EQ(texture->texels[0].a, 255);
 }
 
 // Bytes between the segments are no fault of the picture.
