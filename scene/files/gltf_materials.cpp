@@ -24,12 +24,23 @@ float fraction(double v) {
   return static_cast<float>(std::clamp(v, 0.0, 1.0));
 }
 
+const tinygltf::Value* specular_glossiness(const tinygltf::Material& from) {
+  return extension(from.extensions, "KHR_materials_pbrSpecularGlossiness");
+}
+
+GltfTextureUse base_texture(const tinygltf::Material& from) {
+  const tinygltf::Value* gloss = specular_glossiness(from);
+  if (gloss == nullptr) return texture_use(from.pbrMetallicRoughness.baseColorTexture);
+  return texture_use(has(gloss, "diffuseTexture") ? &gloss->Get("diffuseTexture") : nullptr);
+}
+
 class MaterialReader {
  public:
   MaterialReader(Scene& scene, const tinygltf::Model& model, GltfData& data, const std::string& file)
       : scene_(scene), model_(model), textures_(scene, model, data, unused_, file) {}
 
   Expected<TexcoordSets> run() {
+    decode_textures();
     for (std::size_t i = 0; i < model_.materials.size(); ++i) {
       auto material = read(i);
       if (!material) return fail(material.error());
@@ -43,6 +54,18 @@ class MaterialReader {
   }
 
  private:
+  void decode_textures() {
+    std::set<int> colours, means;
+    for (const tinygltf::Material& from : model_.materials) {
+      colours.insert(base_texture(from).index);
+      if (color(from.emissiveFactor) != Vec3f(0.0f)) colours.insert(from.emissiveTexture.index);
+      if (specular_glossiness(from) == nullptr)
+        means.insert(from.pbrMetallicRoughness.metallicRoughnessTexture.index);
+    }
+    colours.erase(-1), means.erase(-1);
+    textures_.decode_ahead(colours, means);
+  }
+
   void note_single_sided() {
     const auto& all = scene_.materials;
     const auto count =
@@ -58,12 +81,8 @@ class MaterialReader {
     const auto& pbr = from.pbrMetallicRoughness;
     Material m = model_material(from.name.empty() ? fmt::format("material-{}", index + 1) : from.name);
     sets_.push_back(0);
-    const tinygltf::Value* gloss = extension(from.extensions, "KHR_materials_pbrSpecularGlossiness");
-    const GltfTextureUse use =
-        gloss == nullptr
-            ? texture_use(pbr.baseColorTexture)
-            : texture_use(has(gloss, "diffuseTexture") ? &gloss->Get("diffuseTexture") : nullptr);
-    if (const auto read = read_base_texture(use, m); !read) return fail(read.error());
+    const tinygltf::Value* gloss = specular_glossiness(from);
+    if (const auto read = read_base_texture(base_texture(from), m); !read) return fail(read.error());
     const TextureStatistics base =
         m.diffuse_texture == no_id ? TextureStatistics{} : textures_.statistics(m.diffuse_texture);
     double roughness = 1.0 - number(gloss, "glossinessFactor", 1.0);

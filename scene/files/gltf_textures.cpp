@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "scene/files/gltf_value.h"
@@ -68,19 +70,57 @@ Expected<std::uint32_t> GltfTextures::add(int index, const std::string& material
   if (!image) return fail(image.error());
   if (!*image) return no_id;
   if (const auto known = textures_.find(index); known != textures_.end()) return known->second;
-  auto texture = decode(**image, true);
-  if (!texture) return fail(texture.error());
-  apply_sampler(index, *texture, material);
+  auto decoded = take_decoded(**image);
+  if (!decoded) return fail(decoded.error());
+  apply_sampler(index, *decoded->texture, material);
   const auto at = static_cast<std::uint32_t>(scene_.textures.size());
   textures_.emplace(index, at);
-  scene_.textures.push_back(std::move(*texture));
+  statistics_.push_back(decoded->statistics);
+  scene_.textures.push_back(std::move(*decoded->texture));
   return at;
 }
 
-const TextureStatistics& GltfTextures::statistics(std::uint32_t texture) {
-  const auto [at, is_new] = statistics_.try_emplace(texture);
-  if (is_new) at->second = statistics_of(scene_.textures[texture]);
-  return at->second;
+void GltfTextures::decode_ahead(const std::set<int>& colours, const std::set<int>& means) {
+  std::vector<Decoded> all;
+  list_images(colours, true, all);
+  list_images(means, false, all);
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    Decoded& one = all[i];
+    auto texture = decode(one.image, one.srgb);
+    if (!texture) return;
+    one.statistics = statistics_of(*texture);
+    one.texture = one.srgb ? std::move(*texture) : Texture{};
+  });
+  for (Decoded& one : all) {
+    const std::size_t image = one.image.index;
+    if (!one.texture) continue;
+    if (one.srgb)
+      ahead_.emplace(image, std::move(one));
+    else
+      linear_means_.emplace(image, one.statistics.mean);
+  }
+}
+
+void GltfTextures::list_images(const std::set<int>& textures, bool srgb, std::vector<Decoded>& out) {
+  std::set<std::size_t> known;
+  for (const int index : textures)
+    for (const int source : sources(model_.textures[static_cast<std::size_t>(index)])) {
+      const auto at = static_cast<std::size_t>(source);
+      const auto image = at < data_.image_count() ? data_.image(at) : Expected<GltfImage>();
+      if (!image || image->bytes.empty()) continue;
+      if (known.insert(at).second) out.push_back({*image, srgb, {}, {}});
+      break;  // the first that is there
+    }
+}
+
+Expected<GltfTextures::Decoded> GltfTextures::take_decoded(const GltfImage& image) {
+  if (auto found = ahead_.extract(image.index)) return std::move(found.mapped());
+  Decoded out{image, true, {}, {}};
+  auto texture = decode(image, true);
+  if (!texture) return fail(texture.error());
+  out.statistics = statistics_of(*texture);
+  out.texture = std::move(*texture);
+  return out;
 }
 
 Expected<std::optional<Vec3f>> GltfTextures::linear_mean(int index, const std::string& material) {

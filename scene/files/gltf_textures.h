@@ -39,15 +39,28 @@ class GltfTextures {
                const std::string& file)
       : scene_(scene), model_(model), data_(data), unused_(unused), file_(file) {}
 
+  /// Decodes what is likely to be asked for, in parallel: textures of colours (sRGB), and such as only their means are
+  /// asked of. What is wrong with one is said when it is asked for.
+  void decode_ahead(const std::set<int>& colours, const std::set<int>& means);
   /// The scene's index of an sRGB texture, decoded the first time. no_id where no image of it is there, or none
   /// that can be decoded: said, and the material's plain factors are used.
   Expected<std::uint32_t> add(int index, const std::string& material);
   /// Of a texture that add() gave.
-  const TextureStatistics& statistics(std::uint32_t texture);
+  const TextureStatistics& statistics(std::uint32_t texture) const { return statistics_[texture]; }
   /// The mean of a texture that holds no colours, in [0, 1]; none where it is not there.
   Expected<std::optional<Vec3f>> linear_mean(int index, const std::string& material);
 
  private:
+  struct Decoded {
+    GltfImage image;
+    bool srgb = true;
+    std::optional<Texture> texture;
+    TextureStatistics statistics;
+  };
+  /// One for each image of these textures that is there.
+  void list_images(const std::set<int>& textures, bool srgb, std::vector<Decoded>& out);
+  Expected<Decoded> take_decoded(const GltfImage& image);
+
   Expected<std::optional<GltfImage>> find_image(int index, const std::string& material);
   Expected<Texture> decode(const GltfImage& image, bool srgb) const;
   void apply_sampler(int index, Texture& texture, const std::string& material);
@@ -58,9 +71,10 @@ class GltfTextures {
   GltfData& data_;
   UnusedParts& unused_;
   const std::string& file_;
-  std::map<int, std::uint32_t> textures_;                  // glTF texture to ours
-  std::map<std::uint32_t, TextureStatistics> statistics_;  // of ours
-  std::map<std::size_t, Vec3f> linear_means_;              // of glTF images that are no colours
+  std::map<std::size_t, Decoded> ahead_;       // glTF images of colours
+  std::map<int, std::uint32_t> textures_;      // glTF texture to ours
+  std::vector<TextureStatistics> statistics_;  // of ours
+  std::map<std::size_t, Vec3f> linear_means_;  // of glTF images that are no colours
 };
 
 }  // namespace gnomon
