@@ -60,7 +60,9 @@ Expected<void> add_obj_materials(Scene& scene, const std::vector<tinyobj::materi
                                  const std::set<std::string>& without_diffuse, const std::string& folder,
                                  const LoadOptions& options) {
   ObjTextures textures(scene, folder, options);
-  for (const tinyobj::material_t& from : materials) {
+  if (const auto read = textures.read(materials); !read) return fail(read.error());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const tinyobj::material_t& from = materials[i];
     Material m = model_material(from.name);
     const bool textured = !from.diffuse_texname.empty();
     if (!without_diffuse.contains(from.name))
@@ -72,7 +74,7 @@ Expected<void> add_obj_materials(Scene& scene, const std::vector<tinyobj::materi
     m.shininess = std::max(1.0f, static_cast<float>(from.shininess));
     map_transparency(scene, from, m);
     note_unused_maps(scene, from);
-    if (const auto added = textures.add(from, m); !added) return fail(added.error());
+    textures.give(from, i, m);
     scene.materials.push_back(std::move(m));
   }
   return {};

@@ -1,6 +1,7 @@
 #include "scene/files/obj_textures.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
@@ -96,57 +97,61 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& 
   return files;
 }
 
-Expected<ObjTextures::Known> ObjTextures::make(const Files& files) {
+Expected<ObjTextures::Made> ObjTextures::make(const Files& files) {
   auto read = files.colours.empty() ? Expected<TextureFile>(TextureFile{white(), false})
                                     : read_texture_file(files.colours, true);
   if (!read) return fail(read.error());
-  Texture& texture = read->texture;
-  texture.repeat_s = texture.repeat_t = !files.clamped;
-  Mask mask = Mask::none;
+  Made made{std::move(read->texture)};
+  made.texture.repeat_s = made.texture.repeat_t = !files.clamped;
   if (files.has_mask_of_its_own()) {
     auto other = read_texture_file(files.mask, false);
     if (!other) return fail(other.error());
-    mask = is_opaque(other->texture) ? Mask::grey : Mask::alpha;
-    if (mask == Mask::grey) take_alpha_from_luminance(other->texture);
-    texture = with_alpha_of(std::move(texture), std::move(other->texture));
-  } else if (!files.mask.empty() && !read->has_alpha && is_grey(texture)) {
-    mask = Mask::grey;
-    take_alpha_from_luminance(texture);
+    made.mask = is_opaque(other->texture) ? Mask::grey : Mask::alpha;
+    if (made.mask == Mask::grey) take_alpha_from_luminance(other->texture);
+    made.texture = with_alpha_of(std::move(made.texture), std::move(other->texture));
   } else if (!files.mask.empty() && read->has_alpha) {
-    mask = Mask::alpha;
+    made.mask = Mask::alpha;
+  } else if (!files.mask.empty() && is_grey(made.texture)) {
+    made.mask = Mask::grey;
+    take_alpha_from_luminance(made.texture);
   }
-  const Known made{static_cast<std::uint32_t>(scene_.textures.size()), mask};
-  scene_.textures.push_back(std::move(texture));
   return made;
 }
 
-Expected<ObjTextures::Known> ObjTextures::find_or_make(const Files& files) {
-  if (const auto found = known_.find(files); found != known_.end()) return found->second;
-  const auto made = make(files);
-  if (made) known_.emplace(files, *made);
-  return made;
-}
-
-Expected<void> ObjTextures::add(const tinyobj::material_t& from, Material& material) {
-  const auto files = find_files(from);
-  if (!files) return fail(files.error());
-  if (files->colours.empty() && files->mask.empty()) return {};
-  const auto known = find_or_make(*files);
-  if (!known) return fail(known.error());
-  material.diffuse_texture = known->texture;
-  material.texture_transform = transform_of(files->colours.empty() ? from.alpha_texopt : from.diffuse_texopt);
-  if (files->mask.empty()) return {};
-  if (known->mask == Mask::none) {
-    note(from.name,
-         fmt::format("map_d is not used: {} has colours and no alpha channel", from.alpha_texname));
-    return {};
+Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materials) {
+  std::vector<Files> wanted;  // once each
+  for (const tinyobj::material_t& from : materials) {
+    auto files = find_files(from);
+    if (!files) return fail(files.error());
+    const bool is_new = std::find(wanted.begin(), wanted.end(), *files) == wanted.end();
+    if (is_new && !files->empty()) wanted.push_back(*files);
+    files_.push_back(std::move(*files));
   }
-  material.alpha_mode = AlphaMode::mask;
-  if (known->mask == Mask::grey && !files->has_mask_of_its_own())
-    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.alpha_texname));
-  if (!files->colours.empty() && !lie_alike(from.diffuse_texopt, from.alpha_texopt))
-    note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
+  std::vector<Expected<Made>> all(wanted.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = make(wanted[i]); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i]) return fail(all[i].error());
+    known_.emplace(wanted[i], Known{static_cast<std::uint32_t>(scene_.textures.size()), all[i]->mask});
+    scene_.textures.push_back(std::move(all[i]->texture));
+  }
   return {};
+}
+
+void ObjTextures::give(const tinyobj::material_t& from, std::size_t number, Material& material) {
+  const Files& files = files_[number];
+  if (files.empty()) return;
+  const Known& known = known_.at(files);
+  material.diffuse_texture = known.texture;
+  material.texture_transform = transform_of(files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt);
+  if (files.mask.empty()) return;
+  if (known.mask == Mask::none)
+    return note(from.name,
+                fmt::format("map_d is not used: {} has colours and no alpha channel", from.alpha_texname));
+  material.alpha_mode = AlphaMode::mask;
+  if (known.mask == Mask::grey && !files.has_mask_of_its_own())
+    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.alpha_texname));
+  if (!files.colours.empty() && !lie_alike(from.diffuse_texopt, from.alpha_texopt))
+    note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
 }
 
 }  // namespace gnomon

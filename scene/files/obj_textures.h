@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "scene/files/texture_file.h"
 #include "scene/load.h"
@@ -26,9 +27,11 @@ class ObjTextures {
   ObjTextures(Scene& scene, const std::string& folder, const LoadOptions& options)
       : scene_(scene), folder_(folder), options_(options) {}
 
-  /// Gives the material what `from` names. A file that is not there and what is not used are notes; one that cannot
-  /// be read is an error.
-  Expected<void> add(const tinyobj::material_t& from, Material& material);
+  /// Brings in what the materials name, decoded in parallel. A file that is not there is a note; one that cannot be
+  /// read is an error.
+  Expected<void> read(const std::vector<tinyobj::material_t>& materials);
+  /// Gives the material what the one of this number named; what is not used of it is a note.
+  void give(const tinyobj::material_t& from, std::size_t number, Material& material);
 
  private:
   /// What map_d finds in an image. Pictures in colours without an alpha channel that are map_Kd, too, are no masks:
@@ -38,8 +41,13 @@ class ObjTextures {
   struct Files {
     std::string colours, mask;
     bool clamped = false;
+    bool empty() const { return colours.empty() && mask.empty(); }
     bool has_mask_of_its_own() const { return !mask.empty() && mask != colours; }
     auto operator<=>(const Files&) const = default;
+  };
+  struct Made {
+    Texture texture;
+    Mask mask = Mask::none;
   };
   struct Known {
     std::uint32_t texture;
@@ -49,13 +57,13 @@ class ObjTextures {
   Expected<std::string> find_file(const std::string& name, const std::string& material,
                                   const std::string& statement);
   Expected<Files> find_files(const tinyobj::material_t& from);
-  Expected<Known> make(const Files& files);
-  Expected<Known> find_or_make(const Files& files);
+  static Expected<Made> make(const Files& files);
   void note(const std::string& material, const std::string& words);
 
   Scene& scene_;
   const std::string& folder_;
   const LoadOptions& options_;
+  std::vector<Files> files_;  ///< of each material
   std::map<Files, Known> known_;
 };
 
