@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -90,9 +91,7 @@ std::string scene_of_lesson(const std::string& path_or_name) {
 std::string lesson_note(const std::string& path_or_name) {
   const auto all = compare::all_lessons();
   for (const compare::Lesson& lesson : all) {
-    if (lesson.name == path_or_name)
-      return fmt::format("lesson \"{}\": {}, where no option given here says otherwise", lesson.title,
-                         lesson.command);
+    if (lesson.name == path_or_name) return fmt::format("lesson \"{}\": {}", lesson.title, lesson.command);
   }
   return {};
 }
@@ -104,10 +103,32 @@ std::string scene_settings_text(const std::string& path_or_name) {
   return text;
 }
 
+SettingsUse use_of_settings(const CLI::App& command) {
+  if (command.get_option_no_throw("--bias") == nullptr) return SettingsUse::none;
+  if (finds_map_options(command)) return SettingsUse::sought;
+  return was_given(command, "--technique") ? SettingsUse::left_out : SettingsUse::taken;
+}
+
+std::string settings_note(const SceneArgument& scene) {
+  std::string note = lesson_note(scene.name);
+  const bool of_lesson = !note.empty();
+  // The settings of built-in scenes are theirs by design; those of a file may surprise.
+  if (!of_lesson && scene.settings != SettingsUse::none && std::filesystem::is_regular_file(scene.name))
+    note = scene_settings_text(scene.name);
+  if (note.empty()) return {};
+  if (!of_lesson) note = "the scene asks for " + note;
+  if (scene.settings == SettingsUse::left_out)
+    return note + "; --technique was given, so these settings are not used";
+  if (scene.settings == SettingsUse::sought)
+    return note + "; the map's options among these are sought, not taken";
+  return note + ", where no option given here says otherwise";
+}
+
 Expected<void> add_scene_settings(CLI::App& command) {
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
-  if (scene == nullptr || scene->count() != 1 || was_given(command, "--technique")) return {};
-  if (finds_map_options(command)) return {};
+  const SettingsUse use = use_of_settings(command);
+  const bool unused = use == SettingsUse::left_out || use == SettingsUse::sought;
+  if (scene == nullptr || scene->count() != 1 || unused) return {};
   const std::string& path = scene->results().front();
   const auto asked = scene_settings(scene_of_lesson(path));
   if (asked.empty()) return {};
@@ -139,7 +160,7 @@ Expected<void> add_scene_settings(CLI::App& command) {
 
 void add_lesson_settings(CLI::App& command) {
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
-  if (scene == nullptr || scene->count() != 1 || was_given(command, "--technique")) return;
+  if (scene == nullptr || scene->count() != 1 || use_of_settings(command) == SettingsUse::left_out) return;
   const auto lesson = find_lesson(scene->results().front());
   if (!lesson) return;
   for (const auto& [name, value] : lesson->settings) {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/expected.h"
+#include "app/run_files.h"
 
 namespace CLI {
 class App;
@@ -16,6 +16,10 @@ namespace gnomon::app {
 std::string scene_of_lesson(const std::string& path_or_name);
 /// What to tell a user who named a lesson; empty for any other text.
 std::string lesson_note(const std::string& path_or_name);
+/// Of a parsed command.
+SettingsUse use_of_settings(const CLI::App& command);
+/// What becomes of the settings of a lesson or a scene file; empty where there are none.
+std::string settings_note(const SceneArgument& scene);
 
 /// "--bias 0": what a scene file asks for; empty for others.
 std::string scene_settings_text(const std::string& path_or_name);

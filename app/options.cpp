@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/filter_options.h"
+#include "app/lesson_scene.h"
 #include "app/option_kinds.h"
 #include "app/technique_options.h"
 #include "raster/technique_traits.h"
@@ -112,6 +113,7 @@ void add_scene(CLI::App& command, SceneArgument& scene) {
                   "a scene file (.json .gltf .glb .obj .ply), or the name of a built-in scene or lesson "
                   "(gnomon scenes)")
       ->required();
+  command.parse_complete_callback([&] { scene.settings = use_of_settings(command); });
 }
 
 void add_tessellate(CLI::App& command, int& tessellate) {

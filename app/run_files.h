@@ -14,10 +14,19 @@
 namespace gnomon::app {
 
 /// A scene as it is given on the command line.
+/// What a command does with the map's settings that a lesson or a scene asks for.
+enum class SettingsUse : std::uint8_t {
+  none,      ///< it draws no map
+  taken,     ///< where no option says otherwise
+  left_out,  ///< --technique was given, to which they need not belong
+  sought     ///< it finds the map's options itself
+};
+
 struct SceneArgument {
   std::string name;            ///< a file, a built-in scene or a lesson
   bool allow_outside = false;  ///< files that it names may lie outside its folder
   InstanceChoice instances = InstanceChoice::automatic;
+  SettingsUse settings = SettingsUse::none;
 
   /// For a command line that loads the same.
   std::string words() const;

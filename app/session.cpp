@@ -55,11 +55,7 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   loaded.world = std::make_unique<World>(make_world(*loaded.scene, argument.instances));
   loaded.plan = plan_effects(*loaded.scene);
   loaded.load_ms = watch.elapsed_ms();
-  if (const std::string note = lesson_note(argument.name); !note.empty()) console.note(note);
-  // The settings of built-in scenes are theirs by design; those of a file may surprise.
-  if (const std::string asked = scene_settings_text(scene_of_lesson(argument.name));
-      !asked.empty() && std::filesystem::is_regular_file(argument.name))
-    console.note("the scene asks for " + asked + ", where no option given here says otherwise");
+  if (const std::string note = settings_note(argument); !note.empty()) console.note(note);
   for (const std::string& note : loaded.scene->notes) console.note(note);
   return loaded;
 }

@@ -43,10 +43,27 @@ BiasCurvePoint GapLists::at(double bias) const {
   return {bias, count_above(lit, b), shadowed.size() - count_above(shadowed, b)};
 }
 
+double GapLists::wrong_fraction(std::uint64_t wrong) const {
+  const auto all = static_cast<double>(count());
+  return all > 0.0 ? (static_cast<double>(wrong) + 0.5 * static_cast<double>(ties)) / all : 0.0;
+}
+
+double GapLists::wrong_fraction_at(double bias) const {
+  const BiasCurvePoint point = at(bias);
+  return wrong_fraction(point.false_shadow + point.missed_shadow);
+}
+
+std::uint64_t count_ties(const Image<float>& truth, const Image<Label>& labels) {
+  std::uint64_t ties = 0;
+  for (std::size_t i = 0; i < labels.data.size(); ++i)
+    ties += truth.data[i] == 0.5f && is_compared(labels.data[i]) ? 1 : 0;
+  return ties;
+}
+
 std::vector<float> gaps_where(const raster::LightRecord& record, const Image<float>& truth,
                               const Image<Label>& labels, bool lit) {
   const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
-    return is_compared(labels.data[i]) && (truth.data[i] > 0.5f) == lit;
+    return is_compared(labels.data[i]) && (lit ? truth.data[i] > 0.5f : truth.data[i] < 0.5f);
   });
   std::vector<float> values(pixels.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = record.gap.data[pixels[i]];
@@ -60,6 +77,7 @@ GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth,
     return values;
   };
   GapLists gaps;
+  gaps.ties = count_ties(truth, labels);
   tbb::parallel_invoke([&] { gaps.lit = sorted(true); }, [&] { gaps.shadowed = sorted(false); });
   return gaps;
 }
@@ -90,8 +108,7 @@ BestBias find_best_bias(const GapLists& gaps) {
   const float middle = best_start + 0.5f * (best_end - best_start);
   const float near_start = std::min(1.1f * best_start, middle);
   best.constant_world = near_start < best_end ? near_start : best_start;
-  const std::uint64_t count = gaps.count();
-  best.wrong_fraction = count == 0 ? 0.0 : double(least) / double(count);
+  best.wrong_fraction = gaps.wrong_fraction(least);
   best.feasible = least == 0;
   find_proof(gaps, best);
   return best;

@@ -9,17 +9,24 @@
 namespace gnomon::compare {
 
 /// Gaps of the compared pixels, sorted ascending, by what the truth says of them; under a light with size a
-/// pixel counts as lit that sees more than half of it.
+/// pixel counts as lit that sees more than half of it. One that sees exactly half is as near to right as to wrong at any
+/// bias, and in neither list.
 struct GapLists {
   std::vector<float> lit, shadowed;
   std::uint64_t lit_left_out = 0;  ///< lit pixels whose gap is not above 0, where they are not in the list
-  std::uint64_t count() const { return lit_left_out + lit.size() + shadowed.size(); }
+  std::uint64_t ties = 0;          ///< pixels of which half the light is seen
+  std::uint64_t count() const { return lit_left_out + lit.size() + shadowed.size() + ties; }
+  /// Of all, where so many of the lists are wrong; ties count half.
+  double wrong_fraction(std::uint64_t wrong) const;
 
   /// Exact counts at a constant bias (rounded to float, as the shader has it).
   BiasCurvePoint at(double bias) const;
+  double wrong_fraction_at(double bias) const;
 };
 
-/// The gaps of the compared pixels that are lit, or not, in the order of the pixels.
+/// Compared pixels of which exactly half the light is seen.
+std::uint64_t count_ties(const Image<float>& truth, const Image<Label>& labels);
+/// The gaps of the compared pixels that are lit, or shadowed, in the order of the pixels.
 std::vector<float> gaps_where(const raster::LightRecord& record, const Image<float>& truth,
                               const Image<Label>& labels, bool lit);
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels);

@@ -78,12 +78,6 @@ void make_slopes(KindGaps& gaps, double constant) {
   }
 }
 
-double wrong_share(const GapLists& gaps, double setting) {
-  const BiasCurvePoint at = gaps.at(setting);
-  const auto count = static_cast<double>(gaps.count());
-  return static_cast<double>(at.false_shadow + at.missed_shadow) / std::max(count, 1.0);
-}
-
 BiasKind of_constant(std::string_view name, const raster::MapOptions& map, const raster::LightRecord& record,
                      const GapLists& gaps, double automatic) {
   const BiasRange range = smallest_good_range(gaps);
@@ -92,12 +86,12 @@ BiasKind of_constant(std::string_view name, const raster::MapOptions& map, const
   if (may_be_automatic && automatic >= range.from && automatic < range.to) {
     kind.bias.constant = 1.0;
     kind.bias.unit = raster::BiasUnit::automatic;
-    kind.wrong_fraction = wrong_share(gaps, automatic);
+    kind.wrong_fraction = gaps.wrong_fraction_at(automatic);
   } else {
     const double unit = raster::scales_bias(map) ? record.texel_world : 1.0;
     kind.bias.constant = short_number_in(range.from / unit, range.to / unit);
     kind.bias.unit = raster::scales_bias(map) ? raster::BiasUnit::texel : raster::BiasUnit::world;
-    kind.wrong_fraction = wrong_share(gaps, kind.bias.constant * unit);
+    kind.wrong_fraction = gaps.wrong_fraction_at(kind.bias.constant * unit);
   }
   return kind;
 }
@@ -109,7 +103,7 @@ BiasKind of_slope(const raster::MapOptions& map, const GapLists& slopes, double 
   kind.bias.constant = world ? automatic : 1.0;
   kind.bias.unit = world ? raster::BiasUnit::world : raster::BiasUnit::automatic;
   kind.bias.slope = range.from <= 1.0f && range.to > 1.0f ? 1.0 : short_number_in(range.from, range.to);
-  kind.wrong_fraction = wrong_share(slopes, kind.bias.slope);
+  kind.wrong_fraction = slopes.wrong_fraction_at(kind.bias.slope);
   return kind;
 }
 
@@ -127,7 +121,7 @@ raster::MapOptions plain_options(const raster::MapOptions& drawn) {
 BiasRange smallest_good_range(const GapLists& gaps) {
   const BestBias best = find_best_bias(gaps);
   const auto count = static_cast<double>(gaps.count());
-  const double least = best.wrong_fraction * count;
+  const double least = std::round(best.wrong_fraction * count - 0.5 * static_cast<double>(gaps.ties));
   const auto allowed = static_cast<std::uint64_t>(least + std::max(few_pixels * count, few_wrong * least));
   auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
   auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), 0.0f);
@@ -167,9 +161,11 @@ bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& re
 
 KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
   const raster::MapOptions map = plain_options(in.drawn.options.map);
-  const std::vector<std::uint32_t> pixels =
-      pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
-  KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size())};
+  const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
+    return is_compared(labels.data[i]) && truth.data[i] != 0.5f;
+  });
+  KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size()),
+                   count_ties(truth, labels)};
   make_slopes(out.settings, raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world));
   for (std::size_t i = 0; i < pixels.size(); ++i) out.lit[i] = truth.data[pixels[i]] > 0.5f ? 1 : 0;
   return out;
@@ -204,13 +200,14 @@ std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<floa
                                          const Image<Label>& labels) {
   if (!kinds_apply(in.drawn, in.record)) return {};
   KindSettings found = settings_of_kinds(in, truth, labels);
-  if (found.lit.empty()) return {};
+  if (found.lit.empty() && found.ties == 0) return {};
   std::array<GapLists, kind_count> lists;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, kind_count, 1),
       [&](const auto& range) {
         for (std::size_t k = range.begin(); k != range.end(); ++k) {
           put_into_lists(found.settings[k], found.lit, lists[k]);
+          lists[k].ties = found.ties;
           sort_numbers(std::span(lists[k].lit));
           sort_numbers(std::span(lists[k].shadowed));
         }

@@ -24,11 +24,12 @@ std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<floa
                                          const Image<Label>& labels);
 
 /// The parts of it, for pictures that come in bands. `settings`: of each kind, for each compared pixel the setting
-/// from which on it is lit, in the order of the pixels, and which of them are truly lit.
+/// from which on it is lit, in the order of the pixels, and which of them are truly lit; ties (GapLists) are counted.
 enum KindOfBias : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
 struct KindSettings {
   std::array<std::vector<float>, kind_count> settings;
   std::vector<char> lit;
+  std::uint64_t ties = 0;
 };
 /// Whether kinds can be compared on this map.
 bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);

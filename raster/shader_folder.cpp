@@ -63,10 +63,12 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
   out.path_ = folder;
   if (folder.empty()) return out;
   std::string texts;  // of all files, to see what they include
+  std::size_t shaders = 0;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (!is_shader(entry->path()) || entry->is_directory()) continue;
+    ++shaders;
     const auto bytes = read_file(entry->path().string());
     if (!bytes) return fail(bytes.error());
     if (bytes->find('\0') != std::string::npos)
@@ -78,6 +80,7 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
     if (!is_own(name) || embedded::shaders(name) != text) out.files_[name] = {text, sha256_hex(*bytes)};
   }
   if (error) return fail(error_in(folder, fmt::format("cannot be read: {}", error.message())));
+  if (shaders == 0) return fail(error_in(folder, "holds no shader (names end in .glsl, .vert, .frag or .h)"));
   for (const auto& [name, file] : out.files_)
     if (!is_own(name) && texts.find(fmt::format("#include \"{}\"", name)) == std::string::npos)
       return fail(error_in(

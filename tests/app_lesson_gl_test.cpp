@@ -81,6 +81,26 @@ TEST(SceneSettings, HoldWhereNoOptionSaysOtherwise) {
   EXPECT_EQ(bias_of({"compare", "floating-box", "--technique", "csm"})["slope"], 1.0);
 }
 
+TEST(SceneSettings, WhatBecomesOfThemIsSaid) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "s.json";
+  std::ofstream(scene)
+      << R"({"schema": "gnomon/scene/1", "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "materials": [{"name": "m"}], "shapes": [{"material": "m", "sphere": {"center": [0, 0, 0], "radius": 1}}], "settings": {"map-size": "64"}})";
+  const auto said = [&](const Words& words) {
+    const ProcessResult result = run_gnomon(words + Words{scene, "--size", "32x18"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::string asked = "the scene asks for --map-size 64";
+  const std::string picture = folder / "a.png";
+  EXPECT_NE(said({"raster", "-o", picture}).find(asked + ", where no option given here says otherwise"),
+            std::string::npos);
+  EXPECT_NE(said({"raster", "-o", picture, "--technique", "pcf"}).find(asked + "; --technique was given"),
+            std::string::npos);
+  EXPECT_EQ(said({"raytrace", "-o", picture}).find("the scene asks for"), std::string::npos);
+}
+
 TEST(SceneSettings, ThatAreNoneAreErrors) {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& settings) {

@@ -102,6 +102,11 @@ TEST_F(ShaderFolder, AByteOrderMarkIsSkipped) {
   EXPECT_NE(bytes("again.json").find(sha256_hex(bytes("mine/technique/hard.glsl"))), std::string::npos);
 }
 
+TEST_F(ShaderFolder, WithoutAShaderIsRefused) {
+  write("technique/hard.glsl.txt", "");  // an editor of Windows, and an explorer that hides endings
+  expect_one_line(draw("bad.png"), 3, "mine: holds no shader (names end in .glsl, .vert, .frag or .h)");
+}
+
 TEST_F(ShaderFolder, AnotherEncodingIsRefused) {
   write("technique/hard.glsl", std::string("\xff\xfe/\0/\0", 6));
   expect_one_line(draw("bad.png"), 3, "mine/technique/hard.glsl: is not UTF-8 text, but seems to be UTF-16");

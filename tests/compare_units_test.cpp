@@ -96,6 +96,17 @@ TEST(BestBias, WithoutShadowsIsATenthAboveTheLargestLitGap) {
   EXPECT_FLOAT_EQ(static_cast<float>(best.constant_world), 1.1f * 0.3f);
 }
 
+// Half the light is as near to right as to wrong, whatever the bias.
+TEST(BestBias, TiesCountHalf) {
+  GapLists gaps{{0.1f, 0.3f}, {}};
+  gaps.ties = 2;
+  const BestBias best = find_best_bias(gaps);
+  EXPECT_TRUE(best.feasible);
+  EXPECT_EQ(best.wrong_fraction, 0.25);
+  EXPECT_EQ(gaps.wrong_fraction_at(0.2), 0.5);
+  EXPECT_EQ(smallest_good_range(gaps).from, 0.3f);
+}
+
 TEST(GoodRange, IsTheFirstThatIsHardlyWorse) {
   // 1,000 lit pixels, one of which needs a bias far beyond what the shadows bear.
   GapLists gaps{std::vector<float>(1000, 0.5f), {2.0f, 2.0f}};

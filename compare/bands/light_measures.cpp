@@ -68,6 +68,7 @@ Expected<void> LightMeasures::add_lists(const LadderInput& in, const Climb& clim
   }
   if (!has_curve_) return {};
   const Image<float>& truth = climbed.rungs[0];
+  ties_ += count_ties(truth, climbed.labels);
   std::vector<Step> steps;
   for (const bool lit : {false, true})
     steps.emplace_back([&, lit] {
@@ -194,8 +195,9 @@ Expected<void> LightMeasures::finish_lists(const LadderInput& in, LightCompariso
 
 namespace {
 
-Expected<GapLists> sorted_lists(std::array<NumberFile<float>, 2>& files) {
+Expected<GapLists> sorted_lists(std::array<NumberFile<float>, 2>& files, std::uint64_t ties) {
   GapLists lists;
+  lists.ties = ties;
   for (const bool lit : {false, true}) {
     auto numbers = files[lit ? 1 : 0].take();
     if (!numbers) return fail(numbers.error());
@@ -211,7 +213,7 @@ Expected<void> LightMeasures::finish_curve(const LadderInput& in, LightCompariso
   const TimedStage stage("curve");
   const double bytes_of_lists = 12.0 * double(gaps_[0].count() + gaps_[1].count());  // with what sorts them
   std::vector<Step> steps{[&]() -> Expected<void> {
-    const auto gaps = sorted_lists(gaps_);
+    const auto gaps = sorted_lists(gaps_, ties_);
     if (!gaps) return fail(gaps.error());
     out.best_bias = find_best_bias(*gaps);
     out.bias_curve = draw_bias_curve(*gaps, out.bias_texel_world, in.record.bias_constant_world,
@@ -223,7 +225,7 @@ Expected<void> LightMeasures::finish_curve(const LadderInput& in, LightCompariso
   for (std::size_t k = 0; k < out.bias_kinds.size(); ++k)
     steps.emplace_back([&, k]() -> Expected<void> {
       const KindOfBias kind = kinds_in_order[k];
-      auto lists = sorted_lists(kinds_[kind]);
+      auto lists = sorted_lists(kinds_[kind], ties_);
       if (!lists) return fail(lists.error());
       lists->lit_left_out = kinds_left_out_[kind];
       out.bias_kinds[k] = kind_of_bias(kind, in, *lists);

@@ -69,6 +69,7 @@ class LightMeasures {
   NumberFile<double> texel_widths_;
   std::array<NumberFile<double>, std::tuple_size_v<TheoryValues>> theory_;
   std::array<NumberFile<float>, 2> gaps_;  ///< of shadowed and of lit pixels
+  std::uint64_t ties_ = 0;                 ///< in neither (GapLists)
   std::array<std::array<NumberFile<float>, 2>, kind_count> kinds_;
   std::array<std::uint64_t, kind_count> kinds_left_out_{};
 };

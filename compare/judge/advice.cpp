@@ -20,17 +20,11 @@ struct Constant {
   double wrong = 0.0;   ///< share of the compared pixels
 };
 
-double wrong_share(const GapLists& gaps, double bias) {
-  const BiasCurvePoint at = gaps.at(bias);
-  const auto count = static_cast<double>(gaps.count());
-  return count > 0.0 ? static_cast<double>(at.false_shadow + at.missed_shadow) / count : 0.0;
-}
-
 Constant good_constant(const GapLists& gaps, double unit_world, double now) {
   const BiasRange range = smallest_good_range(gaps);
   const bool stays = now * unit_world >= range.from && now * unit_world < range.to;
   const double stored = stays ? now : short_number_in(range.from / unit_world, range.to / unit_world);
-  return {stored, wrong_share(gaps, stored * unit_world)};
+  return {stored, gaps.wrong_fraction_at(stored * unit_world)};
 }
 
 GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
@@ -52,7 +46,7 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
   const GapLists gaps = sort_gaps(record, light.rungs[0], light.labels);
   if (gaps.lit.empty() && gaps.shadowed.empty()) return out;
   const double now = record.bias_constant_world / test.unit_world;
-  const double wrong_now = wrong_share(gaps, record.bias_constant_world);
+  const double wrong_now = gaps.wrong_fraction_at(record.bias_constant_world);
   const Constant best = good_constant(gaps, test.unit_world, now);
   out.push_back({"bias.constant_depth", now, best.stored, unit, wrong_now, best.wrong, best.wrong == 0.0});
   double least = best.wrong;

@@ -46,9 +46,14 @@ bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::s
 // Of one light's compared pixels.
 void add_gaps(const LadderInput& in, GapLists& gaps) {
   const Image<Label> labels = sort_pixels(in);
-  for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (is_compared(labels.data[i]))
-      (true_visibility(in, i) > 0.5f ? gaps.lit : gaps.shadowed).push_back(in.record.gap.data[i]);
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    if (!is_compared(labels.data[i])) continue;
+    const auto truth = true_visibility(in, i);
+    if (truth == 0.5f)
+      ++gaps.ties;
+    else
+      (truth > 0.5f ? gaps.lit : gaps.shadowed).push_back(in.record.gap.data[i]);
+  }
 }
 
 double raster_ms(const raster::RasterFrame& frame) {
