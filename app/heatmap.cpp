@@ -7,6 +7,7 @@
 
 #include "compare/palette.h"
 #include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
 
 namespace gnomon::app {
 namespace {
@@ -96,7 +97,7 @@ Rgb8Image heatmap_image(const Image<raytrace::WorkCounts>& work, HeatmapOf what)
 
 Expected<void> write_heatmap(const std::string& path, const Image<raytrace::WorkCounts>& work,
                              HeatmapOf what) {
-  if (path.ends_with(".png")) return write_png(path, heatmap_image(work, what));
+  if (lower_extension(path) == ".png") return write_png(path, heatmap_image(work, what));
   std::vector<Channel> channels{{"nodes.V", {}}, {"triangles.V", {}}};
   for (const raytrace::WorkCounts& w : work.data) {
     channels[0].values.push_back(static_cast<float>(w.boxes));

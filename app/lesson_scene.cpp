@@ -13,6 +13,7 @@
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "compare/report/lessons.h"
+#include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
 #include "scene/load.h"
 
@@ -81,6 +82,34 @@ bool makes_film(const CLI::App& command) {
   return starts("--metric", "shimmer") || starts("--max-error", "shimmer:");
 }
 
+std::string usual_technique() {
+  return std::string(raster::technique_name(raster::MapOptions{}.technique));
+}
+
+/// The technique that the lesson shows.
+std::string technique_of(const LessonCommand& lesson) {
+  for (const auto& [option, value] : lesson.settings)
+    if (option == "--technique" && value) return *value;
+  return usual_technique();
+}
+
+/// The technique that a scene's settings are for.
+std::string technique_of_scene(const std::string& path_or_name) {
+  for (const SceneSetting& setting : scene_settings(path_or_name))
+    if (setting.option == "technique") return setting.value;
+  return usual_technique();
+}
+
+/// Of settings for the technique that is asked for where it matters: a scene's takes a look at its file.
+template <class Technique>
+SettingsUse use_of_settings(const CLI::App& command, const Technique& technique) {
+  if (command.get_option_no_throw("--bias") == nullptr) return SettingsUse::none;
+  if (finds_map_options(command)) return SettingsUse::sought;
+  if (!was_given(command, "--technique")) return SettingsUse::taken;
+  const std::vector<std::string>& given = command.get_option("--technique")->results();
+  return given.size() == 1 && given.front() == technique() ? SettingsUse::taken : SettingsUse::left_out;
+}
+
 }  // namespace
 
 std::string scene_of_lesson(const std::string& path_or_name) {
@@ -104,9 +133,11 @@ std::string scene_settings_text(const std::string& path_or_name) {
 }
 
 SettingsUse use_of_settings(const CLI::App& command) {
-  if (command.get_option_no_throw("--bias") == nullptr) return SettingsUse::none;
-  if (finds_map_options(command)) return SettingsUse::sought;
-  return was_given(command, "--technique") ? SettingsUse::left_out : SettingsUse::taken;
+  const CLI::Option* scene = command.get_option_no_throw("SCENE");
+  if (scene == nullptr || scene->count() != 1) return SettingsUse::none;
+  const std::string& name = scene->results().front();
+  const auto lesson = find_lesson(name);
+  return use_of_settings(command, [&] { return lesson ? technique_of(*lesson) : technique_of_scene(name); });
 }
 
 std::string settings_note(const SceneArgument& scene) {
@@ -118,7 +149,7 @@ std::string settings_note(const SceneArgument& scene) {
   if (note.empty()) return {};
   if (!of_lesson) note = "the scene asks for " + note;
   if (scene.settings == SettingsUse::left_out)
-    return note + "; --technique was given, so these settings are not used";
+    return note + "; another technique was given, so these settings are not used";
   if (scene.settings == SettingsUse::sought)
     return note + "; the map's options among these are sought, not taken";
   return note + ", where no option given here says otherwise";
@@ -126,10 +157,10 @@ std::string settings_note(const SceneArgument& scene) {
 
 Expected<void> add_scene_settings(CLI::App& command) {
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
-  const SettingsUse use = use_of_settings(command);
-  const bool unused = use == SettingsUse::left_out || use == SettingsUse::sought;
-  if (scene == nullptr || scene->count() != 1 || unused) return {};
+  if (scene == nullptr || scene->count() != 1) return {};
   const std::string& path = scene->results().front();
+  const SettingsUse use = use_of_settings(command, [&] { return technique_of_scene(scene_of_lesson(path)); });
+  if (use == SettingsUse::left_out || use == SettingsUse::sought) return {};
   const auto asked = scene_settings(scene_of_lesson(path));
   if (asked.empty()) return {};
   const bool biased = std::any_of(bias_options.begin(), bias_options.end(),

@@ -25,13 +25,13 @@ std::string settings_note(const SceneArgument& scene);
 std::string scene_settings_text(const std::string& path_or_name);
 
 /// Gives a parsed command the settings that its scene file asks for (scene/load.h): those of the shadow map's
-/// options that it knows and was not given. None when it was given --technique, as below; no bias where it
+/// options that it knows and was not given. None when it was given another technique, as below; no bias where it
 /// was given one of any kind; nothing to `tune`, which finds them. Error (bad_input): an option that the
 /// shadow map has not, or a value that it does not take.
 Expected<void> add_scene_settings(CLI::App& command);
 
 /// Gives a parsed command whose SCENE is a lesson's name the lesson's settings: those options of the lesson's
-/// command that it knows and was not given. None when it was given --technique, to whose settings the
+/// command that it knows and was not given. None when it was given another technique, to whose settings the
 /// lesson's need not belong; none of the map's to `tune`, which finds them; none of a film's where errors are not
 /// flips. Throws CLI::ParseError when a value does not parse.
 void add_lesson_settings(CLI::App& command);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -63,7 +64,7 @@ Expected<void> make_folder_for(const std::string& path) {
 
 Expected<void> check_extension(std::string_view option, const std::string& path,
                                std::string_view extensions) {
-  const std::string extension = fs::path(path).extension().string();
+  const std::string extension = lower_extension(path);
   const bool known =
       !extension.empty() &&
       fmt::format(" {} ", extensions).find(fmt::format(" {} ", extension)) != std::string::npos;

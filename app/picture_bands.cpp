@@ -1,4 +1,5 @@
 #include "app/picture_bands.h"
+#include "scene/files/read_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +9,7 @@ namespace gnomon::app {
 PictureBands::PictureBands(std::string path, const World& world, const ImageSize& size,
                            std::optional<double> exposure)
     : path_(std::move(path)), world_(world), size_(size), exposure_(exposure) {
-  if (path_.ends_with(".exr")) exr_.emplace(path_, size);
+  if (lower_extension(path_) == ".exr") exr_.emplace(path_, size);
 }
 
 Expected<void> PictureBands::add_color(const ColorImage& color, const PictureRows& rows) {

@@ -6,6 +6,7 @@
 
 #include "scene/exposure.h"
 #include "scene/files/image_io.h"
+#include "scene/files/read_file.h"
 
 namespace gnomon::app {
 
@@ -77,7 +78,7 @@ double truth_value(const raytrace::LightTruth& light, std::size_t pixel) {
 }
 
 bool is_png(const std::string& path) {
-  return path.ends_with(".png");
+  return lower_extension(path) == ".png";
 }
 
 }  // namespace

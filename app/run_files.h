@@ -18,7 +18,7 @@ namespace gnomon::app {
 enum class SettingsUse : std::uint8_t {
   none,      ///< it draws no map
   taken,     ///< where no option says otherwise
-  left_out,  ///< --technique was given, to which they need not belong
+  left_out,  ///< another technique was given, to which they need not belong
   sought     ///< it finds the map's options itself
 };
 

@@ -6,6 +6,7 @@
 
 #include "app/option_kinds.h"
 #include "app/shell.h"
+#include "scene/files/read_file.h"
 
 namespace gnomon::app {
 
@@ -49,7 +50,7 @@ Expected<Vec2> parse_drift(const std::string& text) {
 }
 
 bool is_file(const std::string& path) {
-  return path.ends_with(".json");
+  return lower_extension(path) == ".json";
 }
 
 template <class Path, std::size_t N>

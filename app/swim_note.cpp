@@ -38,6 +38,19 @@ bool swims(const World& world, const Light& light, const raster::MapOptions& map
   return window_moves(world, light, {camera, moved_aside(camera)}, aspect, map.size);
 }
 
+/// What moves by whole texels in its place.
+const char* way_out(const raster::MapOptions& map) {
+  switch (raster::traits_of(map.technique).texels) {
+    case raster::TexelShape::cascades:
+      return "without --no-snap and --cascade-fit it moves by whole texels";
+    case raster::TexelShape::warped:
+      return "--technique csm moves by whole texels";
+    case raster::TexelShape::of_light:
+      break;
+  }
+  return "--technique csm moves by whole texels, and so does this map with --snap";
+}
+
 }  // namespace
 
 std::string swim_note(const World& world, const raster::MapOptions& map, ImageSize size,
@@ -50,9 +63,8 @@ std::string swim_note(const World& world, const raster::MapOptions& map, ImageSi
   if (names.empty()) return {};
   return fmt::format(
       "The map of {} follows the camera by parts of a texel ({}): its shadow edges swim when the camera "
-      "moves; "
-      "--technique csm moves by whole texels, and so do other maps with --snap.",
-      fmt::join(names, ", "), raster::technique_name(map.technique));
+      "moves; {}.",
+      fmt::join(names, ", "), raster::technique_name(map.technique), way_out(map));
 }
 
 }  // namespace gnomon::app

@@ -157,9 +157,11 @@ void add_theory(Page& page, const TheoryStats& t) {
   page.field("theory",
              fmt::format("half the pixels need a bias below {} against acne, 99 % below {}",
                          plain_number(t.acne_free_bias.median), plain_number(t.acne_free_bias.p99)));
-  page.field("", fmt::format("a texel is {} pixels wide in the median ({} measured), {} at 99 %",
-                             plain_number(t.aliasing.median), plain_number(t.measured_aliasing.median),
-                             plain_number(t.aliasing.p99)));
+  const std::string measured = t.measured_aliasing.count > 0
+                                   ? fmt::format(" ({} measured)", plain_number(t.measured_aliasing.median))
+                                   : "";
+  page.field("", fmt::format("a texel is {} pixels wide in the median{}, {} at 99 %",
+                             plain_number(t.aliasing.median), measured, plain_number(t.aliasing.p99)));
 }
 
 // What moments let through inside shadows, as a part of the filter step.

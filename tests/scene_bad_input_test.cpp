@@ -57,22 +57,44 @@ TEST(BadInput, AnExrHasNoDateOfItsMaking) {
   std::filesystem::remove_all(folder);
 }
 
+/// The library as it is read; an error's message.
+std::string read_mtl(const std::string& text, std::vector<std::string>& notes) {
+  const auto plain = plain_mtl(text, "m.mtl", notes);
+  return plain ? *plain : plain.error().message();
+}
+
 TEST(BadInput, OptionsOfTexturesMayBeShort) {
   std::vector<std::string> notes;
-  EXPECT_EQ(plain_mtl("newmtl a\nmap_Kd -s 2 my tex.png\r\nmap_Kd -blendu on -o 0.5 0.25 -clamp on t.png\n"
-                      "map_Kd -mm 0 1 t.png\nKd 1 1 1",
-                      notes),
+  EXPECT_EQ(read_mtl("newmtl a\nmap_Kd -s 2 my tex.png\r\nmap_Kd -blendu on -o 0.5 0.25 -clamp on t.png\n"
+                     "map_Kd -mm 0 1 t.png\nKd 1 1 1",
+                     notes),
             "newmtl a\nmap_Kd -s 2 1 1 my tex.png\nmap_Kd -o 0.5 0.25 0 -clamp on t.png\n"
-            "map_Kd t.png\nKd 1 1 1");
+            "map_Kd t.png\nKd 1 1 1\n");
   EXPECT_EQ(notes, std::vector<std::string>{"The option map_Kd -mm of textures is not used."});
 }
 
 TEST(BadInput, TheHaloOfADissolve) {
   std::vector<std::string> notes;
-  EXPECT_EQ(plain_mtl("newmtl a\n  d -halo 0.5\r\nnewmtl b\nd 0.25\ndisp -halo.png\n", notes),
+  EXPECT_EQ(read_mtl("newmtl a\n  d -halo 0.5\r\nnewmtl b\nd 0.25\ndisp -halo.png\n", notes),
             "newmtl a\nd 0.5\nnewmtl b\nd 0.25\ndisp -halo.png\n");
   EXPECT_EQ(notes, std::vector<std::string>{
                        "The option d -halo is not used: as much is let through at every angle."});
+}
+
+// Wavefront's format: one number is a grey. tinyobjloader reads a word that is no number as 0.
+TEST(BadInput, NumbersOfMaterialsAreNumbers) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(read_mtl("Kd 0.8\rKs .5 5e-1 1 # light\rNs 96\r", notes),
+            "Kd 0.8 0.8 0.8\nKs .5 5e-1 1\nNs 96\n");
+  EXPECT_EQ(read_mtl("newmtl a\nKd 0.1 \\\n 0.2 0.3\n", notes), "newmtl a\nKd 0.1 0.2 0.3\n");
+  EXPECT_TRUE(notes.empty());
+  EXPECT_EQ(read_mtl("Kd spectral red.rfl 1\n", notes), "\n");
+  EXPECT_EQ(notes, std::vector<std::string>{"The option Kd spectral is not used."});
+  EXPECT_EQ(read_mtl("newmtl a\nKd 0,8 0,1 0,1\n", notes),
+            "m.mtl:2:4: Kd: not a finite number (got 0,8, allowed for example 0.8)");
+  EXPECT_EQ(read_mtl("Ns nan\n", notes),
+            "m.mtl:1:4: Ns: not a finite number (got nan, allowed for example 0.8)");
+  EXPECT_EQ(read_mtl("Kd 1 1\n", notes), "m.mtl:1:7: Kd: too few numbers (got 2, allowed 1 or 3)");
 }
 
 const std::string triangle =

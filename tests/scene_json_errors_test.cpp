@@ -156,7 +156,7 @@ const Mistake field_mistakes[] = {
      "s.json:5:15: exposure: out of range (got 0, allowed a number in (0, 1e+30])"},
     {"colour", R"("background": "#12345g")", "s.json:5:17: background: not a colour (got \"#12345g\""},
     {"null", R"("ambient": null)", "s.json:5:14: ambient: wrong type (got null, allowed a number, [r, g, b]"},
-    {"hostile key", "\"a\\u0000\\n\\u001b[31m\": 1", "s.json:5:3: a\\x00\\x0a\\x1b[31m: unknown key"},
+    {"hostile key", "\"a\\u0000\\n\\u001b[31m\": 1", "s.json:5:3: a\\x00\\n\\x1b[31m: unknown key"},
 };
 
 TEST(JsonErrors, Fields) {

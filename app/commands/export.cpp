@@ -14,6 +14,7 @@
 #include "app/suite/write.h"
 #include "app/values.h"
 #include "scene/files/gltf_writer.h"
+#include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
 #include "scene/tessellate.h"
@@ -57,7 +58,7 @@ Expected<ExitCode> run_export(ExportCommand& command) {
     console.note("glTF has no place for what the scene asks for: give " + asked + " yourself");
   loaded->scene->notes.clear();
   const Scene scene = cut_planes(std::move(*loaded->scene));
-  const auto gltf = write_gltf(scene, command.file.ends_with(".glb"));
+  const auto gltf = write_gltf(scene, lower_extension(command.file) == ".glb");
   if (!gltf) return fail(gltf.error());
   for (const std::string& note : scene.notes) console.note(note);
   for (const std::string& note : gltf->notes) console.note(note);

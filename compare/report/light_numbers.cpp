@@ -126,6 +126,11 @@ std::string penumbra_facts(const LightBlock& b) {
 std::string theory_facts(const LightBlock& b) {
   const TheoryStats& t = b.light.theory;
   if (t.acne_free_bias.count == 0) return "";
+  const std::string measured =
+      t.measured_aliasing.count == 0
+          ? std::string()
+          : fmt::format(", {} as measured",
+                        fact_value(b, "theory.measured_aliasing.median", t.measured_aliasing.median));
   return fact("Bias that theory asks for",
               fact_value(b, "theory.acne_free_bias.median", t.acne_free_bias.median),
               fmt::format("world units keep half of the pixels free of acne, {} keep 99 %",
@@ -134,10 +139,9 @@ std::string theory_facts(const LightBlock& b) {
               ? std::string()
               : fact("A texel on the screen",
                      fact_value(b, "theory.aliasing.median", t.aliasing.median) + " pixels",
-                     fmt::format("wide in the median by its footprint, {} as measured; {} at the worst "
+                     fmt::format("wide in the median by its footprint{}; {} at the worst "
                                  "hundredth. Perspective makes {} of it, the surface's tilt {}.",
-                                 fact_value(b, "theory.measured_aliasing.median", t.measured_aliasing.median),
-                                 fact_value(b, "theory.aliasing.p99", t.aliasing.p99),
+                                 measured, fact_value(b, "theory.aliasing.p99", t.aliasing.p99),
                                  fact_value(b, "theory.perspective.median", t.perspective.median),
                                  fact_value(b, "theory.projection.median", t.projection.median))));
 }

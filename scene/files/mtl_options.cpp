@@ -1,11 +1,13 @@
 #include "scene/files/mtl_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <optional>
 #include <set>
 
+#include "scene/files/obj_text.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
@@ -79,43 +81,102 @@ std::string plain_statement(std::string_view key, std::string_view rest, std::se
       out += fmt::format(" {}", word);
       for (const std::string& w : words) out += " " + w;
     } else if (word != "-blendu" && word != "-blendv" && word != "-bm" && word != "-texres") {
-      unused.insert(fmt::format("{} {}", key, word));
+      unused.insert(fmt::format("{} {} of textures", key, word));
     }
   }
   return fmt::format("{} {}", out, without_blanks(rest));
 }
 
-/// "d -halo 0.5" as "d 0.5"; any other statement as it is.
-std::string plain_dissolve(std::string_view line, std::string_view rest, bool& has_halo) {
-  if (take_word(rest) != "-halo") return std::string(line);
-  has_halo = true;
-  return fmt::format("d {}", without_blanks(rest));
+/// Statements of numbers: how many, where one alone may stand for three.
+struct NumberStatement {
+  std::string_view key;
+  std::size_t count;
+};
+constexpr std::array<NumberStatement, 8> number_statements{
+    {{"Kd", 3}, {"Ks", 3}, {"Ke", 3}, {"Tf", 3}, {"Ns", 1}, {"Ni", 1}, {"d", 1}, {"Tr", 1}}};
+
+/// Nothing: no statement of numbers.
+const NumberStatement* number_statement(std::string_view key) {
+  for (const NumberStatement& known : number_statements)
+    if (known.key == key) return &known;
+  return nullptr;
 }
+
+/// Rewrites a library line by line.
+class MtlRewriter {
+ public:
+  MtlRewriter(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  Expected<std::string> run(std::vector<std::string>& notes) {
+    for (std::size_t at = 0; at < text_.size() && !error_;) {
+      const std::size_t end = std::min(text_.find_first_of("\r\n", at), text_.size());
+      out_ += plain_line(text_.substr(at, end - at));
+      out_ += '\n';
+      at = end + (text_.substr(end, 2) == "\r\n" ? 2 : 1);
+    }
+    if (error_) return fail(std::move(*error_));
+    for (const std::string& option : unused_)
+      notes.push_back(fmt::format("The option {} is not used.", option));
+    if (has_halo_)
+      notes.emplace_back("The option d -halo is not used: as much is let through at every angle.");
+    return std::move(out_);
+  }
+
+ private:
+  std::string plain_line(std::string_view line) {
+    std::string_view rest = line;
+    const std::string_view key = take_word(rest);
+    if (key == "map_Kd" || key == "map_d") return plain_statement(key, rest, unused_);
+    if (key == "newmtl") return fmt::format("newmtl {}", without_blanks(rest));
+    if (const NumberStatement* numbers = number_statement(key)) return plain_numbers(*numbers, rest);
+    return std::string(line);
+  }
+
+  std::string plain_numbers(const NumberStatement& statement, std::string_view rest) {
+    rest = rest.substr(0, rest.find('#'));
+    std::string_view after = rest;
+    const std::string_view first = take_word(after);
+    if (statement.key == "d" && first == "-halo") has_halo_ = true, rest = after;
+    if (first == "spectral" || first == "xyz") {
+      unused_.insert(fmt::format("{} {}", statement.key, first));
+      return {};
+    }
+    std::vector<std::string> numbers;
+    while (numbers.size() < statement.count) {
+      const std::string_view word = take_word(rest);
+      if (word.empty()) break;
+      if (!parse_decimal(word))
+        fail_at(statement.key, word,
+                fmt::format("not a finite number (got {}, allowed for example 0.8)", printable(word)));
+      numbers.emplace_back(word);
+    }
+    if (numbers.size() == 1) numbers.resize(statement.count, numbers.front());
+    if (numbers.size() < statement.count)
+      fail_at(statement.key, rest,
+              fmt::format("too few numbers (got {}, allowed 1 or {})", numbers.size(), statement.count));
+    return fmt::format("{} {}", statement.key, fmt::join(numbers, " "));
+  }
+
+  void fail_at(std::string_view key, std::string_view where, std::string reason) {
+    if (error_) return;
+    const LineColumn at = line_column(text_, static_cast<std::size_t>(where.data() - text_.data()));
+    error_ = Error{ErrorKind::bad_input, std::move(reason), file_, at.line, at.column, std::string(key)};
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::string out_;
+  std::set<std::string> unused_;
+  bool has_halo_ = false;
+  std::optional<Error> error_;
+};
 
 }  // namespace
 
-std::string plain_mtl(std::string_view text, std::vector<std::string>& notes) {
-  std::string out;
-  std::set<std::string> unused;
-  bool has_halo = false;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view rest = text.substr(at, end - at);
-    const std::string_view line = rest, key = take_word(rest);
-    const bool is_map = key == "map_Kd" || key == "map_d";
-    if (is_map)
-      out += plain_statement(key, rest, unused);
-    else if (key == "newmtl")
-      out += fmt::format("newmtl {}", without_blanks(rest));
-    else
-      out += key == "d" ? plain_dissolve(line, rest, has_halo) : std::string(line);
-    if (end < text.size()) out += '\n';
-    at = end + 1;
-  }
-  for (const std::string& option : unused)
-    notes.push_back(fmt::format("The option {} of textures is not used.", option));
-  if (has_halo) notes.emplace_back("The option d -halo is not used: as much is let through at every angle.");
-  return out;
+Expected<std::string> plain_mtl(std::string_view text, const std::string& file,
+                                std::vector<std::string>& notes) {
+  const std::string joined = join_continued_lines(without_byte_order_mark(text));
+  return MtlRewriter(joined, file).run(notes);
 }
 
 }  // namespace gnomon

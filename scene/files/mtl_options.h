@@ -5,11 +5,15 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/expected.h"
+
 namespace gnomon {
 
 /// The same library with every option of map_Kd and map_d that has no effect here left out (it is noted), and with
-/// three numbers after -s and -o, of which the format lets the last two be missing. Names of files may hold blanks.
-/// Names of materials have no blanks at their ends. `d -halo 0.5` (the more transparent, the more squarely it is seen) is `d 0.5`, which is noted.
-std::string plain_mtl(std::string_view text, std::vector<std::string>& notes);
+/// three numbers after -s and -o, of which the format lets the last two be missing, as it does after Kd and the like: one
+/// is a grey. Names of files may hold blanks; names of materials have none at their ends. `d -halo 0.5` (the more
+/// transparent, the more squarely it is seen) is `d 0.5`, which is noted. Error: a number that is none.
+Expected<std::string> plain_mtl(std::string_view text, const std::string& file,
+                                std::vector<std::string>& notes);
 
 }  // namespace gnomon

@@ -44,9 +44,10 @@ class LibraryReader {
     const auto bytes = read_file(*path);
     if (!bytes) return bytes.error().reason;
     if (bytes->find('\0') != std::string::npos) return "it is not UTF-8 text";
-    const std::string text = plain_mtl(without_byte_order_mark(*bytes), notes);
-    note_missing_diffuse(text);
-    std::istringstream stream(text);
+    const auto text = plain_mtl(*bytes, *path, notes);
+    if (!text) return fail(text.error());
+    note_missing_diffuse(*text);
+    std::istringstream stream(*text);
     std::string said, errors;
     tinyobj::LoadMtl(&numbers_, &materials, &stream, &said, &errors);
     std::istringstream lines(said);
@@ -180,7 +181,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
                                  [&](const std::string& name) { return libraries.find(name); }});
   if (!parsed) {
     Error error = parsed.error();
-    error.file = file;
+    if (error.file.empty()) error.file = file;
     return fail(std::move(error));
   }
   LoadedFile loaded;

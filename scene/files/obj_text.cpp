@@ -13,18 +13,6 @@
 namespace gnomon {
 namespace {
 
-/// Where a backslash ends a line, it and the break become spaces: the line goes on, and offsets stay.
-std::string join_continued_lines(std::string_view bytes) {
-  std::string text(bytes);
-  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
-    const std::size_t end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3 : at + 2;
-    if (end > text.size() || text[end - 1] != '\n') continue;
-    std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end),
-              ' ');
-  }
-  return text;
-}
-
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -295,6 +283,17 @@ class ObjReader {
 };
 
 }  // namespace
+
+std::string join_continued_lines(std::string_view bytes) {
+  std::string text(bytes);
+  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+    const std::size_t end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3 : at + 2;
+    if (end > text.size() || text[end - 1] != '\n') continue;
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end),
+              ' ');
+  }
+  return text;
+}
 
 Expected<ObjText> parse_obj(std::string_view bytes, const std::string& file,
                             const MaterialLibraries& libraries) {

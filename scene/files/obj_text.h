@@ -53,6 +53,10 @@ struct MaterialLibraries {
   std::function<int(const std::string& name)> find;
 };
 
+/// The text of an OBJ or MTL file: where a backslash ends a line, it and the break become spaces, so that the line goes
+/// on and offsets stay.
+std::string join_continued_lines(std::string_view bytes);
+
 /// To triangulate a polygon takes time with the square of its corners.
 inline constexpr std::size_t max_polygon_corners = 255;
 

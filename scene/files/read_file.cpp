@@ -1,4 +1,5 @@
 #include "scene/files/read_file.h"
+#include "scene/one_line.h"
 
 #include <fmt/format.h>
 
@@ -112,16 +113,10 @@ std::string printable(std::string_view text) {
 }
 
 std::string printable(std::string_view text, std::size_t longest) {
-  std::string out;
-  for (const char c : text.substr(0, longest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f)
-      out += fmt::format("\\x{:02x}", byte);
-    else
-      out += c;
-  }
-  if (text.size() > longest) out += "...";
-  return out;
+  if (text.size() <= longest) return one_line(text);
+  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0u) == 0x80u)
+    --longest;  // inside a character
+  return one_line(text.substr(0, longest)) + "...";
 }
 
 }  // namespace gnomon

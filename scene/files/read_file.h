@@ -38,9 +38,9 @@ LineColumn line_column(std::string_view text, std::size_t offset);
 /// large.
 std::optional<double> parse_decimal(std::string_view word);
 
-/// Up to 40 characters of hostile text, with every byte that is not printable ASCII escaped: for messages.
+/// Up to 40 bytes of hostile text as one_line() writes it, for messages.
 std::string printable(std::string_view text);
-/// The same for up to `longest` characters.
+/// The same for up to `longest` bytes.
 std::string printable(std::string_view text, std::size_t longest);
 
 }  // namespace gnomon
