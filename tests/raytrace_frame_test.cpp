@@ -229,6 +229,13 @@ TEST(Frame, ReceiversOnlyMakesNoPicture) {
   EXPECT_EQ(frame.lights[0].shadow_rays.runs.size(), 3U);
 }
 
+TEST(Frame, Case24AnEyeLevelWithAFloorDoesNotSeeIt) {
+  Scene scene = test::scene_of({test::quad({-4, 0, -4}, {8, 0, 0}, {0, 0, 8})});
+  scene.camera = {.eye = {0.3, 0.0, 2.1}, .target = {0.0, 0.2, 0.0}};
+  for (const raytrace::SurfacePoint& point : trace(scene, {160, 90}).receiver.data)
+    ASSERT_EQ(point.primitive, no_id);
+}
+
 TEST(Frame, SameForAnyNumberOfThreads) {
   const Scene scene = everything();
   const auto render = [&](std::size_t threads) {

@@ -307,6 +307,20 @@ TEST(Hits, Case24IntervalIsOpenAtBothEnds) {
   EXPECT_TRUE(occluded(4.0, std::nextafter(5.0, 6.0)));
 }
 
+// An eye that is level with a floor; the rounded t of half of its rays is above 0.
+TEST(Hits, Case24OriginInATrianglesPlaneIsNoHit) {
+  const TestWorld w(test::scene_of({test::quad({-4, 0, -4}, {8, 0, 0}, {0, 0, 8})}));
+  for (const Accel accel : {Accel::bvh, Accel::brute}) {
+    const Tracer tracer(w.world(), accel);
+    Random random(24);
+    for (int i = 0; i < 2000; ++i) {
+      const Ray ray{{random.uniform(-4.0, 4.0), 0.0, random.uniform(-4.0, 4.0)}, random.direction()};
+      ASSERT_FALSE(tracer.closest_hit(ray)) << i;
+      ASSERT_FALSE(tracer.occluded(ray)) << i;
+    }
+  }
+}
+
 TEST(Hits, Case26TiesGoToTheLowestId) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < 5; ++i) meshes.push_back(test::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));

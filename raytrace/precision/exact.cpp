@@ -57,6 +57,12 @@ int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 
   return (m.height - Dyadic(bound) * m.slope).sign() * m.slope.sign();
 }
 
+bool starts_before(const RayFrame& ray, const LeafPrimitive& triangle) {
+  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
+  const Vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
+  return compare_t(origin, direction, {triangle.corner(0), triangle.corner(1), triangle.corner(2)}, 0.0) > 0;
+}
+
 int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,
                   const std::array<Vec3, 3>& b) {
   const PlaneIntersection m = intersection_with_plane(origin, direction, a),

@@ -146,10 +146,19 @@ inline bool finish_triangle(const RayFrame& ray, const LeafPrimitive& triangle, 
   return true;
 }
 
+/// Whether the ray, which intersects the triangle's plane, does so after its origin: exact (precision/exact.cpp).
+[[gnu::cold]] bool starts_before(const RayFrame& ray, const LeafPrimitive& triangle);
+
+/// An origin in the triangle's own plane is no hit, though the rounded t may be above 0 by some roundings of the corners'
+/// distances, such as that of an eye that is level with a floor.
 inline bool intersect_triangle(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
   const ShearedTriangle s = shear(ray, triangle);
   if ((s.u < 0.0 || s.v < 0.0 || s.w < 0.0) && (s.u > 0.0 || s.v > 0.0 || s.w > 0.0)) return false;
-  return finish_triangle(ray, triangle, s, hit) && hit.t > ray.t.min && hit.t < ray.t.max;
+  if (!finish_triangle(ray, triangle, s, hit) || !(hit.t > ray.t.min && hit.t < ray.t.max)) return false;
+  const double reach =
+      std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])}) * std::abs(ray.shear_z);
+  const bool is_rounding = ray.t.min == 0.0 && hit.t < 0x1p-49 * reach;
+  return !is_rounding || starts_before(ray, triangle);
 }
 
 /// |offset|^2 - r^2 with the squares' residuals added: exact to the last place where it nearly vanishes.
