@@ -26,7 +26,7 @@ class ShaderFolder {
  public:
   ShaderFolder() = default;
   /// Reads the folder's .glsl, .vert, .frag and .h files, deeper ones too; "" is no folder. A byte order mark
-  /// at the start of one is skipped. Error (bad input): a file that has no shader's name, nor is included by
+  /// at the start of one is skipped. Error (bad input): no such file, or one that has no shader's name, nor is included by
   /// one that has; it names the path that would count.
   static Expected<ShaderFolder> read(const std::string& folder);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "raster/shader_folder.h"
+#include "scene/files/read_file.h"
 
 namespace gnomon::app::grade {
 
@@ -48,16 +49,28 @@ std::string name_of(const fs::path& folder) {
                                                      : name.string();
 }
 
-/// The first link below the folder, or "" and what its shaders weigh.
-std::string first_link(const fs::path& folder, std::uintmax_t& bytes) {
+/// What lies below a student's folder.
+struct Contents {
+  std::string link;          ///< the first one; "": none
+  std::string misnamed;      ///< a file like hard.glsl.txt or HARD.GLSL; "": none
+  std::uintmax_t bytes = 0;  ///< of its shaders
+};
+
+Contents look_into(const fs::path& folder) {
+  Contents out;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (entry->is_symlink()) return entry->path().lexically_relative(folder).generic_string();
+    const fs::path& path = entry->path();
+    const std::string name = path.lexically_relative(folder).generic_string();
+    if (entry->is_symlink() && out.link.empty()) out.link = name;
     std::error_code none;
-    if (is_shader(entry->path())) bytes += entry->file_size(none);
+    if (is_shader(path))
+      out.bytes += entry->file_size(none);
+    else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl")
+      out.misnamed = name;
   }
-  return {};
+  return out;
 }
 
 }  // namespace
@@ -84,10 +97,16 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
 }
 
 std::string refusal(const Student& student, const Rubric& rubric) {
-  std::uintmax_t bytes = 0;
-  if (const std::string link = first_link(student.folder, bytes); !link.empty())
-    return fmt::format("{} is a link; only files of the folder itself are read", link);
-  if (bytes > most_bytes) return fmt::format("holds {} MiB of shaders (allowed 4)", bytes >> 20);
+  const Contents contents = look_into(student.folder);
+  if (!contents.link.empty())
+    return fmt::format("{} is a link; only files of the folder itself are read", contents.link);
+  if (contents.bytes > most_bytes)
+    return fmt::format("holds {} MiB of shaders (allowed 4)", contents.bytes >> 20);
+  if (contents.bytes == 0 && !contents.misnamed.empty())
+    return fmt::format("nothing was handed in: {} does not end in .glsl", contents.misnamed);
+  const std::string nothing = fmt::format("nothing was handed in: no {} that differs from the program's own",
+                                          fmt::join(rubric.hand_in, " or "));
+  if (contents.bytes == 0) return nothing;
   const auto folder = raster::ShaderFolder::read(student.folder);
   if (!folder) return folder.error().message();
   bool any = false;
@@ -102,9 +121,7 @@ std::string refusal(const Student& student, const Rubric& rubric) {
       return fmt::format("{} is not to be handed in (allowed {})", file.name,
                          fmt::join(rubric.hand_in, ", "));
   }
-  if (any) return {};
-  return fmt::format("nothing was handed in: no {} that differs from the program's own",
-                     fmt::join(rubric.hand_in, " or "));
+  return any ? std::string() : nothing;
 }
 
 }  // namespace gnomon::app::grade
