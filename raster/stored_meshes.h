@@ -13,12 +13,12 @@ struct alignas(32) PartsHeader {
   glm::dvec4 reference{0.0};
   std::uint32_t part_count = 0, flat_vertices = 0;
 };
-static_assert(sizeof(PartsHeader) == shaders::parts_header_texel_count * 4 * sizeof(std::uint32_t));
+static_assert(sizeof(PartsHeader) == sizeof(std::uint32_t) * 4 * shaders::parts_header_texel_count);
 struct alignas(32) PartData {
   glm::dvec4 column[4], normal_column[3];
   std::uint32_t first_triangle, triangles_at, material, kept;
 };
-static_assert(sizeof(PartData) == shaders::part_texel_count * 4 * sizeof(std::uint32_t));
+static_assert(sizeof(PartData) == sizeof(std::uint32_t) * 4 * shaders::part_texel_count);
 
 /// Where a world's meshes lie in the buffers: flattened parts one after the other, then each mesh that kept parts
 /// share.

@@ -142,13 +142,15 @@ void flip(const std::string& file, bool x, bool y) {
 /// The picture moved by so many pixels; what comes in at its border is the border's.
 void move(const std::string& file, int x, int y) {
   spoil(file, [&](ChannelImage& image) {
+    const int w = image.size.width, h = image.size.height;
+    const auto at = [&](int i, int j) {
+      return static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i);
+    };
     for (Channel& channel : image.channels) {
       const std::vector<float> from = channel.values;
-      const int w = image.size.width, h = image.size.height;
       for (int j = 0; j < h; ++j)
         for (int i = 0; i < w; ++i)
-          channel.values[std::size_t(j * w + i)] =
-              from[std::size_t(std::clamp(j - y, 0, h - 1) * w + std::clamp(i - x, 0, w - 1))];
+          channel.values[at(i, j)] = from[at(std::clamp(i - x, 0, w - 1), std::clamp(j - y, 0, h - 1))];
     }
   });
 }

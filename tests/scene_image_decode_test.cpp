@@ -1,4 +1,5 @@
 // PNG and JPEG files of every kind, read as OpenImageIO reads them: to the last bit.
+#include <fmt/format.h>
 #include <turbojpeg.h>
 
 #include <memory>

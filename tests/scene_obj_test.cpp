@@ -1,4 +1,6 @@
 // OBJ and MTL: geometry, materials, and every mistake with its line and column.
+#include <fmt/format.h>
+
 #include "scene/files/image_io.h"
 #include "scene/files/polygon.h"
 #include "scene/load.h"
@@ -192,8 +194,8 @@ TEST(Obj, NamesWithBlanksAndBackslashes) {
   for (const std::string library : {"my materials.mtl", "my\\ materials.mtl", "tex\\my materials.mtl",
                                     ".\\plain.mtl", "none.mtl plain.mtl"}) {
     const auto colour = [&](const std::string& material) {
-      const auto scene = load_text(folder, mark + "mtllib " + library + "\r\n" + std::string(quad) +
-                                               "usemtl " + material + "\r\nf 1 2 3\r\n");
+      const auto scene = load_text(
+          folder, fmt::format("{}mtllib {}\r\n{}usemtl {}\r\nf 1 2 3\r\n", mark, library, quad, material));
       EXPECT_TRUE(scene) << scene.error().message();
       EXPECT_FALSE(test::has_note(*scene, "mtl")) << library;
       return scene->materials.at(scene->meshes.at(0).triangle_materials.at(0)).diffuse;
