@@ -19,7 +19,7 @@ function(gnomon_fuzz_target name)
   endif()
 endfunction()
 
-foreach(target json gltf obj ply)
+foreach(target json gltf obj mtl ply)
   gnomon_fuzz_target(${target})
 endforeach()
 gnomon_fuzz_target(world gnomon::raytrace)

@@ -109,7 +109,10 @@ void note_read(const Error* error) {
 }
 
 void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size) {
-  const std::string path = put("input" + std::string(extension), {reinterpret_cast<const char*>(data), size});
+  load(put("input" + std::string(extension), {reinterpret_cast<const char*>(data), size}));
+}
+
+void load(const std::string& path) {
   const Expected<Scene> scene = load_scene(path, {.confine_paths = true});
   note_read(scene ? nullptr : &scene.error());
   if (scene) check_world(*scene);
