@@ -10,6 +10,9 @@
 
 namespace gnomon {
 
+/// The file is no image that can be read (bad input).
+tl::unexpected<Error> bad_image(const std::string& file, std::string reason);
+
 /// In 8 bits, colours as they are stored: of gamma and profiles nothing is applied, palettes and tRNS are. `name` is the
 /// file, for messages. Error (bad input): the file is cut off or damaged, or a side is not in 1 … max_image_side.
 Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes);

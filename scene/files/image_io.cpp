@@ -16,12 +16,6 @@
 namespace gnomon {
 namespace {
 
-tl::unexpected<Error> bad_image(const std::string& file, std::string reason) {
-  Error error{ErrorKind::bad_input, std::move(reason)};
-  error.file = file;
-  return fail(std::move(error));
-}
-
 // The reader is chosen by the bytes, never by the name (which may be a mesh's, with no extension).
 std::string_view format_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
@@ -141,6 +135,12 @@ class SrgbCodes {
 };
 
 }  // namespace
+
+tl::unexpected<Error> bad_image(const std::string& file, std::string reason) {
+  Error error{ErrorKind::bad_input, std::move(reason)};
+  error.file = file;
+  return fail(std::move(error));
+}
 
 float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;

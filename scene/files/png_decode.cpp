@@ -73,18 +73,12 @@ bool read_rows(png_structp png, png_bytepp rows) {
   return true;
 }
 
-tl::unexpected<Error> png_fault(const std::string& name, std::string reason) {
-  Error error{ErrorKind::bad_input, std::move(reason)};
-  error.file = name;
-  return fail(std::move(error));
-}
-
 Expected<void> check_extent(const std::string& name, const Header& header, std::size_t file_bytes) {
   if (header.width > max_image_side || header.height > max_image_side)
-    return png_fault(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", header.width,
+    return bad_image(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", header.width,
                                        header.height, max_image_side, max_image_side));
   if (header.stored_row * header.height / most_per_byte > file_bytes)
-    return png_fault(name, fmt::format("the PNG file is cut off: {} bytes cannot hold {} x {} pixels",
+    return bad_image(name, fmt::format("the PNG file is cut off: {} bytes cannot hold {} x {} pixels",
                                        file_bytes, header.width, header.height));
   return {};
 }
@@ -127,17 +121,17 @@ std::vector<std::string> channel_names(std::size_t count) {
 Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes) {
   PngReader reader(bytes);
   Header header;
-  if (!reader.header(header)) return png_fault(name, reader.fault());
+  if (!reader.header(header)) return bad_image(name, reader.fault());
   if (const auto fits = check_extent(name, header, bytes.size()); !fits) return fail(fits.error());
   Layout layout;
-  if (!reader.layout(layout)) return png_fault(name, reader.fault());
+  if (!reader.layout(layout)) return bad_image(name, reader.fault());
   DecodedImage image{{static_cast<int>(header.width), static_cast<int>(header.height)},
                      channel_names(layout.channels),
                      std::vector<std::uint8_t>(layout.row * header.height),
                      {}};
   std::vector<png_bytep> rows;
   for (std::size_t y = 0; y < header.height; ++y) rows.push_back(image.bytes.data() + y * layout.row);
-  if (!reader.rows(rows.data())) return png_fault(name, reader.fault());
+  if (!reader.rows(rows.data())) return bad_image(name, reader.fault());
   return image;
 }
 
