@@ -16,11 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_shader(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".glsl" || extension == ".vert" || extension == ".frag" || extension == ".h";
-}
-
 bool is_own(std::string_view name) {
   const std::vector<ShaderFile> own = own_shaders();
   return std::any_of(own.begin(), own.end(), [&](const ShaderFile& file) { return file.name == name; });
@@ -43,6 +38,11 @@ Error error_in(const std::string& file, std::string reason) {
 }
 
 }  // namespace
+
+bool is_shader(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".glsl" || extension == ".vert" || extension == ".frag" || extension == ".h";
+}
 
 std::vector<ShaderFile> own_shaders() {
   std::vector<ShaderFile> files;

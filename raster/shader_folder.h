@@ -2,6 +2,7 @@
 // (--shader-dir).
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -19,6 +20,8 @@ struct ShaderFile {
   std::string_view text;
 };
 std::vector<ShaderFile> own_shaders();
+/// By its ending, in small letters: .glsl, .vert, .frag or .h.
+bool is_shader(const std::filesystem::path& path);
 /// The file of technique/ that turns the map into visibility.
 std::string technique_file(const MapOptions& map, const Light& light);
 

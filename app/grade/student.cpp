@@ -18,15 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 20;
 
-bool is_shader(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".glsl" || extension == ".vert" || extension == ".frag" || extension == ".h";
-}
-
 bool holds_shader(const fs::path& folder) {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (is_shader(entry.path())) return true;
+    if (raster::is_shader(entry.path())) return true;
   const std::vector<raster::ShaderFile> own = raster::own_shaders();
   return std::any_of(own.begin(), own.end(),
                      [&](const raster::ShaderFile& file) { return fs::exists(folder / file.name, none); });
@@ -65,7 +60,7 @@ Contents look_into(const fs::path& folder) {
     const std::string name = path.lexically_relative(folder).generic_string();
     if (entry->is_symlink() && out.link.empty()) out.link = name;
     std::error_code none;
-    if (is_shader(path))
+    if (raster::is_shader(path))
       out.bytes += entry->file_size(none);
     else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl")
       out.misnamed = name;
