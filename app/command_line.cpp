@@ -193,7 +193,6 @@ Expected<void> write_trace(const std::string& path) {
 }
 
 Expected<ExitCode> act_and_trace(const Invocation& invocation) {
-  if (const auto writable = check_output_file(invocation.trace); !writable) return fail(writable.error());
   if (StageLog* log = StageLog::current()) log->keep_runs(!invocation.trace.empty());
   Expected<ExitCode> code = invocation.action();
   if (!code) return code;
@@ -201,9 +200,19 @@ Expected<ExitCode> act_and_trace(const Invocation& invocation) {
   return code;
 }
 
+/// An error that names an option which the scene's file set is a mistake in that file.
+Error placed(const Error& error, const Invocation& invocation) {
+  const auto place = invocation.settings.find(error.field);
+  if (place == invocation.settings.end()) return error;
+  Error in_file = place->second;
+  in_file.reason = error.reason;
+  return in_file;
+}
+
 int run_action(const Invocation& invocation) {
-  const Expected<ExitCode> code = act_and_trace(invocation);
+  Expected<ExitCode> code = act_and_trace(invocation);
   if (!code) {
+    code.error() = placed(code.error(), invocation);
     print_error(code.error());
     return static_cast<int>(code.error().kind);
   }
@@ -211,8 +220,29 @@ int run_action(const Invocation& invocation) {
   return code_after_stdout(static_cast<int>(*code));
 }
 
+/// Adds what lessons and scenes ask for to what was typed. Error: a scene's settings are wrong. Throws CLI::ParseError
+/// where what was typed is.
+Expected<void> finish_settings(const CLI::App& program, Invocation& invocation) {
+  for (CLI::App* command : program.get_subcommands()) {
+    add_lesson_settings(*command);
+    auto added = add_scene_settings(*command);
+    if (!added) return fail(added.error());
+    invocation.settings.merge(*added);
+  }
+  try {
+    if (invocation.finish) invocation.finish();
+  } catch (const CLI::ValidationError& wrong) {  // "--cascades: belongs to csm; ..."
+    const std::string text = wrong.what(), option = text.substr(0, text.find(':'));
+    if (!invocation.settings.contains(option)) throw;
+    Error error{ErrorKind::usage, text.substr(option.size() + 2)};
+    error.field = option;
+    return fail(placed(error, invocation));
+  }
+  return {};
+}
+
 int parse_and_run(int argc, const char* const* argv, bool runs) {
-  Invocation invocation{command_line_text(argc, argv), {}, {}, {}};
+  Invocation invocation{command_line_text(argc, argv), {}, {}, {}, {}};
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
     print_error(help_text(*program));
@@ -224,14 +254,10 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
   if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
   try {
     program->parse(argc, argv);
-    for (CLI::App* command : program->get_subcommands()) {
-      add_lesson_settings(*command);
-      if (const auto added = add_scene_settings(*command); !added) {
-        print_error(added.error());
-        return static_cast<int>(added.error().kind);
-      }
+    if (const auto finished = finish_settings(*program, invocation); !finished) {
+      print_error(finished.error());
+      return static_cast<int>(finished.error().kind);
     }
-    if (invocation.finish) invocation.finish();
     if (!runs) return 0;
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();

@@ -41,12 +41,30 @@ std::vector<std::string> idle_options(std::span<const std::string> given, const 
 std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
                                       const Scene& scene, std::span<const std::uint32_t> lights) {
   std::vector<std::string> notes;
-  const bool soft = std::any_of(lights.begin(), lights.end(),
-                                [&](std::uint32_t light) { return has_size(scene.lights[light]); });
-  if (map.technique != raster::Technique::pcss || soft) return notes;
-  for (const char* option : {"filter-samples", "blocker-samples", "search-radius"})
+  const auto all_idle = [&](std::initializer_list<const char*> options, std::string_view reason) {
+    for (const char* option : options)
+      if (holds(given, option)) notes.push_back(idle(option, reason));
+  };
+  const auto any = [&](const auto& holds_for) {
+    return std::any_of(lights.begin(), lights.end(),
+                       [&](std::uint32_t light) { return holds_for(scene.lights[light]); });
+  };
+  if (map.technique == raster::Technique::pcss && !any(has_size))
+    all_idle({"filter-samples", "blocker-samples", "search-radius"},
+             "pcss is the hard test for lights without a size");
+  if (map.snap && !any([](const Light& light) { return light.type == LightType::directional; }))
+    all_idle({"snap"}, "no light is directional");
+  if (map.technique == raster::Technique::csm && map.cascades.count == 1)
+    all_idle({"cascade-lambda", "cascade-blend"}, "there is one cascade");
+  return notes;
+}
+
+std::vector<std::string> idle_in_heatmap(std::span<const std::string> given) {
+  std::vector<std::string> notes;
+  for (const char* option : {"aa", "exposure", "glossy-samples", "indirect-samples", "light", "max-lights",
+                             "min-contribution", "samples", "seed"})
     if (holds(given, option))
-      notes.push_back(idle(option, "pcss is the hard test for lights without a size"));
+      notes.push_back(idle(option, "a heat map shows the work of one ray through each pixel's centre"));
   return notes;
 }
 

@@ -22,8 +22,11 @@ std::vector<std::string> given_options(const CLI::App& command);
 /// One note for each given option that has no effect: "--samples has no effect: no light has a size".
 std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan);
 
-/// The same for a technique whose filter needs lights with a size.
+/// The same for what a map's options need: lights with a size, directional ones, several cascades.
 std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
                                       const Scene& scene, std::span<const std::uint32_t> lights);
+
+/// The same for a heat map of primary rays in place of the picture.
+std::vector<std::string> idle_in_heatmap(std::span<const std::string> given);
 
 }  // namespace gnomon::app

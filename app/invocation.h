@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "scene/expected.h"
@@ -21,6 +22,8 @@ struct Invocation {
   std::function<void()> finish;
   std::function<Expected<ExitCode>()> action;
   std::string trace;  ///< file for the stages of the run; empty: none
+  /// Where a scene's file set an option ("--bias"), as errors without a reason.
+  std::map<std::string, Error> settings;
 };
 
 void add_compare(CLI::App& program, Invocation& invocation);

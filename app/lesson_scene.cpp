@@ -155,14 +155,14 @@ std::string settings_note(const SceneArgument& scene) {
   return note + ", where no option given here says otherwise";
 }
 
-Expected<void> add_scene_settings(CLI::App& command) {
+Expected<std::map<std::string, Error>> add_scene_settings(CLI::App& command) {
+  std::map<std::string, Error> places;
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
-  if (scene == nullptr || scene->count() != 1) return {};
+  if (scene == nullptr || scene->count() != 1) return places;
   const std::string& path = scene->results().front();
   const SettingsUse use = use_of_settings(command, [&] { return technique_of_scene(scene_of_lesson(path)); });
-  if (use == SettingsUse::left_out || use == SettingsUse::sought) return {};
+  if (use == SettingsUse::left_out || use == SettingsUse::sought) return places;
   const auto asked = scene_settings(scene_of_lesson(path));
-  if (asked.empty()) return {};
   const bool biased = std::any_of(bias_options.begin(), bias_options.end(),
                                   [&](const char* name) { return was_given(command, name); });
   const std::vector<std::string> known = map_setting_names();
@@ -185,8 +185,10 @@ Expected<void> add_scene_settings(CLI::App& command) {
       error.reason = wrong.what();
       return fail(std::move(error));
     }
+    error.reason.clear();
+    places.emplace(option_name, std::move(error));
   }
-  return {};
+  return places;
 }
 
 void add_lesson_settings(CLI::App& command) {

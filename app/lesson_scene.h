@@ -2,6 +2,7 @@
 // command line gives none of its own. `gnomon compare acne` is `gnomon compare acne-floor --bias 0 …`.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "app/run_files.h"
@@ -26,9 +27,10 @@ std::string scene_settings_text(const std::string& path_or_name);
 
 /// Gives a parsed command the settings that its scene file asks for (scene/load.h): those of the shadow map's
 /// options that it knows and was not given. None when it was given another technique, as below; no bias where it
-/// was given one of any kind; nothing to `tune`, which finds them. Error (bad_input): an option that the
-/// shadow map has not, or a value that it does not take.
-Expected<void> add_scene_settings(CLI::App& command);
+/// was given one of any kind; nothing to `tune`, which finds them. For each option that was set ("--bias"), the place of
+/// its value in the file, as an error without a reason. Error (bad_input): an option that the shadow map has not, or a
+/// value that it does not take.
+Expected<std::map<std::string, Error>> add_scene_settings(CLI::App& command);
 
 /// Gives a parsed command whose SCENE is a lesson's name the lesson's settings: those options of the lesson's
 /// command that it knows and was not given. None when it was given another technique, to whose settings the

@@ -46,6 +46,16 @@ Expected<void> assign(Field& field, const Expected<Value>& value) {
   return {};
 }
 
+/// A name, which "" is not: an unset variable of a script would otherwise ask for nothing.
+inline void add_name(CLI::App& command, const std::string& names, std::string& field, const char* type,
+                     const std::string& text) {
+  add_value(command, names, type, text, [&field](const std::string& value) -> Expected<void> {
+    if (value.empty()) return fail(ErrorKind::usage, "is empty (allowed: a name)");
+    field = value;
+    return {};
+  });
+}
+
 inline void add_integer(CLI::App& command, const std::string& name, int& field, int min, int max,
                         const char* unit, std::string_view what) {
   const std::string range = fmt::format("{}{}{} to {}", unit, *unit ? ", " : "", min, max);

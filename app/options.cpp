@@ -86,7 +86,7 @@ void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
   add_number(command, "--cascade-lambda", cascades.lambda, {0.0, 1.0}, "share",
              "how the view's depth is split: 0 evenly, 1 evenly in its logarithm");
   command.add_flag(
-      "--no-snap", [&cascades](std::int64_t) { cascades.snap = false; },
+      "--no-snap", [&cascades](std::int64_t given) { cascades.snap = given <= 0; },
       "fit each cascade tightly instead of moving it by whole texels; shadows then swim [default off]");
   command.add_flag("--cascade-fit", cascades.fit_samples,
                    "fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
@@ -262,16 +262,12 @@ void add_min_contribution(CLI::App& command, double& share) {
 }
 
 void add_camera(CLI::App& command, std::string& camera) {
-  command
-      .add_option("--camera", camera,
-                  "of the scene's cameras, the one to look through [a name, or a number from 0; default the "
-                  "first]")
-      ->type_name("NAME");
+  add_name(command, "--camera", camera, "NAME",
+           "of the scene's cameras, the one to look through [a name, or a number from 0; default the first]");
 }
 
 void add_light(CLI::App& command, std::string& light, const char* what) {
-  command.add_option("--light", light, fmt::format("{} [a light's name; default all]", what))
-      ->type_name("NAME");
+  add_name(command, "--light", light, "NAME", fmt::format("{} [a light's name; default all]", what));
 }
 
 void add_threads(CLI::App& command, int& threads, const char* of_what) {
@@ -357,19 +353,23 @@ std::string beside_note(double page_mb, double max_mb) {
 
 void add_output(CLI::App& command, const char* names, std::string& path, const char* type,
                 const std::string& what) {
-  command.add_option(names, path, what)->type_name(type);
+  add_name(command, names, path, type, what);
 }
 
 void add_json(CLI::App& command, std::string& path, const char* what) {
-  command
-      .add_option("--json", path, fmt::format("write {} as JSON; - means stdout, alone [default off]", what))
-      ->type_name("FILE|-");
+  add_name(command, "--json", path, "FILE|-",
+           fmt::format("write {} as JSON; - means stdout, alone [default off]", what));
 }
 
 void add_trace(CLI::App& command, std::string& path) {
-  add_output(
-      command, "--trace", path, "FILE.json",
-      "also write the stages of the run in the Trace Event Format, which Perfetto opens [default off]");
+  add_value(command, "--trace", "FILE.json",
+            "also write the stages of the run in the Trace Event Format, which Perfetto opens [default off]",
+            [&path](const std::string& file) -> Expected<void> {
+              if (file.empty() || file == "-")
+                return fail(ErrorKind::usage, fmt::format("not a file (got {})", file));
+              path = file;
+              return {};
+            });
 }
 
 void add_quiet(CLI::App& command, bool& quiet) {

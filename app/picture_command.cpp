@@ -38,6 +38,7 @@ void add_picture_manner(CLI::App& app, PictureCommand& command, const char* thre
 
 void note_call(const CLI::App& app, const Invocation& invocation, PictureCommand& command) {
   command.command_line = invocation.command_line;
+  command.trace = invocation.trace;
   command.given = given_options(app);
 }
 
@@ -49,6 +50,7 @@ Expected<RunFiles> check_files(PictureCommand& command, const std::string& rende
   files.reads(command.scene);
   files.writes("-o", command.image);
   files.writes("--json", command.json);
+  files.writes("--trace", command.trace);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   return files;
 }

@@ -20,7 +20,7 @@ namespace gnomon::app {
 
 struct PictureCommand {
   SceneArgument scene;
-  std::string image, camera, light, json, command_line;
+  std::string image, camera, light, json, trace, command_line;
   std::optional<std::optional<double>> exposure;
   PoseOptions poses;
   MemoryLimit memory;

@@ -7,6 +7,7 @@
 
 #include "app/session.h"
 #include "app/values.h"
+#include "scene/files/validate.h"
 
 namespace gnomon::app {
 
@@ -45,9 +46,14 @@ Expected<Vec3> parse_vector(const std::string& text) {
   return vector;
 }
 
+/// Below, squares of its length are lost.
+constexpr double shortest_up = 1e-100;
+
 Expected<Vec3> parse_up(const std::string& text) {
   auto up = parse_vector(text);
-  if (up && *up == Vec3(0.0)) return fail(ErrorKind::usage, fmt::format("has no direction (got {})", text));
+  if (up && !(glm::length(*up) > shortest_up))
+    return fail(ErrorKind::usage,
+                fmt::format("has no direction (got {}, allowed longer than {})", text, shortest_up));
   return up;
 }
 
@@ -165,7 +171,11 @@ Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, S
                            const World& world) {
   const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, world);
   if (!resolved) return fail(resolved.error());
-  if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
+  if (resolved->camera) {
+    scene.camera = posed_camera(scene.camera, *resolved->camera);
+    if (const auto defect = find_camera_defect(scene.camera))
+      return fail(ErrorKind::usage, fmt::format("the camera's pose: {} {}", defect->field, defect->reason));
+  }
   if (!resolved->light_pose) return {};
   Light& turned = scene.lights[resolved->light];
   turned = posed_light(turned, scene_centre(world), *resolved->light_pose);

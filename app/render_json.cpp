@@ -110,7 +110,7 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
                    {"soft_shadow_rays", rays.soft_shadow},
                    {"soft_shadow_rays_asked", rays.soft_shadow_asked},
                    {"reflection_rays", rays.reflection},
-                   {"refraction_rays", rays.refraction},
+                   {"refraction_rays", rays.for_refraction()},
                    {"glossy_rays", rays.glossy},
                    {"indirect_rays", rays.indirect},
                    {"antialiasing_rays", rays.antialiasing}};

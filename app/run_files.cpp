@@ -6,6 +6,7 @@
 
 #include "app/output_path.h"
 #include "app/shell.h"
+#include "raster/shader_folder.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
@@ -34,6 +35,14 @@ void RunFiles::reads(const std::string& path) {
 // A name without an extension is a built-in scene's (scene/load.h).
 void RunFiles::reads(const SceneArgument& scene) {
   if (!lower_extension(scene.name).empty()) reads(scene.name);
+}
+
+void RunFiles::reads_shaders(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code stop;
+  fs::recursive_directory_iterator file(folder, fs::directory_options::skip_permission_denied, stop);
+  for (; !stop && file != fs::recursive_directory_iterator(); file.increment(stop))
+    if (raster::is_shader(file->path())) reads(file->path().string());
 }
 
 void RunFiles::writes(std::string option, const std::string& path) {

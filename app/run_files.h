@@ -38,6 +38,8 @@ class RunFiles {
  public:
   void reads(const std::string& path);
   void reads(const SceneArgument& scene);
+  /// Every shader in the folder and below; "" is no folder.
+  void reads_shaders(const std::string& folder);
   /// `option` is named in messages. An empty path and "-" (stdout) are nothing.
   void writes(std::string option, const std::string& path);
   /// A folder, and the files that are always written in it.

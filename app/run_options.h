@@ -9,6 +9,7 @@ struct RunOptions {
   raster::Backend backend = raster::Backend::automatic;
   int threads = 0;                                ///< 0: all
   std::optional<std::optional<double>> exposure;  ///< an empty one: automatic; none: the scene's
+  std::string trace;                              ///< file for the stages of the run; empty: none
   std::uint64_t seed = 0;                         ///< of the samples of lights with size
 };
 /// --backend, --threads, --exposure, --seed.

@@ -171,7 +171,7 @@ void finish_map_options(const CLI::App& command, raster::MapOptions& map) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
   if (given("--slope-bias")) return;
   const bool any =
-      given("--bias") || given("--normal-offset") || given("--receiver-plane") || given("--adaptive-bias");
+      given("--bias") || given("--normal-offset") || map.bias.receiver_plane || map.bias.adaptive;
   map.bias.slope = any ? 0.0 : raster::default_bias(map).slope;
 }
 

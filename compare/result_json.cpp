@@ -49,7 +49,7 @@ Json costs_json(const Comparison& c) {
   return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
           {"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
           {"soft_shadow_rays", rays.soft_shadow}, {"soft_shadow_rays_asked", rays.soft_shadow_asked},
-          {"reflection_rays", rays.reflection},   {"refraction_rays", rays.refraction},
+          {"reflection_rays", rays.reflection},   {"refraction_rays", rays.for_refraction()},
           {"glossy_rays", rays.glossy},           {"indirect_rays", rays.indirect}};
 }
 

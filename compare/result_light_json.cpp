@@ -104,11 +104,11 @@ std::string_view bias_unit_name(raster::BiasUnit unit) {
   return "auto";
 }
 
-// A shader of the user's own that reads no bias draws without: null, and nothing but zeros.
+// Exact techniques, and a shader of the user's own that reads no bias, draw without: null, and nothing but zeros.
 Json bias_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  const bool drawn = draws_bias(c) || !compares_depths(map.technique);
+  const bool drawn = draws_bias(c);
   const raster::Bias bias = drawn ? map.bias : raster::Bias{};
   const auto if_drawn = [drawn](double value) { return drawn ? number(value) : Json(nullptr); };
   return {{"constant_world", if_drawn(record.bias_constant_world)},

@@ -49,6 +49,8 @@ struct RayCounts {
   std::uint64_t indirect = 0;                    ///< that gather light reflected once
   std::uint64_t antialiasing = 0;                ///< from the eye, beyond `primary`
   std::uint64_t interior = 0;                    ///< to find the glass that the eye is in
+  /// All that refraction costs.
+  std::uint64_t for_refraction() const { return refraction + interior; }
   RayCounts& operator+=(const RayCounts& other);
 };
 

@@ -36,7 +36,7 @@ struct SceneSetting {
   int line = 0, column = 0;  ///< of the value, from 1
 };
 /// "settings" of a scene in the project's own format. Empty where there are none, and where the file does not
-/// parse: load_scene says why.
+/// parse; without what is no text: load_scene says why.
 std::vector<SceneSetting> scene_settings(const std::string& path_or_name);
 
 struct BuiltinScene {

@@ -77,7 +77,25 @@ TEST(Answers, ALightWithoutSizeIsNoReason) {
     EXPECT_GT(light.at("error").at("wrong"), 0) << technique;
     EXPECT_EQ(light.at("classes").at("light_size"), 0) << technique;
     EXPECT_EQ(light.at("budget").at(0).at("absolute"), 0.0) << technique;
+    EXPECT_TRUE(light.at("map").at("bias").at("constant_world").is_null()) << technique << " has no bias";
+    EXPECT_EQ(light.at("map").at("bias").at("slope"), 0.0) << technique;
   }
+}
+
+// A picture small enough to be its own forecast: with the ray that finds the glass that the eye is in.
+TEST(Answers, RaytraceCastsWhatPlanCounts) {
+  const TemporaryFolder folder;
+  const Words whitted{"whitted", "--size", "64x36"};
+  const auto json = [](const ProcessResult& run) { return nlohmann::json::parse(run.out); };
+  const nlohmann::json plan = json(run_gnomon(Words{"plan"} + whitted + Words{"--json", "-"})).at("rays");
+  ASSERT_EQ(plan.at("exact"), true);
+  const nlohmann::json costs =
+      json(run_gnomon(Words{"raytrace"} + whitted + Words{"--json", "-", "-o", folder / "x.png"}))
+          .at("costs");
+  std::uint64_t cast = 0;
+  for (const auto& [name, count] : costs.items())
+    if (name != "soft_shadow_rays_asked") cast += count.get<std::uint64_t>();
+  EXPECT_EQ(cast, plan.at("total"));
 }
 
 constexpr const char* looks_away = R"({"schema": "gnomon/scene/1",
@@ -123,6 +141,10 @@ TEST(Answers, NoLimitIsKeptWhereNothingIsCompared) {
   const ProcessResult tuned = run({"tune", "--max-error", "1%", "--map-size", "64"});
   EXPECT_EQ(tuned.exit_code, 3);
   EXPECT_NE(tuned.err.find("no pixel can be compared"), std::string::npos) << tuned.err;
+  const ProcessResult measured =
+      run_gnomon({"bench", "--techniques", folder / "away.json", "--size", "32x18", "--map-size", "32"});
+  EXPECT_EQ(measured.exit_code, 3);
+  EXPECT_NE(measured.err.find("no pixel can be compared"), std::string::npos) << measured.err;
   const ProcessResult swept =
       run({"sweep", "--map-size", "64,128", "--max-error", "1%", "-o", folder / "sweep"});
   EXPECT_EQ(swept.exit_code, 1);

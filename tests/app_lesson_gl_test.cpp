@@ -123,6 +123,11 @@ TEST(SceneSettings, ThatAreNoneAreErrors) {
             std::string::npos)
       << said(R"({"map_size": "64"})").err;
   EXPECT_NE(said(R"({"bias": "wide"})").err.find("s.json:2:82: settings.bias: "), std::string::npos);
+  EXPECT_NE(
+      said(R"({"bias": 0.5})").err.find("s.json:2:82: settings.bias: wrong type (got 0.5, allowed a string)"),
+      std::string::npos);
+  EXPECT_NE(said(R"({"cascades": "3"})").err.find("s.json:2:86: settings.cascades: belongs to csm; "),
+            std::string::npos);
 }
 
 TEST(Lessons, CommandsWithoutTheSettingsTakeTheScene) {

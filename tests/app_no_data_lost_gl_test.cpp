@@ -45,6 +45,12 @@ TEST(NoDataLost, AnOutputThatIsAnInputIsRefused) {
       {"raytrace", "scene.json", "-o", "o.png", "--json", "tex.png"},
       {"raster", "scene.json", "--json", "scene.json", "-o", "o.png"},
       {"compare", "scene.json", "--json", "scene.json"},
+      {"compare", "scene.json", "--trace", "scene.json"},
+      {"raytrace", "scene.json", "-o", "o.png", "--trace", "tex.png"},
+      {"raster", "scene.json", "-o", "o.png", "--trace", "scene.json"},
+      {"sweep", "scene.json", "--map-size", "32,64", "--trace", "scene.json"},
+      {"shimmer", "scene.json", "--trace", "scene.json"},
+      {"tune", "scene.json", "--max-error", "1%", "--trace", "scene.json"},
       {"plan", "scene.json", "--json", "scene.json"},
       {"tune", "scene.json", "--max-error", "1%", "--json", "tex.png"},
       {"bench", "scene.json", "--json", "scene.json"}};
@@ -62,9 +68,24 @@ TEST(NoDataLost, TwoOutputsOfOneNameAreRefused) {
                   "-o and --json: two outputs of one name (got x.exr)");
   expect_one_line(world.run({"compare", "fence", "--json", "x.exr", "--aov", "./x.exr"}), 2, "two outputs");
   expect_one_line(world.run({"compare", "fence", "-o", "d", "--json", "d/report.html"}), 2, "two outputs");
+  expect_one_line(world.run({"compare", "fence", "-o", "d", "--trace", "d/result.json"}), 2, "two outputs");
+  expect_one_line(world.run({"raytrace", "fence", "-o", "x.exr", "--trace", "x.exr"}), 2, "two outputs");
   EXPECT_FALSE(fs::exists(world.folder / "x.exr"));
   // A device is nobody's file.
   EXPECT_EQ(world.run({"plan", "scene.json", "--json", "/dev/null", "-q"}).exit_code, 0);
+}
+
+TEST(NoDataLost, AnEditedShaderStays) {
+  const World world;
+  ASSERT_EQ(world.run({"shaders", "-o", "mine"}).exit_code, 0);
+  const std::string shader = "mine/technique/hard.glsl", before = read_file(world.folder / shader);
+  for (const char* command : {"compare", "raster", "shimmer"})
+    expect_one_line(world.run({command, "fence", "--shader-dir", "mine", "--json", shader}), 2,
+                    "this file is also an input, which would be lost (got ");
+  expect_one_line(
+      world.run({"sweep", "fence", "--map-size", "32,64", "--shader-dir", "mine", "--trace", shader}), 2,
+      "this file is also an input");
+  EXPECT_EQ(read_file(world.folder / shader), before);
 }
 
 // The scene lies where the folder's files go, and so does its texture.

@@ -215,6 +215,14 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
   EXPECT_EQ(app::setting_arguments(app::values_read(values)), " --technique izb --map-size 64");
 }
 
+TEST(TechniqueOptions, NoSnapThatIsOffSnaps) {
+  const auto snaps = [](const std::string& no_snap) {
+    return app::parse_setting({{"technique", "csm"}, {"no-snap", no_snap}})->options.raster.map.cascades.snap;
+  };
+  EXPECT_TRUE(snaps("off"));
+  EXPECT_FALSE(snaps("on"));
+}
+
 TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   using Values = std::vector<std::pair<std::string, std::string>>;
   using enum raster::BiasUnit;
@@ -233,6 +241,7 @@ TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   EXPECT_EQ(bias({{"slope-bias", "2"}}), (raster::Bias{.slope = 2.0}));
   EXPECT_EQ(bias({{"normal-offset", "1"}}), (raster::Bias{.normal_offset_texels = 1.0}));
   EXPECT_EQ(bias({{"receiver-plane", "on"}}), (raster::Bias{.receiver_plane = true}));
+  EXPECT_EQ(bias({{"receiver-plane", "off"}, {"adaptive-bias", "off"}}), by_default) << "none was asked for";
   EXPECT_EQ(bias({{"cull", "front"}}), by_default);
 }
 
@@ -255,6 +264,13 @@ TEST(EffectOptions, WhatTheSceneDoesNotCallForIsNamed) {
   EXPECT_EQ(app::idle_options(Words{"search-radius"}, map, scene, lights), Words{});
   scene.lights[0].extent = {};
   EXPECT_EQ(app::idle_options(Words{"search-radius"}, map, scene, lights).size(), 1u);
+  map.technique = raster::Technique::csm, map.cascades.count = 1, map.snap = true;
+  const Words of_map{"cascade-lambda", "snap"};
+  EXPECT_EQ(app::idle_options(of_map, map, scene, lights),
+            Words{"--cascade-lambda has no effect: there is one cascade"});
+  map.cascades.count = 2, scene.lights[0].type = LightType::point;
+  EXPECT_EQ(app::idle_options(of_map, map, scene, lights),
+            Words{"--snap has no effect: no light is directional"});
 }
 
 }  // namespace

@@ -41,6 +41,25 @@ TEST(Usage, ValuesOutOfRange) {
   }
 }
 
+// An unset variable of a script.
+TEST(Usage, EmptyNamesAskForNothingAndAreRefused) {
+  for (const std::string option : {"--output", "--json", "--aov", "--trace", "--light", "--camera"})
+    expect_one_line(run_gnomon({"compare", "fence", option, ""}), 2, option + ": ");
+  expect_one_line(run_gnomon({"compare", "fence", "--trace", "-"}), 2, "--trace: not a file (got -)");
+}
+
+TEST(Usage, AnUpVectorIsOneAndNotAlongTheView) {
+  const TemporaryFolder folder;
+  const auto with_up = [&](const std::string& up) {
+    return run_gnomon(
+        {"raytrace", "sphere-plane", "-o", folder / "x.png", "--size", "8x8", "--camera-up", up});
+  };
+  expect_one_line(with_up("1e-300,0,0"), 2, "--camera-up: has no direction");
+  // The scene's eye is at 0.6, 2.8, 6.2 and its target at 0.45, 0.35, -0.3.
+  expect_one_line(with_up("0.15,2.45,6.5"), 2, "camera.up is parallel to the view direction");
+  EXPECT_EQ(with_up("0.15,2.46,6.5").exit_code, 0);
+}
+
 TEST(Usage, MissingAndSuperfluousWords) {
   expect_one_line(run_gnomon({"compare"}), 2, "SCENE is required");
   expect_one_line(run_gnomon({"compare", "fence", "other"}), 2, "one argument too many (got other)");

@@ -39,7 +39,7 @@ const std::vector<EffectCase>& effect_cases() {
       {Effect::reflection, [](Scene& s) { s.materials[1].mirror = 0.5f; },
        [](const RayCounts& r) { return r.reflection; }},
       {Effect::refraction, [](Scene& s) { s.materials[1].transmission = 0.5f; },
-       [](const RayCounts& r) { return r.refraction + r.interior; }},
+       [](const RayCounts& r) { return r.for_refraction(); }},
       {Effect::glossy, [](Scene& s) { s.materials[1].mirror = 0.5f, s.materials[1].roughness = 0.3f; },
        [](const RayCounts& r) { return r.glossy; }},
       {Effect::indirect_light, [](Scene& s) { s.indirect_samples = 2; },

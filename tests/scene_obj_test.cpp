@@ -56,6 +56,7 @@ TEST(Obj, MistakesHaveTheirPlace) {
   const ObjMistake mistakes[] = {
       {q + "f 0 1 2\n", ":5:3: f: vertex index out of range (got 0, allowed 1 to 4 or -4 to -1)"},
       {q + "f 1 2 5\n", ":5:7: f: vertex index out of range (got 5, allowed 1 to 4 or -4 to -1)"},
+      {q + "f 1 \\\r\n2 \\\n 5\n", ":7:2: f: vertex index out of range (got 5, allowed 1 to 4 or -4 to -1)"},
       {q + "f -5 1 2\n", ":5:3: f: vertex index out of range (got -5, allowed 1 to 4 or -4 to -1)"},
       {q + "f 1/1 2/1 3/1\n",
        ":5:5: f: texture coordinate index out of range (got 1, allowed none: the file has none)"},

@@ -56,7 +56,8 @@ std::string text_quad() {
 
 TEST(Ply, TheThreeEncodingsAgree) {
   const TemporaryFolder folder;
-  for (const std::string& bytes : {text_quad(), binary_quad(false), binary_quad(true)}) {
+  for (const std::string& bytes :
+       {text_quad(), "\xef\xbb\xbf" + text_quad(), binary_quad(false), binary_quad(true)}) {
     const auto scene = load_scene(folder.put("m.ply", bytes));
     ASSERT_TRUE(scene) << scene.error().message();
     const Mesh& mesh = scene->meshes[0];

@@ -74,7 +74,7 @@ std::string lookups_text(const TechniqueRow& row) {
 }
 
 double percent(const TechniqueRow& row) {
-  return row.compared == 0 ? 0.0 : 100.0 * static_cast<double>(row.wrong) / static_cast<double>(row.compared);
+  return 100.0 * static_cast<double>(row.wrong) / static_cast<double>(row.compared);
 }
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -110,6 +110,10 @@ Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Bac
     const auto comparison = engine.compare(setting);
     if (comparison) {
       table.rows.push_back(measure(std::string(name), **comparison));
+      if (table.rows.back().compared == 0)
+        return fail(
+            ErrorKind::bad_input,
+            fmt::format("{}: no pixel can be compared, so no technique can be measured", loaded.scene->name));
       add_rays(**comparison, table);
     } else if (comparison.error().kind == ErrorKind::usage) {
       TechniqueRow& row = table.rows.emplace_back();

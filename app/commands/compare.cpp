@@ -181,6 +181,8 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
 
   RunFiles files;
   files.reads(command.scene);
+  files.reads_shaders(command.shader_folder);
+  files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());

@@ -104,6 +104,7 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, 
   RunFiles files;
   files.reads(path);
   files.reads(SceneArgument{capture->scene});
+  files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *capture, files, console);
   if (!judged) return fail(judged.error());
@@ -148,6 +149,7 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
     return fail(ErrorKind::usage, "judge: --json and --aov are of one capture; several write judge.jsonl");
   RunFiles files;
   for (const std::string& path : command.captures) files.reads(path);
+  files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   compare::JudgedSet set;
   ExitCode code = ExitCode::done;

@@ -64,7 +64,7 @@ std::uint64_t rays_of(Effect effect, const raytrace::RayCounts& rays) {
     case Effect::reflection:
       return rays.reflection;
     case Effect::refraction:
-      return rays.refraction + rays.interior;
+      return rays.for_refraction();
     case Effect::glossy:
       return rays.glossy;
     case Effect::indirect_light:

@@ -63,6 +63,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command, "raster");
   if (!files) return fail(files.error());
+  files->reads_shaders(command.shader_folder);
   auto loaded = open_scene(command, *files, command.options.size, raster_bytes_per_pixel, console);
   if (!loaded) return fail(loaded.error());
   const auto lights = choose_lights(*loaded->scene, command.light);

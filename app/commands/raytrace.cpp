@@ -79,7 +79,9 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!lights) return fail(lights.error());
   const auto posed = apply_poses(command.poses, command.light, *loaded);
   if (!posed) return fail(posed.error());
-  for (const std::string& note : idle_options(command.given, loaded->plan)) console.note(note);
+  for (const std::string& note :
+       command.heatmap ? idle_in_heatmap(command.given) : idle_options(command.given, loaded->plan))
+    console.note(note);
   command.options.records = command.wants_records();
   command.options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
   console.progress("ray tracing", 0.2);

@@ -25,7 +25,7 @@ namespace {
 
 struct ShimmerCommand {
   SceneArgument scene;
-  std::string camera, folder, json, shader_folder;
+  std::string camera, folder, json, trace, shader_folder;
   SettingOptions setting;
   FilmOptions film;
   compare::FilmFormat film_format = compare::FilmFormat::apng;
@@ -51,7 +51,9 @@ Expected<RunFiles> check_files(ShimmerCommand& command) {
   RunFiles files;
   files.reads(command.scene);
   files.reads(path_file(command.film));
+  files.reads_shaders(command.shader_folder);
   files.writes("--json", command.json);
+  files.writes("--trace", command.trace);
   constexpr std::array<std::string_view, 2> names{"report.html", "result.json"};
   if (!command.folder.empty()) files.writes_folder("-o", command.folder, names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());

@@ -165,6 +165,8 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   RunFiles files;
   files.reads(command.scene);
   files.reads(path_file(command.metric.film));
+  files.reads_shaders(command.shader_folder);
+  files.writes("--trace", command.trace);
   files.writes_folder("-o", command.folder, compare::sweep_file_names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
@@ -196,9 +198,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   }();
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  console.message(fmt::format("sweep: {}/report.html, {} cell{}, {:.1f} s", command.folder,
-                              plan->cells.size(), plan->cells.size() == 1 ? "" : "s",
-                              total.elapsed_ms() / 1000.0));
+  const std::size_t cells = plan->cells.size();
+  console.message(
+      cells == 0 ? fmt::format("sweep: {}, no cell falls to this shard, so there is no page", command.folder)
+                 : fmt::format("sweep: {}/report.html, {} cell{}, {:.1f} s", command.folder, cells,
+                               cells == 1 ? "" : "s", total.elapsed_ms() / 1000.0));
   return announce(command, written->headline);
 }
 

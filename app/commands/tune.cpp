@@ -37,7 +37,7 @@ constexpr int usual_runs = 5;
 
 struct TuneCommand {
   SceneArgument scene;
-  std::string camera, json, folder, shader_folder;
+  std::string camera, json, folder, trace, shader_folder;
   int max_lights = usual_max_lights;
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
@@ -228,7 +228,9 @@ Expected<RunFiles> check_files(const TuneCommand& command) {
   RunFiles files;
   files.reads(command.scene);
   files.reads(path_file(command.metric.film));
+  files.reads_shaders(command.shader_folder);
   files.writes("--json", command.json);
+  files.writes("--trace", command.trace);
   files.writes_folder("-o", command.folder, compare::page_file_names);
   if (!command.folder.empty()) files.writes("-o", command.folder + "/tune.json");
   if (const auto fine = files.check(); !fine) return fail(fine.error());

@@ -37,7 +37,7 @@ Expected<void> read_settings(const std::string& scene, const Settings& settings,
   try {
     app.parse(std::move(line));
     add_lesson_settings(app);
-    if (const auto added = add_scene_settings(app); !added) return added;
+    if (const auto added = add_scene_settings(app); !added) return fail(added.error());
     finish_map_options(app, words.setting.options.raster.map);
   } catch (const CLI::ParseError& error) {
     return fail(ErrorKind::internal, fmt::format("a live figure of {}: {}", scene, error.what()));

@@ -78,9 +78,9 @@ PageIntroduction judge_introduction(const Comparison& c) {
   out.html =
       fmt::format(R"(<section id="judge" aria-labelledby="judge-title">
 <h1 id="judge-title">{}</h1>
-{}{}<p>What follows is the comparison of that picture with the truth{}.</p></section>
+{}<p>What follows is the comparison of that picture with the truth{}.</p></section>
 )",
-                  escaped("What " + who + " drew"), verdict_block(verdict_on(c, c.lights.front())),
+                  escaped("What " + who + " drew"),
                   scroll_region("What is said of the capture",
                                 "<table class=\"capture\"><tbody>\n" + rows + "</tbody></table>"),
                   c.judged->identified ? "; labels and steps are inferred from the nearest setting" : "");

@@ -114,7 +114,7 @@ std::string work_table(const Comparison& c) {
                             (c.lights.size() > 1 ? ", " + escaped(shown_light_name(c, i)) : std::string()),
                         keyed_count(light_key(i, "lookups.total"), *c.lights[i].lookups));
   rows += plain_row("reflection rays", keyed_count("costs.reflection_rays", rays.reflection));
-  rows += plain_row("refraction rays", keyed_count("costs.refraction_rays", rays.refraction));
+  rows += plain_row("refraction rays", keyed_count("costs.refraction_rays", rays.for_refraction()));
   if (rays.glossy > 0) rows += plain_row("glossy rays", keyed_count("costs.glossy_rays", rays.glossy));
   if (rays.indirect > 0)
     rows += plain_row("indirect rays", keyed_count("costs.indirect_rays", rays.indirect));

@@ -13,6 +13,7 @@
 #include "compare/report/html.h"
 #include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
+#include "compare/verdict.h"
 
 namespace gnomon::compare {
 namespace {

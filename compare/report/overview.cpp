@@ -15,6 +15,7 @@
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
 #include "compare/report/sections.h"
+#include "compare/verdict.h"
 
 namespace gnomon::compare {
 namespace {
@@ -149,6 +150,18 @@ std::string_view step_words(const Comparison& c, std::size_t k) {
   return lacks_map(c) && k == 1 ? "unexplained" : step_text(static_cast<Cause>(k)).name;
 }
 
+/// The headline large, what else there is to say below it.
+std::string verdict_block(const Verdict& verdict) {
+  std::string out = fmt::format(R"(<p class="verdict">{}</p>
+)",
+                                flowing(verdict.headline));
+  if (!verdict.detail.empty())
+    out += fmt::format(R"(<p class="verdict-detail">{}</p>
+)",
+                       flowing(verdict.detail));
+  return out;
+}
+
 std::string card(const PageInput& in, std::size_t i) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[i];
@@ -212,17 +225,6 @@ scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></th
 {}<tr class="sum"><th scope="row">sum</th><td class="wide">{}</td><td class="n" colspan="2">{}</td></tr></tbody></table>
 )",
       rows, two_sided_bar({}, left, scale), signed_number(beyond_rounding(last - first, last + first)));
-}
-
-std::string verdict_block(const Verdict& verdict) {
-  std::string out = fmt::format(R"(<p class="verdict">{}</p>
-)",
-                                flowing(verdict.headline));
-  if (!verdict.detail.empty())
-    out += fmt::format(R"(<p class="verdict-detail">{}</p>
-)",
-                       flowing(verdict.detail));
-  return out;
 }
 
 std::string overview_section(const PageInput& in) {

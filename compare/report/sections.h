@@ -4,14 +4,11 @@
 #include <string>
 
 #include "compare/report/page.h"
-#include "compare/verdict.h"
 
 namespace gnomon::compare {
 
 /// The pictures side by side, the verdicts and the budgets: what a projector shows first.
 std::string overview_section(const PageInput& input);
-/// The headline large, what else there is to say below it.
-std::string verdict_block(const Verdict& verdict);
 /// The light whose labelled picture stands on the first screen: that with the most wrong pixels.
 std::size_t labelled_light(const Comparison& comparison);
 /// Its wrong pixels in the colours of their labels.

@@ -139,6 +139,7 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
   std::vector<SceneSetting> out;
   if (settings == nullptr) return out;
   for (const JsonMember& member : settings->value.members) {
+    if (member.value.type != JsonValue::Type::string) continue;
     const LineColumn at = line_column(source, member.value.begin);
     out.push_back({member.key, member.value.text, at.line, at.column});
   }

@@ -105,7 +105,9 @@ const NumberStatement* number_statement(std::string_view key) {
 /// Rewrites a library line by line.
 class MtlRewriter {
  public:
-  MtlRewriter(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  /// `text` is what the file says with continued lines joined, `written` what stands in it.
+  MtlRewriter(std::string_view text, std::string_view written, const std::string& file)
+      : text_(text), written_(written), file_(file) {}
 
   Expected<std::string> run(std::vector<std::string>& notes) {
     for (std::size_t at = 0; at < text_.size() && !error_;) {
@@ -159,11 +161,11 @@ class MtlRewriter {
 
   void fail_at(std::string_view key, std::string_view where, std::string reason) {
     if (error_) return;
-    const LineColumn at = line_column(text_, static_cast<std::size_t>(where.data() - text_.data()));
+    const LineColumn at = line_column(written_, static_cast<std::size_t>(where.data() - text_.data()));
     error_ = Error{ErrorKind::bad_input, std::move(reason), file_, at.line, at.column, std::string(key)};
   }
 
-  std::string_view text_;
+  std::string_view text_, written_;
   const std::string& file_;
   std::string out_;
   std::set<std::string> unused_;
@@ -175,8 +177,9 @@ class MtlRewriter {
 
 Expected<std::string> plain_mtl(std::string_view text, const std::string& file,
                                 std::vector<std::string>& notes) {
-  const std::string joined = join_continued_lines(without_byte_order_mark(text));
-  return MtlRewriter(joined, file).run(notes);
+  text = without_byte_order_mark(text);
+  const std::string joined = join_continued_lines(text);
+  return MtlRewriter(joined, text, file).run(notes);
 }
 
 }  // namespace gnomon

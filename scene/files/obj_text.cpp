@@ -67,8 +67,10 @@ std::vector<std::string> library_names(std::string_view line) {
 /// Words point into the text, so that their offset is at hand.
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& file, const MaterialLibraries& libraries)
-      : text_(text), file_(file), libraries_(libraries) {}
+  /// `text` is what the file says with continued lines joined, `written` what stands in it.
+  ObjReader(std::string_view text, std::string_view written, const std::string& file,
+            const MaterialLibraries& libraries)
+      : text_(text), written_(written), file_(file), libraries_(libraries) {}
 
   Expected<ObjText> run() {
     if (const std::size_t nul = text_.find('\0'); nul != std::string_view::npos) {
@@ -261,17 +263,18 @@ class ObjReader {
         "The material library {} cannot be used ({}); its materials are neutral grey.", line, why));
   }
 
-  int line_of(std::string_view where) const {
-    return line_column(text_, static_cast<std::size_t>(where.data() - text_.data())).line;
+  LineColumn place_of(std::string_view where) const {
+    return line_column(written_, static_cast<std::size_t>(where.data() - text_.data()));
   }
+  int line_of(std::string_view where) const { return place_of(where).line; }
 
   void add(std::string_view where, std::string field, std::string reason) {
     if (error_) return;
-    const LineColumn at = line_column(text_, static_cast<std::size_t>(where.data() - text_.data()));
+    const LineColumn at = place_of(where);
     error_ = Error{ErrorKind::bad_input, std::move(reason), file_, at.line, at.column, std::move(field)};
   }
 
-  std::string_view text_;
+  std::string_view text_, written_;
   const std::string& file_;
   const MaterialLibraries& libraries_;
   std::array<std::size_t, 3> total_{}, seen_{};
@@ -298,9 +301,9 @@ std::string join_continued_lines(std::string_view bytes) {
 Expected<ObjText> parse_obj(std::string_view bytes, const std::string& file,
                             const MaterialLibraries& libraries) {
   bytes = without_byte_order_mark(bytes);
-  if (bytes.find('\\') == std::string_view::npos) return ObjReader(bytes, file, libraries).run();
+  if (bytes.find('\\') == std::string_view::npos) return ObjReader(bytes, bytes, file, libraries).run();
   const std::string text = join_continued_lines(bytes);
-  return ObjReader(text, file, libraries).run();
+  return ObjReader(text, bytes, file, libraries).run();
 }
 
 }  // namespace gnomon

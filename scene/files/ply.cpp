@@ -324,6 +324,7 @@ class PlyReader {
 }  // namespace
 
 Expected<LoadedFile> read_ply(std::string_view bytes, const std::string& file) {
+  bytes = without_byte_order_mark(bytes);
   const auto header = read_ply_header(bytes, file);
   if (!header) return fail(header.error());
   return PlyReader(bytes, file, *header).run();
