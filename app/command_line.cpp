@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -81,9 +82,30 @@ int unexpected_argument(const CLI::App& command, const std::vector<std::string>&
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   const std::string typed = word.substr(0, word.find('='));
+  if (std::find(names.begin(), names.end(), typed) != names.end())
+    return usage_error(fmt::format("{}{} stands behind the command's name, not before it", prefix, typed));
   const std::string hint = did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
   return usage_error(
       fmt::format("{}unknown option {}{}", prefix, typed, hint.empty() ? " (--help lists them)" : hint));
+}
+
+/// What CLI11 says by itself of an option's value, in this program's words.
+std::string in_plain_words(const std::string& text) {
+  const auto parted = [&text](std::string_view before, std::string_view between) {
+    const std::size_t at = text.find(between);
+    return text.starts_with(before) && at != std::string::npos
+               ? std::optional(std::pair(text.substr(before.size(), at - before.size()),
+                                         text.substr(at + between.size())))
+               : std::nullopt;
+  };
+  if (const auto flag = parted("Could not convert: ", " = "))
+    return fmt::format("{}: not a switch's value (got {}, allowed on, off)", flag->first, flag->second);
+  if (const auto often = parted("", ": At Most 1 required but received "))
+    return fmt::format("{}: too often (got {} times, allowed once)", often->first, often->second);
+  if (const auto none = parted("", ": 1 required "))
+    return fmt::format("{}: has no value (allowed {})", none->first,
+                       none->second.substr(0, none->second.rfind(" missing")));
+  return text;
 }
 
 int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
@@ -94,7 +116,7 @@ int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<std::string> left_over = program.remaining(true);
   const bool no_command = chosen.empty() && !left_over.empty();
   if ((extras != nullptr && !left_over.empty()) || no_command) return unexpected_argument(command, left_over);
-  return usage_error(prefix + error.what());
+  return usage_error(prefix + in_plain_words(error.what()));
 }
 
 /// CLI11's way to print a text and stop is the version flag's exception.

@@ -109,13 +109,16 @@ Light resized_light(const Light& given, double size) {
 
 Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose) {
   Light light = pose.size ? resized_light(given, *pose.size) : given;
+  const LightPose before = light_pose(given, centre);
+  const bool turns =
+      pose.azimuth_degrees != before.azimuth_degrees || pose.elevation_degrees != before.elevation_degrees;
+  if (!turns && !pose.distance) return light;  // without rounding
   const PoleFrame frame = frame_about(y_axis);
   const LocalFrame to = local_frame(frame, pose.azimuth_degrees, pose.elevation_degrees);
   if (given.type == LightType::directional) {
     light.direction = -glm::normalize(to.outwards);
     return light;
   }
-  const LightPose before = light_pose(given, centre);
   const LocalFrame from = local_frame(frame, before.azimuth_degrees, before.elevation_degrees);
   light.position = centre + pose.distance.value_or(glm::length(given.position - centre)) * to.outwards;
   const auto turned = [&](const Vec3& v) {

@@ -47,7 +47,12 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   Expected<Scene> scene = load_scene(scene_of_lesson(argument.name), options);
   if (!scene) return fail(scene.error());
   if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());
-  if (tessellate > 0) scene = tessellate_shapes(std::move(*scene), tessellate);
+  if (tessellate > 0) {
+    const std::size_t exact = scene->shapes.size();
+    scene = tessellate_shapes(std::move(*scene), tessellate);
+    if (scene->shapes.size() == exact)
+      console.note("--tessellate has no effect: no shape but planes is exact");
+  }
   loaded.scene = std::make_unique<Scene>(std::move(*scene));
   if (const std::uint64_t count = primitives_of(*loaded.scene); count > raytrace::most_primitives)
     return fail(ErrorKind::bad_input, fmt::format("{}: too many triangles and shapes (got {}, allowed {})",

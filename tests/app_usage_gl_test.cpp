@@ -41,6 +41,18 @@ TEST(Usage, ValuesOutOfRange) {
   }
 }
 
+TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
+  expect_one_line(run_gnomon({"--size", "8x8", "compare", "fence"}), 2,
+                  "--size stands behind the command's name");
+  expect_one_line(run_gnomon({"compare", "fence", "--bias", "1", "--bias", "2"}), 2,
+                  "--bias: too often (got 2 times, allowed once)");
+  expect_one_line(run_gnomon({"compare", "fence", "--quiet=maybe"}), 2,
+                  "--quiet: not a switch's value (got maybe, allowed on, off)");
+  expect_one_line(run_gnomon({"compare", "fence", "--map-size"}), 2, "--map-size: has no value (allowed N)");
+  expect_one_line(run_gnomon({"bench", "--tune", "fence", "--technique", "hard,cms"}), 2,
+                  "did you mean csm?");
+}
+
 // An unset variable of a script.
 TEST(Usage, EmptyNamesAskForNothingAndAreRefused) {
   for (const std::string option : {"--output", "--json", "--aov", "--trace", "--light", "--camera"})

@@ -70,6 +70,12 @@ TEST(Pose, SpotKeepsDistanceAndAim) {
   const Vec3 centre{1.0, 0.0, -2.0};
   spot.position = {4.0, 4.0, -2.0};
   spot.direction = glm::normalize(centre - spot.position);  // at the centre
+  LightPose resized = light_pose(spot, centre);
+  resized.size = 0.5;
+  const Light larger = posed_light(spot, centre, resized);
+  EXPECT_EQ(larger.direction, spot.direction) << "a new size turns nothing, not even by rounding";
+  EXPECT_EQ(larger.position, spot.position);
+  EXPECT_EQ(light_size(larger), 0.5);
   const Light turned = posed_light(spot, centre, {123.0, 20.0});
   EXPECT_NEAR(glm::length(turned.position - centre), 5.0, 10.0 * tolerance);
   expect_near(turned.direction, glm::normalize(centre - turned.position), 10.0 * tolerance);

@@ -12,6 +12,7 @@
 #include "app/bench/tune.h"
 #include "app/bench/whole.h"
 #include "app/invocation.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/values.h"
@@ -135,10 +136,14 @@ void add_tune_options(CLI::App& app, TuneBench& bench) {
                  "[scenes with commas between; default off]")
       ->delimiter(',')
       ->type_name("SCENE[,SCENE]");
+  const auto reason = [](const std::string& name) {
+    const auto known = parse_choice<raster::Technique>(name, all_techniques());
+    return known ? std::string() : known.error().reason;
+  };
   app.add_option("--technique", bench.techniques,
                  "of --tune: the grid's techniques [names with commas between; default all]")
       ->delimiter(',')
-      ->check(CLI::IsMember(technique_names()))
+      ->check(reason)
       ->type_name("NAME[,NAME]");
   app.add_option_function<std::string>(
          "--max-error",

@@ -15,6 +15,7 @@
 #include "app/grade/results.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "scene/files/write_file.h"
@@ -163,10 +164,8 @@ void add_grade(CLI::App& program, Invocation& invocation) {
   add_output(*app, "--new", command->kit_folder, "DIR",
              "instead write what a class needs to begin: the rubric, its scenes, and the shader with its "
              "steps to fill in");
-  app->add_option("--jobs", command->jobs,
-                  "students graded at a time; 0: one for each processor [0 to 256; default 0]")
-      ->check(CLI::Range(0, 256))
-      ->type_name("N");
+  add_integer(*app, "--jobs", command->jobs, 0, 256, "0: one for each processor",
+              "students graded at a time");
   add_json(*app, command->json, "the points and reasons");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation] { invocation.action = [command] { return run_grade(*command); }; });
