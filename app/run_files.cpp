@@ -49,7 +49,7 @@ void RunFiles::writes(std::string option, const std::string& path) {
   if (!path.empty() && path != "-") outputs_.push_back({std::move(option), path});
 }
 
-void RunFiles::writes_folder(std::string option, const std::string& folder,
+void RunFiles::writes_folder(const std::string& option, const std::string& folder,
                              std::span<const std::string_view> names) {
   if (folder.empty()) return;
   folders_.push_back(folder);

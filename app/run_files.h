@@ -43,7 +43,8 @@ class RunFiles {
   /// `option` is named in messages. An empty path and "-" (stdout) are nothing.
   void writes(std::string option, const std::string& path);
   /// A folder, and the files that are always written in it.
-  void writes_folder(std::string option, const std::string& folder, std::span<const std::string_view> names);
+  void writes_folder(const std::string& option, const std::string& folder,
+                     std::span<const std::string_view> names);
 
   /// ErrorKind::usage when two of them collide, ErrorKind::cannot_write when an output cannot be written.
   Expected<void> check() const;
