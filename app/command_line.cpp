@@ -154,7 +154,7 @@ void add_manual(CLI::App& program) {
                   fmt::format("unknown chapter (got {}, allowed options, json, techniques)", name));
             throw CLI::CallForVersion(chapter, 0);
           },
-          "print a chapter of the manual as Markdown, and exit [options, json or techniques]")
+          "print a chapter of the manual as Markdown, and exit [options or json or techniques]")
       ->type_name("CHAPTER");
 }
 

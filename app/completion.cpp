@@ -59,6 +59,10 @@ std::string scene_names() {
   return names;
 }
 
+bool takes_scene(const CLI::App& command) {
+  return command.get_option_no_throw("SCENE") != nullptr;
+}
+
 /// What may follow an option.
 struct OptionChoices {
   std::vector<std::string> words;  ///< "hard", "pcf" …
@@ -98,8 +102,10 @@ bool takes_list(const CLI::Option& option) {
 /// Of all commands: "compare --technique"|"raster --technique") values="hard pcf" ;;
 std::string bash_values(const CLI::App& program) {
   std::map<std::string, std::string> patterns;  // by what is offered
-  for (const CLI::App* command : commands_of(program)) {
-    for (const CLI::Option* option : command->get_options()) {
+  std::vector<const CLI::App*> takers = commands_of(program);
+  takers.push_back(&program);
+  for (const CLI::App* taker : takers) {
+    for (const CLI::Option* option : taker->get_options()) {
       if (!takes_value(*option) || option->get_positional()) continue;
       const OptionChoices values = values_of(*option);
       const std::string offer =
@@ -109,7 +115,9 @@ std::string bash_values(const CLI::App& program) {
       for (const std::string& name : option->get_snames()) names.push_back("-" + name);
       for (const std::string& name : names) {
         std::string& pattern = patterns[offer];
-        pattern += fmt::format("{}\"{} {}\"", pattern.empty() ? "" : "|", command->get_name(), name);
+        // An option of the program itself is the first word, in the command's place.
+        pattern += fmt::format("{}\"{} {}\"", pattern.empty() ? "" : "|",
+                               taker == &program ? name : taker->get_name(), name);
       }
     }
   }
@@ -123,7 +131,7 @@ std::string bash_script(const CLI::App& program) {
   std::string cases;
   for (const CLI::App* command : commands_of(program)) {
     cases += fmt::format("    {}) words=\"{} {}\" ;;\n", command->get_name(), option_names(*command),
-                         scene_names());
+                         takes_scene(*command) ? scene_names() : "");
   }
   // bash splits "--technique=pcf" into three words. Of a list, "hard,pcf", the last part is completed.
   return fmt::format(
@@ -157,7 +165,8 @@ std::string zsh_script(const CLI::App& program) {
   std::string commands, cases;
   for (const CLI::App* command : commands_of(program)) {
     commands += fmt::format("    '{}:{}'\n", command->get_name(), quoted_text(command->get_description()));
-    cases += fmt::format("    {})\n      _arguments '*:scene:_gnomon_scenes'", command->get_name());
+    cases += fmt::format("    {})\n      _arguments '{}'", command->get_name(),
+                         takes_scene(*command) ? "*:scene:_gnomon_scenes" : "*:file:_files");
     for (const CLI::Option* option : command->get_options()) {
       for (const std::string& name : option->get_lnames()) {
         cases += fmt::format(" \\\n        '--{}[{}]{}'", name, purpose(*option),
@@ -199,7 +208,8 @@ std::string fish_script(const CLI::App& program) {
                             fish_argument(*option), purpose(*option));
       }
     }
-    text += fmt::format("complete -c gnomon {} -a '{}'\n", condition, scene_names());
+    if (takes_scene(*command))
+      text += fmt::format("complete -c gnomon {} -a '{}'\n", condition, scene_names());
   }
   return text;
 }

@@ -13,7 +13,6 @@
 
 namespace gnomon::app {
 
-/// A scene as it is given on the command line.
 /// What a command does with the map's settings that a lesson or a scene asks for.
 enum class SettingsUse : std::uint8_t {
   none,      ///< it draws no map
@@ -22,6 +21,7 @@ enum class SettingsUse : std::uint8_t {
   sought     ///< it finds the map's options itself
 };
 
+/// A scene as it is given on the command line.
 struct SceneArgument {
   std::string name;            ///< a file, a built-in scene or a lesson
   bool allow_outside = false;  ///< files that it names may lie outside its folder

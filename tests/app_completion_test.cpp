@@ -56,7 +56,10 @@ TEST_F(Completion, BashOffersValues) {
   EXPECT_EQ(in_bash("gnomon sweep fence --technique hard,ms"), "hard,msm\n");
   EXPECT_EQ(in_bash("gnomon sweep fence --receiver-plane o"), "off\non\n");
   EXPECT_EQ(in_bash("gnomon compare fence --bias \"\""), "\n");  // a number: nothing to offer
-  EXPECT_EQ(in_bash("gnomon compare fence -o fi"), "fish\n");    // a path: the folder's files
+  EXPECT_EQ(in_bash("gnomon --completion \"\""), "bash\nzsh\nfish\n");
+  EXPECT_EQ(in_bash("gnomon --manual o"), "options\n");
+  EXPECT_EQ(in_bash("gnomon grade fe"), "\n") << "a rubric is no scene";
+  EXPECT_EQ(in_bash("gnomon compare fence -o fi"), "fish\n");  // a path: the folder's files
 }
 
 TEST_F(Completion, FishOffersValues) {
