@@ -82,6 +82,16 @@ TEST(Answers, ALightWithoutSizeIsNoReason) {
   }
 }
 
+TEST(Answers, WhatTessellationLeavesAsItIsIsSaid) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& scene) {
+    const Words words{"raytrace", scene, "--size", "8x8", "--tessellate", "8", "-o", folder / "x.png"};
+    return run_gnomon(words).err.find("--tessellate has no effect") != std::string::npos;
+  };
+  EXPECT_TRUE(said("fence")) << "its one exact shape is a plane";
+  EXPECT_FALSE(said("sphere-plane"));
+}
+
 // A picture small enough to be its own forecast: with the ray that finds the glass that the eye is in.
 TEST(Answers, RaytraceCastsWhatPlanCounts) {
   const TemporaryFolder folder;
