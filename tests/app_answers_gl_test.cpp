@@ -82,6 +82,17 @@ TEST(Answers, ALightWithoutSizeIsNoReason) {
   }
 }
 
+TEST(Answers, AnOptionThatIsOffAsksForNothing) {
+  const auto map_with = [](const Words& options) {
+    return light_of(Words{"fence", "--size", "32x18", "--map-size", "64"} + options).at("map");
+  };
+  const Words csm{"--technique", "csm"};
+  EXPECT_EQ(map_with(csm + Words{"--no-snap=off"}).at("cascades").at("snap"), true);
+  EXPECT_EQ(map_with(csm + Words{"--no-snap"}).at("cascades").at("snap"), false);
+  for (const char* option : {"--receiver-plane=off", "--adaptive-bias=off"})
+    EXPECT_EQ(map_with({option}).at("bias").at("slope"), 1.0) << option;
+}
+
 TEST(Answers, WhatTessellationLeavesAsItIsIsSaid) {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& scene) {

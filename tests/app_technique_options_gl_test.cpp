@@ -215,14 +215,6 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
   EXPECT_EQ(app::setting_arguments(app::values_read(values)), " --technique izb --map-size 64");
 }
 
-TEST(TechniqueOptions, NoSnapThatIsOffSnaps) {
-  const auto snaps = [](const std::string& no_snap) {
-    return app::parse_setting({{"technique", "csm"}, {"no-snap", no_snap}})->options.raster.map.cascades.snap;
-  };
-  EXPECT_TRUE(snaps("off"));
-  EXPECT_FALSE(snaps("on"));
-}
-
 TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   using Values = std::vector<std::pair<std::string, std::string>>;
   using enum raster::BiasUnit;
@@ -241,7 +233,6 @@ TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   EXPECT_EQ(bias({{"slope-bias", "2"}}), (raster::Bias{.slope = 2.0}));
   EXPECT_EQ(bias({{"normal-offset", "1"}}), (raster::Bias{.normal_offset_texels = 1.0}));
   EXPECT_EQ(bias({{"receiver-plane", "on"}}), (raster::Bias{.receiver_plane = true}));
-  EXPECT_EQ(bias({{"receiver-plane", "off"}, {"adaptive-bias", "off"}}), by_default) << "none was asked for";
   EXPECT_EQ(bias({{"cull", "front"}}), by_default);
 }
 
