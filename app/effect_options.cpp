@@ -59,6 +59,11 @@ std::vector<std::string> idle_options(std::span<const std::string> given, const 
   return notes;
 }
 
+std::vector<std::string> idle_without_page(std::span<const std::string> given) {
+  if (!holds(given, "report-max-mb")) return {};
+  return {idle("report-max-mb", "no page is written")};
+}
+
 std::vector<std::string> idle_in_heatmap(std::span<const std::string> given) {
   std::vector<std::string> notes;
   for (const char* option : {"aa", "exposure", "glossy-samples", "indirect-samples", "light", "max-lights",

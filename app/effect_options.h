@@ -26,6 +26,9 @@ std::vector<std::string> idle_options(std::span<const std::string> given, const 
 std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
                                       const Scene& scene, std::span<const std::uint32_t> lights);
 
+/// The same where no page is written.
+std::vector<std::string> idle_without_page(std::span<const std::string> given);
+
 /// The same for a heat map of primary rays in place of the picture.
 std::vector<std::string> idle_in_heatmap(std::span<const std::string> given);
 

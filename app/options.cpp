@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "app/filter_options.h"
@@ -54,7 +55,8 @@ void add_bias_options(CLI::App& command, raster::Bias& bias) {
       command, "--bias", "auto|B|Btexel",
       describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
                fmt::format("world units along the light ray, or texels with the suffix texel, any finite "
-                           "number; auto is what rounding may do, and {} texel",
+                           "number; auto is what rounding may do, and {} texel; asked for, any bias "
+                           "takes the place of the default's slope bias",
                            raster::automatic_bias_texels),
                bias_text(bias)),
       [&bias](const std::string& text) -> Expected<void> {
@@ -315,7 +317,15 @@ void add_ray_count(CLI::App& command, std::uint64_t& rays) {
   add_value(command, "--rays", "N",
             describe("rays of each row of the table; costly rows take a fixed share of it", range_text(range),
                      number_text(static_cast<double>(rays))),
-            [&rays, range](const std::string& value) { return assign(rays, parse_number(value, range)); });
+            [&rays, range](const std::string& text) -> Expected<void> {
+              const Expected<double> value = parse_number(text, range);
+              if (!value) return fail(value.error());
+              if (std::trunc(*value) != *value)
+                return fail(ErrorKind::usage, fmt::format("is not a whole number (got {}, allowed {})", text,
+                                                          range_text(range)));
+              rays = static_cast<std::uint64_t>(*value);
+              return {};
+            });
 }
 
 void add_checked(CLI::App& command, const std::string& name, const char* type, const std::string& text,

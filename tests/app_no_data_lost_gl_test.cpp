@@ -49,6 +49,7 @@ TEST(NoDataLost, AnOutputThatIsAnInputIsRefused) {
       {"raytrace", "scene.json", "-o", "o.png", "--trace", "tex.png"},
       {"raster", "scene.json", "-o", "o.png", "--trace", "scene.json"},
       {"sweep", "scene.json", "--map-size", "32,64", "--trace", "scene.json"},
+      {"sweep", "scene.json", "--map-size", "32,64", "--slurm", "2", "--trace", "scene.json"},
       {"shimmer", "scene.json", "--trace", "scene.json"},
       {"tune", "scene.json", "--max-error", "1%", "--trace", "scene.json"},
       {"plan", "scene.json", "--json", "scene.json"},

@@ -262,6 +262,9 @@ TEST(EffectOptions, WhatTheSceneDoesNotCallForIsNamed) {
   map.cascades.count = 2, scene.lights[0].type = LightType::point;
   EXPECT_EQ(app::idle_options(of_map, map, scene, lights),
             Words{"--snap has no effect: no light is directional"});
+  EXPECT_EQ(app::idle_without_page(Words{"report-max-mb", "size"}),
+            Words{"--report-max-mb has no effect: no page is written"});
+  EXPECT_EQ(app::idle_without_page(Words{"size"}), Words{});
   EXPECT_EQ(app::idle_in_heatmap(Words{"size", "aa"}),
             Words{"--aa has no effect: a heat map shows the work of one ray through each pixel's centre"});
 }

@@ -53,6 +53,17 @@ TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
                   "did you mean csm?");
 }
 
+TEST(Usage, OptionsThatCouldHaveNoEffectAreRefused) {
+  expect_one_line(run_gnomon({"export", "fence", "--size", "8x8"}), 2,
+                  "--size: is that of the masks of --suite");
+  expect_one_line(run_gnomon({"export", "--suite", "s", "--tessellate", "8"}), 2,
+                  "--tessellate: the scenes of --suite are written as they are");
+  expect_one_line(run_gnomon({"export", "--suite", "s", "--camera", "eye=1,1,1"}), 2,
+                  "--camera: the scenes of --suite are written as they are");
+  expect_one_line(run_gnomon({"verify", "--rays", "1000.5"}), 2,
+                  "--rays: is not a whole number (got 1000.5, allowed ");
+}
+
 // An unset variable of a script.
 TEST(Usage, EmptyNamesAskForNothingAndAreRefused) {
   for (const std::string option : {"--output", "--json", "--aov", "--trace", "--light", "--camera"})

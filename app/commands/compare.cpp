@@ -138,6 +138,8 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   for (const std::string& note :
        idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
+  if (!wants_page(command))
+    for (const std::string& note : idle_without_page(command.given)) console.note(note);
   const raster::RasterOptions& raster = command.setting.options.raster;
   const double map_bytes = bytes_per_texel * std::pow(double(raster.map.size), 2.0);
   const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "app/console.h"
+#include "app/effect_options.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/lesson_scene.h"
@@ -29,11 +31,19 @@ struct ExportCommand {
   ImageSize size{640, 360};  ///< of the suite's masks
   int tessellate = 64;       ///< sectors, in [min_tessellation, max_tessellation]
   bool quiet = false;
+  std::vector<std::string> given;  ///< options
+  bool is_given(std::string_view option) const {
+    return std::find(given.begin(), given.end(), option) != given.end();
+  }
 };
 
 Expected<ExitCode> export_suite(const ExportCommand& command, Console& console) {
   if (!command.scene.name.empty() || !command.file.empty())
     return fail(ErrorKind::usage, "export: --suite has scenes of its own (give no SCENE and no -o)");
+  for (const char* option : {"camera", "tessellate"})
+    if (command.is_given(option))
+      return fail(ErrorKind::usage,
+                  fmt::format("--{}: the scenes of --suite are written as they are", option));
   if (const auto writable = check_output_folder(command.suite); !writable) return fail(writable.error());
   if (const auto written = write_suite(command.suite, command.size, console); !written)
     return fail(written.error());
@@ -45,6 +55,7 @@ Expected<ExitCode> run_export(ExportCommand& command) {
   Console console(command.quiet);
   if (!command.suite.empty()) return export_suite(command, console);
   if (command.scene.name.empty()) return fail(ErrorKind::usage, "export: SCENE is required, or --suite DIR");
+  if (command.is_given("size")) return fail(ErrorKind::usage, "--size: is that of the masks of --suite");
   if (command.file.empty()) command.file = default_output(command.scene.name) + ".glb";
   if (const auto known = check_extension("-o", command.file, ".glb .gltf"); !known)
     return fail(known.error());
@@ -116,7 +127,10 @@ void add_export(CLI::App& program, Invocation& invocation) {
                 return {};
               });
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_export(*command); }; });
+  app->callback([command, &invocation, app] {
+    command->given = given_options(*app);
+    invocation.action = [command] { return run_export(*command); };
+  });
 }
 
 }  // namespace gnomon::app

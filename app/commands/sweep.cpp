@@ -153,15 +153,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (command.max_error && command.max_error->measure == compare::ErrorMeasure::flip)
     command.perceptual = true;
   if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
-  if (command.slurm_tasks) {
-    if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
-    return run_on_slurm(command);
-  }
-  Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
-  auto plan = plan_of(command);
-  if (!plan) return fail(plan.error());
   RunFiles files;
   files.reads(command.scene);
   files.reads(path_file(command.metric.film));
@@ -169,6 +161,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   files.writes("--trace", command.trace);
   files.writes_folder("-o", command.folder, compare::sweep_file_names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
+  if (command.slurm_tasks) return run_on_slurm(command);
+  Console console(command.quiet);
+  const ThreadLimit thread_limit(command.threads, console);
+  auto plan = plan_of(command);
+  if (!plan) return fail(plan.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();

@@ -7,7 +7,8 @@ namespace {
 constexpr std::array<LabelText, 5 + class_count> labels{{
     {"uncertain", "?", "the exact answer lies within its own error bound", "", ""},
     {"silhouette", "o", "the two renderers see different surfaces here", "", ""},
-    {"facing away", "/", "turned away from the light: dark whatever shadows say", "", ""},
+    {"facing away", "/",
+     "turned away from the light, or outside a spot light's cone: dark whatever shadows say", "", ""},
     {"background", "\u00b7", "no surface", "", ""},
     {"right", "\u2713", "both renderers agree", "", ""},
     {"acne", "A", "the surface shadows itself",
