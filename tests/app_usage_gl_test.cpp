@@ -54,11 +54,12 @@ TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
 }
 
 TEST(Usage, OptionsThatCouldHaveNoEffectAreRefused) {
+  const TemporaryFolder folder;
   expect_one_line(run_gnomon({"export", "fence", "--size", "8x8"}), 2,
                   "--size: is that of the masks of --suite");
-  expect_one_line(run_gnomon({"export", "--suite", "s", "--tessellate", "8"}), 2,
+  expect_one_line(run_gnomon({"export", "--suite", folder / "suite", "--tessellate", "8"}), 2,
                   "--tessellate: the scenes of --suite are written as they are");
-  expect_one_line(run_gnomon({"export", "--suite", "s", "--camera", "eye=1,1,1"}), 2,
+  expect_one_line(run_gnomon({"export", "--suite", folder / "suite", "--camera", "eye=1,1,1"}), 2,
                   "--camera: the scenes of --suite are written as they are");
   expect_one_line(run_gnomon({"verify", "--rays", "1000.5"}), 2,
                   "--rays: is not a whole number (got 1000.5, allowed ");

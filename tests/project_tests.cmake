@@ -14,6 +14,9 @@ set_tests_properties(project_tidy_test PROPERTIES
 add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_commit_test.sh"
   "${PROJECT_SOURCE_DIR}" "${CMAKE_COMMAND}" "$<TARGET_FILE:gnomon_program>")
 
+# ./gnomon and a build folder that is not what it was.
+add_test(NAME project_script_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_script_test.sh" "${PROJECT_SOURCE_DIR}")
+
 # What comes from npm runs on Debian 12's Node.js.
 add_test(NAME project_node_test COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/project_node_test.sh" "${PROJECT_SOURCE_DIR}")
 
