@@ -100,13 +100,14 @@ std::string error_part(const LightComparison& light) {
   return light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light);
 }
 
-std::string nothing_compared(const PixelCounts& p) {
+std::string nothing_compared(const PixelCounts& p, LightType light) {
+  const std::string one = p.facing_away == 1 ? "s" : "";
+  const std::string away = fmt::format("{} face{} away from the light", grouped(p.facing_away), one);
   return fmt::format(
-      "No pixel could be compared: of {}, {} show{} no surface, {} face{} away from the light, {} {} and {} "
-      "{} uncertain.",
-      grouped(p.total), grouped(p.background), p.background == 1 ? "s" : "", grouped(p.facing_away),
-      p.facing_away == 1 ? "s" : "", grouped(p.silhouette),
-      p.silhouette == 1 ? "is a silhouette" : "are silhouettes", grouped(p.uncertain),
+      "No pixel could be compared: of {}, {} show{} no surface, {}, {} {} and {} {} uncertain.",
+      grouped(p.total), grouped(p.background), p.background == 1 ? "s" : "",
+      light == LightType::spot ? fmt::format("{} or lie{} outside its cone", away, one) : away,
+      grouped(p.silhouette), p.silhouette == 1 ? "is a silhouette" : "are silhouettes", grouped(p.uncertain),
       p.uncertain == 1 ? "is" : "are");
 }
 
@@ -127,7 +128,8 @@ std::string Verdict::whole() const {
 }
 
 Verdict verdict_on(const Comparison& c, const LightComparison& light) {
-  if (light.pixels.compared == 0) return {nothing_compared(light.pixels), {}};
+  if (light.pixels.compared == 0)
+    return {nothing_compared(light.pixels, c.world->scene->lights[light.light].type), {}};
   const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
   if (c.judged) return {joined_sentences({error, judged_advice(*c.judged, light)}), uncertain};
   if (lacks_light_size(c.raster, light))

@@ -205,6 +205,10 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
   EXPECT_EQ(nothing.verdict(),
             "No pixel could be compared: of 100, 60 show no surface, 30 face away from the light, 8 are "
             "silhouettes and 2 are uncertain.");
+  nothing.made->scene.lights[nothing.light.light].type = LightType::spot;
+  EXPECT_NE(nothing.verdict().find("30 face away from the light or lie outside its cone, 8 are"),
+            std::string::npos)
+      << nothing.verdict();
 }
 
 TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {

@@ -27,6 +27,7 @@ void expect_start(const Mistake& m, const std::string& message) {
 const Mistake syntax_mistakes[] = {
     {"empty", "", "s.json:1:1: the file is empty"},
     {"only space and comments", " // nothing\n/* here */ ", "s.json:1:1: the file is empty"},
+    {"comment without end", "{\n  /* here", "s.json:2:3: the comment that starts here does not end"},
     {"byte order mark", "\xef\xbb\xbf{}", "s.json:1:1: the file starts with a byte order mark"},
     {"UTF-16", std::string_view("\xff\xfe{\0}\0", 6), "s.json:1:1: the file starts with a byte order mark"},
     {"truncated object", "{\n \"schema\": \"gnomon/scene/1\",\n", "s.json:3:1: the file ends in the middle"},

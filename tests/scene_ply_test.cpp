@@ -79,7 +79,7 @@ TEST(Ply, VertexColours) {
     for (const char* name : {"red", "green", "blue", "alpha"}) text += "property " + type + " " + name + "\n";
     text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     for (const char* place : {"0 0 0 ", "1 0 0 ", "0 1 0 "})
-      text += place + full + " 0 " + half + " " + half + "\n";
+      text += fmt::format("{}{} 0 {} {}\n", place, full, half, half);
     return load_scene(folder.put("c.ply", text + "3 0 1 2\n"));
   };
   for (const auto& scene :

@@ -50,9 +50,10 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
     row.unshadowed_ms += record.unshadowed_pass.median();
     lookups += light.lookups.value_or(0);
   }
-  if (row.compared > 0)
+  if (row.compared > 0) {
     row.lookups_per_pixel = static_cast<double>(lookups) / static_cast<double>(row.compared);
-  if (row.compared > 0) row.mean_absolute = absolute / static_cast<double>(row.compared);
+    row.mean_absolute = absolute / static_cast<double>(row.compared);
+  }
   row.texels = comparison.raster.map_texels;
   row.bytes = comparison.raster.map_bytes;
   row.main_label = main_label(classes);

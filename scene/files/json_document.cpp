@@ -181,7 +181,6 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 // Before any parser sees the text: what it must not start with, and how deep it nests.
 std::optional<Error> check_outside(const JsonDocument& document) {
   const std::string_view text = document.text;
-  if (next_token(text, 0) == text.size()) return document.error_at(0, {}, "the file is empty");
   if (text.starts_with("\xef\xbb\xbf") || text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     return document.error_at(0, {}, "the file starts with a byte order mark (allowed: UTF-8 without one)");
   int depth = 0;
@@ -191,6 +190,8 @@ std::optional<Error> check_outside(const JsonDocument& document) {
       continue;
     }
     if (starts_comment(text, at)) {
+      if (text[at + 1] == '*' && text.find("*/", at + 2) == std::string_view::npos)
+        return document.error_at(at, {}, "the comment that starts here does not end (allowed: /* ... */)");
       at = skip_comment(text, at);
       continue;
     }
@@ -202,6 +203,7 @@ std::optional<Error> check_outside(const JsonDocument& document) {
                                            max_json_depth, max_json_depth));
     ++at;
   }
+  if (next_token(text, 0) == text.size()) return document.error_at(0, {}, "the file is empty");
   return std::nullopt;
 }
 
