@@ -62,6 +62,35 @@ TEST(JudgeValues, ShadowsThatAreNotDarkAreSaid) {
                   strength));
 }
 
+// Of each block its first pixel.
+void enlarge(const std::string& file, int block) {
+  spoil(file, [&](ChannelImage& image) {
+    for (Channel& channel : image.channels)
+      for (int y = 0; y < image.size.height; ++y)
+        for (int x = 0; x < image.size.width; ++x) {
+          const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * image.size.width + i); };
+          channel.values[at(x, y)] = channel.values[at(x - x % block, y - y % block)];
+        }
+  });
+}
+
+TEST(JudgeValues, ShadowsOfLowerResolutionAreSaid) {
+  for (const char* scene : {"fence", "teapot"}) {
+    const Compared drawn = draw_builtin(scene, small_picture, hard_map(256));
+    for (const int block : {2, 3, 4}) {
+      const Capture capture = self_capture(drawn, folder_for("blocks"), {});
+      enlarge(capture.visibility, block);
+      const JudgeOutcome judged = judge(capture, *drawn.scene);
+      ASSERT_TRUE(judged.result) << reason(judged);
+      EXPECT_NE(fmt::format("{}", fmt::join(judged.result->judged->notes, "\n"))
+                    .find(fmt::format("blocks of {0} x {0} pixels", block)),
+                std::string::npos)
+          << scene << ' ' << block;
+    }
+    EXPECT_EQ(notes_on(drawn, [](float v) { return v; }), "") << scene;
+  }
+}
+
 // Then something is drawn where the light does not arrive, which another camera seems to explain; its shadows do not.
 TEST(JudgeValues, AmbientLightInARatioIsNoOtherCamera) {
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));

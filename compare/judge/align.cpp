@@ -90,6 +90,7 @@ class Aligner {
     if (const auto shadows = check_shadows(); !shadows) return fail(shadows.error());
     if (const auto encoding = check_encoding(); !encoding) return fail(encoding.error());
     note_range();
+    note_resolution();
     judged_.agreement = gather(input(), samples_, {}).all();
     return out_;
   }
@@ -100,6 +101,7 @@ class Aligner {
   Expected<void> check_shadows();
   Expected<void> check_encoding();
   void note_range();
+  void note_resolution();
   Expected<void> accept(const Mended& mended);
   Expected<void> mend(const Mended& mended, const Suspect& suspect);
   Expected<void> mend_shadows(const Found& found, double before);
@@ -231,6 +233,17 @@ void Aligner::note_range() {
     judged_.notes.push_back(fmt::format(
         "the picture is nowhere lighter than {:.3g}, where full light is 1: what is missing counts as error",
         found.lightest));
+}
+
+/// Its edges are coarser than the picture's pixels, which no setting of the shadow map mends.
+void Aligner::note_resolution() {
+  if (out_.trace_again || out_.everywhere) return;  // the frame is not of this sight
+  const int block = shadow_block(pictures_, in_.frame);
+  if (block == 1) return;
+  judged_.notes.push_back(
+      fmt::format("the shadow consists of blocks of {0} x {0} pixels, as if drawn at 1/{0} of the picture's "
+                  "resolution and enlarged: edges are wrong by up to {1} pixel{2} for that reason alone",
+                  block, block - 1, block == 2 ? "" : "s"));
 }
 
 }  // namespace

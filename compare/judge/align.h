@@ -35,4 +35,8 @@ struct Encoding {
 std::optional<Encoding> find_encoding(const CapturedPictures& pictures,
                                       const raytrace::RayTracedFrame& frame);
 
+/// The side in pixels, 2 to 8, of the blocks that the visibility is made of: a shadow drawn at that fraction of the
+/// picture's resolution and enlarged without interpolation. 1: no such blocks, or too few edges to tell.
+int shadow_block(const CapturedPictures& pictures, const raytrace::RayTracedFrame& frame);
+
 }  // namespace gnomon::compare
