@@ -221,6 +221,27 @@ async function checkUrl() {
   const strange = await open(folderOf(biases[0]), {}, "#light-0?pixel=9999,-3&zoom=x&mode=<b>&bias=");
   assert.equal((await view(strange)).mode, "swipe");
   await close(strange);
+  // Names that every object has are none of the state's; a pixel outside is the nearest one, with its marker.
+  const outside = await open(folderOf(biases[0]), {}, "#light-0?constructor=2&__proto__=1&toString=3&pixel=9999,9999");
+  const marker = await outside.locator(".pane .marker").first().evaluate((e) => [e.style.left, e.style.top].map(parseFloat));
+  assert.deepEqual(marker.map((at) => Math.round(at)), [width - 1, height - 1].map((at, k) => Math.round((100 * at) / [width, height][k])));
+  await close(outside);
+}
+
+// Whatever the picture's shape, all of it is on the screen at once.
+async function checkStageInWindow() {
+  const tall = join(folder, "tall");
+  execFileSync(program, ["compare", "sphere-plane", "--size", "60x120", "--map-size", "64", "--runs", "1", "--quiet", "-o", tall]);
+  const page = await open(tall, { viewport: { width: 1440, height: 900 } });
+  for (const mode of ["Swipe", "Side by side"]) {
+    await page.getByRole("button", { name: mode }).click();
+    const { width: w, height: h } = await page.locator(".stage .pane").first().boundingBox();
+    assert.ok(h <= 900 && h > 600, `${mode}: ${h} pixels high`);
+    assert.ok(Math.abs(w / h - 0.5) < 0.01, `${mode}: ${w} x ${h}`);
+  }
+  const bias = await page.locator(".bias-picture canvas").boundingBox();
+  assert.ok(bias.height <= 900, `bias: ${bias.height} pixels high`);
+  await close(page);
 }
 
 const canvasOf = (page, pane) => pixelsOf(page.locator(".pane canvas").nth(pane));
@@ -416,6 +437,7 @@ try {
   await checkPresenter();
   await checkGlass();
   await checkUrl();
+  await checkStageInWindow();
   await checkBeside();
   await checkPhone(folderOf(biases[0]));
   await checkAccessibility(folderOf(biases[0]));

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double width = 760.0, height = 340.0;  // of the bias chart, SVG units (CSS pixels when not scaled)
 constexpr double left = 58.0, right = 152.0, top = 40.0,
-                 bottom = 56.0;  // margins; names of curves on the right
+                 bottom = 56.0;         // margins; names of curves on the right
+constexpr double nothing_wrong = 0.01;  // the vertical axis's end where no bias makes a pixel wrong
 
 // Maps the chart's data to SVG units.
 struct Scale {
@@ -162,7 +163,7 @@ std::string bias_chart(const LightComparison& light, double used_bias, std::stri
   double highest = 0.0;
   for (const BiasCurvePoint& p : light.bias_curve) highest = std::max(highest, total(p) / compared);
   const Scale scale{light.bias_curve.front().bias, light.bias_curve.back().bias,
-                    std::max(1.05 * highest, 1e-9)};
+                    highest > 0.0 ? 1.05 * highest : nothing_wrong};
   if (!(scale.max_x > scale.min_x)) return "";
   std::string svg = fmt::format(
       R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-labelledby="{}-title {}-desc"

@@ -49,7 +49,7 @@ export class LightPanel {
     this.bias?.show(this.coloured);
     this.bias?.mark(this.shown.x, this.shown.y);
     const { words, drawing, bar, below } = this.probe;
-    new Presenter(root.querySelector(".viewer-bar")!, `light ${light.json.name}`, page, {
+    new Presenter(root.querySelector(".viewer-bar")!, `light ${light.json.name}`, {
       controls: this.bias ? [this.bias.bar, this.bias.said] : [], picture: this.bias?.picture ?? root.querySelector<HTMLElement>(".stage")!,
       drawing, words, section: [bar, below],
     }, (x, y) => this.step(x, y));
@@ -63,7 +63,8 @@ export class LightPanel {
   restore(state: LightState): void {
     Object.assign(this.state, state);
     this.passing = false;
-    if (state.pixel) this.read(Math.min(state.pixel[0], page.width - 1), Math.min(state.pixel[1], page.height - 1));
+    if (state.pixel) this.state.pixel = [Math.min(state.pixel[0], page.width - 1), Math.min(state.pixel[1], page.height - 1)];
+    if (this.state.pixel) this.read(...this.state.pixel);
     this.labels.show(state.label);
     this.update();
   }

@@ -15,13 +15,12 @@ export class Presenter {
   private readonly areas: [HTMLElement, HTMLElement[]][];
   private places: [HTMLElement, Comment][] = [];
 
-  constructor(host: Element, name: string, size: { width: number; height: number }, pieces: Pieces, step: (x: number, y: number) => void) {
+  constructor(host: Element, name: string, pieces: Pieces, step: (x: number, y: number) => void) {
     const area = (kind: string, elements: HTMLElement[]): [HTMLElement, HTMLElement[]] => [html("div", { class: `presenter-${kind}` }), elements];
     this.areas = [area("controls", pieces.controls), area("picture", [pieces.picture]), area("drawing", [pieces.drawing]),
       area("words", [pieces.words]), area("section", pieces.section)];
     const close = html("button", { type: "button", class: "presenter-close" }, "Close");
     this.dialog = html("dialog", { class: "presenter", "aria-label": `Presentation: ${name}` }, close, ...this.areas.map(([element]) => element));
-    this.dialog.style.setProperty("--ratio", String(size.width / size.height));
     const open = html("button", { type: "button", class: "present" }, "Present");
     open.title = "Picture, pixel drawing, cross-section and bias on one screen";
     open.addEventListener("click", () => this.open());

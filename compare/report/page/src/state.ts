@@ -79,7 +79,7 @@ function hashOf<State extends object>(place: string, state: State, initial: Stat
 function parse<State extends object>(text: string, initial: State, readers: Readers<State>): State {
   const state: State = { ...initial };
   for (const [key, value] of new URLSearchParams(text))
-    if (key in readers) state[key as keyof State] = readers[key as keyof State](value) ?? initial[key as keyof State];
+    if (Object.hasOwn(readers, key)) state[key as keyof State] = readers[key as keyof State](value) ?? initial[key as keyof State];
   return state;
 }
 

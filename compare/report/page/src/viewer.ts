@@ -54,6 +54,7 @@ export class Viewer {
     this.legends.className = "legends";
     this.stage.after(this.legends);
     this.stage.style.aspectRatio = "";
+    document.documentElement.style.setProperty("--ratio", String(size.width / size.height));
     this.listen();
     this.show();
     root.hidden = false;
