@@ -79,6 +79,16 @@ async function checkGrid(page) {
   await opened(page, number + 1);
   await page.locator("#cell .pick").last().selectOption({ label: `cell ${number}: labels` });
   assert.equal(await page.locator("#cell .tag").last().textContent(), `cell ${number}: labels`);
+  await page.waitForFunction((n) => location.hash.includes(`held=${n}`) && location.hash.includes("right=cell"), number);
+  const again = await open(swept, {}, new URL(page.url()).hash);
+  await opened(again, number + 1);
+  assert.equal(await again.locator("#cell .tag").last().textContent(), `cell ${number}: labels`);
+  assert.equal(await again.getByRole("button", { name: `Kept: cell ${number}` }).count(), 1);
+  await close(again);
+  const missing = await open(swept, {}, `#sweep?cell=${number}&held=12345`);
+  await opened(missing, number);
+  assert.equal(await missing.getByRole("button", { name: "Keep for comparison" }).count(), 1);
+  await close(missing);
   await page.locator("#cell .stage").hover({ position: { x: 300, y: 300 } });
   assert.match(await page.locator("#cell .probe").textContent(), new RegExp(`^Pixel \\d+, \\d+: [a-z-, ]+; in cell ${number}: `));
 }

@@ -20,9 +20,13 @@ std::string key_of(std::size_t light, std::string_view rest) {
   return fmt::format("lights.{}.{}", light, rest);
 }
 
+std::string label_words(std::size_t label) {
+  return label == outside_map_flip ? "outside the map" : spoken(flip_label_name(label));
+}
+
+// A step bears the number of the rung that it leads to.
 std::string label_swatch(std::size_t label) {
-  const glm::u8vec3 c = flip_colour(label);
-  return swatch(c, std::string(1, static_cast<char>(std::toupper(flip_label_name(label).front()))));
+  return swatch(flip_colour(label), label == outside_map_flip ? "O" : std::to_string(label + 1));
 }
 
 double mean(double sum, const TemporalSums& total) {
@@ -36,16 +40,15 @@ std::string budget_table(const ShimmerLight& light, std::size_t i) {
     rows += fmt::format(
         "<tr><th scope=\"row\">{} {}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
         "class=\"n\">{}</td></tr>\n",
-        label_swatch(k), spoken(flip_label_name(k)),
+        label_swatch(k), label_words(k),
         keyed(key_of(i, fmt::format("budget.{}.signed", k)), mean(total.signed_sum[k], total),
               signed_number(mean(beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total))),
         keyed(key_of(i, fmt::format("budget.{}.absolute", k)), mean(total.absolute_sum[k], total),
               unsigned_number(mean(total.absolute_sum[k], total))),
         keyed_count(key_of(i, fmt::format("by_label.{}", flip_label_name(k))), total.by_label[k]));
-  rows += fmt::format(
-      "<tr><th scope=\"row\">{} end of the map</th><td></td><td></td><td class=\"n\">{}</td></tr>\n",
-      label_swatch(outside_map_flip),
-      keyed_count(key_of(i, "by_label.outside_map"), total.by_label[outside_map_flip]));
+  rows += fmt::format("<tr><th scope=\"row\">{} {}</th><td></td><td></td><td class=\"n\">{}</td></tr>\n",
+                      label_swatch(outside_map_flip), label_words(outside_map_flip),
+                      keyed_count(key_of(i, "by_label.outside_map"), total.by_label[outside_map_flip]));
   rows += fmt::format(
       "<tr><th scope=\"row\">sum</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
       "class=\"n\">{}</td></tr>\n",
@@ -105,7 +108,7 @@ Expected<std::string> light_part(const Shimmer& shimmer, std::size_t i, FilmForm
 <h3>Flips from frame to frame</h3>
 {3}
 {4}<h3>Where it flips</h3>
-<figure><img src="{5}" width="{6}" height="{7}" alt="Flips of each receiver, from black, none, to pale yellow, {8}">
+<figure><img class="flips-map" src="{5}" width="{6}" height="{7}" alt="Flips of each receiver, from black, none, to pale yellow, {8}">
 <figcaption>Flips of each receiver over the film, black none, pale yellow {8}.</figcaption></figure>
 <h3>Which step does it</h3>
 {9}{10}</section>
@@ -121,7 +124,7 @@ std::string head_data(const Shimmer& shimmer) {
   Json labels = Json::array();
   for (std::size_t k = 0; k < flip_label_count; ++k) {
     const glm::u8vec3 c = flip_colour(k);
-    labels.push_back({{"name", spoken(flip_label_name(k))}, {"colour", hex_colour(c.r, c.g, c.b)}});
+    labels.push_back({{"name", label_words(k)}, {"colour", hex_colour(c.r, c.g, c.b)}});
   }
   const ImageSize size = shimmer.receivers.size;
   return Json{{"kind", "shimmer"},

@@ -33,8 +33,7 @@ std::string budget_rows(const TemporalSums& total) {
                       per_receiver(beyond_rounding(total.error_sum, total.error_absolute_sum), total),
                       per_receiver(total.error_absolute_sum, total), grouped(total.flips));
   if (total.by_label[outside_map_flip] > 0)
-    text +=
-        fmt::format("  of these flips {} at the end of the map\n", grouped(total.by_label[outside_map_flip]));
+    text += fmt::format("  of these flips {} outside the map\n", grouped(total.by_label[outside_map_flip]));
   if (total.seam_flips > 0)
     text += fmt::format("  of these flips {} where the receiver changed its cascade\n",
                         grouped(total.seam_flips));
@@ -52,11 +51,12 @@ std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) 
                        grouped(light.receivers), shimmer.options.time.frames);
   const auto most = static_cast<std::size_t>(std::max_element(total.by_label.begin(), total.by_label.end()) -
                                              total.by_label.begin());
-  return fmt::format(
-      "{} flips of {} receivers in {} frames, {} per receiver and second, mostly made by the {}.",
-      grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
-      plain_number(flips_per_receiver_second(shimmer.options, light)),
-      most == outside_map_flip ? "end of the map" : spoken(flip_label_name(most)) + " step");
+  return fmt::format("{} flips of {} receivers in {} frames, {} per receiver and second, mostly {}.",
+                     grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
+                     plain_number(flips_per_receiver_second(shimmer.options, light)),
+                     most == outside_map_flip
+                         ? "outside the map"
+                         : fmt::format("made by the {} step", spoken(flip_label_name(most))));
 }
 
 std::string shimmer_table(const Shimmer& shimmer) {

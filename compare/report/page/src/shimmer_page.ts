@@ -39,6 +39,7 @@ class FilmPlayer {
   private moments: Moment[] = [];
 
   constructor(private readonly section: HTMLElement) {
+    document.documentElement.style.setProperty("--ratio", String(page.width / page.height));
     this.canvas.width = page.width;
     this.canvas.height = page.height;
     this.context = this.canvas.getContext("2d", { willReadFrequently: true })!;  // whole pictures are put into it

@@ -20,7 +20,7 @@ class SweepPage {
   private readonly section = document.getElementById("cell")!;
   private readonly size = { width: 16, height: 9 };  // of the cell shown; set when there is one
   private readonly loaded = new Map<number, Promise<Cell>>();
-  private readonly hold = html("button", { type: "button" }, "Keep for comparison");
+  private readonly holder = html("button", { type: "button" }, "Keep for comparison");
   private readonly steps: HTMLButtonElement[];
   private shown: Cell | null = null;
   private held: Cell | null = null;
@@ -37,8 +37,8 @@ class SweepPage {
       button.addEventListener("click", () => void this.open(this.neighbour(step)));
       return button;
     });
-    this.hold.addEventListener("click", () => void this.keep());
-    this.section.querySelector(".viewer-bar")!.append(html("span", { class: "cell-steps" }, ...this.steps, this.hold));
+    this.holder.addEventListener("click", () => this.keep());
+    this.section.querySelector(".viewer-bar")!.append(html("span", { class: "cell-steps" }, ...this.steps, this.holder));
     // Every cell on the page opens by its link: in the grid, the charts and the table.
     document.addEventListener("click", (event) => {
       const link = (event.target as Element).closest("a[href^='#cell-']");
@@ -56,7 +56,7 @@ class SweepPage {
     if (wanted) Object.assign(this.state, wanted);
     this.grid?.show();
     if (wanted?.sort) this.table.show();
-    if (this.state.held !== null) this.held = await this.load(this.state.held);
+    if (this.state.held !== null) this.hold(await this.load(this.state.held)?.catch(() => null) ?? null);
     if (wanted && this.state.cell !== null) await this.open(this.state.cell, true);
   }
 
@@ -145,10 +145,14 @@ class SweepPage {
     if (!entries.some(([, name]) => name === this.state.right)) this.state.right = entries[1]![1];
   }
 
-  private async keep(): Promise<void> {
-    this.held = this.shown;
-    this.state.held = this.shown!.json.cell;
-    this.hold.textContent = `Kept: cell ${this.state.held}`;
+  private hold(cell: Cell | null): void {
+    this.held = cell;
+    this.state.held = cell?.json.cell ?? null;
+    this.holder.textContent = cell ? `Kept: cell ${cell.json.cell}` : "Keep for comparison";
+  }
+
+  private keep(): void {
+    this.hold(this.shown);
     this.fillPicks();
     this.viewer!.show();
     this.save();

@@ -54,7 +54,6 @@ export class Viewer {
     this.legends.className = "legends";
     this.stage.after(this.legends);
     this.stage.style.aspectRatio = "";
-    document.documentElement.style.setProperty("--ratio", String(size.width / size.height));
     this.listen();
     this.show();
     root.hidden = false;
@@ -62,6 +61,7 @@ export class Viewer {
 
   /** After the state or a picture has changed. */
   show(): void {
+    document.documentElement.style.setProperty("--ratio", String(this.size.width / this.size.height));
     [this.state.left, this.state.right].forEach((name, i) => {
       const pick = this.picks[i]!, option = [...pick.options].find((o) => o.textContent === name) ?? pick.options[i]!;
       pick.value = option.value;
@@ -122,8 +122,8 @@ export class Viewer {
   private mark(): void {
     const { pixel, zoom, x, y } = this.state, page = this.size;
     for (const marker of this.markers) {
-      marker.hidden = pixel === null;
-      if (!pixel) continue;
+      marker.hidden = pixel === null || pixel[0] >= page.width || pixel[1] >= page.height;
+      if (!pixel || marker.hidden) continue;
       marker.style.left = `${100 * (x + (zoom * pixel[0]) / page.width)}%`;
       marker.style.top = `${100 * (y + (zoom * pixel[1]) / page.height)}%`;
       marker.style.width = `${(100 * zoom) / page.width}%`;
