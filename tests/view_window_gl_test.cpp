@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <set>
+#include <thread>
 
 #include "compare/outputs.h"
 #include "compare/palette.h"
@@ -108,9 +111,10 @@ class ViewWindow : public testing::Test {
     if (!shared_->display.missing().empty()) GTEST_SKIP() << shared_->display.missing();
     ASSERT_EQ(shared_->result.exit_code, 0) << shared_->result.err;
   }
-  static ProcessResult run(const std::vector<std::string>& arguments, bool with_display = true) {
+  static ProcessResult run(const std::vector<std::string>& arguments, bool with_display = true,
+                           const std::string& folder = shared_->folder.path()) {
     ProcessOptions options;
-    options.folder = shared_->folder.path();
+    options.folder = folder;
     options.environment = {with_display ? shared_->display.variable() : "DISPLAY=", "WAYLAND_DISPLAY="};
     return run_gnomon(arguments, options);
   }
@@ -226,6 +230,46 @@ TEST_F(ViewWindow, WhatCannotBeDrawnEndsTheScriptWithItsLine) {
   EXPECT_EQ(result.exit_code, 5) << "signal " << result.signal;
   EXPECT_EQ(result.err.substr(0, 13), "script.txt:2:") << result.err;
   EXPECT_FALSE(exists("never.png"));
+}
+
+/// The left half of the status line: what was said last.
+Rgb8Image said(const Rgb8Image& window) {
+  constexpr int rows = 20;
+  if (window.size.height < rows) return {};
+  Rgb8Image out({window.size.width / 2, rows});
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < out.size.width; ++x) out.at(x, y) = window.at(x, window.size.height - rows + y);
+  return out;
+}
+
+TEST_F(ViewWindow, MistakesOfAnEditedSceneAreSaidUntilTheyAreMended) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      R"({"schema": "gnomon/scene/1", "materials": [{"name": "grey", "diffuse": [0.5, 0.5, 0.5]}],
+          "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "grey"}]})";
+  const std::string path = folder / "edited.json";
+  write_text(path, scene);
+  // The file is changed once there is the picture before the change.
+  std::thread editor([&] {
+    const auto change_after = [&](const std::string& picture, const std::string& text) {
+      for (int i = 0; i < 200 && !std::filesystem::exists(folder / picture); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      write_text(path, text);
+    };
+    change_after("good.png", "{ x");
+    change_after("first.png", "{ \"a\": ");
+    change_after("second.png", scene);
+  });
+  write_text(folder / "script.txt",
+             "set size 700x500\nwait done\nscreenshot good.png\nwait 400\nscreenshot first.png\nwait 400\n"
+             "screenshot second.png\nwait 400\nscreenshot mended.png\n");
+  const ProcessResult result = run({"view", path, "--script", "script.txt"}, true, folder.path());
+  editor.join();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto at = [&](const char* name) { return said(read_png(folder / name)); };
+  EXPECT_GT(differing(at("good.png"), at("first.png"), 0), 0u);
+  EXPECT_GT(differing(at("first.png"), at("second.png"), 0), 0u);
+  EXPECT_EQ(differing(at("good.png"), at("mended.png"), 0), 0u);
 }
 
 // Without a display, so that a window cannot have been opened before the script was read.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "compare/report/explanations.h"
@@ -140,6 +141,7 @@ std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const Pi
   if (!looks_up(record, story)) return std::nullopt;
   LightSpace space;
   space.u = story.u, space.v = story.v, space.bias = story.bias_world;
+  space.rounding = 8.0 * std::numeric_limits<float>::epsilon() * story.distance;
   space.side = 2 * texels + 1;
   space.first_u = static_cast<int>(std::floor(story.u)) - texels;
   space.first_v = static_cast<int>(std::floor(story.v)) - texels;

@@ -52,6 +52,7 @@ struct LightSpace {
   std::vector<double> nearer;
   double bias =
       0.0;  ///< the constant one: a texel shadows the plane at its centre where it is nearer by more
+  double rounding = 0.0;         ///< depths that differ by less are the same to floats, world units
   double u = 0.0, v = 0.0;       ///< the pixel
   std::vector<Vec2> neighbours;  ///< pixels beside it, at most one in each third of a texel
 };

@@ -6,6 +6,7 @@
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
 #include "raster/renderer_name.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app {
 
@@ -178,12 +179,13 @@ void Viewer::follow_layout() {
 Expected<void> Viewer::take_snapshot() {
   auto snapshot = thread_->snapshot();
   if (snapshot == shown_) return {};
-  const bool told = shown_->unreadable.has_value();
+  const std::string told = shown_->unreadable ? shown_->unreadable->message() : "";
   thread_->give_back(std::exchange(shown_, std::move(snapshot)));
   busy_frames_ = 3;
   if (!shown_->scene)
     return shown_->unreadable ? Expected<void>(fail(*shown_->unreadable)) : Expected<void>();
-  if (shown_->unreadable && !told) note(*shown_->unreadable);
+  if (shown_->unreadable && shown_->unreadable->message() != told) note(*shown_->unreadable);
+  if (!shown_->unreadable && !told.empty() && note_ == one_line(told)) note_.clear();  // it was mended
   if (shown_->scene->number != scene_) show_scene(*shown_->scene);
   if (shown_->is_drawn(state_)) {
     drawable_ = state_.setup;

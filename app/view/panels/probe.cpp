@@ -133,10 +133,10 @@ void light_space_drawing(const PanelContext& context, const LightSpace& space, c
   for (int i = 0; i < space.side * space.side; ++i) {
     const int column = space.first_u + i % space.side, row = space.first_v + i / space.side;
     const double nearer = space.nearer[static_cast<std::size_t>(i)];
-    const ImU32 fill = std::isnan(nearer)    ? context.ink.paper
-                       : nearer > space.bias ? IM_COL32(70, 74, 84, 255)
-                       : nearer > 0.0        ? IM_COL32(150, 154, 162, 255)
-                                             : IM_COL32(236, 234, 226, 255);
+    const ImU32 fill = std::isnan(nearer)        ? context.ink.paper
+                       : nearer > space.bias     ? IM_COL32(70, 74, 84, 255)
+                       : nearer > space.rounding ? IM_COL32(150, 154, 162, 255)
+                                                 : IM_COL32(236, 234, 226, 255);
     const ImVec2 low = at(column, row), high = at(column + 1, row + 1);
     draw.AddRectFilled({low.x, high.y}, {high.x, low.y}, fill);
     draw.AddRect({low.x, high.y}, {high.x, low.y}, IM_COL32(110, 114, 122, 255));
