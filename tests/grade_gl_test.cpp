@@ -148,6 +148,7 @@ TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
   const std::string page = read_file(folder / "pages/double-bias.html");
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
   EXPECT_NE(page.find("--shader-dir class/double-bias"), std::string::npos);
+  EXPECT_NE(page.find("where it is wrong, and why: <span class=\"key\">"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_NE(read_file(folder / "pages/does-not-compile.html").find("flaot gap"), std::string::npos);
   EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,14,20,"), std::string::npos);

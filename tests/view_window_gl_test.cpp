@@ -272,6 +272,15 @@ TEST_F(ViewWindow, MistakesOfAnEditedSceneAreSaidUntilTheyAreMended) {
   EXPECT_EQ(differing(at("good.png"), at("mended.png"), 0), 0u);
 }
 
+TEST_F(ViewWindow, ReportThatTheWindowsEndCutsOffIsSaid) {
+  const ProcessResult result = run_script("wait done\nkey ctrl+R\nquit\n");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find(
+                "the window was closed before this was done: writing the report to floating-box-report"),
+            std::string::npos)
+      << result.err;
+}
+
 // Without a display, so that a window cannot have been opened before the script was read.
 TEST_F(ViewWindow, ScriptIsCheckedBeforeTheWindowOpens) {
   const ProcessResult result = run_script("wait done\nset bios 1\n", false);

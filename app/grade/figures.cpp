@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "compare/comparison.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 
@@ -150,6 +149,21 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) 
     count += *of_light;
   }
   return count;
+}
+
+std::vector<compare::Label> labels_of(const RunResult& result) {
+  std::vector<std::pair<double, compare::Label>> found;
+  for (std::size_t k = 0; k < compare::class_count; ++k) {
+    const auto label = static_cast<compare::Label>(k + 1);
+    for (std::size_t i = 0; i < result.figures.size(); ++i)
+      if (measures()[i].name == compare::label_name(label) && result.figures[i] > 0.0)
+        found.emplace_back(result.figures[i], label);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<compare::Label> labels;
+  for (const auto& [share, label] : found) labels.push_back(label);
+  return labels;
 }
 
 std::vector<std::string> pictures_of(const RunResult& result) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/grade/rubric.h"
+#include "compare/comparison.h"
 #include "scene/expected.h"
 
 namespace gnomon::app::grade {
@@ -39,5 +40,7 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b);
 
 /// raster.png, raytrace.png and the labels' pictures that there are, by file name.
 std::vector<std::string> pictures_of(const RunResult& result);
+/// Of the pixels that are wrong, in any light, the most frequent first.
+std::vector<compare::Label> labels_of(const RunResult& result);
 
 }  // namespace gnomon::app::grade

@@ -101,7 +101,8 @@ std::vector<Picture> load_pictures(const RunResult& result) {
   std::vector<Picture> pictures;
   for (const std::string& name : pictures_of(result))
     if (auto png = read_file(result.folder + "/" + name))
-      pictures.push_back({caption_of(name), std::move(*png)});
+      pictures.push_back({caption_of(name), std::move(*png),
+                          name.starts_with("labels") ? labels_of(result) : std::vector<compare::Label>{}});
   return pictures;
 }
 

@@ -8,13 +8,15 @@
 
 #include "app/grade/rubric.h"
 #include "app/grade/student.h"
+#include "compare/comparison.h"
 #include "scene/expected.h"
 
 namespace gnomon::app::grade {
 
 struct Picture {
   std::string caption;
-  std::string png;  ///< bytes
+  std::string png;                     ///< bytes
+  std::vector<compare::Label> labels;  ///< whose colours it shows
 };
 
 struct CheckResult {

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "compare/outputs.h"
+#include "compare/report/explanations.h"
 #include "compare/report/html.h"
 #include "scene/files/write_file.h"
 
@@ -24,13 +26,24 @@ std::string page(const std::string& title, const std::string& body) {
       escaped(title), embedded::grade_page("page.css"), body);
 }
 
+// "[A] acne, [D] peter-panning"
+std::string key_html(const std::vector<compare::Label>& labels) {
+  std::string html;
+  for (const compare::Label label : labels) {
+    const compare::LabelText& text = compare::label_text(label);
+    html += fmt::format("{}<span class=\"key\">{} {}</span>", html.empty() ? ": " : ", ",
+                        compare::swatch(compare::label_colour(label), text.letter), text.name);
+  }
+  return html;
+}
+
 std::string figures_html(const CheckResult& result) {
   if (result.pictures.empty()) return {};
   std::string html = "<div class=\"pictures\">\n";
   for (const Picture& picture : result.pictures)
-    html += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+    html += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}{}</figcaption></figure>\n",
                         compare::data_uri("image/png", picture.png), escaped(picture.caption),
-                        escaped(picture.caption));
+                        escaped(picture.caption), key_html(picture.labels));
   return html + "</div>\n";
 }
 

@@ -163,6 +163,8 @@ Expected<void> Viewer::run() {
     meter_.shown(*shown_);
     sleep();
   }
+  if (job_ && !job_->ended())
+    console_.note("the window was closed before this was done: " + job_->status().title);
   if (has_script()) console_.message(meter_.words());
   return {};
 }

@@ -1,6 +1,7 @@
 // What the viewer leaves behind: screenshots, pictures, the command line, a scene file, a report; and the runs of
 // this program beside the window.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <filesystem>
@@ -175,21 +176,21 @@ void Viewer::use_answer(const Job& job) {
   const auto answer = nlohmann::json::parse(job.out(), nullptr, false);
   if (!answer.is_object() || !answer.contains("options")) return note("the tuner gave no answer");
   raster::MapOptions map;
-  std::string words;
+  std::vector<std::string> words;
   bool biased = false, slope = false;
   for (const auto& [name, value] : answer["options"].items()) {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (!is_map_option(name)) continue;
     if (const auto set = set_map_option(map, name, text); !set) return note(set.error());
-    words += fmt::format(" --{} {}", name, text);
+    words.push_back(fmt::format("--{} {}", name, text));
     if (name == "slope-bias") slope = true;
     biased = biased || is_bias_option(name);
   }
   if (!slope) map.bias.slope = biased ? 0.0 : raster::default_bias(map).slope;
   app::carry_out(state_, SetMap{map});
-  note(fmt::format("{}:{}",
-                   answer.value("feasible", true) ? "best for this scene" : "nothing is good enough; nearest",
-                   words));
+  // "--technique lispsm --map-size 128: the cheapest that is good enough: 0.69 % wrong, ..."
+  note(fmt::format("{}{}: {}", answer.value("feasible", true) ? "" : "nothing is good enough; ",
+                   fmt::join(words, " "), answer.value("why", "")));
 }
 
 }  // namespace gnomon::app

@@ -48,6 +48,17 @@ std::vector<Point> front_of(std::vector<Point> points) {
   return front;
 }
 
+// The answer first, whose label finds its place before all others. It may be none of the front's: where times differ by
+// their noise alone, others decide.
+std::vector<Point> named_of(const std::vector<Point>& points, const std::vector<Point>& front) {
+  std::vector<Point> named;
+  for (const Point& p : points)
+    if (p.answer) named.push_back(p);
+  for (const Point& p : front)
+    if (!p.answer) named.push_back(p);
+  return named;
+}
+
 LogPlot plot_of(const std::vector<Point>& points, const TuneGoal& goal) {
   double low = points.front().time_ms, high = low, most = 0.0;
   std::vector<double> shares;
@@ -100,15 +111,21 @@ std::string tune_cost_chart(const TuneGoal& goal, const TuneResult& result) {
                     goal_line(plot, goal);
   std::string line;
   ChartLabels labels;
-  for (const Point& p : front) {
-    const double x = plot.x(p.time_ms), y = plot.y(p.error);
-    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", x, y);
-    labels.keep_free(x - 8, y - 8, x + 8, y + 8);
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const Point& p = front[i];
+    const Point& next = front[std::min(i + 1, front.size() - 1)];
+    fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", plot.x(p.time_ms), plot.y(p.error));
+    labels.keep_line_free(plot.x(p.time_ms), plot.y(p.error), plot.x(next.time_ms), plot.y(next.error));
+  }
+  const std::vector<Point> named = named_of(points, front);
+  for (const Point& p : named) {
+    const double x = plot.x(p.time_ms), y = plot.y(p.error), reach = p.answer ? 11 : 8;
+    labels.keep_free(x - reach, y - reach, x + reach, y + reach);
   }
   out += fmt::format(R"(<polyline class="curve front" points="{}"/>)", line);
   for (const Point& p : points) out += dot(plot, p, goal.measure(), false);
-  for (const Point& p : front) out += dot(plot, p, goal.measure(), true);
-  for (const Point& p : front)
+  for (const Point& p : named) out += dot(plot, p, goal.measure(), true);
+  for (const Point& p : named)
     out += labels.place(plot.x(p.time_ms), plot.y(p.error),
                         fmt::format("{} {}", technique_name(p.family->family.map.technique), p.size));
   return chart_svg("Error against time, each map tried a point, the best of them joined", out);
