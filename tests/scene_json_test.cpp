@@ -309,6 +309,19 @@ TEST(JsonScene, EmissionThatLightsNothingIsSaid) {
             std::string::npos);
 }
 
+TEST(JsonScene, LightsWithoutIntensityAreSaid) {
+  const auto scene = load_json_scene(
+      R"({"schema": "gnomon/scene/1", "camera": {"eye": [0, 0, 9], "target": [0, 0, 0]},
+      "materials": [{"name": "grey"}],
+      "shapes": [{"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 1}, "material": "grey"}], "lights": [
+      {"name": "off", "type": "point", "position": [0, 4, 0], "intensity": [0, 0, 0]},
+      {"name": "red", "type": "point", "position": [0, 4, 0], "intensity": [1, 0, 0]}]})",
+      "test.json", "", {});
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_EQ(scene->notes.size(), 1u);
+  EXPECT_EQ(scene->notes[0], "A light has no intensity: shadows are compared that no picture shows (off).");
+}
+
 TEST(JsonScene, NamedCameras) {
   const auto through = [](const std::string& cameras, const std::string& camera) {
     const std::string text =

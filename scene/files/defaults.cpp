@@ -239,6 +239,16 @@ void note_emission(Scene& scene) {
                                     names.size() > 1 ? "s" : "", some_names(names)));
 }
 
+/// Shadows of such a light darken nothing, and are compared all the same.
+void note_dark_lights(Scene& scene) {
+  std::vector<std::string> names;
+  for (const Light& light : scene.lights)
+    if (light.intensity == Vec3f(0.0f)) names.push_back(light.name);
+  if (names.empty()) return;
+  scene.notes.push_back(fmt::format("{} no intensity: shadows are compared that no picture shows ({}).",
+                                    names.size() > 1 ? "Lights have" : "A light has", some_names(names)));
+}
+
 /// The scene's bounds; of planes alone something like a room at the first one.
 Aabb bounds_to_frame(const Scene& scene) {
   Aabb bounds = scene_bounds(scene);
@@ -273,6 +283,7 @@ Scene add_defaults(LoadedFile loaded) {
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);
   note_emission(scene);
+  note_dark_lights(scene);
   return std::move(scene);
 }
 
