@@ -3,6 +3,7 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/view/map_rows.h"
@@ -14,15 +15,34 @@ namespace gnomon::app {
 
 namespace {
 
+/// Heights go by the square root of the share: without a bias half of the picture may be wrong, and what a good bias
+/// leaves, some per mille, has to be seen beside it.
 struct Plot {
   ImVec2 low;  ///< its lower left corner
   ImVec2 size;
   double most_bias, most_share;
   ImVec2 at(double bias, double share) const {
     return {low.x + size.x * static_cast<float>(bias / most_bias),
-            low.y - size.y * static_cast<float>(std::min(share / most_share, 1.0))};
+            low.y - size.y * static_cast<float>(std::sqrt(std::min(share / most_share, 1.0)))};
   }
 };
+
+/// Shares of wrong pixels with their numbers at the right, as many as have room.
+void scale(const Plot& plot, const Ink& ink) {
+  constexpr std::array<double, 7> shares{0.5, 0.2, 0.1, 0.05, 0.01, 0.001, 0.0001};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize(), right = plot.low.x + plot.size.x;
+  float last = plot.low.y - plot.size.y;
+  for (const double share : shares) {
+    const float y = plot.at(0.0, share).y;
+    if (share > plot.most_share || y - last < 1.2f * em || plot.low.y - y < 0.8f * em) continue;
+    const std::string text = compare::percent(share);
+    const float left = right - ImGui::CalcTextSize(text.c_str()).x - 0.4f * em;
+    draw.AddLine({plot.low.x, y}, {left - 0.2f * em, y}, ink.grid);
+    draw.AddText({left, y - 0.5f * em}, ink.faint, text.c_str());
+    last = y;
+  }
+}
 
 void line(const Plot& plot, const compare::LightComparison& light, ImU32 ink,
           std::uint64_t (*count)(const compare::BiasCurvePoint&)) {
@@ -82,18 +102,18 @@ void curve_panel(PanelContext& context) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, context.ink.paper);
   draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-  line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
-  line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
+  scale(plot, context.ink);
   line(plot, light, context.ink.text, [](const auto& p) { return p.false_shadow + p.missed_shadow; });
+  line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
+  line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
   mark(plot, light.best_bias.constant_world, context.ink.good, "best", 0.0f);
   mark(plot, context.shown.live.bias_world, context.ink.accent, "now", 1.1f);
   draw.PopClipRect();
   draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, context.ink.grid);
   const double texel = light.bias_texel_world;
-  faint(fmt::format(
-      "From 0 to {:.3g} ({}); at most {} wrong. Orange: false shadow, blue: missed shadow, {}: both.",
-      plot.most_bias, compare::texels_text(texel > 0.0 ? plot.most_bias / texel : 0.0),
-      compare::percent(plot.most_share / 1.05), context.state.look.theme == Theme::dark ? "white" : "black"));
+  faint(fmt::format("Biases from 0 to {:.3g} ({}). Orange: false shadow, blue: missed shadow, {}: both.",
+                    plot.most_bias, compare::texels_text(texel > 0.0 ? plot.most_bias / texel : 0.0),
+                    context.state.look.theme == Theme::dark ? "white" : "black"));
   const compare::BestBias& best = light.best_bias;
   wrapped(fmt::format("The best constant bias is {:.3g} ({}): {} wrong.", best.constant_world,
                       compare::texels_text(texel > 0.0 ? best.constant_world / texel : 0.0),
