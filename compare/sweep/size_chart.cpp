@@ -46,6 +46,7 @@ std::string sampling_slope(const LogPlot& plot, const std::map<std::string, Line
   if (!(start > 0.0)) return {};
   const double end = start * first / last, lowest = std::max(end, plot.min_y);
   const double end_size = start * first / lowest;
+  labels.keep_line_free(plot.x(first), plot.y(start), plot.x(end_size), plot.y(lowest));
   return fmt::format("<line class=\"used\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
                      plot.x(first), plot.y(start), plot.x(end_size), plot.y(lowest)) +
          labels.place(plot.x(std::sqrt(first * end_size)), plot.y(std::sqrt(start * lowest)),
