@@ -117,6 +117,10 @@ async function checkTabs() {
   await tabs.nth(1).click();
   assert.deepEqual(await seen(), ["light-1"]);
   assert.equal(await page.getByRole("tabpanel").getAttribute("id"), "light-1");
+  await page.waitForFunction(() => location.hash.startsWith("#light-1?"));
+  const linked = await openFolder(join(folder, "three"), {}, new URL(page.url()).hash);
+  assert.deepEqual(await linked.locator("main section[id^=light-]:visible").evaluateAll((all) => all.map((e) => e.id)), ["light-1"]);
+  await close(linked);
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("ArrowRight");
   assert.deepEqual(await seen(), ["light-0"]);

@@ -228,6 +228,25 @@ async function checkUrl() {
   await close(outside);
 }
 
+// On the usual projectors the whole ladder is seen, and what is written in the drawings can be read.
+async function checkPresenterOnProjectors() {
+  for (const [w, h] of [[1280, 720], [1024, 768]]) {
+    const page = await open(folderOf(biases[1]), { viewport: { width: w, height: h } }, "#light-0?pixel=100,80");
+    await page.getByRole("button", { name: "Present" }).click();
+    await redrawn(page);
+    for (const rung of await page.locator("dialog.presenter .pixel-ladder tbody tr").all()) {
+      const box = await rung.boundingBox();
+      assert.ok(box.y > 0 && box.y + box.height <= h && box.x + box.width <= w, `${w}: ${await rung.textContent()} at ${JSON.stringify(box)}`);
+    }
+    for (const drawing of ["svg.light-space", "svg.section"]) {
+      const pixels = await page.locator(`dialog.presenter ${drawing}`).evaluate((svg) =>
+        svg.getScreenCTM().a * parseFloat(getComputedStyle(svg.querySelector("text")).fontSize));
+      assert.ok(pixels >= 9, `${w}: ${drawing} is written in ${pixels} pixels`);
+    }
+    await close(page);
+  }
+}
+
 // Whatever the picture's shape, all of it is on the screen at once.
 async function checkStageInWindow() {
   const tall = join(folder, "tall");
@@ -435,6 +454,7 @@ try {
   assert.deepEqual([...new Set(page.requests.filter((url) => !url.startsWith("data:")))].length, 1);
   await close(page);
   await checkPresenter();
+  await checkPresenterOnProjectors();
   await checkGlass();
   await checkUrl();
   await checkStageInWindow();

@@ -82,7 +82,7 @@ export class BiasPanel {
     this.histogram.show(bias);
     this.range.value = String(Math.round(1000 * share));
     this.range.setAttribute("aria-valuetext", `${number(bias)} world units`);
-    if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(bias);
+    if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(Number(bias.toPrecision(6)));
     const counts = recolour(this.light, bias, this.backdrop, new Uint32Array(this.image.data.buffer));
     this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
     const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;

@@ -52,7 +52,7 @@ export async function startComparison(): Promise<void> {
   // For the browser's console, and for tests: a light's numbers, unpacked.
   globalThis.gnomon = { light: Light.load };
   const sections = Array.from({ length: page.lights }, (_, i) => document.getElementById(`light-${i}`)!);
-  if (page.lights > 1) tabs = new LightTabs(sections);
+  if (page.lights > 1) tabs = new LightTabs(sections, (index) => void panel(index).then((of) => of?.save()));
   for (let i = 0; i < page.lights; ++i)
     if (isBeside && i > 0) loadWhenNear(i);
     else await panel(i);

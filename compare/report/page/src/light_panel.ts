@@ -69,6 +69,9 @@ export class LightPanel {
     this.update();
   }
 
+  /** Writes what is looked at into the URL. */
+  save(): void { saveLight(this.index, this.state); }
+
   private choose(label: string | null): void {
     this.state.label = label;
     if (label !== null) this.state.right = "labels";

@@ -4,11 +4,11 @@ import { html } from "./svg";
 export class LightTabs {
   private readonly buttons: HTMLButtonElement[];
 
-  constructor(private readonly sections: HTMLElement[]) {
+  constructor(private readonly sections: HTMLElement[], private readonly chosen: (index: number) => void) {
     this.buttons = sections.map((section, i) => {
       const name = section.querySelector("h2")!.textContent!.replace(/^Light: /, "");
       const button = html("button", { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": section.id }, name);
-      button.addEventListener("click", () => this.show(i));
+      button.addEventListener("click", () => this.choose(i));
       button.addEventListener("keydown", (event) => this.key(event, i));
       section.setAttribute("role", "tabpanel");
       section.setAttribute("aria-labelledby", button.id);
@@ -26,12 +26,17 @@ export class LightTabs {
     });
   }
 
+  private choose(index: number): void {
+    this.show(index);
+    this.chosen(index);
+  }
+
   private key(event: KeyboardEvent, at: number): void {
     const last = this.buttons.length - 1;
     const next = { ArrowRight: at === last ? 0 : at + 1, ArrowLeft: at === 0 ? last : at - 1, Home: 0, End: last }[event.key];
     if (next === undefined) return;
     event.preventDefault();
-    this.show(next);
+    this.choose(next);
     this.buttons[next]!.focus();
   }
 }

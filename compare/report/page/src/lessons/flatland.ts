@@ -23,7 +23,8 @@ export const sub = (a: Vec2, b: Vec2): Vec2 => [a[0] - b[0], a[1] - b[1]];
 export const dot = (a: Vec2, b: Vec2): number => a[0] * b[0] + a[1] * b[1];
 export const cross = (a: Vec2, b: Vec2): number => a[0] * b[1] - a[1] * b[0];
 export const length = (a: Vec2): number => Math.hypot(a[0], a[1]);
-export const unit = (a: Vec2): Vec2 => [a[0] / length(a), a[1] / length(a)];
+/** To the right where `a` has no length: both ends of a ray may be dragged to one place. */
+export const unit = (a: Vec2): Vec2 => (length(a) > 0 ? [a[0] / length(a), a[1] / length(a)] : [1, 0]);
 
 /** Where a ray meets a segment; infinity where it does not. */
 export function meetSegment(origin: Vec2, direction: Vec2, { from, to }: Segment): number {

@@ -1,7 +1,7 @@
 // Watch a ray visit the cells of a structure: the program's own one of a whole scene, in the plane that cuts it.
 import { grouped, html, number } from "../svg";
 import { pageData } from "../parts";
-import type { Vec2 } from "./flatland";
+import { add, length, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
@@ -49,9 +49,9 @@ export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
     stage.look(shown = view(2 ** sliders.value("zoom")));
     const point = (key: string): Vec2 => [shown[0] + sliders.value(`${key}X`) * (shown[1] - shown[0]), shown[2] + sliders.value(`${key}Y`) * (shown[3] - shown[2])];
     ends = [point("from"), point("to")];
-    const [from, to] = ends, walk = walkRay(json, segments, from, to), size = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const [from, to] = ends, way = unit(sub(to, from)), walk = walkRay(json, segments, from, length(sub(to, from)) > 0 ? to : add(from, way));
     const seen = Math.round(sliders.value("step") * walk.visits.length), visits = walk.visits.slice(0, seen), last = visits.at(-1), all = seen === walk.visits.length;
-    const reach = Math.min(isFinite(walk.t) && all ? walk.t : Infinity, 10 * width), stop: Vec2 = [from[0] + ((to[0] - from[0]) / size) * reach, from[1] + ((to[1] - from[1]) / size) * reach];
+    const reach = Math.min(isFinite(walk.t) && all ? walk.t : Infinity, 10 * width), stop = add(from, way, reach);
     const closed = (outline: Vec2[]) => [...outline, ...outline.slice(0, 1)];
     stage.put(stage.path("cells", cells.map((cell) => (json.kind === "grid" ? cell : closed(cell)))), ...visits.map((visit) => stage.path(`visited${visit.tested > 0 ? " tests" : ""}${visit === last ? " last" : ""}`, [closed(visit.outline)])),
       stage.path("profile thin", lines), stage.path("ray", [[from, stop]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(isFinite(walk.t) && all ? [stage.circle("hit", stop, 8)] : []));
