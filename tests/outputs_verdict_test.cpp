@@ -211,6 +211,17 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
       << nothing.verdict();
 }
 
+// Of many biases the best one mends two pixels of nine by chance.
+TEST(Verdict, AdvisesNothingThatChanceExplains) {
+  Case few(43000, {0, 0, 0, 0, 9, 0, 0, 0, 0, 0});
+  few.light.best_bias = {0.57, 7.0 / 43000.0, false, 0.6, 1e-9, 7, 2};
+  EXPECT_EQ(few.verdict().find("A constant bias of"), std::string::npos) << few.verdict();
+  EXPECT_NE(few.verdict().find("No other constant bias does clearly better."), std::string::npos)
+      << few.verdict();
+  few.light.best_bias.wrong_fraction = 1.0 / 43000.0;
+  EXPECT_NE(few.verdict().find("A constant bias of"), std::string::npos) << few.verdict();
+}
+
 TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
   Case grey(5000, {});
   grey.light.error.fractional = 4000;
