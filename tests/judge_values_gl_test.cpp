@@ -68,7 +68,9 @@ void enlarge(const std::string& file, int block) {
     for (Channel& channel : image.channels)
       for (int y = 0; y < image.size.height; ++y)
         for (int x = 0; x < image.size.width; ++x) {
-          const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * image.size.width + i); };
+          const auto at = [w = std::size_t(image.size.width)](int i, int j) {
+            return std::size_t(j) * w + std::size_t(i);
+          };
           channel.values[at(x, y)] = channel.values[at(x - x % block, y - y % block)];
         }
   });

@@ -75,7 +75,8 @@ std::string edge_facts(const LightBlock& b) {
               fmt::format("root mean square over {} on true edges; {} pixels on the screen",
                           keyed_things(b.key("edges.count"), e.edges, "pixel"),
                           fact_value(b, "edges.rms_pixels", e.rms_pixels))) +
-         fact("Edge offset", fact_value(b, "edges.mean_texels", e.mean_texels) + " texels",
+         fact("Edge offset",
+              keyed(b.key("edges.mean_texels"), e.mean_texels, signed_number(e.mean_texels)) + " texels",
               fmt::format("on average the drawn shadow is {} than the true one",
                           e.mean_texels >= 0.0 ? "larger" : "smaller"));
 }
