@@ -125,16 +125,24 @@ const said = (page, id) => page.locator(`${id} [role=status]`).evaluate(({ datas
 const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
-/** With every slider at one end all points of a figure may be the same. What the browser cannot draw is an offence of the page. */
+/** With every slider at one end all points of a figure may be the same, and lie on its border. What the browser cannot draw is an
+    offence of the page; what is written stays in the drawing. */
 async function checkSliderEnds(page) {
-  for (const end of ["min", "max"])
-    await page.evaluate((limit) => {
+  for (const end of ["min", "max"]) {
+    const outside = await page.evaluate((limit) => {
       for (const input of document.querySelectorAll("[data-slider]")) {
         input.value = input[limit];
         input.dispatchEvent(new Event("input", { bubbles: true }));
       }
-      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      const isOutside = (text) => {
+        const { x, y, width, height } = text.getBBox(), all = text.ownerSVGElement.viewBox.baseVal;
+        return x < -2 || y < -2 || x + width > all.width + 2 || y + height > all.height + 2;
+      };
+      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
+        done([...document.querySelectorAll("svg.flatland text")].filter(isOutside).map((text) => text.textContent)))));
     }, end);
+    assert.deepEqual(outside, [], `${page.url()} with every slider at its ${end}`);
+  }
 }
 
 /** The flatlands against closed forms worked out here, from the scenes' own numbers. */

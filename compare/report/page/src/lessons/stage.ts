@@ -4,6 +4,9 @@ import { html, svg } from "../svg";
 import type { Vec2 } from "./flatland";
 
 const width = 960;  // of the drawing, in its own units
+const letter = 17;  // the height of its text, as in lessons.css
+
+const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
 
 export class Stage {
   readonly drawing: SVGSVGElement;
@@ -46,8 +49,10 @@ export class Stage {
   circle(kind: string, at: Vec2, radius: number): SVGElement {
     return svg("circle", { class: kind, cx: this.x(at), cy: this.y(at), r: radius });
   }
+  /** Wherever `at` is dragged to, the words stay within the drawing. */
   label(kind: string, at: Vec2, words: string, dy = 0): SVGElement {
-    return svg("text", { class: kind, x: this.x(at), y: this.y(at) + dy }, words);
+    const half = 0.36 * letter * words.length, height = Math.round((this.window[3] - this.window[2]) * this.scale);
+    return svg("text", { class: kind, x: clamp(this.x(at), half, width - half), y: clamp(this.y(at) + dy, letter, height - 0.3 * letter) }, words);
   }
   put(...elements: SVGElement[]): void {
     this.drawing.replaceChildren(...elements);
