@@ -126,23 +126,33 @@ const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - want
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
 /** With every slider at one end all points of a figure may be the same, and lie on its border. What the browser cannot draw is an
-    offence of the page; what is written stays in the drawing. */
+    offence of the page; what is written stays in the drawing, and nothing is written over anything else. On a phone letters are larger. */
 async function checkSliderEnds(page) {
-  for (const end of ["min", "max"]) {
-    const outside = await page.evaluate((limit) => {
+  for (const [size, end] of [[1440, "min"], [1440, "max"], [390, "max"], [390, "min"]]) {
+    await page.setViewportSize({ width: size, height: 844 });
+    const [outside, over] = await page.evaluate((limit) => {
       for (const input of document.querySelectorAll("[data-slider]")) {
         input.value = input[limit];
         input.dispatchEvent(new Event("input", { bubbles: true }));
       }
       const isOutside = (text) => {
-        const { x, y, width, height } = text.getBBox(), all = text.ownerSVGElement.viewBox.baseVal;
-        return x < -2 || y < -2 || x + width > all.width + 2 || y + height > all.height + 2;
+        const at = text.getBoundingClientRect(), all = text.ownerSVGElement.getBoundingClientRect();
+        return at.left < all.left - 2 || at.top < all.top - 2 || at.right > all.right + 2 || at.bottom > all.bottom + 2;
       };
-      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
-        done([...document.querySelectorAll("svg.flatland text")].filter(isOutside).map((text) => text.textContent)))));
+      const meets = (one, other) => {
+        const a = one.getBoundingClientRect(), b = other.getBoundingClientRect();
+        return a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+      };
+      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const drawings = [...document.querySelectorAll("svg.flatland")].map((drawing) => [...drawing.querySelectorAll("text")]);
+        done([drawings.flat().filter(isOutside).map((text) => text.textContent),
+          drawings.flatMap((texts) => texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => meets(a, b)).map((b) => `${a.textContent}, ${b.textContent}`)))]);
+      }))));
     }, end);
-    assert.deepEqual(outside, [], `${page.url()} with every slider at its ${end}`);
+    assert.deepEqual(outside, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
+    assert.deepEqual(over, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
   }
+  await page.setViewportSize({ width: 1440, height: 900 });
 }
 
 /** The flatlands against closed forms worked out here, from the scenes' own numbers. */

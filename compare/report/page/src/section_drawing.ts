@@ -4,10 +4,10 @@
 import type { Geometry, Light, Pixel } from "./data";
 import { alongRay, halfSlopes, texelWidth } from "./light_view";
 import { sceneCut, type Curve } from "./scene_cut";
-import { counted, grouped, html, niceTicks, number, svg } from "./svg";
+import { counted, grouped, html, niceTicks, number, svg, tickTexts } from "./svg";
 import { otherParts } from "./words";
 
-const width = 1160, height = 420, left = 62, right = 12, top = 34, bottom = 46;
+const width = 1160, height = 420, left = 72, right = 12, top = 34, bottom = 46;
 
 type Outcome = "lit" | "dark" | "false" | "missed";
 const outcomes: Record<Outcome, string> = {
@@ -167,9 +167,9 @@ function marks(dots: Dot[], frame: Frame): SVGElement[] {
 
 function axes(frame: Frame, line: string): SVGElement {
   const group = svg("g");
-  for (const depth of niceTicks(frame.low, frame.high, 5))
-    group.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: frame.y(depth), y2: frame.y(depth) }),
-      svg("text", { class: "end", x: left - 6, y: frame.y(depth) + 4 }, number(depth)));
+  const depths = niceTicks(frame.low, frame.high, 5), texts = tickTexts(depths);
+  depths.forEach((depth, i) => group.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: frame.y(depth), y2: frame.y(depth) }),
+    svg("text", { class: "end", x: left - 6, y: frame.y(depth) + 4, ...(texts[i]!.length > 7 ? { textLength: left - 8, lengthAdjust: "spacingAndGlyphs" } : {}) }, texts[i]!)));
   for (const t of niceTicks(frame.from, frame.to, 8))
     if (Number.isInteger(t)) group.append(svg("text", { class: "middle", x: frame.x(t), y: height - bottom + 17 }, number(t)));
   group.append(svg("text", { class: "middle", x: (left + width - right) / 2, y: height - 8 }, `texels of the map, ${line}`),

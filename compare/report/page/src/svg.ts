@@ -37,6 +37,16 @@ export function percent(share: number): string {
   return `${number(100 * share, 2)} %`;
 }
 
+/** Beside ticks: as many digits as tell them apart, and a power of ten where that is shorter. */
+export function tickTexts(ticks: number[]): string[] {
+  const largest = Math.max(...ticks.map(Math.abs)), step = ticks.length > 1 ? ticks[1]! - ticks[0]! : largest;
+  const digits = Math.min(Math.max(4, Math.ceil(Math.log10(largest / step)) + 1), 15);
+  return ticks.map((tick) => {
+    const long = number(tick, digits), short = Number(tick.toPrecision(digits)).toExponential().replace("e+", "e").replaceAll("-", "−");
+    return long.length > 6 && short.length < long.length ? short : long;
+  });
+}
+
 /** Ticks at 1, 2 or 5 times a power of ten inside [min, max], about `wanted` of them. */
 export function niceTicks(min: number, max: number, wanted: number): number[] {
   if (!(max > min)) return [];

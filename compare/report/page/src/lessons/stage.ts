@@ -4,7 +4,6 @@ import { html, svg } from "../svg";
 import type { Vec2 } from "./flatland";
 
 const width = 960;  // of the drawing, in its own units
-const letter = 17;  // the height of its text, as in lessons.css
 
 const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
 
@@ -17,6 +16,8 @@ export class Stage {
     this.drawing = svg("svg", { class: "flatland", role: "img", "aria-label": name }) as SVGSVGElement;
     this.look(window);
     this.listen(dragged);
+    // A narrow window has larger letters, and what is not shown yet has no letters to measure.
+    new ResizeObserver(() => this.arrangeLabels()).observe(this.drawing);
   }
 
   /** At another part of the plane from now on. */
@@ -49,13 +50,26 @@ export class Stage {
   circle(kind: string, at: Vec2, radius: number): SVGElement {
     return svg("circle", { class: kind, cx: this.x(at), cy: this.y(at), r: radius });
   }
-  /** Wherever `at` is dragged to, the words stay within the drawing. */
   label(kind: string, at: Vec2, words: string, dy = 0): SVGElement {
-    const half = 0.36 * letter * words.length, height = Math.round((this.window[3] - this.window[2]) * this.scale);
-    return svg("text", { class: kind, x: clamp(this.x(at), half, width - half), y: clamp(this.y(at) + dy, letter, height - 0.3 * letter) }, words);
+    return svg("text", { class: kind, x: this.x(at), y: this.y(at) + dy }, words);
   }
   put(...elements: SVGElement[]): void {
     this.drawing.replaceChildren(...elements);
+    this.arrangeLabels();
+  }
+
+  /** Moves labels into the drawing, and up or down off those before them, by as little as it takes. */
+  private arrangeLabels(): void {
+    const placed: DOMRect[] = [], height = Math.round((this.window[3] - this.window[2]) * this.scale);
+    for (const label of this.drawing.querySelectorAll("text")) {
+      const box = label.getBBox(), x = clamp(box.x, 0, width - box.width);
+      const fits = (y: number) => placed.every((p) => x + box.width <= p.x || p.right <= x || y + box.height <= p.y || p.bottom <= y);
+      const inside = (y: number) => clamp(y, 0, height - box.height), home = inside(box.y);
+      const places = [home, ...placed.flatMap((p) => [inside(p.y - box.height), inside(p.bottom)])].filter(fits);
+      const y = places.sort((a, b) => Math.abs(a - home) - Math.abs(b - home))[0] ?? home;
+      label.setAttribute("transform", `translate(${x - box.x} ${y - box.y})`);
+      placed.push(new DOMRect(x, y, box.width, box.height));
+    }
   }
 }
 
