@@ -15,7 +15,7 @@
 namespace gnomon::raster {
 
 struct ContextInfo {
-  std::string backend;   ///< "osmesa" or "egl" ("window" in the viewer)
+  std::string backend;   ///< "osmesa", "egl-software", "egl-hardware"; "window" in the viewer
   std::string version;   ///< GL_VERSION
   std::string renderer;  ///< GL_RENDERER
   int max_map_size = 0;  ///< texels
@@ -25,7 +25,8 @@ struct ContextInfo {
 struct ShadowMap {
   LightView view;
   DepthFormat format = DepthFormat::d32f;
-  std::vector<float> depth;  ///< stored value in [0, 1]; exactly 1 where nothing was drawn; faces*size*size
+  std::vector<float>
+      depth;  ///< stored value in [0, 1]; 1 where nothing was drawn (0 where depths are reversed); faces*size*size
   std::vector<std::uint32_t> primitive;  ///< the primitive drawn there, no_id where nothing was
   std::size_t texel_index(int face, int column, int row) const {
     const auto n = static_cast<std::size_t>(view.size);

@@ -90,22 +90,33 @@ void Texture2D::bind(int unit) const {
 }
 
 void Texture2D::read(GLenum components, GLenum type, std::span<std::byte> out) const {
-  gl()->PixelStorei(GL_PACK_ALIGNMENT, 1);
-  // GetTextureSubImage takes a 32-bit size for the whole; layer by layer even the largest map fits.
-  const int count = std::max(layers_, 1);
-  const std::size_t bytes = out.size() / static_cast<std::size_t>(count);
-  for (int layer = 0; layer < count; ++layer) {
-    std::byte* to = out.data() + static_cast<std::size_t>(layer) * bytes;
-    gl()->GetTextureSubImage(id(), 0, 0, 0, layer, size_.width, size_.height, 1, components, type,
-                             static_cast<GLsizei>(bytes), to);
-  }
+  const std::size_t count = static_cast<std::size_t>(std::max(layers_, 1)), bytes = out.size() / count;
+  for (std::size_t layer = 0; layer < count; ++layer)
+    read_layer(static_cast<int>(layer), {0, size_.height}, components, type,
+               out.subspan(layer * bytes, bytes));
 }
 
 void Texture2D::read_rows(const PictureRows& rows, GLenum components, GLenum type,
                           std::span<std::byte> out) const {
+  read_layer(0, rows, components, type, out);
+}
+
+void Texture2D::read_layer(int layer, const PictureRows& rows, GLenum components, GLenum type,
+                           std::span<std::byte> out) const {
+  constexpr std::size_t most_bytes = std::size_t{1}
+                                     << 30;  // the size that OpenGL is told has 32 bits and a sign
+  if (rows.count <= 0) return;
   gl()->PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl()->GetTextureSubImage(id(), 0, 0, rows.first, 0, size_.width, rows.count, 1, components, type,
-                           static_cast<GLsizei>(out.size()), out.data());
+  const std::size_t row_bytes = out.size() / static_cast<std::size_t>(rows.count);
+  const int at_once = static_cast<int>(std::clamp<std::size_t>(
+      most_bytes / std::max<std::size_t>(row_bytes, 1), 1, static_cast<std::size_t>(rows.count)));
+  for (int row = 0; row < rows.count; row += at_once) {
+    const int count = std::min(at_once, rows.count - row);
+    const auto part =
+        out.subspan(static_cast<std::size_t>(row) * row_bytes, static_cast<std::size_t>(count) * row_bytes);
+    gl()->GetTextureSubImage(id(), 0, 0, rows.first + row, layer, size_.width, count, 1, components, type,
+                             static_cast<GLsizei>(part.size()), part.data());
+  }
 }
 
 void Texture2D::write(GLenum components, GLenum type, std::span<const std::byte> texels) {

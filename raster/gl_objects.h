@@ -66,8 +66,11 @@ class Buffer : public GlObject<GlKind::buffer> {
   template <class T, class Put>
   void fill(std::size_t count, const Put& put) {
     reserve(count * sizeof(T));
-    if (count == 0) return;
-    put(std::span<T>(static_cast<T*>(map()), count));
+    void* at = count > 0
+                   ? map()
+                   : nullptr;  // none where memory was short: the caller's next look at GL's errors says so
+    if (at == nullptr) return;
+    put(std::span<T>(static_cast<T*>(at), count));
     unmap();
   }
   std::size_t size() const { return size_; }
@@ -110,6 +113,9 @@ class Texture2D : public GlObject<GlKind::texture> {
   void write(GLenum components, GLenum type, std::span<const std::byte> texels);
 
  private:
+  void read_layer(int layer, const PictureRows& rows, GLenum components, GLenum type,
+                  std::span<std::byte> out) const;
+
   ImageSize size_;
   int layers_ = 0, levels_ = 1;
   GLenum format_ = 0;

@@ -195,6 +195,7 @@ void GlRenderer::restore_state() const {
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_BLEND);
   gl->DepthFunc(GL_LESS);
+  gl->FrontFace(GL_CCW);
 }
 
 void set_map_camera(Renderer& renderer, const std::optional<MapCamera>& camera) {

@@ -30,7 +30,7 @@ MaterialData material_data(const Material& m) {
   const float local = std::max(0.0f, 1.0f - m.mirror - m.transmission);  // as in raytrace/shading/shade.h
   MaterialData out{};
   out.diffuse_and_alpha = Vec4f(local * m.diffuse, m.alpha);
-  out.specular_and_shininess = Vec4f(local * m.specular, m.shininess);
+  out.specular_and_shininess = Vec4f(m.unlit ? Vec3f(0.0f) : local * m.specular, m.shininess);
   out.emission_and_matte = Vec4f(m.emission, (1.0f - local) * matte_grey);
   out.uv_matrix = uv_matrix(m.texture_transform);
   out.uv_offset_and_cutoff = Vec4f(Vec2f(m.texture_transform.offset),
@@ -149,7 +149,7 @@ double near_distance(const World& world, const Vec3& eye) {
     if (const auto* plane = std::get_if<Plane>(&shape.geometry))
       reach = std::max(reach, std::abs(glm::dot(plane->normal, plane->point - eye)));
   }
-  return reach > 0.0 ? 1e-4 * reach : 1.0;
+  return reach > 0.0 ? 1e-7 * reach : 1.0;
 }
 
 WorldBuffers::WorldBuffers(const Gl& gl, const World& world)

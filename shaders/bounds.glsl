@@ -1,6 +1,6 @@
 // Interval arithmetic in floats, rounded outwards by more than any driver's rounding: numbers between two ends, together
 // with bounds on their change along a ray (Mitchell 1990). And the same functions of a value with its gradient. Twin of
-// raytrace/bounds.h; the functions that drivers are free to round coarsely are worked out here (Moshier's Cephes
+// raytrace/precision/bounds.h; the functions that drivers are free to round coarsely are worked out here (Moshier's Cephes
 // library: within 2e-7 of the true ones).
 
 struct Slope {
@@ -12,6 +12,7 @@ bool ambiguous;   // somewhere in the arguments there was no value, or a jump
 bool nothing;  // there was no value at all
 
 const float huge = 3e38;
+const float no_value = uintBitsToFloat(0x7fc00000u);  // NaN: of a logarithm below 0, as on the processor
 const float outward_share = 4.8e-7;  // four units in the last place
 
 vec2 outward(vec2 b) { return b + vec2(-1.0, 1.0) * (abs(b) * outward_share + 1e-37); }
@@ -93,6 +94,7 @@ float f_cos(float x) {
   return quadrant == 1 || quadrant == 2 ? -wave : wave;
 }
 float f_exp(float x) {
+  if (isnan(x)) return x;
   if (!(x < 88.0)) return huge;
   if (x < -87.0) return 0.0;
   float n = floor(x * 1.44269504 + 0.5);
@@ -102,6 +104,7 @@ float f_exp(float x) {
   return ldexp(1.0 + r + r * r * p, int(n));
 }
 float f_log(float x) {
+  if (!(x > 0.0)) return x == 0.0 ? -huge : no_value;
   int n;
   float m = frexp(x, n);
   if (m < 0.707106781) {

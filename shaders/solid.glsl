@@ -1,5 +1,5 @@
 // Rays against solids in their own frames: quadrics in closed form, tori and implicit surfaces by interval arithmetic, so
-// that no root is skipped. Twin of raytrace/solid.h and along_ray.h. Accuracy: floats relative to the solid's own size, so
+// that no root is skipped. Twin of raytrace/shapes/solid.h and along_ray.h. Accuracy: floats relative to the solid's own size, so
 // about 1e-7 of it across the surface; near a silhouette, where a ray grazes, the root of that along the ray. Compilers
 // copy a function to each place that calls it: the long ones are called from one place each.
 #include "solid_surface.glsl"

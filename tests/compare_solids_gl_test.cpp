@@ -184,6 +184,61 @@ TEST(SolidImpostors, CullingChoosesTheSide) {
     }
 }
 
+// Below x = 0 the function has no value, as on the processor, so that the solid ends there: neither the picture nor the
+// map has a cap on the box's face.
+TEST(SolidImpostors, HaveNothingWhereTheirFunctionHasNoValue) {
+  raster::RasterOptions options = small_options(48);
+  options.size = {72, 48};
+  const Aabb box{Vec3(-0.9), Vec3(0.9)};
+  for (const char* function :
+       {"pow(2*x, 1.5) + 4*y*y + 4*z*z - 1", "log(4*x) + 4*y*y + 4*z*z - 1", "-exp(log(2*x)) + 0.4"}) {
+    Scene scene = with_floor(implicit(function, function, box, true), all_lights()[1]);
+    scene.camera.eye = Vec3(-3.0, 2.0, 3.0);
+    const Drawn drawn = draw(std::move(scene), options);
+    ASSERT_NE(drawn.renderer, nullptr);
+    const Tracer tracer(*drawn.world, Accel::bvh);
+    expect_right(check_camera(drawn, tracer), std::string(function) + " seen");
+    expect_right(check_map(drawn, tracer), std::string(function) + " lit");
+  }
+}
+
+// The nearer of two sheets a hand's breadth from the eye, in a world of five kilometres, drawn second.
+TEST(CameraDepth, TellsSurfacesNearTheEyeApart) {
+  Scene scene;
+  scene.materials.resize(1);
+  const Vec3 eye(0.0, 0.0, 5000.0);
+  for (const double z : {4999.8, 4999.9}) {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, z}, {1, -1, z}, {0, 1, z}};
+    mesh.triangles = {{0, 1, 2}};
+    scene.instances.push_back({"sheet", static_cast<std::uint32_t>(scene.meshes.size()), Mat4(1.0), 0});
+    scene.meshes.push_back(std::move(mesh));
+  }
+  scene.shapes = {{"far", Sphere{Vec3(0.0), 10.0}, 0}};
+  scene.camera.eye = eye, scene.camera.target = Vec3(0.0);
+  scene.lights = {sun(Vec3(0.0, -1.0, -0.5))};
+  raster::RasterOptions options = small_options(16);
+  options.size = {16, 12};
+  const Drawn drawn = draw(std::move(scene), options);
+  ASSERT_NE(drawn.renderer, nullptr);
+  EXPECT_EQ(drawn.frame.primitive.at(8, 6), 1u);
+}
+
+// No light changes what an unlit material shows, its highlight least of all.
+TEST(Unlit, HasNoHighlight) {
+  Scene scene = with_floor({"ball", Sphere{Vec3(0.0), 0.9}, 0}, all_lights()[1]);
+  scene.materials[0].diffuse = Vec3f(0.25f), scene.materials[0].specular = Vec3f(0.5f);
+  scene.materials[0].unlit = true;
+  raster::RasterOptions options = small_options(16);
+  options.size = {36, 24};
+  const Drawn drawn = draw(std::move(scene), options);
+  ASSERT_NE(drawn.renderer, nullptr);
+  for (std::size_t i = 0; i < drawn.frame.primitive.data.size(); ++i) {
+    if (drawn.frame.primitive.data[i] == no_id) continue;
+    ASSERT_EQ(drawn.frame.color.data[i], Vec3f(0.25f));
+  }
+}
+
 TEST(SolidImpostors, TheShapesSceneDiffersAtEdgesAlone) {
   auto scene = load_scene("shapes");
   ASSERT_TRUE(scene) << scene.error().message();

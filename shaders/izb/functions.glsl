@@ -30,6 +30,7 @@ dvec2 d_wave(double x) {
 }
 
 double d_exponential(double x) {
+  if (isnan(x)) return x;
   if (!(x < 709.0LF)) return 1e300LF * 1e300LF;
   if (x < -708.0LF) return 0.0LF;
   double n = floor(1.4426950408889634073599LF * x + 0.5LF);
@@ -41,6 +42,7 @@ double d_exponential(double x) {
 }
 
 double d_logarithm(double x) {
+  if (!(x > 0.0LF)) return x == 0.0LF ? -1e300LF * 1e300LF : double(no_value);
   int n;
   double m = frexp(x, n);
   if (m < 0.70710678118654752440LF) {

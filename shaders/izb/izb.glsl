@@ -1,8 +1,8 @@
 // The irregular z-buffer (Johnson et al. 2005, "The irregular Z-buffer: Hardware acceleration for irregular data
 // structures"; Story 2015, "Hybrid Ray-Traced Shadows"): each texel of a light's grid holds the list of the pixels whose
 // receivers fall into it, and each triangle tests the pixels of every texel that it touches. Everything is in world space
-// and double precision; receivers, shadow rays and tests follow raytrace/ray_offset.h, tracer.cpp, intersect.h and
-// verdict.cpp, so that they decide like the ray tracer wherever that one is certain. Twin of raster/izb_pass.cpp.
+// and double precision; receivers, shadow rays and tests follow ray_offset.h and visibility.cpp in raytrace/precision,
+// tracer.cpp and shapes/intersect.h, so that they decide like the ray tracer wherever that one is certain. Twin of raster/izb_pass.cpp.
 
 layout(std140, binding = izb_block) uniform Izb {
   dvec4 eye;

@@ -1,6 +1,6 @@
 // Whether a shadow ray crosses a solid: a quadric in closed form, a torus or an implicit surface by bounds in floats
 // (solid_slope.glsl) that pass over what is surely free, and by the signs of the double-precision function where they leave
-// it open. So no crossing is skipped that floats could not tell from none. Twin of raytrace/solid.cpp and solid_verdict.cpp.
+// it open. So no crossing is skipped that floats could not tell from none. Twin of raytrace/shapes/solid.cpp and solid_visibility.cpp.
 #include "izb/solid.glsl"
 
 // How the ray's start lies to the solid that it leaves: 1 outside, -1 inside; 0 where it starts elsewhere. The start itself is
