@@ -136,10 +136,20 @@ std::uint32_t LightSheets::find_lone_plane() const {
     if (!is_on_map) return no_id;
   }
   if (plane == no_id) return no_id;
-  for (const WorldPart& part : world.parts)
+  const auto box_is_on_map = [&](const Aabb& box) {  // then so is all within it: the map is convex
+    for (int i = 0; i < 8; ++i)
+      if (!on_map({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                   (i & 4) != 0 ? box.max.z : box.min.z},
+                  0.0, 0.0))
+        return false;
+    return true;
+  };
+  for (const WorldPart& part : world.parts) {
+    if (box_is_on_map(part.bounds)) continue;
     for (std::uint32_t t = 0; t < part.triangle_count(); ++t)
       for (const Vec3& corner : part.corners(t))
         if (!on_map(corner, 0.0, 0.0)) return no_id;
+  }
   return plane;
 }
 

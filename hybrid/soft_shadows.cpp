@@ -16,7 +16,7 @@ using raytrace::SurfacePoint;
 
 constexpr int block_pixels = 8;  // a side; blocks share one walk through the edges
 
-/// Receivers may lie 16 times as far as anything finite (light_facing.h has the same).
+/// Receivers may lie 16 times as far as anything finite (light_facing.cpp: the same beside planes).
 double reach_of(const World& world, const Light& light) {
   const Aabb& box = world.finite_bounds;
   const double finite =

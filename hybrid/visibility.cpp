@@ -37,7 +37,8 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     start();
     Kept& kept = kept_[request.light];
     const Light& light = world_.scene->lights[request.light];
-    if (kept.cache && kept.cache->light == light && same(kept.cache->sheets.view(), request.map)) {
+    const bool same_light = kept.cache && kept.cache->light == light;
+    if (same_light && same(kept.cache->sheets.view(), request.map)) {
       if (!anew) return {};
     } else {
       // One picture shows what sheets can tell; of a light that moves from frame to frame only speed counts.
@@ -46,8 +47,8 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     }
     time_run(kept.build, [&] {
       kept.cache.emplace(*tracer_, *topology_, light, request.map, kept.when);
-      kept.soft.reset();
-      if (has_size(light)) kept.soft.emplace(*tracer_, *topology_, request.light);
+      if (anew || !same_light) kept.soft.reset();  // it does not depend on the map
+      if (has_size(light) && !kept.soft) kept.soft.emplace(*tracer_, *topology_, request.light);
     });
     kept.receivers_ms = kept.shadow = {};
     return {};
