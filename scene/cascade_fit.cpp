@@ -309,8 +309,7 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
     const auto at = static_cast<std::size_t>(i);
     const Rect rect = cascade_rect(fit, splits[at], splits[at + 1], size, options, visible);
     const Rect& casters = options.snap && !options.fit_samples ? fit.casters : rect;
-    Interval depths = light_fit::depths_over(world, fit.frame, fit.reference, casters, rect);
-    if (depths.empty()) depths = light_fit::depths_over(world, fit.frame, fit.reference, fit.casters, rect);
+    const Interval depths = light_fit::depths_over(world, fit.frame, fit.reference, casters, rect);
     out.faces[at] = face_of(fit, rect, depths);
   }
   return out;
@@ -347,7 +346,7 @@ Expected<LightView> fit_warped(const World& world, const Light& light, const Cam
   const double reach = half_x * (1.0 + face.warp * half);  // the trapezium's wide end
   const Rect covered{Vec2(warp.middle - reach, rect.min.y), Vec2(warp.middle + reach, rect.max.y)};
   const Interval depths = light_fit::depths_over(world, fit.frame, fit.reference, covered, covered);
-  const LightFace ranged = face_of(fit, covered, depths.empty() ? Interval{0.0, 1.0} : depths);
+  const LightFace ranged = face_of(fit, covered, depths);
   face.near_depth = ranged.near_depth, face.far_depth = ranged.far_depth;
   LightView out = orthographic_view(fit, size);
   out.faces[0] = face;

@@ -295,7 +295,10 @@ Interval depths_over(const World& world, const LightFace& face, const Vec3& refe
       z.min = std::min(z.min, depth), z.max = std::max(z.max, depth);
     }
   }
-  return z;
+  if (!z.empty()) return z;
+  const Rect everything{Vec2(-infinity), Vec2(infinity)};
+  return casters.min.x == -infinity ? Interval{0.0, 1.0}
+                                    : depths_over(world, face, reference, everything, rect);
 }
 
 std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect) {

@@ -1,5 +1,5 @@
 // The geometry of a light's depth map: which texel a world point looks up, and which ray a texel stands for.
-// Both renderers and the comparison take it from here (shaders/light_view.glsl is the GLSL twin).
+// Both renderers and the comparison take it from here (shaders/light_map.glsl is the GLSL twin).
 //
 // Each face has an orthonormal frame (right, up, forward), forward = away from the light. Texel coordinates
 // (u, v) run from (0, 0) to (size, size), v along `up` (OpenGL's window convention: row 0 is the lowest);

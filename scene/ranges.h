@@ -26,7 +26,6 @@ class Ranges {
   /// One past the last number.
   std::uint32_t size() const { return begins_.empty() ? 0 : begins_.back(); }
   std::uint32_t begin_of(std::uint32_t range) const { return begins_[range]; }
-  std::uint32_t end_of(std::uint32_t range) const { return begins_[range + 1]; }
   /// The range of a number below size().
   std::uint32_t of(std::uint32_t number) const {
     const std::uint32_t low = hints_[number >> shift_], high = hints_[(number >> shift_) + 1];

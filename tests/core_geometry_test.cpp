@@ -125,6 +125,20 @@ TEST(Fit, FollowsTheCamera) {
   EXPECT_LT(area(*part), 0.5 * area(*whole));
 }
 
+// What is seen lies between two casters, in light space, too: no caster says how deep the map is.
+TEST(Fit, AWindowWithoutCastersHasDepths) {
+  Scene scene = scene_with(light_of(LightType::directional));
+  scene.lights[0].direction = Vec3(0.0, -1.0, 0.0);
+  scene.meshes.clear(), scene.instances.clear();
+  scene.shapes = {{"left", Sphere{{-50.0, 0.0, 0.0}, 1.0}, 0}, {"right", Sphere{{50.0, 0.0, 0.0}, 1.0}, 0}};
+  scene.camera = {{0.0, 0.0, 20.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.1};
+  const World world = make_world(scene);
+  const auto view = fit_light_view(world, scene.lights[0], scene.camera, 1.0, 64);
+  ASSERT_TRUE(view);
+  EXPECT_LT(view->face(0).near_depth, view->face(0).far_depth);
+  EXPECT_TRUE(std::isfinite(view->face(0).near_depth) && std::isfinite(view->face(0).far_depth));
+}
+
 TEST(Fit, AnEmptySceneIsAnError) {
   Scene scene;
   scene.lights.push_back(light_of(LightType::directional));

@@ -26,6 +26,13 @@ long peak_kilobytes() {
   return usage.ru_maxrss;
 }
 
+// Four letters of a WebP file, and no more.
+TEST(BadInput, AnImageMayEndAfterItsFirstLetters) {
+  const auto texture = read_texture_bytes("t.png", "RIFF", true);
+  ASSERT_FALSE(texture);
+  EXPECT_EQ(texture.error().kind, ErrorKind::bad_input);
+}
+
 // A gigabyte of pixels in a file of 75 bytes: refused for its size alone.
 TEST(BadInput, AnImageNeedsBytesForItsPixels) {
   const long before = peak_kilobytes();

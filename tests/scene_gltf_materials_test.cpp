@@ -64,6 +64,32 @@ TEST_F(Gltf, MaterialsAreMappedAsDocumented) {
   EXPECT_FALSE(has_note(blended, "no inside to refract in"));
 }
 
+// A mask at one half would leave nothing of either: the first has no texel above it, the second none times its factor.
+TEST_F(Gltf, BlendingThatNoMaskShowsIsAThinSheet) {
+  const auto blended = [&](float factor, std::uint8_t alpha) {
+    Texture texture;
+    texture.size = {2, 1};
+    texture.texels = {{255, 255, 255, alpha}, {255, 255, 255, 0}};
+    const auto png = encode_png(texture);
+    EXPECT_TRUE(png);
+    Builder b = simple();
+    b.json["images"] = Json::array({{{"uri", "data:image/png;base64," + base64(*png)}}});
+    b.json["textures"] = Json::array({{{"source", 0}}});
+    b.json["materials"] = Json::array({{{"alphaMode", "BLEND"},
+                                        {"pbrMetallicRoughness",
+                                         {{"baseColorTexture", {{"index", 0}}},
+                                          {"baseColorFactor", {1, 1, 1, factor}},
+                                          {"metallicFactor", 0}}}}});
+    b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    return material_of(loaded(b));
+  };
+  EXPECT_EQ(blended(1.0f, 255).alpha_mode, AlphaMode::mask);
+  for (const Material& sheet : {blended(1.0f, 51), blended(0.2f, 255)}) {
+    EXPECT_EQ(sheet.alpha_mode, AlphaMode::opaque);
+    EXPECT_NEAR(sheet.transmission, 0.8f, 1e-6f);
+  }
+}
+
 TEST_F(Gltf, TexturesComeThroughOpenImageIO) {
   Rgb8Image image({2, 1});
   image.at(1, 0) = {255, 128, 0};

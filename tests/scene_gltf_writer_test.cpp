@@ -208,6 +208,13 @@ TEST(GltfWriter, MeshesFarFromTheirOriginKeepTheirDigits) {
     EXPECT_LT(glm::distance(before.position(i), after.position(i)), 3e-8);
 }
 
+/// By its corners' order.
+Vec3 normal_of_first(const World& world) {
+  const auto t = world.triangle(0);
+  return glm::normalize(
+      glm::cross(world.position(t[1]) - world.position(t[0]), world.position(t[2]) - world.position(t[0])));
+}
+
 TEST(GltfWriter, ShearIsPutIntoTheMesh) {
   Scene scene = small();
   scene.meshes[0].normals.assign(3, Vec3f(0, 0, 1));
@@ -221,6 +228,19 @@ TEST(GltfWriter, ShearIsPutIntoTheMesh) {
   EXPECT_EQ(positions_of(before), positions_of(after));  // binary fractions
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(before.normal(i), after.normal(i)), 1e-6f);
   EXPECT_EQ(write_gltf(scene, true)->notes.size(), 1u);
+}
+
+// Its triangles face the other way when they are put into the world: so must those that the file has.
+TEST(GltfWriter, AShearThatMirrorsTurnsTheTriangles) {
+  Scene scene = small();
+  scene.meshes[0].positions[2] = {0, 1, 2};
+  Mat4 shear(1.0);
+  shear[0] = Vec4(-1.0, 0.0, 0.0, 0.0);
+  shear[2] = Vec4(0.5, 0.25, 1.0, 0.0);
+  scene.instances[0].world_from_object = shear;
+  scene.materials[0].double_sided = false;
+  const Scene read = reread(scene, true);
+  EXPECT_EQ(normal_of_first(make_world(scene)), normal_of_first(make_world(read)));
 }
 
 TEST(GltfWriter, TrianglesWithoutNormalsStayFlat) {

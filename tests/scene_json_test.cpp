@@ -234,6 +234,28 @@ TEST(JsonScene, IncludesMerge) {
   EXPECT_EQ(scene->notes[0], "The camera of the included file " + folder.file("lib.json") + " is not used.");
 }
 
+// Both models call their material by the same name, which is their own affair, also where their scene is included; a mesh
+// that the scene gives a name to can be placed under it, part by part.
+TEST(JsonScene, AnIncludedSceneMayPlaceModels) {
+  const TemporaryFolder folder;
+  folder.put("m.mtl", "newmtl same\nKd 0 1 0\n");
+  for (const char* name : {"one.obj", "two.obj"})
+    folder.put(name, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl same\nf 1 2 3\n");
+  folder.put(
+      "inner.json",
+      R"({"schema": "gnomon/scene/1", "meshes": [{"name": "one", "file": "one.obj"}, {"name": "two", "file": "two.obj"}],
+    "instances": [{"mesh": "one"}, {"mesh": "two"}]})");
+  const std::string path = folder.put(
+      "outer.json",
+      R"({"schema": "gnomon/scene/1", "include": ["inner.json"], "instances": [{"mesh": "two", "translate": [3, 0, 0]}]})");
+  const auto scene = load_scene(path);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->instances.size(), 3u);
+  EXPECT_EQ(scene->instances[2].mesh, scene->instances[1].mesh);
+  const World world = make_world(*scene);
+  EXPECT_EQ(scene->materials[world.material_of(2)].diffuse, Vec3f(0, 1, 0));
+}
+
 TEST(JsonScene, IncludedPictureSettingsAreToldOf) {
   const TemporaryFolder folder;
   folder.put("lib.json",

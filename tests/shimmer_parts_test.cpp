@@ -101,6 +101,23 @@ TEST(ShimmerPath, BadFilesAreOneLine) {
       std::string::npos);
 }
 
+// From east to west straight through no direction at all.
+TEST(ShimmerPath, ADirectionThatPassesThroughZeroIsTold) {
+  Pose pose = boxes_pose();
+  ShimmerPath path;
+  path.light = LightPath::keys;
+  path.keys.lights[pose.lights[0].name].direction =
+      KeyedVector{Interpolation::linear, {0.0, 2.0}, {{1.0, -0.5, 0.0}, {-1.0, 0.5, 0.0}}};
+  FilmTime time;
+  time.frames = 3, time.fps = 1.0;
+  EXPECT_TRUE(compare::check_pose(pose_at(path, time, pose, Vec3(0.0), 0), 0));
+  const auto half_way = compare::check_pose(pose_at(path, time, pose, Vec3(0.0), 1), 1);
+  ASSERT_FALSE(half_way);
+  EXPECT_NE(half_way.error().message().find("in frame 1 the light \"" + pose.lights[0].name),
+            std::string::npos)
+      << half_way.error().message();
+}
+
 // Rungs V0 … V6 before and after.
 TEST(ShimmerFlip, HasTheLabelOfItsWrongEnd) {
   using Rungs = std::array<float, compare::rung_count>;

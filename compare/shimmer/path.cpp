@@ -113,6 +113,12 @@ Pose pose_at(const ShimmerPath& path, const FilmTime& time, const Pose& first, c
 }
 
 Expected<void> check_pose(const Pose& pose, int frame) {
+  for (const Light& light : pose.lights)
+    if (!std::isfinite(glm::length(light.direction)))
+      return fail(ErrorKind::bad_input,
+                  fmt::format("--path: in frame {} the light \"{}\" has no direction: between its keys it "
+                              "passes through zero",
+                              frame, light.name));
   const Vec3 ahead = pose.camera.target - pose.camera.eye;
   if (glm::length(glm::cross(ahead, pose.camera.up)) >
       1e-9 * glm::length(ahead) * glm::length(pose.camera.up))

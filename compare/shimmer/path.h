@@ -63,7 +63,8 @@ struct Pose {
 /// `first`: as the scene has it; `centre`: what lights turn about.
 Pose pose_at(const ShimmerPath& path, const FilmTime& time, const Pose& first, const Vec3& centre, int frame);
 
-/// Error (bad input): a camera without a view, its eye on its target or its up along its view.
+/// Error (bad input): a camera without a view, its eye on its target or its up along its view; a light
+/// whose keys pass through no direction.
 Expected<void> check_pose(const Pose& pose, int frame);
 
 }  // namespace gnomon::compare

@@ -2,6 +2,7 @@
 // load.cpp then makes up what is missing (defaults.h) and checks the whole (validate.h).
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +20,32 @@ struct LoadedPath : KeyedPath {
   std::vector<NodeChain> cameras{};  ///< of each of the file's; empty where it does not move
 };
 
+/// A mesh of the file may consist of several, each with a material of its own or none.
+struct MeshPart {
+  std::string name;
+  std::uint32_t mesh = 0;
+  Mat4 mesh_from_part{1.0};
+  std::uint32_t material = no_id;
+  bool has_own_material = false;
+};
+
+struct NamedMesh {
+  std::vector<MeshPart> parts;
+  bool used = false;
+};
+
+/// What a JSON scene gives names to, for itself and for whoever includes it; the names inside a model are its own affair.
+struct FileNames {
+  std::map<std::string, std::uint32_t, std::less<>> materials{};
+  std::map<std::string, NamedMesh, std::less<>> meshes{};
+};
+
 struct LoadedFile {
   Scene scene;
   std::vector<NamedCamera> cameras{};  ///< the file's, in its order
   bool has_camera = false;             ///< the scene's camera is one of them
   std::vector<LoadedPath> paths{};     ///< of a glTF file only where LoadOptions asks for them
+  FileNames names{};
   bool is_model = false;  ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
 };
 

@@ -97,7 +97,7 @@ class MaterialReader {
     }
     if (const auto read = map_emission(from, m); !read) return fail(read.error());
     map_transmission(from, m);
-    map_alpha(from, m, base.has_alpha);
+    map_alpha(from, m, base);
     m.roughness = m.mirror > 0.0f || m.transmission > 0.0f ? fraction(roughness) : 0.0f;
     if (from.extensions.contains("KHR_materials_unlit")) make_unlit(from, m);
     m.double_sided = from.doubleSided;
@@ -201,7 +201,7 @@ class MaterialReader {
       m.absorption = -glm::log(glm::clamp(attenuation, darkest, 1.0f)) / static_cast<float>(distance);
   }
 
-  void map_alpha(const tinygltf::Material& from, Material& m, bool texture_has_alpha) {
+  void map_alpha(const tinygltf::Material& from, Material& m, const TextureStatistics& base) {
     m.alpha = fraction(from.pbrMetallicRoughness.baseColorFactor.size() == 4
                            ? from.pbrMetallicRoughness.baseColorFactor[3]
                            : 1.0);
@@ -212,17 +212,18 @@ class MaterialReader {
       m.alpha_cutoff = static_cast<float>(from.alphaCutoff);
     }
     if (from.alphaMode != "BLEND") return;
+    const float highest = m.alpha * base.greatest_alpha;  // of any texel
     if (m.transmission > 0.0f) {
       scene_.notes.push_back(fmt::format("Material '{}': blending was left to its transmission.", m.name));
-    } else if (texture_has_alpha) {
+    } else if (base.least_alpha < 1.0f && highest >= 0.5f) {
       m.alpha_mode = AlphaMode::mask;
       scene_.notes.push_back(
           fmt::format("Material '{}': blending became an alpha mask with cutoff 0.5.", m.name));
-    } else if (m.alpha < 1.0f) {
-      make_thin_sheet(m, 1.0f - m.alpha, 1.0);
+    } else if (highest < 1.0f) {  // through a mask nothing would be left of it
+      make_thin_sheet(m, 1.0f - highest, 1.0);
       scene_.notes.push_back(
           fmt::format("Material '{}': blending with alpha {:g} became a thin sheet with transmission {:g}.",
-                      m.name, m.alpha, m.transmission));
+                      m.name, highest, m.transmission));
       m.alpha = 1.0f;
     }
   }

@@ -17,12 +17,16 @@ namespace {
 TextureStatistics statistics_of(const Texture& texture) {
   TextureStatistics out;
   Vec3 sum(0.0);
+  std::uint8_t least = 255, greatest = 0;
   const auto& linear = linear_from_srgb8();
   for (const glm::u8vec4& t : texture.texels) {
     sum += texture.srgb ? Vec3(linear[t.r], linear[t.g], linear[t.b]) : Vec3(t.r, t.g, t.b) / 255.0;
-    if (t.a < 255) out.has_alpha = true;
+    least = std::min(least, t.a), greatest = std::max(greatest, t.a);
   }
-  if (!texture.texels.empty()) out.mean = Vec3f(sum / static_cast<double>(texture.texels.size()));
+  if (texture.texels.empty()) return out;
+  out.least_alpha = static_cast<float>(least) / 255.0f,
+  out.greatest_alpha = static_cast<float>(greatest) / 255.0f;
+  out.mean = Vec3f(sum / static_cast<double>(texture.texels.size()));
   return out;
 }
 
@@ -59,10 +63,6 @@ GltfTextureUse texture_use(const tinygltf::Value* info) {
   const tinygltf::Value* extensions = has(info, "extensions") ? &info->Get("extensions") : nullptr;
   const bool moved = has(extensions, "KHR_texture_transform");
   return use_of(index, set, moved ? &extensions->Get("KHR_texture_transform") : nullptr);
-}
-
-bool operator==(const TextureTransform& a, const TextureTransform& b) {
-  return a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
 }
 
 Expected<std::uint32_t> GltfTextures::add(int index, const std::string& material) {

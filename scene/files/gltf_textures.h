@@ -23,14 +23,13 @@ struct GltfTextureUse {
 GltfTextureUse texture_use(const tinygltf::TextureInfo& info);
 /// Of an extension's own member, "diffuseTexture"; nullptr and what is no object: none.
 GltfTextureUse texture_use(const tinygltf::Value* info);
-bool operator==(const TextureTransform& a, const TextureTransform& b);
 
 /// What is not used of a file, and by which materials.
 using UnusedParts = std::map<std::string, std::set<std::string>>;
 
 struct TextureStatistics {
-  Vec3f mean{1.0f};  ///< linear when the texture is sRGB
-  bool has_alpha = false;
+  Vec3f mean{1.0f};                                 ///< linear when the texture is sRGB
+  float least_alpha = 1.0f, greatest_alpha = 1.0f;  ///< in [0, 1]
 };
 
 class GltfTextures {

@@ -149,12 +149,14 @@ bool is_sheared(const Mat3& m) {
   return false;
 }
 
-/// The mesh with the instance's shear in it.
+/// The mesh with the instance's shear in it, and turned where that mirrors: the node's matrix no longer says so.
 Mesh sheared(Mesh mesh, const Mat3& linear) {
   const Mat3 of_normals = glm::transpose(glm::inverse(linear));
   for (Vec3& p : mesh.positions) p = linear * p;
   for (Vec3f& n : mesh.normals)
     if (n != Vec3f(0.0f)) n = Vec3f(glm::normalize(of_normals * Vec3(n)));
+  if (glm::determinant(linear) < 0.0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
 }
 

@@ -20,7 +20,7 @@ namespace {
 std::string_view format_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "png";
   if (bytes.starts_with("\xff\xd8\xff")) return "jpeg";
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return "webp";
+  if (bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return "webp";
   if (bytes.starts_with("BM")) return "bmp";
   if (bytes.starts_with("v/1\x01")) return "openexr";
   if (bytes.starts_with("#?RADIANCE")) return "hdr";

@@ -184,10 +184,10 @@ Mat4 read_transform(const JsonObject& object) {
 
 NamedMesh* find_mesh(SceneReader& reader, const JsonNode& name) {
   const std::string text = name.as_string();
-  const auto found = reader.meshes.find(text);
-  if (found != reader.meshes.end()) return &found->second;
+  const auto found = reader.names.meshes.find(text);
+  if (found != reader.names.meshes.end()) return &found->second;
   std::vector<std::string_view> names;
-  for (const auto& entry : reader.meshes) names.push_back(entry.first);
+  for (const auto& entry : reader.names.meshes) names.push_back(entry.first);
   name.error(fmt::format("no such mesh (got \"{}\", allowed {}){}", printable(text),
                          names.empty() ? "none: there are no meshes" : list_names(names),
                          suggestion(text, names)));
@@ -340,9 +340,9 @@ void read_meshes(SceneReader& reader, const JsonNode& list) {
     const auto name = object.require("name");
     if (!name || reader.failed()) return;
     const std::string text = name->as_string();
-    if (reader.meshes.contains(text))
+    if (reader.names.meshes.contains(text))
       return name->error(fmt::format("another mesh has this name (got \"{}\")", printable(text)));
-    reader.meshes[text] = read_mesh(reader, object, text);
+    reader.names.meshes[text] = read_mesh(reader, object, text);
     if (reader.failed()) return;
   }
 }

@@ -100,7 +100,7 @@ void read_materials(SceneReader& reader, const JsonNode& list) {
     Material material = read_material(reader, node);
     if (reader.failed()) return;
     const auto index = static_cast<std::uint32_t>(reader.scene.materials.size());
-    if (!reader.materials.emplace(material.name, index).second) {
+    if (!reader.names.materials.emplace(material.name, index).second) {
       return node.child("name")->error(
           fmt::format("another material has this name (got \"{}\")", printable(material.name)));
     }
@@ -111,10 +111,10 @@ void read_materials(SceneReader& reader, const JsonNode& list) {
 std::uint32_t find_material(SceneReader& reader, const JsonNode& name) {
   const std::string text = name.as_string();
   if (reader.failed()) return 0;
-  const auto found = reader.materials.find(text);
-  if (found != reader.materials.end()) return found->second;
+  const auto found = reader.names.materials.find(text);
+  if (found != reader.names.materials.end()) return found->second;
   std::vector<std::string_view> names;
-  for (const auto& entry : reader.materials) names.push_back(entry.first);
+  for (const auto& entry : reader.names.materials) names.push_back(entry.first);
   name.error(fmt::format("no such material (got \"{}\", allowed {}){}", printable(text),
                          names.empty() ? "none: there are no materials" : list_names(names),
                          suggestion(text, names)));

@@ -10,20 +10,6 @@
 
 namespace gnomon {
 
-/// A mesh of the file may consist of several, each with a material of its own or none.
-struct MeshPart {
-  std::string name;
-  std::uint32_t mesh = 0;
-  Mat4 mesh_from_part{1.0};
-  std::uint32_t material = no_id;
-  bool has_own_material = false;
-};
-
-struct NamedMesh {
-  std::vector<MeshPart> parts;
-  bool used = false;
-};
-
 /// What the reading of one JSON file carries along.
 struct SceneReader {
   JsonErrors& errors;
@@ -31,8 +17,7 @@ struct SceneReader {
   const std::string& folder;
   const LoadOptions& options;
   IncludeState& includes;
-  std::map<std::string, std::uint32_t, std::less<>> materials{};
-  std::map<std::string, NamedMesh, std::less<>> meshes{};
+  FileNames names{};
   std::map<std::string, std::uint32_t> textures{};        ///< of files, by what was asked for
   std::map<std::uint32_t, std::uint32_t> plain_meshes{};  ///< copies without triangle_materials
 

@@ -42,24 +42,18 @@ void check_cycle(SceneReader& reader, const JsonNode& node, const std::string& p
 }
 
 // Names of the included file's materials become names of ours.
-void adopt_names(SceneReader& reader, const JsonNode& node, std::uint32_t first) {
-  for (std::size_t i = first; i < reader.scene.materials.size(); ++i) {
-    const std::string& name = reader.scene.materials[i].name;
-    const bool is_new = reader.materials.emplace(name, static_cast<std::uint32_t>(i)).second;
-    if (!is_new)
+void adopt_names(SceneReader& reader, const JsonNode& node, FileNames&& names, const MergeOffsets& offsets) {
+  for (const auto& [name, material] : names.materials)
+    if (!reader.names.materials.emplace(name, material + offsets.material).second)
       node.error(fmt::format("the file has a material \"{}\", and so has another", printable(name)));
-  }
-}
-
-void adopt_mesh_names(SceneReader& reader, const JsonNode& node, std::uint32_t first) {
-  for (std::size_t i = first; i < reader.scene.meshes.size(); ++i) {
-    const Mesh& mesh = reader.scene.meshes[i];
-    NamedMesh named{
-        {{mesh.name, static_cast<std::uint32_t>(i), Mat4(1.0), no_id, !mesh.triangle_materials.empty()}},
-        true};
-    const bool is_new = reader.meshes.emplace(mesh.name, std::move(named)).second;
-    if (!is_new)
-      node.error(fmt::format("the file has a mesh \"{}\", and so has another", printable(mesh.name)));
+  for (auto& [name, mesh] : names.meshes) {
+    mesh.used = true;
+    for (MeshPart& part : mesh.parts) {
+      part.mesh += offsets.mesh;
+      if (part.material != no_id) part.material += offsets.material;
+    }
+    if (!reader.names.meshes.emplace(name, std::move(mesh)).second)
+      node.error(fmt::format("the file has a mesh \"{}\", and so has another", printable(name)));
   }
 }
 
@@ -94,11 +88,8 @@ void read_include(SceneReader& reader, const JsonNode& node, bool with_lights) {
   if (!loaded) return reader.adopt(node, loaded.error());
   note_unused_settings(loaded->scene, loaded->has_camera, path, reader.scene.notes);
   if (!with_lights) loaded->scene.lights.clear();
-  const bool named = !loaded->is_model;  // the names inside a model are its own affair
   const MergeOffsets offsets = merge_scene(reader.scene, std::move(loaded->scene), true);
-  if (!named) return;
-  adopt_names(reader, node, offsets.material);
-  adopt_mesh_names(reader, node, offsets.mesh);
+  adopt_names(reader, node, std::move(loaded->names), offsets);
 }
 
 void check_schema(const JsonObject& top) {
@@ -132,7 +123,7 @@ void read_settings(SceneReader& reader, const JsonObject& top) {
 }
 
 void note_unused_meshes(SceneReader& reader) {
-  for (const auto& [name, mesh] : reader.meshes)
+  for (const auto& [name, mesh] : reader.names.meshes)
     if (!mesh.used)
       reader.scene.notes.push_back(fmt::format("The mesh '{}' is not used by any instance.", name));
 }
@@ -256,6 +247,7 @@ Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& f
   SceneReader reader{errors, loaded.scene, folder, options, includes};
   loaded.cameras = read_top(reader, JsonNode(errors, document->root, ""), loaded.paths);
   loaded.has_camera = !loaded.cameras.empty();
+  loaded.names = std::move(reader.names);
   includes.open.pop_back();
   if (errors.first) return fail(std::move(*errors.first));
   return loaded;

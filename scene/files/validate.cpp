@@ -285,9 +285,4 @@ std::optional<Error> find_setting_defect(const Scene& scene) {
   return std::nullopt;
 }
 
-std::optional<Error> find_defect(const Scene& scene) {
-  if (auto found = find_geometry_defect(scene)) return found;
-  return find_setting_defect(scene);
-}
-
 }  // namespace gnomon

@@ -19,15 +19,12 @@ bool is_singular(const Mat3& matrix);
 /// What is wrong with a camera, with Error::field "camera.target" and so on.
 std::optional<Error> find_camera_defect(const Camera& camera);
 
-/// Indices, materials, coordinates and transforms: what must hold before anything follows an index.
+/// The first thing that breaks the contract of load_scene (scene/load.h), as an error with the path inside the scene
+/// ("meshes[2].positions[17]"); none if all is well. First indices, materials, coordinates and transforms: what must
+/// hold before anything follows an index.
 std::optional<Error> find_geometry_defect(const Scene& scene);
 
 /// What may be wrong beside meshes and their instances; find_geometry_defect() comes first.
 std::optional<Error> find_setting_defect(const Scene& scene);
-
-/// Both: the first thing that breaks the contract of load_scene (scene/load.h), as an error with the path
-/// inside the scene
-/// ("meshes[2].positions[17]"); none if all is well.
-std::optional<Error> find_defect(const Scene& scene);
 
 }  // namespace gnomon
