@@ -215,6 +215,16 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
   EXPECT_EQ(app::setting_arguments(app::values_read(values)), " --technique izb --map-size 64");
 }
 
+// --snap is there or not; --mipmaps takes the word, without which it has its default.
+TEST(TechniqueOptions, SwitchesAndOnesThatTakeAWordAreToldApart) {
+  const std::vector<std::pair<std::string, std::string>> off{
+      {"technique", "vsm"}, {"mipmaps", "off"}, {"snap", "off"}, {"filter-plane", "off"}};
+  EXPECT_EQ(app::setting_arguments(off), " --technique vsm --mipmaps off --filter-plane off");
+  const std::vector<std::pair<std::string, std::string>> on{
+      {"technique", "vsm"}, {"mipmaps", "on"}, {"snap", "on"}, {"filter-plane", "on"}};
+  EXPECT_EQ(app::setting_arguments(on), " --technique vsm --mipmaps on --snap --filter-plane on");
+}
+
 TEST(TechniqueOptions, ABiasThatIsAskedForReplacesTheDefaultsSlope) {
   using Values = std::vector<std::pair<std::string, std::string>>;
   using enum raster::BiasUnit;

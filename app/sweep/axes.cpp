@@ -27,8 +27,19 @@ struct Parser {
   }
 };
 
+/// Kept: to make all options takes longer than to read a line.
+Parser& kept_parser() {
+  static thread_local Parser parser;
+  return parser;
+}
+
 bool is_flag(const CLI::Option& option) {
   return option.get_items_expected_max() == 0;
+}
+
+/// Given as " --snap" or not at all, where " --mipmaps off" takes the word.
+bool is_switch(const std::string& name) {
+  return is_flag(*kept_parser().app.get_option("--" + name));
 }
 
 compare::ValueKind value_kind(const CLI::Option& option) {
@@ -73,11 +84,11 @@ namespace {
 
 /// `whole`: a setting, not one value to be checked.
 Expected<SettingOptions> parse(const Values& values, bool whole) {
-  static thread_local Parser parser;  // kept: to make all options takes longer than to read a line
+  Parser& parser = kept_parser();
   parser.setting = SettingOptions{};
   std::vector<std::string> arguments;  // CLI11 wants them last first
   for (const auto& [name, value] : values) {
-    if (!is_flag(*parser.app.get_option("--" + name))) {
+    if (!is_switch(name)) {
       arguments.push_back(fmt::format("--{}={}", name, value));
       continue;
     }
@@ -104,7 +115,7 @@ Expected<SettingOptions> parse_setting(const Values& values) {
 std::string setting_arguments(const Values& values) {
   std::string text;
   for (const auto& [name, value] : values) {
-    if (value == "on" || value == "off")
+    if (is_switch(name))
       text += value == "on" ? " --" + name : "";
     else if (value.starts_with('-'))
       text += fmt::format(" --{}={}", name, shell_quoted(value));
