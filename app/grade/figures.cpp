@@ -17,6 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+/// Null stands where nothing is compared: nothing is off there.
+double size_or_none(const json& size) {
+  return size.is_null() ? 0.0 : size.get<double>();
+}
+
 double figure_of_light(const json& light, std::string_view name) {
   const double compared = std::max(1.0, light.at("pixels").at("compared").get<double>());
   const json& error = light.at("error");
@@ -24,8 +29,8 @@ double figure_of_light(const json& light, std::string_view name) {
   if (name == "false_shadow") return error.at("false_shadow").get<double>() / compared;
   if (name == "missed_shadow") return error.at("missed_shadow").get<double>() / compared;
   if (name == "mean_error") return error.at("mean_absolute").get<double>();
-  if (name == "detachment") return light.at("detachment").at("mean_texels").get<double>();
-  if (name == "edge") return light.at("edges").at("rms_texels").get<double>();
+  if (name == "detachment") return size_or_none(light.at("detachment").at("mean_texels"));
+  if (name == "edge") return size_or_none(light.at("edges").at("rms_texels"));
   return light.at("classes").at(std::string(name)).get<double>() / compared;
 }
 
