@@ -5,8 +5,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
-#include <initializer_list>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -15,6 +15,7 @@ namespace gnomon::app {
 
 namespace {
 
+constexpr std::array watched_signals{SIGINT, SIGTERM};
 std::atomic<int> received_signal{0};
 
 std::mutex& output_mutex() {
@@ -44,7 +45,7 @@ void watch_for_interrupts() {
   sigset_t awaited;
   sigemptyset(&awaited);
   bool any = false;
-  for (const int signal_number : {SIGINT, SIGTERM}) {
+  for (const int signal_number : watched_signals) {
     if (is_ignored(signal_number)) continue;
     sigaddset(&awaited, signal_number);
     any = true;
@@ -56,6 +57,13 @@ void watch_for_interrupts() {
   } catch (const std::system_error&) {  // no thread can be started: signals end the process where it stands
     pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
   }
+}
+
+void leave_interrupts_to_the_system() {
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int signal_number : watched_signals) sigaddset(&blocked, signal_number);
+  pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);
 }
 
 bool was_interrupted() {

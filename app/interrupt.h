@@ -10,6 +10,10 @@ namespace gnomon::app {
 /// A signal that the caller had set to be ignored stays ignored.
 void watch_for_interrupts();
 
+/// Before this process becomes another program, which would inherit that nothing but SIGKILL ends it: from here on the
+/// signals do what the system does with them.
+void leave_interrupts_to_the_system();
+
 /// A signal has come; the process is only finishing its outputs.
 bool was_interrupted();
 

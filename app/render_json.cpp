@@ -1,7 +1,5 @@
 #include "app/render_json.h"
 
-#include <tbb/global_control.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,11 +37,6 @@ Json scene_json(const LoadedScene& loaded) {
           {"shapes", loaded.world->shapes.size()},
           {"name", scene.name},
           {"notes", scene.notes}};
-}
-
-/// As result.json counts them.
-int threads_in_use() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
 Json common(const RenderRecord& record, const char* renderer, const ImageSize& size) {

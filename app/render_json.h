@@ -24,7 +24,8 @@ std::string render_json(const RenderRecord& record, const raster::RasterFrame& f
 std::string render_json(const RenderRecord& record, const raytrace::Tracer& tracer, std::string_view accel,
                         const raytrace::RaytraceOptions& options, const raytrace::RayTracedFrame& frame);
 
-/// Onto stdout for "-", into a file for any other path but "".
+/// Any command's --json, and whatever else goes to FILE|-: onto stdout for "-", into a file, whose folder is made where
+/// there is none, for any other path but "".
 Expected<void> hand_out_json(const std::string& path, const std::string& json);
 
 }  // namespace gnomon::app

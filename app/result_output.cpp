@@ -12,6 +12,7 @@
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/report/page.h"
@@ -36,12 +37,7 @@ Expected<void> write_json(const ResultOutput& output) {
   if (output.json.empty()) return {};
   const Expected<std::string> json = read_back(output.folder + "/result.json");
   if (!json) return fail(json.error());
-  if (output.json == "-") {
-    print_data(*json);
-    return {};
-  }
-  if (const auto made = make_folder_for(output.json); !made) return made;
-  return write_file(output.json, *json);
+  return hand_out_json(output.json, *json);
 }
 
 /// With several lights the channels go into files whose names are known only now.

@@ -22,6 +22,12 @@ std::vector<std::string> SceneArgument::plain_words() const {
   return words;
 }
 
+SceneArgument SceneArgument::named(const std::string& other) const {
+  SceneArgument scene = *this;
+  scene.name = other;
+  return scene;
+}
+
 std::string SceneArgument::words() const {
   std::string text;
   for (const std::string& word : plain_words()) text += (text.empty() ? "" : " ") + shell_quoted(word);

@@ -32,6 +32,8 @@ struct SceneArgument {
   std::string words() const;
   /// Each by itself, and not quoted.
   std::vector<std::string> plain_words() const;
+  /// Another scene, loaded in the same way.
+  SceneArgument named(const std::string& other) const;
 };
 
 class RunFiles {

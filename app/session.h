@@ -16,6 +16,9 @@
 
 namespace gnomon::app {
 
+/// Where many pictures are made and none is looked at long: benchmarks, the suite's masks.
+inline constexpr ImageSize quick_picture{640, 360};
+
 /// The world points into the scene, so both stay where they are.
 struct LoadedScene {
   std::unique_ptr<Scene> scene;
@@ -61,6 +64,9 @@ class ThreadLimit {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Of the ray tracer, as result.json counts them.
+int threads_in_use();
 
 /// out/NAME, NAME being that of the scene without folder and extension.
 std::string default_output(const std::string& path_or_name);

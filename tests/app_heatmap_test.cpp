@@ -44,5 +44,20 @@ TEST(BenchRow, RatioAboveOneIsAlwaysBetter) {
   EXPECT_NE(json.find("\"goal\": null"), std::string::npos);
 }
 
+TEST(BenchRow, WhatTakesNothingMeetsItsGoal) {
+  for (const double asked : {0.0, 8.0}) {
+    const BenchRow row{.name = "rays",
+                       .scene = "x",
+                       .value = 0.0,
+                       .unit = "rays",
+                       .more_is_better = false,
+                       .peer = BenchPeer{"p", asked},
+                       .goal = 33.0};
+    EXPECT_FALSE(row.ratio().has_value()) << asked;
+    EXPECT_TRUE(row.met().value_or(false)) << asked;
+    EXPECT_NE(bench_json(std::vector{row}).find("\"met\": true"), std::string::npos) << asked;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::app

@@ -41,7 +41,9 @@ add_executable(gnomon_bench bench/gnomon_bench.cpp bench/ball_light.cpp bench/em
 target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_places bench_scenes embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_compile_together(gnomon_bench)
-add_test(NAME gnomon_bench_runs COMMAND gnomon_bench --scene teapot --runs 1 --width 160 --height 90)
+# Of --json - the rows alone go to stdout.
+add_test(NAME gnomon_bench_runs COMMAND sh -c
+  "\"$1\" --scene teapot --runs 1 --width 160 --height 90 --json - | /usr/bin/python3 -m json.tool" sh $<TARGET_FILE:gnomon_bench>)
 
 # Whole processes against POV-Ray 3.7 and Blender's Cycles, where they are installed (they are no part of the set-up).
 add_executable(programs_bench bench/programs_bench.cpp)

@@ -7,17 +7,20 @@
 namespace gnomon::app {
 
 std::optional<double> BenchRow::ratio() const {
-  if (!peer) return std::nullopt;
+  if (!peer || (more_is_better ? peer->value : value) == 0.0) return std::nullopt;
   return more_is_better ? value / peer->value : peer->value / value;
 }
 
+std::optional<bool> BenchRow::met() const {
+  if (!peer || !goal) return std::nullopt;
+  const std::optional<double> r = ratio();
+  return !r || *r >= *goal;
+}
+
 std::string bench_json(std::span<const BenchRow> rows, std::string_view target) {
-  const auto or_null = [](const std::optional<double>& v) {
-    return v ? nlohmann::ordered_json(*v) : nullptr;
-  };
+  const auto or_null = [](const auto& v) { return v ? nlohmann::ordered_json(*v) : nullptr; };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const BenchRow& row : rows) {
-    const std::optional<double> ratio = row.ratio();
     list.push_back({{"name", row.name},
                     {"scene", row.scene},
                     {"threads", row.threads},
@@ -25,9 +28,9 @@ std::string bench_json(std::span<const BenchRow> rows, std::string_view target) 
                     {"unit", row.unit},
                     {"peer", row.peer ? nlohmann::ordered_json(row.peer->name) : nullptr},
                     {"peer_value", row.peer ? nlohmann::ordered_json(row.peer->value) : nullptr},
-                    {"ratio", or_null(ratio)},
+                    {"ratio", or_null(row.ratio())},
                     {"goal", or_null(row.goal)},
-                    {"met", row.goal && ratio ? nlohmann::ordered_json(*ratio >= *row.goal) : nullptr}});
+                    {"met", or_null(row.met())}});
   }
   const compare::MachineInfo machine = machine_info();
   nlohmann::ordered_json document{

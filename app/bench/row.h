@@ -29,14 +29,16 @@ struct BenchRow {
   std::optional<BenchPeer> peer{};
   std::optional<double> goal{};  ///< of the ratio
 
-  /// Above 1: better than the peer.
+  /// Above 1: better than the peer; none where one of nothing is asked for.
   std::optional<double> ratio() const;
+  /// None without a peer or a goal. Where the ratio would be one of nothing the row is as good as can be.
+  std::optional<bool> met() const;
 };
 
 struct BenchInput {
   const LoadedScene& loaded;
   std::string scene;
-  ImageSize size{640, 360};
+  ImageSize size = quick_picture;
   int runs = 3;
   int threads = 0;
   std::vector<raytrace::Accel> accels;

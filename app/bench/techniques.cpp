@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/technique_options.h"
 #include "compare/shadow_cost.h"
 #include "scene/files/write_file.h"
@@ -168,45 +169,44 @@ std::string text_table(const TechniqueTable& table) {
 }
 
 std::vector<BenchRow> bench_rows(const TechniqueTable& table) {
+  const int threads = threads_in_use();
   std::vector<BenchRow> rows;
   for (const TechniqueRow& row : table.rows) {
     if (!row.refused.empty()) continue;
     const BenchPeer rays{"exact shadows", table.rays_ms};
-    rows.push_back({row.technique + " map and lookups", table.scene, 0, shadows_ms(row), "ms", false, rays});
     rows.push_back(
-        {row.technique + " wrong pixels", table.scene, 0, static_cast<double>(row.wrong), "pixels", false});
+        {row.technique + " map and lookups", table.scene, threads, shadows_ms(row), "ms", false, rays});
+    rows.push_back({row.technique + " wrong pixels", table.scene, threads, static_cast<double>(row.wrong),
+                    "pixels", false});
   }
   return rows;
 }
 
 Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console) {
   RunFiles files;
-  for (const std::string& scene : bench.scenes) files.reads(SceneArgument{scene});
+  for (const std::string& scene : bench.scenes) files.reads(bench.how.named(scene));
   files.writes("-o", bench.page);
   files.writes("--json", bench.json);
   if (const auto fine = files.check(); !fine) return fine;
   std::vector<TechniqueTable> tables;
   std::vector<BenchRow> rows;
   for (const std::string& scene : bench.scenes) {
-    const auto loaded = load({scene}, files, console);
+    const auto loaded = load(bench.how.named(scene), files, console);
     if (!loaded) return fail(loaded.error());
     const auto progress = [&](const std::string& what, double done) { console.progress(what, done); };
     auto table = bench_techniques(*loaded, raster::Backend::automatic, bench.raster, progress);
     if (!table) return fail(table.error());
     console.clear_progress();
-    if (bench.json != "-") print_data(text_table(*table));
+    if (!bench.quiet && bench.json != "-") print_data(text_table(*table));
     for (BenchRow& row : bench_rows(*table)) rows.push_back(std::move(row));
     tables.push_back(std::move(*table));
   }
-  const std::string command =
-      fmt::format("gnomon bench --techniques {} --size {}x{} --map-size {}", fmt::join(bench.scenes, ","),
-                  bench.raster.size.width, bench.raster.size.height, bench.raster.map.size);
   if (!bench.page.empty()) {
-    if (const auto written = write_file(bench.page, markdown(tables, command)); !written) return written;
+    if (const auto made = make_folder_for(bench.page); !made) return made;
+    if (const auto written = write_file(bench.page, markdown(tables, bench.command_line)); !written)
+      return written;
   }
-  if (bench.json == "-") print_data(bench_json(rows));
-  if (bench.json.empty() || bench.json == "-") return {};
-  return write_file(bench.json, bench_json(rows));
+  return hand_out_json(bench.json, bench_json(rows));
 }
 
 }  // namespace gnomon::app

@@ -40,8 +40,11 @@ Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Bac
 /// Every scene's table on stdout, and as a page (Markdown) and rows where files are named.
 struct TechniqueBench {
   std::vector<std::string> scenes;
+  SceneArgument how;  ///< they are loaded
   raster::RasterOptions raster;
-  std::string page, json;  ///< files to write; empty: none
+  std::string page, json;    ///< files to write; empty: none
+  std::string command_line;  ///< for the page
+  bool quiet = false;
 };
 Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console);
 

@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "app/options.h"
-#include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/session.h"
 #include "app/tune_families.h"
 #include "compare/tune/full_grid.h"
 #include "raster/technique_traits.h"
-#include "scene/files/write_file.h"
 
 namespace gnomon::app {
 namespace {
@@ -87,18 +86,19 @@ std::string table_row(const std::string& scene, const compare::GridCheck& check,
 
 void add_rows(const std::string& scene, const compare::GridCheck& check, std::vector<BenchRow>& rows) {
   const BenchPeer grid{"full grid", check.best_cost};
-  BenchRow cost{"tune's answer", scene, 0, check.tuned_cost, "ms", false, grid, 1.0 / allowed};
+  const int threads = threads_in_use();
+  BenchRow cost{"tune's answer", scene, threads, check.tuned_cost, "ms", false, grid, 1.0 / allowed};
   if (check.tuned.feasible && check.best) rows.push_back(std::move(cost));
   const BenchPeer drawings{"full grid", static_cast<double>(check.grid_drawings)};
-  rows.push_back(
-      {"tune's drawings", scene, 0, static_cast<double>(check.tune_drawings), "drawings", false, drawings});
+  rows.push_back({"tune's drawings", scene, threads, static_cast<double>(check.tune_drawings), "drawings",
+                  false, drawings});
 }
 
 }  // namespace
 
 Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
   RunFiles files;
-  for (const std::string& scene : bench.scenes) files.reads(SceneArgument{scene});
+  for (const std::string& scene : bench.scenes) files.reads(bench.how.named(scene));
   files.writes("--json", bench.json);
   if (const auto fine = files.check(); !fine) return fine;
   const bool with_table = bench.json != "-" && !bench.quiet;
@@ -111,7 +111,7 @@ Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
                     "the tuner's answer; the grid's best"));
   std::vector<BenchRow> rows;
   for (const std::string& scene : bench.scenes) {
-    const auto loaded = load({scene}, files, console);
+    const auto loaded = load(bench.how.named(scene), files, console);
     if (!loaded) return fail(loaded.error());
     const auto check = check_scene(*loaded, bench, console);
     if (!check) return fail(check.error());
@@ -121,9 +121,7 @@ Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
     if (with_table) print_data(table_row(loaded->scene->name, *check, names));
     add_rows(loaded->scene->name, *check, rows);
   }
-  if (bench.json == "-") print_data(bench_json(rows));
-  if (bench.json.empty() || bench.json == "-") return {};
-  return write_file(bench.json, bench_json(rows));
+  return hand_out_json(bench.json, bench_json(rows));
 }
 
 }  // namespace gnomon::app

@@ -12,8 +12,9 @@ namespace gnomon::app {
 
 struct TuneBench {
   std::vector<std::string> scenes, techniques;  ///< techniques empty: all
+  SceneArgument how;                            ///< the scenes are loaded
   double max_error = 0.01;                      ///< share of wrong pixels, the tuner's goal
-  ImageSize size{640, 360};
+  ImageSize size = quick_picture;
   int runs = 9;      ///< drawings in turn: of the tuner's finalists, and of its answer and the grid's best
   std::string json;  ///< file to write; empty: none
   bool quiet = false;

@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/interrupt.h"
+#include "app/run_files.h"
+
 namespace gnomon::app {
 namespace {
 
@@ -34,6 +37,9 @@ Expected<ExitCode> run_whole_bench(const WholeBench& bench) {
         fmt::format("{} is not beside this program (it needs Embree 3, and is built by ./gnomon test or "
                     "cmake --build BUILD --target {})",
                     program_name, program_name));
+  RunFiles files;
+  files.writes("--json", bench.json);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
   std::vector<std::string> words{program};
   if (bench.runs > 0) words.insert(words.end(), {"--runs", std::to_string(bench.runs)});
   if (!bench.size.empty()) {
@@ -44,6 +50,7 @@ Expected<ExitCode> run_whole_bench(const WholeBench& bench) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  leave_interrupts_to_the_system();
   execv(program.c_str(), arguments.data());
   return fail(ErrorKind::graphics, fmt::format("{}: {}", program, std::strerror(errno)));
 }

@@ -2,8 +2,6 @@
 // precisions or the shadow techniques cost and bring, as a table.
 #include <fmt/format.h>
 
-#include <tbb/global_control.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -14,9 +12,8 @@
 #include "app/invocation.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
-#include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/values.h"
-#include "scene/files/write_file.h"
 
 namespace gnomon::app {
 
@@ -25,7 +22,7 @@ namespace {
 struct BenchCommand {
   SceneArgument scene;
   std::string json;
-  ImageSize size{640, 360};
+  ImageSize size = quick_picture;
   std::vector<raytrace::Accel> accels = all_accels();
   bool precision = false;
   TechniqueBench techniques;
@@ -34,6 +31,7 @@ struct BenchCommand {
   std::optional<int> runs;
   int threads = 0;
   bool quiet = false;
+  std::string command_line;
   std::string idle;  ///< an option that was given and has no meaning for what was asked
   bool size_given = false;
 };
@@ -42,9 +40,12 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads, console);
   TechniqueBench bench = command.techniques;
+  bench.how = command.scene;
+  bench.command_line = command.command_line;
   bench.raster.size = command.size;
   bench.raster.runs = command.runs.value_or(bench.raster.runs);
   bench.json = command.json;
+  bench.quiet = command.quiet;
   const auto done = run_technique_bench(bench, console);
   if (!done) return fail(done.error());
   return ExitCode::done;
@@ -54,6 +55,7 @@ Expected<ExitCode> run_tune_rows(const BenchCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads, console);
   TuneBench bench = command.tune;
+  bench.how = command.scene;
   bench.size = command.size;
   bench.runs = command.runs.value_or(bench.runs);
   bench.json = command.json;
@@ -85,13 +87,11 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto loaded = load(command.scene, files, console);
   if (!loaded) return fail(loaded.error());
-  const auto thread_count =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   const BenchInput input{*loaded,
                          loaded->scene->name,
                          command.size,
                          command.runs.value_or(usual_runs),
-                         thread_count,
+                         threads_in_use(),
                          command.accels,
                          [&](const std::string& what, double done) { console.progress(what, done); }};
   auto result = command.precision ? Expected<BenchResult>(bench_precisions(input, command.rays, command.seed))
@@ -105,13 +105,7 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
   }
   console.clear_progress();
   if (!command.quiet && command.json != "-") print_data(result->table);
-  if (command.json.empty()) return ExitCode::done;
-  const std::string json = bench_json(result->rows);
-  if (command.json == "-") {
-    print_data(json);
-  } else if (const auto written = write_file(command.json, json); !written) {
-    return fail(written.error());
-  }
+  if (const auto out = hand_out_json(command.json, bench_json(result->rows)); !out) return fail(out.error());
   return ExitCode::done;
 }
 
@@ -174,6 +168,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "gnomon bench field --accel bvh,grid    where it is at its best\n"
       "gnomon bench orchard --accel bvh,two-level   what sharing one tree's structure saves");
   const auto command = std::make_shared<BenchCommand>();
+  command->command_line = invocation.command_line;
   add_scene(*app, command->scene);
   app->get_option("SCENE")->required(false);
   add_accel_list(*app, command->accels);

@@ -28,8 +28,8 @@ namespace {
 struct ExportCommand {
   SceneArgument scene;
   std::string camera, file, suite;
-  ImageSize size{640, 360};  ///< of the suite's masks
-  int tessellate = 64;       ///< sectors, in [min_tessellation, max_tessellation]
+  ImageSize size = quick_picture;  ///< of the suite's masks
+  int tessellate = 64;             ///< sectors, in [min_tessellation, max_tessellation]
   bool quiet = false;
   std::vector<std::string> given;  ///< options
   bool is_given(std::string_view option) const {

@@ -18,6 +18,7 @@
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -83,16 +84,6 @@ Expected<void> check_outputs(const GradeCommand& command) {
   return command.folder.empty() ? Expected<void>() : check_output_folder(command.folder);
 }
 
-Expected<void> write_text(const std::string& path, const std::string& text) {
-  if (path.empty()) return {};
-  if (path == "-") {
-    print_data(text);
-    return {};
-  }
-  if (const auto made = make_folder_for(path); !made) return made;
-  return write_file(path, text);
-}
-
 Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result, Console& console) {
   const OutputGuard whole_outputs;
   if (!command.folder.empty()) {
@@ -100,8 +91,8 @@ Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& 
     if (const auto written = grade::write_pages(result, command.folder); !written) return written;
     console.message(fmt::format("pages: {}/index.html", command.folder));
   }
-  if (const auto written = write_text(command.json, grade::grade_json(result)); !written) return written;
-  return write_text(command.csv, grade::grade_csv(result));
+  if (const auto written = hand_out_json(command.json, grade::grade_json(result)); !written) return written;
+  return hand_out_json(command.csv, grade::grade_csv(result));
 }
 
 /// The students, or without any the program's own shader: a rubric is tried before a class is graded with it.

@@ -10,8 +10,8 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "compare/report/lessons.h"
-#include "scene/files/write_file.h"
 #include "scene/load.h"
 
 namespace gnomon::app {
@@ -47,12 +47,8 @@ std::string scenes_table() {
 
 Expected<ExitCode> run_scenes(const std::string& json) {
   if (const auto writable = check_output_file(json); !writable) return fail(writable.error());
-  if (!json.empty() && json != "-") {
-    if (const auto made = make_folder_for(json); !made) return fail(made.error());
-    if (const auto written = write_file(json, scenes_json()); !written) return fail(written.error());
-    return ExitCode::done;
-  }
-  print_data(json == "-" ? scenes_json() : scenes_table());
+  if (json.empty()) print_data(scenes_table());
+  if (const auto out = hand_out_json(json, scenes_json()); !out) return fail(out.error());
   return ExitCode::done;
 }
 

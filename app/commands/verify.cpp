@@ -10,10 +10,10 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/session.h"
 #include "app/values.h"
 #include "app/verify/verify.h"
-#include "scene/files/write_file.h"
 
 namespace gnomon::app {
 
@@ -114,12 +114,8 @@ Expected<ExitCode> run_verify(const VerifyCommand& command) {
       all.push_back(std::move(row));
     }
   }
-  if (command.json == "-") {
-    print_data(rows_json(all, command.options.precision));
-  } else if (!command.json.empty()) {
-    if (const auto written = write_file(command.json, rows_json(all, command.options.precision)); !written)
-      return fail(written.error());
-  }
+  if (const auto out = hand_out_json(command.json, rows_json(all, command.options.precision)); !out)
+    return fail(out.error());
   const auto failed = std::count_if(all.begin(), all.end(), [](const Row& row) { return !row.ok(); });
   if (failed > 0) console.message(fmt::format("{} of {} rows fall short", failed, all.size()));
   return failed > 0 ? ExitCode::threshold_exceeded : ExitCode::done;

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 
 #include "app/bench/row.h"
 #include "ball_light.h"
@@ -16,6 +16,7 @@
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon::bench {
 namespace {
@@ -34,6 +35,8 @@ struct Settings {
   std::string json;
   std::vector<std::string> scenes;
   std::string target;  ///< of instruction_sets(); empty: the best that the machine has
+  /// stdout is the rows' where they go there.
+  std::FILE* table() const { return json == "-" ? stderr : stdout; }
 };
 
 std::string embree_settings(const Settings& settings) {
@@ -59,7 +62,7 @@ class Bench {
   }
 
   std::vector<BenchRow> run() {
-    fmt::print("{}: {} triangles{}, {} x {}\n", scene_.name, world_.triangle_count(),
+    fmt::print(settings_.table(), "{}: {} triangles{}, {} x {}\n", scene_.name, world_.triangle_count(),
                world_.keeps_instances() ? " by kept instances, as Embree's instances" : "",
                settings_.size.width, settings_.size.height);
     check_hits();
@@ -94,10 +97,10 @@ class Bench {
   void add(BenchRow row) {
     const double ratio = row.ratio().value();
     fmt::print(
-        "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name, row.threads, row.value,
-        row.unit, row.peer->name, row.peer->value, ratio,
+        settings_.table(), "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name,
+        row.threads, row.value, row.unit, row.peer->name, row.peer->value, ratio,
         row.goal ? fmt::format("  goal {:.1f} {}", *row.goal, ratio >= *row.goal ? "met" : "NOT MET") : "");
-    std::fflush(stdout);
+    std::fflush(settings_.table());
     rows_.push_back(std::move(row));
   }
 
@@ -191,7 +194,7 @@ class Bench {
         [&] { embree_.closest_single(rays, peer_); });
     for (std::size_t i = 0; i < rays.valid.size(); ++i)
       theirs += rays.valid[i] != 0 && peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-    fmt::print("  mirrored rays that hit: {} here, {} by Embree\n", hits, theirs);
+    fmt::print(settings_.table(), "  mirrored rays that hit: {} here, {} by Embree\n", hits, theirs);
     add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, "Embree single", 1.2);
   }
 
@@ -202,7 +205,8 @@ class Bench {
     const auto ms = in_turn(
         std::min(settings_.runs, 3), 1, [&] { with_shaft = light.share_by_shaft(); },
         [&] { by_rays = light.share_by_every_ray(); });
-    fmt::print("  mean share of the ball seen: {} with the shaft, {} by every ray\n", with_shaft, by_rays);
+    fmt::print(settings_.table(), "  mean share of the ball seen: {} with the shaft, {} by every ray\n",
+               with_shaft, by_rays);
     add("ball light, 64 samples", 1, light.rays(), ms, "every ray cast", std::nullopt);
   }
 
@@ -282,6 +286,7 @@ class Bench {
         differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > tolerance) ? 1 : 0;
       }
     fmt::print(
+        settings_.table(),
         "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding); "
         "{} decided in double\n",
         ours, theirs, differ, primary_.count, ambiguous);
@@ -303,6 +308,7 @@ class Bench {
         ours += a ? 1 : 0, theirs += b ? 1 : 0, differ += a != b ? 1 : 0;
       }
     fmt::print(
+        settings_.table(),
         "  {} occluded: {} here, {} by Embree; {} of {} rays differ (its rays start 2^-14 off the surface)\n",
         light == 0 ? "point" : "sun", ours, theirs, differ, shadow_[light].count);
   }
@@ -324,6 +330,18 @@ class Bench {
   std::vector<BenchRow> rows_;
 };
 
+/// As the program does it (app/render_json.h), of which this one holds only the rows.
+Expected<void> hand_out(const std::string& path, const std::string& json) {
+  if (path.empty()) return {};
+  if (path == "-") {
+    fmt::print("{}", json);
+    return {};
+  }
+  if (const std::string folder = std::filesystem::path(path).parent_path().string(); !folder.empty())
+    if (const auto made = make_output_folder(folder); !made) return made;
+  return write_file(path, json);
+}
+
 int run(const Settings& settings) {
   const auto wanted = [&](const std::string& name) {
     return settings.scenes.empty() ||
@@ -339,7 +357,7 @@ int run(const Settings& settings) {
     if (const auto scene = bunny_scene())
       bench(*scene);
     else
-      fmt::print("bunny: not here, left out\n");
+      fmt::print(settings.table(), "bunny: not here, left out\n");
   }
   if (wanted("million")) bench(million_scene());
   const auto named = [&](const std::string& name) { return !settings.scenes.empty() && wanted(name); };
@@ -347,12 +365,10 @@ int run(const Settings& settings) {
     if (const auto scene = forest_scene()) bench(*scene);
   if (named("terrain-5M")) bench(terrain_scene("terrain-5M", 1582));
   if (named("terrain-20M")) bench(terrain_scene("terrain-20M", 3163));
-  fmt::print("Instruction set in use: {}\n", raytrace::packet_target());
-  if (settings.json.empty()) return 0;
-  std::ofstream out(settings.json);
-  out << app::bench_json(rows, raytrace::packet_target());
-  if (out.flush()) return 0;
-  fmt::print(stderr, "{}: could not be written\n", settings.json);
+  fmt::print(settings.table(), "Instruction set in use: {}\n", raytrace::packet_target());
+  const auto written = hand_out(settings.json, app::bench_json(rows, raytrace::packet_target()));
+  if (written) return 0;
+  fmt::print(stderr, "{}\n", written.error().message());
   return 4;
 }
 
@@ -373,7 +389,8 @@ int main(int argc, char** argv) {
   app.add_option("--target", settings.target,
                  "hold both to an older instruction set: avx2, sse4 (default: the best that the machine has)")
       ->check(CLI::IsMember({"avx2", "sse4"}));
-  app.add_option("--json", settings.json, "also write the rows to this file");
+  app.add_option("--json", settings.json,
+                 "also write the rows to this file; -: to stdout, the table to stderr");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
