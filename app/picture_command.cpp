@@ -61,7 +61,7 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files,
     return fail(fits.error());
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return loaded;
-  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.light), console);
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.light), command.poses, console);
   if (const std::size_t lights = loaded->scene->lights.size(); lights > many_lights)
     console.note(fmt::format(
         "all {} lights are drawn, each with its shadows; --max-lights N keeps the strongest alone", lights));

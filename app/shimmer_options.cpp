@@ -6,6 +6,7 @@
 
 #include "app/option_kinds.h"
 #include "app/shell.h"
+#include "compare/threshold.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app {
@@ -247,8 +248,16 @@ void add_metric_options(CLI::App& app, MetricOptions& options) {
   add_film_options(app, options.film);
 }
 
-Expected<void> finish_metric(MetricOptions& options, const std::optional<compare::Threshold>& threshold) {
-  if (threshold && threshold->measure == compare::ErrorMeasure::shimmer) options.metric = Metric::shimmer;
+Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold) {
+  using enum compare::ErrorMeasure;
+  if (threshold && threshold->measure == shimmer) options.metric = Metric::shimmer;
+  if (options.is_filmed() && threshold) {
+    if (threshold->measure == wrong_and_mean) threshold->measure = shimmer;
+    if (threshold->measure != shimmer)
+      return fail(ErrorKind::usage,
+                  fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",
+                              compare::threshold_text(*threshold)));
+  }
   if (options.is_filmed() || options.film.given.empty()) return {};
   return fail(ErrorKind::usage,
               fmt::format("{}: belongs to --metric shimmer", options.film.given.front().first));

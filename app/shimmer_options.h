@@ -42,8 +42,9 @@ struct MetricOptions {
 };
 /// --metric and the film's options.
 void add_metric_options(CLI::App& app, MetricOptions& options);
-/// A threshold of flips asks for films. Error (usage): options of a film without one.
-Expected<void> finish_metric(MetricOptions& options, const std::optional<compare::Threshold>& threshold);
+/// A threshold of flips asks for films, and of films a plain --max-error is one of flips. Error (usage): options of a film
+/// without one; a threshold of another measure of films.
+Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold);
 /// " --frames 24 --path walk": what was given, to be typed again.
 std::string film_arguments(const FilmOptions& film);
 

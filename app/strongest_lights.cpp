@@ -15,11 +15,19 @@ namespace {
 
 constexpr ImageSize grid{64, 36};  // a light that reaches a 2,000th of the picture meets one of these points
 
-raytrace::RayTracedFrame receivers(const LoadedScene& loaded) {
+/// Once it is posed; the scene's own where the pose will be refused.
+Camera camera_of(PoseOptions poses, const LoadedScene& loaded) {
+  poses.light_azimuth = poses.light_elevation = poses.light_distance = poses.light_size = std::nullopt;
+  Scene posed;
+  posed.camera = loaded.scene->camera;
+  return apply_poses(poses, {}, posed, *loaded.world) ? posed.camera : loaded.scene->camera;
+}
+
+raytrace::RayTracedFrame receivers(const LoadedScene& loaded, const Camera& camera) {
   raytrace::RaytraceOptions options;
   options.size = grid, options.picture = false;
   const raytrace::Tracer tracer(*loaded.world, raytrace::Accel::bvh);
-  return raytrace::trace_frame(tracer, loaded.plan, loaded.scene->camera, {}, options);
+  return raytrace::trace_frame(tracer, loaded.plan, camera, {}, options);
 }
 
 /// Luminance (Rec. 709), unshadowed; NaN of a light at the point itself counts as nothing.
@@ -53,23 +61,25 @@ std::string max_lights_argument(int max_lights) {
   return max_lights == usual_max_lights ? std::string() : fmt::format(" --max-lights {}", max_lights);
 }
 
-std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, std::size_t count) {
+std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, const Camera& camera,
+                                            std::size_t count) {
   const std::vector<Light>& lights = loaded.scene->lights;
-  const raytrace::RayTracedFrame frame = receivers(loaded);
+  std::vector<std::uint32_t> order(lights.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (order.size() <= count) return order;
+  const raytrace::RayTracedFrame frame = receivers(loaded, camera);
   std::vector<double> given(lights.size());
   std::transform(lights.begin(), lights.end(), given.begin(),
                  [&](const Light& light) { return light_given(light, frame); });
-  std::vector<std::uint32_t> order(lights.size());
-  std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return given[a] > given[b]; });
-  order.resize(std::min(order.size(), count));
+  order.resize(count);
   std::sort(order.begin(), order.end());
   return order;
 }
 
 void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,
-                           Console& console) {
+                           const PoseOptions& poses, Console& console) {
   Scene& scene = *loaded.scene;
   const std::size_t all = scene.lights.size(), most = static_cast<std::size_t>(max_lights);
   if (all <= most) return;
@@ -77,7 +87,7 @@ void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vecto
     if (!is_light(scene, name)) return;
   const TimedStage stage("load");
   std::vector<char> stays(all, 0);
-  for (const std::uint32_t light : strongest_lights(loaded, most)) stays[light] = 1;
+  for (const std::uint32_t light : strongest_lights(loaded, camera_of(poses, loaded), most)) stays[light] = 1;
   for (std::size_t i = 0; i < all; ++i)
     if (std::find(named.begin(), named.end(), scene.lights[i].name) != named.end()) stays[i] = 1;
   std::size_t kept = 0;

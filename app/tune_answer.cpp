@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "app/options.h"
 #include "app/setting.h"
 #include "app/shell.h"
 #include "app/values.h"
@@ -140,7 +141,8 @@ std::string TuneAnswer::line(std::size_t family) const {
          setting_arguments(
              answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
          (filmed ? film_arguments(question.metric.film) : std::string()) +
-         option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights);
+         option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights) +
+         backend_argument(question.backend);
 }
 
 std::vector<std::size_t> TuneAnswer::others() const {

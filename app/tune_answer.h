@@ -23,6 +23,7 @@ struct TuneQuestion {
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
   MetricOptions metric{};
   int max_lights = usual_max_lights;
+  raster::Backend backend = raster::Backend::automatic;
 };
 
 /// Of a family what meets the goal, or what comes nearest to it.

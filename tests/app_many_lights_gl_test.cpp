@@ -12,6 +12,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Over a floor, seen from +z.
+std::string scene_under(const Json& lights) {
+  return Json{{"schema", "gnomon/scene/1"},
+              {"camera", {{"eye", {0, 3, 6}}, {"target", {0, 0, 0}}}},
+              {"lights", lights},
+              {"materials", {{{"name", "grey"}}}},
+              {"shapes",
+               {{{"plane", {{"point", {0, 0, 0}}, {"normal", {0, 1, 0}}}}, {"material", "grey"}},
+                {{"sphere", {{"center", {0, 1, 0}}, {"radius", 0.5}}}, {"material", "grey"}}}}}
+      .dump();
+}
+
 /// `count` lamps over a floor, named l0, l1, ...; every 50th is a hundred times as bright as the others.
 std::string lamps(int count) {
   Json lights = Json::array();
@@ -22,14 +34,16 @@ std::string lamps(int count) {
                       {"position", {0.01 * i - 2.0, 2.0, 0.5}},
                       {"intensity", {strength, strength, strength}}});
   }
-  return Json{{"schema", "gnomon/scene/1"},
-              {"camera", {{"eye", {0, 3, 6}}, {"target", {0, 0, 0}}}},
-              {"lights", lights},
-              {"materials", {{{"name", "grey"}}}},
-              {"shapes",
-               {{{"plane", {{"point", {0, 0, 0}}, {"normal", {0, 1, 0}}}}, {"material", "grey"}},
-                {{"sphere", {{"center", {0, 1, 0}}, {"radius", 0.5}}}, {"material", "grey"}}}}}
-      .dump();
+  return scene_under(lights);
+}
+
+/// One behind what the scene's own camera looks at, and one behind that camera.
+std::string two_lamps() {
+  Json lights = Json::array();
+  for (const auto& [name, z] : {std::pair("north", -8.0), std::pair("south", 8.0)})
+    lights.push_back(
+        {{"name", name}, {"type", "point"}, {"position", {0.0, 0.3, z}}, {"intensity", {10.0, 10.0, 10.0}}});
+  return scene_under(lights);
 }
 
 std::vector<std::string> compared(const TemporaryFolder& folder, const Words& more, const std::string& note) {
@@ -95,6 +109,48 @@ TEST(ManyLights, CommandsThatAreMadeAgainRepeatTheirNumber) {
       out({"shimmer", "lamps.json", "--frames", "2", "--map-size", "32", "--json", "-"}), nullptr, false);
   ASSERT_TRUE(film.is_object());
   EXPECT_EQ(film["lights"].size(), 1u);
+}
+
+// Not by the scene's own, where another one is asked for.
+TEST(ManyLights, TheStrongestAreThoseThatThePosedCameraSees) {
+  const TemporaryFolder folder;
+  write_text(folder / "two.json", two_lamps());
+  const auto out = [&](const Words& words, const Words& more) {
+    const ProcessResult result = run_gnomon(
+        words + Words{"two.json", "--max-lights", "1", "--size", "40x30"} + more, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  const Words from_behind{"--camera-orbit", "180,27"}, map{"--map-size", "32"};
+  const auto of_compare = [&](const Words& more) {
+    const Json json = Json::parse(out({"compare", "--json", "-", "--runs", "1"}, map + more), nullptr, false);
+    return json.is_object() ? json["lights"][0]["light"]["name"].get<std::string>() : std::string();
+  };
+  EXPECT_EQ(of_compare({}), "north");
+  EXPECT_EQ(of_compare(from_behind), "south");
+  const auto is_of_south = [](const std::string& json) {
+    return json.find("\"south\"") != std::string::npos;
+  };
+  EXPECT_TRUE(is_of_south(out({"raytrace", "--json", "-", "-o", "p.exr"}, from_behind)));
+  EXPECT_TRUE(is_of_south(out({"shimmer", "--frames", "2", "--json", "-"}, map + from_behind)));
+  EXPECT_TRUE(is_of_south(
+      out({"tune", "--technique", "hard", "--max-error", "90%", "--json", "-"}, map + from_behind)));
+  out({"sweep", "-o", "s"}, map + from_behind);
+  EXPECT_TRUE(is_of_south(read_file(folder / "s/sweep.jsonl")));
+}
+
+TEST(ManyLights, TheForecastOfMemoryIsOfThoseThatAreCompared) {
+  const TemporaryFolder folder;
+  const auto bytes = [&](int count) {
+    write_text(folder / "lamps.json", lamps(count));
+    const ProcessResult result =
+        run_gnomon({"plan", "lamps.json", "--size", "40x30", "--json", "-"}, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const Json json = Json::parse(result.out, nullptr, false);
+    return json.is_object() ? json["memory"]["compare"]["bytes"].get<double>() : 0.0;
+  };
+  EXPECT_GT(bytes(8), bytes(7));
+  EXPECT_EQ(bytes(100), bytes(8));
 }
 
 TEST(ManyLights, OfFewNoneIsLeftOut) {

@@ -81,6 +81,9 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   for (const char* key : {"flips", "receiver_steps", "flips_per_receiver_second"})
     EXPECT_EQ(counted[key], shimmer[key]);
   EXPECT_EQ(cells[1]["lights"][0]["shimmer"]["flips"], 0);
+  EXPECT_EQ(cells[1]["command"],
+            "gnomon shimmer thin-wall --size 192x108 --map-size 64 --snap --frames 3 --path drift --drift "
+            "0.5,0.5");
   EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
   EXPECT_NE(bytes(root / "films/report.html").find("flips per receiver and second"), std::string::npos);
   EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";

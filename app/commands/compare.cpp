@@ -189,7 +189,8 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
-  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light),
+                        command.setting.poses, console);
   const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   auto compared = render_and_compare(command, *loaded, console);

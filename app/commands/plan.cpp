@@ -10,13 +10,13 @@
 #include "app/invocation.h"
 #include "app/memory_limit.h"
 #include "app/options.h"
-#include "app/output_path.h"
 #include "app/picture_samples.h"
+#include "app/render_json.h"
 #include "app/session.h"
+#include "app/strongest_lights.h"
 #include "compare/text_layout.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
-#include "scene/files/write_file.h"
 #include "scene/one_line.h"
 
 namespace gnomon::app {
@@ -40,15 +40,14 @@ struct BandPlan {
   Expected<std::vector<PictureRows>> bands;
 };
 
-std::vector<BandPlan> band_plans(const PlanCommand& command, const Scene& scene) {
-  std::vector<std::uint32_t> lights(scene.lights.size());
-  std::iota(lights.begin(), lights.end(), 0U);
+std::vector<BandPlan> band_plans(const PlanCommand& command, const LoadedScene& loaded) {
   const ImageSize size = command.options.size;
   std::vector<BandPlan> plans;
   const auto add = [&](std::string_view name, const PictureBytes& bytes) {
     plans.push_back({name, bytes, plan_bands(command.memory, size, bytes)});
   };
-  add("compare", compare_bytes(scene, lights, size, true));
+  add("compare", compare_bytes(*loaded.scene,
+                               strongest_lights(loaded, loaded.scene->camera, usual_max_lights), size, true));
   add("raster", raster_png);
   add("raytrace", raytrace_png);
   return plans;
@@ -263,18 +262,12 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   console.clear_progress();
   const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
   const nlohmann::ordered_json instances = instances_json(*loaded, command.scene.instances);
-  const std::vector<BandPlan> bands = band_plans(command, *loaded->scene);
+  const std::vector<BandPlan> bands = band_plans(command, *loaded);
   const std::string json = plan_json(loaded->plan, options.size, forecast, ways, instances, bands);
-  if (!command.json.empty() && command.json != "-") {
-    if (const auto made = make_folder_for(command.json); !made) return fail(made.error());
-    if (const auto written = write_file(command.json, json); !written) return fail(written.error());
-  }
-  if (command.json == "-") {
-    print_data(json);
-  } else if (!command.quiet) {
+  if (const auto out = hand_out_json(command.json, json); !out) return fail(out.error());
+  if (!command.quiet && command.json != "-")
     print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways, instances) +
                memory_table(bands, options.size));
-  }
   return ExitCode::done;
 }
 

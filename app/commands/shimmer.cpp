@@ -11,12 +11,12 @@
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/session.h"
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "compare/shimmer/write.h"
-#include "scene/files/write_file.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -104,9 +104,7 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
     if (!megabytes) return fail(megabytes.error());
     if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));
   }
-  if (command.json.empty() || command.json == "-") return {};
-  if (const auto made = make_folder_for(command.json); !made) return made;
-  return write_file(command.json, json);
+  return hand_out_json(command.json, json);
 }
 
 ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& film, Console& console) {
@@ -139,7 +137,8 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, command.tessellate, command.camera, true);
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light), console);
+  keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light),
+                        command.setting.poses, console);
   const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   const auto film = make_film(command, *loaded, console);
@@ -149,10 +148,7 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
       compare::shimmer_json(film->shimmer, {command.command_line, command.seed, total.elapsed_ms()});
   if (const auto written = write_all(command, *film, json, *files, console); !written)
     return fail(written.error());
-  if (command.json == "-")
-    print_data(json);
-  else if (!command.quiet)
-    print_data(compare::shimmer_table(film->shimmer));
+  if (!command.quiet && command.json != "-") print_data(compare::shimmer_table(film->shimmer));
   if (!command.folder.empty())
     console.message(
         fmt::format("report: {}/report.html ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));

@@ -171,7 +171,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), console);
+  // All cells have the same lights: those of the first one's camera.
+  const auto first = command.options.parse_cell(plan->grid, 0);
+  if (!first) return fail(first.error());
+  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), first->poses,
+                        console);
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
     if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());

@@ -11,7 +11,7 @@
 #include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/options.h"
-#include "app/output_path.h"
+#include "app/render_json.h"
 #include "app/session.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
@@ -21,7 +21,6 @@
 #include "compare/outputs.h"
 #include "compare/tune/page.h"
 #include "raster/shader_folder.h"
-#include "scene/files/write_file.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -82,21 +81,6 @@ Expected<void> check_lists(const TuneCommand& command) {
   return {};
 }
 
-/// With --metric shimmer a plain limit is one of flips.
-Expected<void> finish_goal(TuneCommand& command) {
-  auto& goal = command.goal;
-  if (const auto fine = finish_metric(command.metric, goal.max_error); !fine) return fine;
-  if (!command.metric.is_filmed()) return {};
-  goal.of_time = compare::ErrorMeasure::shimmer;
-  if (!goal.max_error || goal.max_error->measure == compare::ErrorMeasure::shimmer) return {};
-  if (goal.max_error->measure != compare::ErrorMeasure::wrong_and_mean)
-    return fail(ErrorKind::usage,
-                fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",
-                            compare::threshold_text(*goal.max_error)));
-  goal.max_error->measure = compare::ErrorMeasure::shimmer;
-  return {};
-}
-
 /// The setting that an answer's command asks for, read as compare reads it.
 Expected<compare::Setting> setting_as_given(const TuneCommand& command, const OptionFamily& family,
                                             const compare::Attempt& attempt, const Scene& scene,
@@ -140,14 +124,9 @@ Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, 
 }
 
 Expected<void> hand_out(const TuneCommand& command, const TuneAnswer& answer) {
-  if (command.json == "-") {
-    print_data(answer.json());
-    return {};
-  }
-  if (!command.quiet) print_data(answer.text());
-  if (command.json.empty()) return {};
+  if (!command.quiet && command.json != "-") print_data(answer.text());
   const OutputGuard whole_file;
-  return write_file(command.json, answer.json());
+  return hand_out_json(command.json, answer.json());
 }
 
 /// What is tuned, ready to be drawn.
@@ -165,6 +144,8 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
                            const std::vector<OptionFamily>& families, Console& console) {
   const auto parsed = parse_setting(values_read(command.options.fixed()));
   if (!parsed) return fail(parsed.error());
+  keep_strongest_lights(loaded, command.max_lights, command.options.values_given("light"), parsed->poses,
+                        console);
   auto setting = resolve_setting(*parsed, *loaded.scene, *loaded.world);
   if (!setting) return fail(setting.error());
   setting->raster.runs = command.runs.value_or(usual_runs);
@@ -206,9 +187,9 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (!result) return fail(result.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
-  const TuneQuestion question{command.scene,           command.camera,    command.shader_folder,
-                              command.options.fixed(), command.goal,      shaders->replaced(),
-                              command.metric,          command.max_lights};
+  const TuneQuestion question{command.scene,           command.camera,     command.shader_folder,
+                              command.options.fixed(), command.goal,       shaders->replaced(),
+                              command.metric,          command.max_lights, command.backend};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -242,14 +223,15 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   Console console(command.quiet);
   const ThreadLimit thread_limit(command.threads, console);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
-  if (const auto metric = finish_goal(command); !metric) return fail(metric.error());
+  if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
+    return fail(fine.error());
+  if (command.metric.is_filmed()) command.goal.of_time = compare::ErrorMeasure::shimmer;
   const auto families = make_families(command.options, command.metric.is_filmed());
   if (!families) return fail(families.error());
   auto files = check_files(command);
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), console);
   auto bench = make_bench(command, *loaded, *families, console);
   if (!bench) return fail(bench.error());
   return tune_and_answer(command, *bench, *files, total, console);

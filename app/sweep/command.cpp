@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/shell.h"
+#include "compare/option_names.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 
@@ -55,7 +56,7 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
     shaders.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
   Json exposure = nullptr;
   if (command.exposure) exposure = *command.exposure ? Json(**command.exposure) : Json("auto");
-  Json json{{"version", GNOMON_VERSION},
+  Json json{{"version", compare::program_version()},
             {"scene", {{"path", command.scene.name}, {"name", scene.name}, {"sha256", scene.sha256}}},
             {"camera", command.camera},
             {"axes", axes},
@@ -72,9 +73,11 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
-  std::string text = "gnomon compare " + command.scene.words() + camera_argument(command) +
-                     command.options.cell_arguments(plan.grid, cell);
-  text += exposure_argument(command) + max_lights_argument(command.max_lights);
+  const bool filmed = command.metric.is_filmed();
+  std::string text = (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() +
+                     camera_argument(command) + command.options.cell_arguments(plan.grid, cell);
+  text += filmed ? film_arguments(command.metric.film) : exposure_argument(command);
+  text += max_lights_argument(command.max_lights) + backend_argument(command.backend);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   return text;

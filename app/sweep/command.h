@@ -36,7 +36,7 @@ struct SweepCommand : RunOptions {
 /// Everything that the journal's lines hang on, as JSON.
 std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene);
 
-/// A cell alone.
+/// A cell alone: gnomon compare SCENE …, or gnomon shimmer SCENE … where its errors are flips.
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell);
 
 /// The same sweep for a task of a job array, without its folder and shard.

@@ -16,7 +16,7 @@ Expected<SceneSource> read_source(const SceneArgument& argument, const std::stri
   files.reads(argument);
   auto loaded = load(argument, files, quiet, options.tessellate, camera, true);
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, options.max_lights, {}, quiet);
+  keep_strongest_lights(*loaded, options.max_lights, {}, {}, quiet);
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   return SceneSource{argument, camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
                      files.inputs()};

@@ -76,7 +76,7 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   files.reads(options.script);
   auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
   if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), console);
+  keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   auto state = first_state(options, *loaded);
   if (!state) return fail(state.error());
