@@ -138,7 +138,10 @@ void add_completion(CLI::App& program) {
 
 void add_man_page(CLI::App& program) {
   program.add_flag_callback(
-      "--man-page", [&program] { throw CLI::CallForVersion(man_page(program, GNOMON_VERSION), 0); },
+      "--man-page",
+      [&program] {
+        throw CLI::CallForVersion(man_page(program, std::string(compare::program_version())), 0);
+      },
       "print the manual page (roff) and exit");
 }
 
