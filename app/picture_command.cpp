@@ -9,6 +9,7 @@
 #include "app/output_path.h"
 #include "app/picture_file.h"
 #include "compare/time_budget.h"
+#include "scene/files/read_file.h"
 #include "scene/stages.h"
 
 namespace gnomon::app {
@@ -18,6 +19,10 @@ namespace {
 constexpr std::size_t many_lights = 64;  // more take seconds, and a user may not know how many there are
 
 }  // namespace
+
+bool PictureCommand::wants_records() const {
+  return lower_extension(image) == ".exr";
+}
 
 void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output) {
   add_scene(app, command.scene);

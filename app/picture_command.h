@@ -30,7 +30,7 @@ struct PictureCommand {
   bool quiet = false;
   std::vector<std::string> given;  ///< options
 
-  bool wants_records() const { return image.ends_with(".exr"); }
+  bool wants_records() const;  ///< an .exr has them
 };
 
 /// The scene, --output, --size, --tessellate, --camera, --max-lights.

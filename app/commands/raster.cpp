@@ -70,7 +70,10 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!lights) return fail(lights.error());
   const auto posed = apply_poses(command.poses, command.light, *loaded);
   if (!posed) return fail(posed.error());
-  for (const std::string& note : idle_options(command.given, command.options.map, *loaded->scene, *lights))
+  const auto drawn_lights = choose_lights(*loaded->scene, "");  // --light chooses records alone
+  if (!drawn_lights) return fail(drawn_lights.error());
+  for (const std::string& note :
+       idle_options(command.given, command.options.map, *loaded->scene, *drawn_lights))
     console.note(note);
   const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());

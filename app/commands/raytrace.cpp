@@ -55,9 +55,9 @@ Expected<void> trace_in_bands(const Tracing& in, const std::vector<PictureRows>&
 
 Expected<ExitCode> draw_heatmap(const RaytraceCommand& command, const raytrace::Tracer& tracer,
                                 const Camera& camera, Console& console) {
+  const auto work = primary_ray_work(tracer, camera, command.options.size);
   const OutputGuard whole_outputs;
   if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
-  const auto work = primary_ray_work(tracer, camera, command.options.size);
   if (const auto written = write_heatmap(command.image, work, *command.heatmap); !written)
     return fail(written.error());
   console.message(fmt::format("heatmap: {}", command.image));
