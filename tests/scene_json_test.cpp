@@ -368,5 +368,14 @@ TEST(JsonScene, NamedCameras) {
   EXPECT_EQ(through(twice, "").error().reason, "another camera has this name (got \"a\")");
 }
 
+TEST(JsonScene, SettingsAreReadWhateverTheCaseOfTheExtension) {
+  const TemporaryFolder folder;
+  for (const char* name : {"scene.json", "SCENE.JSON"}) {
+    const auto settings = scene_settings(folder.put(name, R"({"settings": {"map-size": "64"}})"));
+    ASSERT_EQ(settings.size(), 1u) << name;
+    EXPECT_EQ(settings[0].value, "64") << name;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -143,5 +143,17 @@ TEST(SaveScene, TakesOverTheLightsOfIncludedFiles) {
   EXPECT_EQ(scene->shapes.size(), 2u);
 }
 
+// A model's file is included; one of the project's own format is written again.
+TEST(SaveScene, KnowsItsOwnFormatWhateverTheCaseOfTheExtension) {
+  const app_test::TemporaryFolder folder;
+  write_whole(folder / "PLAIN.JSON", scene_with_radius("0.5"));
+  Lab lab(folder / "PLAIN.JSON", {});
+  const auto shown = lab.until(is_open);
+  const std::string path = folder / "saved.json";
+  const auto written = write_scene(path, shown->scene->argument, lab.state(*shown));
+  ASSERT_TRUE(written) << written.error().message();
+  EXPECT_EQ(app_test::read_file(path).find("\"include\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gnomon::app

@@ -71,7 +71,7 @@ Json light_json(const Light& light) {
 }
 
 bool is_own_format(const std::string& name) {
-  return find_builtin_scene(name) || fs::path(name).extension() == ".json";
+  return find_builtin_scene(name) || lower_extension(name) == ".json";
 }
 
 /// The file as it is, or a new one that includes the model.

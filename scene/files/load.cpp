@@ -128,7 +128,7 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
   const auto builtin = find_builtin_scene(path_or_name);
   std::string text;
   if (!builtin) {
-    if (std::filesystem::path(path_or_name).extension() != ".json") return {};
+    if (lower_extension(path_or_name) != ".json") return {};
     const auto bytes = read_file(path_or_name);
     if (!bytes) return {};
     text = *bytes;
