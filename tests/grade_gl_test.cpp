@@ -238,6 +238,43 @@ TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   }
 }
 
+// What lies below the floor lights nothing that the camera sees: no shadow's edge is measured.
+TEST_F(Grade, ALightThatReachesNothingLosesNoPoints) {
+  write_text(folder / "below.json", R"({"schema": "gnomon/scene/1",
+    "camera": {"eye": [0, 4, 6], "target": [0, 0, 0]},
+    "lights": [{"name": "sun", "type": "directional", "direction": [-1, -2, -0.5]},
+               {"name": "below", "type": "directional", "direction": [0.3, 1, 0.2]}],
+    "materials": [{"name": "m"}],
+    "meshes": [{"name": "floor", "vertices": [[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]],
+                "triangles": [[0, 2, 1], [0, 3, 2]]}],
+    "instances": [{"mesh": "floor", "material": "m"}]})");
+  write_rubric(
+      R"("checks": [{"name": "edge", "points": 1, "kind": "at_most", "measure": "edge", "at_most": "100texel",
+    "runs": [{"scene": "below.json", "options": {"size": "64x36", "map-size": "64"}}]}])");
+  const ProcessResult own = gnomon({"grade", "rubric.json"});
+  EXPECT_EQ(own.exit_code, 0) << own.err;
+  EXPECT_EQ(own.out, "the program's own shader  1 of 1\n") << own.err;
+}
+
+TEST_F(Grade, OutputsTakeNoPlaceOfWhatIsReadOrWritten) {
+  write_text(folder / "mine.json", "mine");
+  write_rubric(
+      R"("checks": [{"name": "a", "points": 1, "kind": "draws", "runs": [{"scene": "mine.json"}]}])");
+  hand_in("anna", "her work");
+  const std::string rubric = read_file(folder / "rubric.json"), shader = "class/anna/technique/hard.glsl";
+  const Words call{"grade", "rubric.json", "class"};
+  const std::string lost = "this file is also an input, which would be lost (got ";
+  expect_one_line(gnomon(call + Words{"--json", "rubric.json"}), 2, lost);
+  expect_one_line(gnomon(call + Words{"--csv", shader}), 2, lost);
+  expect_one_line(gnomon(call + Words{"--json", "mine.json"}), 2, lost);
+  expect_one_line(gnomon(call + Words{"--json", "a", "--csv", "a"}), 2, "two outputs of one name");
+  expect_one_line(gnomon(call + Words{"--csv", "d/grades.csv", "-o", "d"}), 2, "two outputs of one name");
+  expect_one_line(gnomon(call + Words{"--json", "-", "--csv", "-"}), 2, "stdout takes one of the two");
+  EXPECT_EQ(read_file(folder / "rubric.json"), rubric);
+  EXPECT_EQ(read_file(folder / shader), "her work");
+  EXPECT_EQ(read_file(folder / "mine.json"), "mine");
+}
+
 TEST_F(Grade, KitsAreWholeAndTheirOwnShadersPass) {
   for (const std::string kit : {"first-shadow-map", "percentage-closer-filtering"}) {
     ASSERT_EQ(gnomon({"grade", "--new", kit, kit}).exit_code, 0);

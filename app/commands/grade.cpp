@@ -19,6 +19,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/render_json.h"
+#include "app/run_files.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -78,10 +79,24 @@ Expected<grade::Rubric> find_rubric(const GradeCommand& command, const std::stri
   return grade::read_rubric(folder + "/rubric.json");
 }
 
-Expected<void> check_outputs(const GradeCommand& command) {
-  for (const std::string* path : {&command.json, &command.csv})
-    if (auto writable = check_output_file(*path); !writable) return writable;
-  return command.folder.empty() ? Expected<void>() : check_output_folder(command.folder);
+/// Before anything is drawn; which scenes the rubric names is not known yet.
+Expected<RunFiles> check_grade_files(const GradeCommand& command) {
+  if (command.json == "-" && command.csv == "-")
+    return fail(ErrorKind::usage, "--json and --csv: stdout takes one of the two (got - for both)");
+  RunFiles files;
+  if (!grade::is_kit(command.rubric)) files.reads(command.rubric);
+  for (const std::string& students : command.students) files.reads_shaders(students);
+  files.writes("--json", command.json);
+  files.writes("--csv", command.csv);
+  files.writes_folder("-o", command.folder, grade::class_file_names);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  return files;
+}
+
+Expected<void> keep_scenes(const grade::Rubric& rubric, RunFiles& files) {
+  for (const grade::Check& check : rubric.checks)
+    for (const grade::Run& run : check.runs) files.reads(SceneArgument{run.scene});
+  return files.check();
 }
 
 Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result, Console& console) {
@@ -115,11 +130,13 @@ Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& comman
 Expected<ExitCode> run_grade(const GradeCommand& command) {
   Console console(command.quiet);
   if (!command.kit_folder.empty()) return write_new_kit(command, console);
-  if (const auto writable = check_outputs(command); !writable) return fail(writable.error());
+  auto files = check_grade_files(command);
+  if (!files) return fail(files.error());
   const WorkFolder work;
   if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
   const auto rubric = find_rubric(command, work.path());
   if (!rubric) return fail(rubric.error());
+  if (const auto kept = keep_scenes(*rubric, *files); !kept) return fail(kept.error());
   const auto students = grade_all(command, *rubric, work.path(), console);
   if (!students) return fail(students.error());
   const grade::ClassResult result{*rubric, *students, command.command_line};
