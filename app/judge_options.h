@@ -18,7 +18,6 @@ struct CaptureOptions {
   std::optional<double> bias_constant, bias_slope, bias_normal_offset;  ///< as compare::CapturedBias
   std::optional<compare::FilterName> filter_kind;
   std::optional<double> filter_radius;  ///< texels
-  std::optional<ImageSize> size;
   bool any = false;
 };
 

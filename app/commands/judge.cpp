@@ -6,10 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
+#include <set>
 
 #include "app/bind.h"
+#include "app/interrupt.h"
 #include "app/judge_options.h"
 #include "app/machine.h"
 #include "app/result_output.h"
@@ -18,6 +19,7 @@
 #include "compare/judge/page.h"
 #include "compare/judge/several.h"
 #include "compare/report/page.h"
+#include "scene/files/write_file.h"
 #include "scene/stages.h"
 
 namespace gnomon::app {
@@ -95,15 +97,34 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
   return out;
 }
 
+/// What a capture names.
+RunFiles inputs_of(const compare::Capture& capture) {
+  RunFiles files;
+  files.reads(capture.path);
+  files.reads(SceneArgument{capture.scene});
+  for (const std::string* picture :
+       {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.position})
+    files.reads(*picture);
+  if (capture.depth) files.reads(capture.depth->file);
+  for (const compare::CapturedLayer& layer : capture.map) files.reads(layer.depth);
+  return files;
+}
+
+/// "wall" of wall/capture.json, "wall" of wall.json.
+std::string name_of(const std::string& path) {
+  const std::filesystem::path file(path);
+  const bool generic = file.stem() == "capture" && file.parent_path().has_filename();
+  return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
+                 : file.stem().string();
+}
+
 Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, Console& console) {
   const Stopwatch total;
   const auto capture = capture_of(command, path);
   if (!capture) return fail(capture.error());
   if (command.output.folder.empty() && !only_prints_json(command.output))
-    command.output.folder = default_output(path.empty() ? capture->scene : path);
-  RunFiles files;
-  files.reads(path);
-  files.reads(SceneArgument{capture->scene});
+    command.output.folder = path.empty() ? default_output(capture->scene) : "out/" + name_of(path);
+  RunFiles files = inputs_of(*capture);
   files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *capture, files, console);
@@ -117,30 +138,62 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, 
                       &introduction);
 }
 
-/// "wall" of wall/capture.json, "wall" of wall.json.
-std::string name_of(const std::string& path) {
-  const std::filesystem::path file(path);
-  const bool generic = file.stem() == "capture" && file.has_parent_path();
-  return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
-                 : file.stem().string();
+/// One of several.
+struct NamedCapture {
+  std::string path, name;  ///< no two have one name
+};
+
+std::vector<NamedCapture> with_names(const std::vector<std::string>& paths) {
+  std::vector<NamedCapture> captures;
+  std::set<std::string> taken;
+  for (const std::string& path : paths) {
+    const std::string base = name_of(path);
+    std::string name = base;
+    for (int count = 2; !taken.insert(name).second; ++count) name = fmt::format("{}-{}", base, count);
+    captures.push_back({path, name});
+  }
+  return captures;
 }
 
 /// Its own folder below the common one.
-Expected<ExitCode> judge_next(JudgeCommand& command, const std::string& path, const std::string& name,
-                              compare::JudgedSet& set, Console& console) {
+ResultOutput folder_output(const JudgeCommand& command, const NamedCapture& named) {
+  ResultOutput output = command.output;
+  output.folder += "/" + named.name, output.quiet = true;
+  return output;
+}
+
+/// No capture's folder takes the place of what the capture names. One that cannot be read is refused in its turn.
+Expected<void> check_folders(const JudgeCommand& command, const std::vector<NamedCapture>& captures) {
+  for (const NamedCapture& named : captures) {
+    const auto capture = capture_of(command, named.path);
+    if (!capture) continue;
+    RunFiles files = inputs_of(*capture);
+    if (const auto fine = check_outputs(folder_output(command, named), files); !fine) return fine;
+  }
+  return {};
+}
+
+Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, compare::JudgedSet& set,
+                              Console& console) {
   const Stopwatch total;
-  const auto capture = capture_of(command, path);
+  const auto capture = capture_of(command, named.path);
   if (!capture) return fail(capture.error());
-  RunFiles files;
-  files.reads(path);
+  const ResultOutput output = folder_output(command, named);
+  RunFiles files = inputs_of(*capture);
+  if (const auto fine = check_outputs(output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
-  set.add(name, judged->comparison);
+  set.add(named.name, judged->comparison);
   const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
-  ResultOutput output = command.output;
-  output.folder += "/" + name, output.quiet = true;
   return write_folder(output, judged->comparison, judged->loaded, files, total, console, &introduction);
+}
+
+/// Where no capture could be judged the folder is not there yet.
+Expected<void> write_set(const compare::JudgedSet& set, const std::string& folder) {
+  const OutputGuard whole_outputs;
+  if (const auto made = make_output_folder(folder); !made) return made;
+  return compare::write_judged_set(set, folder);
 }
 
 Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
@@ -151,23 +204,21 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
   for (const std::string& path : command.captures) files.reads(path);
   files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
+  const std::vector<NamedCapture> captures = with_names(command.captures);
+  if (const auto apart = check_folders(command, captures); !apart) return fail(apart.error());
   compare::JudgedSet set;
   ExitCode code = ExitCode::done;
   std::optional<Error> refused;
-  std::map<std::string, int> names;
-  for (const std::string& path : command.captures) {
-    std::string name = name_of(path);
-    if (const int before = names[name]++; before > 0) name += fmt::format("-{}", before + 1);
-    const auto judged = judge_next(command, path, name, set, console);
+  for (const NamedCapture& named : captures) {
+    const auto judged = judge_next(command, named, set, console);
     if (judged && *judged != ExitCode::done) code = *judged;
     if (judged) continue;
     if (judged.error().kind != ErrorKind::bad_input) return fail(judged.error());
     if (refused) console.message(refused->message());
     refused = judged.error();
-    set.add_refused(name, refused->message());
+    set.add_refused(named.name, refused->message());
   }
-  if (const auto written = compare::write_judged_set(set, command.output.folder); !written)
-    return fail(written.error());
+  if (const auto written = write_set(set, command.output.folder); !written) return fail(written.error());
   if (!command.output.quiet) print_data(compare::judged_table(set));
   console.message("report: " + command.output.folder + "/report.html");
   if (refused) return fail(*refused);
