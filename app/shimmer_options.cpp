@@ -152,6 +152,20 @@ Expected<void> check_use(const FilmOptions& film, const compare::ShimmerPath& pa
   return {};
 }
 
+// The keys of what is to move. A film in which nothing moves says nothing.
+Expected<void> play_keys(const FilmOptions& film, compare::ShimmerPath& path) {
+  const bool camera = path.keys.moves_camera() && film.moves != Moves::light;
+  const bool light = !path.keys.lights.empty() && film.moves != Moves::camera;
+  path.camera = camera ? CameraPath::keys : CameraPath::still;
+  path.light = light ? LightPath::keys : LightPath::still;
+  if (camera || light) return check_use(film, path);
+  if (film.moves == Moves::camera)
+    return fail(ErrorKind::usage, "--move camera: the path has no keys of the camera");
+  if (film.moves == Moves::light)
+    return fail(ErrorKind::usage, "--move light: the path has no keys of a light that is drawn");
+  return fail(ErrorKind::usage, "--path: it has no keys of the camera, nor of a light that is drawn");
+}
+
 // Of very many lights some are left out, and their keys with them.
 KeyedPath of_kept_lights(KeyedPath path, const Scene& scene) {
   std::erase_if(path.lights, [&](const auto& keys) {
@@ -218,10 +232,7 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedSc
   if (!keys) return fail(keys.error());
   if (*keys) {
     path.keys = std::move(**keys);
-    const bool camera = path.keys.moves_camera(), light = !path.keys.lights.empty();
-    path.camera = camera && film.moves != Moves::light ? CameraPath::keys : CameraPath::still;
-    path.light = light && film.moves != Moves::camera ? LightPath::keys : LightPath::still;
-    if (const auto used = check_use(film, path); !used) return fail(used.error());
+    if (const auto played = play_keys(film, path); !played) return fail(played.error());
     return plan;
   }
   const Moves moves = film.moves.value_or(Moves::camera);

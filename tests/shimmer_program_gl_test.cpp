@@ -58,6 +58,13 @@ TEST(ShimmerProgram, PlaysTheScenesOwnPath) {
   EXPECT_EQ(path["light"], "still");
   // The keys' times are theirs; with a speed alone a built-in path is meant.
   EXPECT_EQ(run_gnomon(film + Words{"--path", "past", "--speed", "2"}).exit_code, 2);
+  // What the path has no keys of would stand still.
+  for (const auto& [path, move] : {std::pair{"past", "light"}, std::pair{"noon", "camera"}}) {
+    const ProcessResult still = run_gnomon(film + Words{"--path", path, "--move", move});
+    EXPECT_EQ(still.exit_code, 2) << path;
+    EXPECT_NE(still.err.find(std::string("--move ") + move + ": the path has no keys of"), std::string::npos)
+        << still.err;
+  }
   const ProcessResult fast = run_gnomon(film + Words{"--speed", "2"});
   EXPECT_EQ(json::parse(fast.out)["path"]["camera"], "orbit") << fast.err;
   EXPECT_EQ(run_gnomon(film + Words{"--drift", "1,0"}).exit_code, 2);
