@@ -17,11 +17,22 @@ tl::unexpected<Error> wrong(std::string_view reason, std::string_view got, std::
 /// The whole text as a number, or nothing.
 template <class Number>
 std::optional<Number> whole_number(std::string_view text) {
+  if (text.starts_with("+-")) return std::nullopt;
   if (text.starts_with('+')) text.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// Takes a number's unit off its text: whether it had one.
+bool take_texels(std::string_view& text) {
+  for (const std::string_view unit : {std::string_view("texels"), std::string_view("texel")}) {
+    if (!text.ends_with(unit)) continue;
+    text.remove_suffix(unit.size());
+    return true;
+  }
+  return false;
 }
 
 bool contains(const NumberRange& range, double value) {
@@ -74,11 +85,7 @@ Expected<BiasValue> parse_bias(std::string_view text) {
   if (text == "auto") return BiasValue{1.0, raster::BiasUnit::automatic};
   std::string_view number = text;
   BiasValue bias;
-  for (const std::string_view suffix : {std::string_view("texels"), std::string_view("texel")}) {
-    if (!number.ends_with(suffix)) continue;
-    number.remove_suffix(suffix.size());
-    bias.unit = raster::BiasUnit::texel;
-  }
+  if (take_texels(number)) bias.unit = raster::BiasUnit::texel;
   const std::optional<double> value = whole_number<double>(number);
   if (!value || !contains(bias_range, *value)) {
     return wrong("not a bias", text,
@@ -115,8 +122,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
   }
   if (out.measure == ErrorMeasure::edge) {
     constexpr NumberRange texels{0.0, 1e6};
-    for (const std::string_view suffix : {std::string_view("texels"), std::string_view("texel")})
-      if (number.ends_with(suffix)) number.remove_suffix(suffix.size());
+    take_texels(number);
     const std::optional<double> value = whole_number<double>(number);
     if (!value || !contains(texels, *value)) return wrong("not a limit", text, "edge: and texels, 0 to 1e6");
     out.limit = *value;

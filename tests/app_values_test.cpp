@@ -22,8 +22,8 @@ TEST(Values, NumbersAreWholeTextsAndFinite) {
   EXPECT_EQ(parse_number("1.5", range).value(), 1.5);
   EXPECT_EQ(parse_number("+1e-3", range).value(), 1e-3);
   EXPECT_EQ(parse_number("-1", range).value(), -1.0);
-  for (const char* text :
-       {"", " 1", "1 ", "1,5", "0x1", "nan", "-nan", "inf", "-inf", "1e400", "2.0000001", "one", "1m"}) {
+  for (const char* text : {"", " 1", "1 ", "1,5", "0x1", "nan", "-nan", "inf", "-inf", "1e400", "2.0000001",
+                           "one", "1m", "+-1"}) {
     const Expected<double> value = parse_number(text, range);
     ASSERT_FALSE(value) << text;
     EXPECT_EQ(value.error().kind, ErrorKind::usage);
@@ -62,7 +62,7 @@ TEST(Values, Thresholds) {
     EXPECT_EQ(*again, wanted) << text;
   }
   for (const char* text : {"", "101%", "-1%", "median:1%", ":1%", "wrong:", "wrong:2", "flip:1.5",
-                           "edge:-1texel", "edge:1px", "mean:1%x", "wrong and mean:1%"})
+                           "edge:-1texel", "edge:1px", "edge:1texeltexels", "mean:1%x", "wrong and mean:1%"})
     EXPECT_FALSE(parse_threshold(text)) << text;
 }
 
@@ -83,7 +83,8 @@ TEST(Values, BiasesSayTheirUnit) {
     EXPECT_EQ(parse_bias(text)->unit, raster::BiasUnit::texel);
   }
   EXPECT_EQ(parse_bias("-0.1")->constant, -0.1);
-  for (const char* text : {"", "texel", "nan", "inf", "infinity", "nantexel", "1 texel", "0.5px", "1e31"}) {
+  for (const char* text :
+       {"", "texel", "nan", "inf", "infinity", "nantexel", "1 texel", "0.5px", "0.5texeltexels", "1e31"}) {
     EXPECT_FALSE(parse_bias(text)) << text;
   }
 }
