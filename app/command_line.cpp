@@ -241,7 +241,7 @@ int run_action(const Invocation& invocation) {
     print_error(code.error());
     return static_cast<int>(code.error().kind);
   }
-  if (was_interrupted()) return static_cast<int>(ErrorKind::interrupted);
+  if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   return code_after_stdout(static_cast<int>(*code));
 }
 

@@ -28,6 +28,10 @@ bool is_ignored(int signal_number) {
   return sigaction(signal_number, nullptr, &current) == 0 && current.sa_handler == SIG_IGN;
 }
 
+int exit_code_of(int signal_number) {
+  return 128 + signal_number;  // as a shell counts
+}
+
 void wait_and_exit(sigset_t awaited) {
   int signal_number = 0;
   if (sigwait(&awaited, &signal_number) != 0) return;
@@ -36,7 +40,7 @@ void wait_and_exit(sigset_t awaited) {
   const std::string_view text =
       isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: interrupted\n" : "gnomon: interrupted\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
-  _exit(128 + signal_number);
+  _exit(exit_code_of(signal_number));
 }
 
 }  // namespace
@@ -66,8 +70,9 @@ void leave_interrupts_to_the_system() {
   pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);
 }
 
-bool was_interrupted() {
-  return received_signal != 0;
+int interrupt_exit_code() {
+  const int signal_number = received_signal;
+  return signal_number == 0 ? 0 : exit_code_of(signal_number);
 }
 
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}

@@ -14,8 +14,8 @@ void watch_for_interrupts();
 /// signals do what the system does with them.
 void leave_interrupts_to_the_system();
 
-/// A signal has come; the process is only finishing its outputs.
-bool was_interrupted();
+/// 0: no signal has come. Else 130 or 143, with which the process ends once its outputs are finished.
+int interrupt_exit_code();
 
 /// While one lives, a signal waits.
 class OutputGuard {

@@ -51,13 +51,16 @@ std::string examples_of(const CLI::App& command) {
 constexpr const char* exit_status =
     ".SH EXIT STATUS\n"
     ".TP\n0\ndone\n"
-    ".TP\n1\ndone, and more pixels are wrong than \\fB\\-\\-fail\\-above\\fR allows\n"
+    ".TP\n1\ndone, but a limit is not kept: more errors, or more uncertain pixels, than "
+    "\\fB\\-\\-fail\\-above\\fR allows, or nothing compared; no setting of a sweep or of the tuner within "
+    "\\fB\\-\\-max\\-error\\fR; a case of verify that is wrong\n"
     ".TP\n2\nusage\n"
     ".TP\n3\nbad input\n"
     ".TP\n4\nan output could not be written\n"
     ".TP\n5\ngraphics or resources\n"
     ".TP\n6\ninternal error\n"
-    ".TP\n130\ninterrupted\n"
+    ".TP\n130\ninterrupted (SIGINT)\n"
+    ".TP\n143\nended by SIGTERM\n"
     ".SH ENVIRONMENT\n"
     ".TP\nNO_COLOR\nwhen set and not empty, nothing is coloured\n";
 

@@ -8,14 +8,7 @@
 namespace gnomon {
 
 /// The values are the process's exit codes.
-enum class ErrorKind : int {
-  usage = 2,
-  bad_input = 3,
-  cannot_write = 4,
-  graphics = 5,
-  internal = 6,
-  interrupted = 130
-};
+enum class ErrorKind : int { usage = 2, bad_input = 3, cannot_write = 4, graphics = 5, internal = 6 };
 
 /// `file:line:column: field: reason`; parts that are empty or zero are left out.
 struct Error {

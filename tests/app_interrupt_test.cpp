@@ -48,13 +48,26 @@ TEST(Interrupt, WaitsForTheOutputs) {
               {
                 const OutputGuard guard;
                 kill(getpid(), SIGINT);
-                while (!was_interrupted()) std::this_thread::yield();
+                while (interrupt_exit_code() == 0) std::this_thread::yield();
                 app_test::write_text(folder / "whole", "all of it");
               }
               wait_for_the_end();
             }),
             130);
   EXPECT_EQ(app_test::read_file(folder / "whole"), "all of it");
+}
+
+TEST(Interrupt, ItsExitCodeIsKnownWhileTheOutputsAreFinished) {
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const int code = exit_code_of([&] {
+      watch_for_interrupts();
+      const OutputGuard guard;
+      kill(getpid(), signal_number);
+      while (interrupt_exit_code() == 0) std::this_thread::yield();
+      _exit(interrupt_exit_code() - 100);
+    });
+    EXPECT_EQ(code, 28 + signal_number);
+  }
 }
 
 TEST(Interrupt, AnIgnoredSignalStaysIgnored) {

@@ -231,7 +231,8 @@ TEST(Help, CompletionAndManualNameEveryOption) {
       EXPECT_NE(script.out.find(name), std::string::npos) << shell << " " << name;
     }
   }
-  for (const char* name : {"map\\-size", "receiver\\-plane", "gnomon compare fence"}) {
+  for (const char* name :
+       {"map\\-size", "receiver\\-plane", "gnomon compare fence", "max\\-error", ".TP\n143\n"}) {
     EXPECT_NE(manual.find(name), std::string::npos) << name;
   }
   expect_one_line(run_gnomon({"--completion", "ksh"}), 2, "(got ksh, allowed bash, zsh, fish)");
