@@ -181,23 +181,6 @@ TEST_F(Grade, WhatIsDrawnHalfwayCountsByHalf) {
   EXPECT_NEAR(too_dark + too_light, wrong, 0.1) << "each is given to a tenth of a percent";
 }
 
-// Seen from above: no pixel is compared under the light from below, so that some of its figures are null.
-TEST_F(Grade, ALightThatReachesNothingHasNothingWrong) {
-  write_text(folder / "two.json", R"({"schema": "gnomon/scene/1",
-    "camera": {"eye": [0, 6, 0], "target": [0, 0, 0], "up": [0, 0, -1]},
-    "lights": [{"name": "sun", "type": "directional", "direction": [-1, -2, -0.5]},
-               {"name": "below", "type": "directional", "direction": [0, 1, 0]}],
-    "materials": [{"name": "m"}],
-    "meshes": [{"name": "floor", "generate": {"kind": "floor", "size": [8, 8]}},
-               {"name": "box", "generate": {"kind": "box"}}],
-    "instances": [{"mesh": "floor", "material": "m"}, {"mesh": "box", "material": "m"}]})");
-  write_rubric(R"("checks": [{"name": "right", "points": 1, "kind": "at_most", "measure": "wrong",
-    "at_most": "60%", "runs": [{"scene": "two.json", "options": {"size": "64x36", "map-size": "64"}}]}])");
-  const ProcessResult graded = gnomon({"grade", "rubric.json", "--json", "-", "-q"});
-  ASSERT_EQ(graded.exit_code, 0) << graded.err;
-  EXPECT_EQ(json::parse(graded.out)["students"][0]["points"], 1);
-}
-
 TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   // So many pixels that the loop lasts: Mesa ends a loop after 65,536 rounds.
   write_rubric(R"("limits": {"seconds": 5}, "checks": [{"name": "draws", "points": 1, "kind": "draws",
