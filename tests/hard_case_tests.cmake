@@ -16,6 +16,9 @@ foreach(case ${hard_cases})
 endforeach()
 add_test(NAME hard_case_list COMMAND hard_case_test --complete ${hard_cases})
 
+# What the table says of rows that could not be tried.
+gnomon_test(verify_rows_gl_test SOURCES verify_rows_gl_test.cpp LIBS gnomon::verify)
+
 # izb and hybrid against the rays on random scenes; by hand 2,000 of them: build/release/tests/random_scenes_gl_test 2000
 add_executable(random_scenes_gl_test random_scenes_gl_test.cpp)
 target_link_libraries(random_scenes_gl_test PRIVATE gnomon_flags gnomon_warnings gnomon::verify gnomon::hybrid test_places fmt::fmt)

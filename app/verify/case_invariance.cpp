@@ -43,7 +43,7 @@ void scale_invariance(Run& run) {
     Scene large = given, small = given;
     scale(large, 0x1p24), scale(small, 0x1p-20);
     DrawnWorld here(given), there(std::move(large)), tiny(std::move(small));
-    if (!here.ready()) return skip_without_context(run, here, "lengths times 2^24 and 2^-20");
+    if (!here.ready()) return add_row_of_undrawn(run, here, "lengths times 2^24 and 2^-20");
     for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
       const Technique technique = traits.technique;
       // Nothing of the hybrid is drawn: it asks the tracer.
@@ -52,7 +52,7 @@ void scale_invariance(Run& run) {
       const auto a = here.draw(options), b = there.draw(options), c = tiny.draw(options);
       const std::string row = std::string(type_name) + ", " + std::string(traits.name);
       if (!a || !b || !c) {
-        run.sample_each(row, 1, [](std::uint64_t, Tally& tally) { tally.check(false); });
+        run.fault(row, (!a ? a : !b ? b : c).error().message());
         continue;
       }
       compare_drawings(run, row + " times 2^24", *a, *b);
@@ -74,7 +74,7 @@ void coplanar_lights(Run& run) {
   std::vector<Agreement> found;
   for (std::uint64_t i = 0; i < scenes; ++i) {
     DrawnWorld drawn(random_scene(random));
-    if (!drawn.ready()) return skip_without_context(run, drawn, "izb against certain shadows");
+    if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "izb against certain shadows");
     const std::array<std::uint32_t, 1> first{0};
     const raytrace::Tracer tracer(drawn.world(), raytrace::Accel::bvh);
     const auto traced = trace_frame(tracer, plan_effects(drawn.scene()), drawn.scene().camera, first, rays);

@@ -59,13 +59,16 @@ double quantum(const Format& f, LightType type, double n, double far, double z) 
   return step / step_per_depth;
 }
 
+std::string plates_row(const Format& f, LightType type) {
+  return std::string(f.name) + (type == LightType::spot ? ", perspective" : ", orthographic");
+}
+
 void check_plates(Run& run, const raster::ShadowMap& map, const Format& f, LightType type) {
   const double n = map.view.face(0).near_depth, far = map.view.face(0).far_depth;
   const Vec3 forward = map.view.face(0).forward;
   const auto size = static_cast<std::uint64_t>(map.view.size);
-  const char* kind = type == LightType::spot ? "perspective" : "orthographic";
   run.sample_each(
-      std::string(f.name) + ", " + kind, size * size,
+      plates_row(f, type), size * size,
       [&](std::uint64_t i, Tally& tally) {
         const double stored = map.depth[i];
         if (stored == (f.reversed ? 0.0 : 1.0)) return;
@@ -90,12 +93,15 @@ void check_plates(Run& run, const raster::ShadowMap& map, const Format& f, Light
 void depth_range(Run& run) {
   for (const LightType type : {LightType::spot, LightType::directional}) {
     DrawnWorld drawn(plates(type));
-    if (!drawn.ready()) return skip_without_context(run, drawn, "formats against their quantum");
+    if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "formats against their quantum");
     for (const Format& f : formats) {
       raster::RasterOptions options = drawing({16, 16}, 256, 0.0);
       options.map.depth_format = f.format;
       const auto frame = drawn.draw(options);
-      if (frame) check_plates(run, frame->lights[0].map, f, type);
+      if (frame)
+        check_plates(run, frame->lights[0].map, f, type);
+      else
+        run.fault(plates_row(f, type), frame.error().message());
     }
   }
 }
@@ -157,7 +163,7 @@ void expect_share(Run& run, const char* name, std::uint64_t tried, double got, d
 
 void extreme_bias(Run& run) {
   DrawnWorld drawn(floor_and_plate({0.35, -1.0, 0.2}));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "biases and their limits");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "biases and their limits");
   const ImageSize size{320, 200};
   const auto with_bias = [&](double bias) {
     const auto frame = drawn.draw(drawing(size, 64, bias));

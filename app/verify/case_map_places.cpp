@@ -44,9 +44,11 @@ void behind_light(Run& run) {
   scene.camera.eye = {1.0, 1.0, 2.5}, scene.camera.target = {-3.0, 0.0, -0.5},
   scene.camera.vertical_fov = 1.6;
   DrawnWorld drawn(std::move(scene));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "behind the light");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "behind the light");
   const auto frame = drawn.draw(drawing(picture, 128, 0.0));
-  if (frame) {
+  if (!frame) {
+    run.fault("receivers behind a spot light", frame.error().message());
+  } else {
     run.sample_each("receivers behind a spot light", picture.pixels(), [&](std::uint64_t i, Tally& tally) {
       const int x = static_cast<int>(i) % picture.width, y = static_cast<int>(i) / picture.width;
       const Vec3 p = on_room(eye_ray(drawn.scene().camera, picture, x, y), 3.0);
@@ -59,7 +61,7 @@ void behind_light(Run& run) {
   street.camera.eye = {0.0, 1.7, 8.0}, street.camera.target = {0.0, 1.0, 0.0};
   const World world = make_world(street);
   const auto view = fit_warped(world, street.lights[0], street.camera, 1.6, 256);
-  if (!view || !(view->face(0).warp > 0.0)) return run.skip("behind a warp's eye", "the fit made no warp");
+  if (!view || !(view->face(0).warp > 0.0)) return run.fault("behind a warp's eye", "the fit made no warp");
   const LightFace& face = view->face(0);
   run.sample("points behind a warp's eye", run.rays(0.1), [&](Random& random, Tally& tally) {
     const double up = face.center.y - (1.0 / face.warp) * (1.0 + random.power_of_ten(-6, 3));
@@ -76,9 +78,9 @@ void outside_map(Run& run) {
   scene.lights = {sun({0.4, -1.0, 0.25})};
   scene.camera.eye = {3.0, 9.0, 12.0};
   DrawnWorld drawn(std::move(scene));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "beside the map");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "beside the map");
   const auto frame = drawn.draw(drawing(picture, 64, 1e-3));
-  if (!frame) return run.skip("beside the map", frame.error().message());
+  if (!frame) return run.fault("beside the map", frame.error().message());
   const raster::LightRecord& record = frame->lights[0];
   const LightFace& face = record.map.view.face(0);
   std::uint64_t beside = 0;
@@ -110,7 +112,7 @@ void texel_boundaries(Run& run) {
   scene.lights = {sun({0, -1, 0})};
   scene.camera.up = {0, 0, -1};
   DrawnWorld drawn(std::move(scene));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "borders of texels");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "borders of texels");
   for (const double shift : {0.0, 1e-12, -1e-12, 1e-4, -1e-4}) {
     // A pixel of the floor is as wide as a texel of the map, which has a texel of margin on each side; the
     // eye stands half a texel off, so that pixel centres lie on borders.
@@ -121,7 +123,7 @@ void texel_boundaries(Run& run) {
     camera.vertical_fov = 2.0 * std::atan(0.5 * texel * pixels.height / height);
     raster::RasterOptions options = drawing(pixels, size, 0.0);
     const auto frame = drawn.draw(options);
-    if (!frame) return run.skip("borders of texels", frame.error().message());
+    if (!frame) return run.fault("borders of texels", frame.error().message());
     const raster::LightRecord& record = frame->lights[0];
     const LightFace& face = record.map.view.face(0);
     run.sample_each(
@@ -175,7 +177,7 @@ void cube_seams(Run& run) {
   scene.camera.vertical_fov = 1.7;
   DrawnWorld drawn(std::move(scene));
   const auto fitted = fit_light_view(drawn.world(), drawn.scene().lights[0], drawn.scene().camera, 1.6, 64);
-  if (!fitted) return run.skip("directions with tied axes", fitted.error().message());
+  if (!fitted) return run.fault("directions with tied axes", fitted.error().message());
   LightView view = *fitted;
   view.seamless = !run.is_textbook();
   run.sample(
@@ -191,7 +193,7 @@ void cube_seams(Run& run) {
         tally.error(angle / (std::numbers::sqrt2 / view.size));
       },
       "half diagonals of a texel", 1.0 + 1e-9);
-  if (!drawn.ready()) return skip_without_context(run, drawn, "a room seen through its seams");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "a room seen through its seams");
   // A lamp in the middle of an empty room lights every point of it; the walls' edges and the floor's
   // diagonals are seams.
   raster::RasterOptions options = drawing(picture, 64, 0.0);
@@ -200,7 +202,7 @@ void cube_seams(Run& run) {
   for (const Vec3& eye : {Vec3(0.4, 0.3, 0.5), Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)}) {
     drawn.scene().camera.eye = eye;
     const auto frame = drawn.draw(options);
-    if (!frame) return run.skip("a room seen through its seams", frame.error().message());
+    if (!frame) return run.fault("a room seen through its seams", frame.error().message());
     run.sample_each(fmt::format("a room's seams from ({:g} {:g} {:g})", eye.x, eye.y, eye.z),
                     picture.pixels(), [&](std::uint64_t i, Tally& tally) {
                       if (frame->primitive.data[i] == no_id) return;

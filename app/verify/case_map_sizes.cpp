@@ -18,13 +18,13 @@ void bias_convergence(Run& run) {
   scene.lights = {lamp};
   scene.camera.eye = {0.0, 6.0, 0.01}, scene.camera.vertical_fov = 0.6;
   DrawnWorld drawn(std::move(scene));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "lamp against sun");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "lamp against sun");
   for (const double distance : {10.0, 100.0, 1000.0}) {
     Light& light = drawn.scene().lights[0];
     light.position = distance * towards;
     light.outer_angle = std::atan(reach / distance), light.inner_angle = 0.5 * light.outer_angle;
     const auto frame = drawn.draw(drawing({320, 320}, size, 0.0));
-    if (!frame) return run.skip("lamp against sun", frame.error().message());
+    if (!frame) return run.fault("lamp against sun", frame.error().message());
     const LightFace& face = frame->lights[0].map.view.face(0);
     const Vec3 up(0, 1, 0);  // the floor's normal
     const double half_texel = face.half_extent.x * distance / size;
@@ -61,7 +61,7 @@ void image_sizes(Run& run) {
   scene.lights = {sun({0.35, -1.0, 0.2})};
   scene.camera.eye = {0.3, 1.2, 6.0}, scene.camera.target = {0.0, 0.0, 0.5}, scene.camera.vertical_fov = 1.0;
   DrawnWorld drawn(std::move(scene));
-  if (!drawn.ready()) return skip_without_context(run, drawn, "sizes of the picture");
+  if (!drawn.ready()) return add_row_of_undrawn(run, drawn, "sizes of the picture");
   const int longest = drawn.max_map_size();
   const Vec3 d = drawn.scene().lights[0].direction;
   for (const ImageSize size : {ImageSize{1, 1}, ImageSize{longest, 1}, ImageSize{1, longest}}) {
@@ -73,7 +73,7 @@ void image_sizes(Run& run) {
     const auto frame = drawn.draw(options);
     const std::string name = std::to_string(size.width) + " x " + std::to_string(size.height);
     if (!frame) {
-      run.sample_each(name, 1, [](std::uint64_t, Tally& tally) { tally.check(false); });
+      run.fault(name, frame.error().message());
       continue;
     }
     run.sample_each(name, size.pixels(), [&](std::uint64_t i, Tally& tally) {

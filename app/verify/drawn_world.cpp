@@ -8,6 +8,7 @@ DrawnWorld::DrawnWorld(Scene scene) : scene_(std::move(scene)), world_(make_worl
     error_ = context.error();
     return;
   }
+  has_context_ = true;
   auto renderer = raster::Renderer::create(std::move(*context), world_, plan_effects(scene_));
   if (renderer)
     renderer_ = std::move(*renderer);
@@ -16,6 +17,7 @@ DrawnWorld::DrawnWorld(Scene scene) : scene_(std::move(scene)), world_(make_worl
 }
 
 Expected<raster::RasterFrame> DrawnWorld::draw(const raster::RasterOptions& options) {
+  if (!ready()) return fail(error_);
   const std::array<std::uint32_t, 1> first{0};
   return renderer_->render(options, first);
 }
@@ -42,8 +44,9 @@ double to_level(const Ray& ray, double height) {
   return t > 0.0 ? t : infinity;
 }
 
-void skip_without_context(Run& run, const DrawnWorld& world, std::string row) {
-  run.skip(std::move(row), "no context: " + world.error().message());
+void add_row_of_undrawn(Run& run, const DrawnWorld& world, const std::string& row) {
+  const std::string why = world.error().message();
+  world.has_context() ? run.fault(row, why) : run.skip(row, "no context: " + why);
 }
 
 }  // namespace gnomon::verify

@@ -12,21 +12,23 @@ namespace gnomon::verify {
 /// A world and its rasterizer.
 class DrawnWorld {
  public:
-  /// Why there is none stands in error().
+  /// Why there is no rasterizer stands in error().
   explicit DrawnWorld(Scene scene);
   bool ready() const { return renderer_ != nullptr; }
+  bool has_context() const { return has_context_; }
   const Error& error() const { return error_; }
   const World& world() const { return world_; }
   /// Camera and lights may change between drawings.
   Scene& scene() { return scene_; }
   int max_map_size() const { return renderer_->info().max_map_size; }
 
-  /// The first light's records; untimed.
+  /// The first light's records; untimed. Error: error() where it is not ready.
   Expected<raster::RasterFrame> draw(const raster::RasterOptions& options);
 
  private:
   Scene scene_;
   World world_;
+  bool has_context_ = false;
   std::unique_ptr<raster::Renderer> renderer_;
   Error error_{ErrorKind::graphics, {}};
 };
@@ -39,7 +41,7 @@ Ray eye_ray(const Camera& camera, ImageSize size, int x, int y);
 /// Distance along the ray to the plane y = height; infinite where it is not met.
 double to_level(const Ray& ray, double height);
 
-/// A row that says that there is no context.
-void skip_without_context(Run& run, const DrawnWorld& world, std::string row);
+/// The row of a world that is not ready: skipped where the machine has no context, and else wrong.
+void add_row_of_undrawn(Run& run, const DrawnWorld& world, const std::string& row);
 
 }  // namespace gnomon::verify

@@ -21,7 +21,7 @@ std::uint64_t block_seed(std::uint64_t seed, int number, std::size_t row, std::u
 
 std::uint64_t Run::rays(double share, std::uint64_t most) const {
   const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(options_.rays));
-  return std::clamp(wanted, std::uint64_t{256}, most);
+  return std::min(std::max(wanted, std::uint64_t{256}), most);
 }
 
 void Run::blocks(Row row, std::uint64_t trials, const Block& block) {

@@ -31,7 +31,7 @@ class Run {
   raytrace::Precision precision() const { return textbook_ ? raytrace::Precision::fast : options_.precision; }
   /// The naive formulation is under test, also of what all precisions share.
   bool is_textbook() const { return textbook_; }
-  /// Share of --rays, at least one block and never above `most`.
+  /// Share of --rays, at least 256 of them and never above `most`, which may be fewer.
   std::uint64_t rays(double share = 1.0, std::uint64_t most = ~std::uint64_t{0}) const;
   std::uint64_t seed() const { return options_.seed; }
 
@@ -59,7 +59,7 @@ class Run {
                      .naive = {}});
   }
 
-  /// One row that could not be run, and why.
+  /// One row that this machine cannot run, and why: nothing is wrong with it.
   void skip(std::string name, std::string why) {
     rows_.push_back({.number = number_,
                      .name = std::move(name),
@@ -67,6 +67,11 @@ class Run {
                      .outcome = {},
                      .naive = {},
                      .skipped = std::move(why)});
+  }
+
+  /// One row of what could not be tried on a machine that has all it takes: one trial, and a wrong one.
+  void fault(const std::string& name, const std::string& why) {
+    sample_each(name + ": " + why, 1, [](std::uint64_t, Tally& tally) { tally.check(false); });
   }
 
   std::vector<Row> take_rows() { return std::move(rows_); }

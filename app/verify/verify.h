@@ -20,7 +20,7 @@ namespace gnomon::verify {
 class Run;
 
 struct Case {
-  int number;             ///< 1 ... 44
+  int number;             ///< from 1
   std::string_view name;  ///< lower case with underscores: also the name of its test
   std::string_view what;  ///< one line: what is asked of the tracer
   void (*run)(Run&);
@@ -42,7 +42,7 @@ struct Row {
   double bound = 0.0;  ///< what worst must not exceed
   Outcome outcome;
   std::optional<Outcome> naive;  ///< the textbook formulation on the same rays, when asked for
-  std::string skipped{};         ///< why it was not run: then nothing is wrong with it
+  std::string skipped{};         ///< why this machine cannot run it: then nothing is wrong with it
   bool ok() const {
     return !skipped.empty() || (outcome.tried > 0 && outcome.wrong == 0 && outcome.worst <= bound);
   }
