@@ -14,12 +14,12 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr std::pair<std::string_view, raster::DepthFormat> depth_formats[] = {
+constexpr std::pair<std::string_view, raster::DepthFormat> depth_format_choices[] = {
     {"d16", raster::DepthFormat::d16},
     {"d24", raster::DepthFormat::d24},
     {"d32f", raster::DepthFormat::d32f},
     {"d32f-reversed", raster::DepthFormat::d32f_reversed}};
-constexpr std::pair<std::string_view, raster::Cull> culls[] = {
+constexpr std::pair<std::string_view, raster::Cull> cull_choices[] = {
     {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
 constexpr std::pair<std::string_view, raster::Backend> backends[] = {
     {"auto", raster::Backend::automatic},
@@ -141,13 +141,21 @@ void add_map_size(CLI::App& command, int& texels) {
               "side of the shadow map, as far as the graphics context allows");
 }
 
+std::span<const std::pair<std::string_view, raster::DepthFormat>> depth_formats() {
+  return depth_format_choices;
+}
+
+std::span<const std::pair<std::string_view, raster::Cull>> culls() {
+  return cull_choices;
+}
+
 void add_map_options(CLI::App& command, raster::MapOptions& map) {
   add_map_size(command, map.size);
   add_choice(command, "--technique", map.technique, all_techniques(), "NAME", "shadow test");
   add_bias_options(command, map.bias);
-  add_choice(command, "--depth-format", map.depth_format, depth_formats, "NAME",
+  add_choice(command, "--depth-format", map.depth_format, depth_formats(), "NAME",
              "number format of the stored depth");
-  add_choice(command, "--cull", map.cull, culls, "SIDE", "sides of surfaces that the map leaves out");
+  add_choice(command, "--cull", map.cull, culls(), "SIDE", "sides of surfaces that the map leaves out");
   add_filter_options(command, map.filter);
   add_cascade_options(command, map.cascades);
   command.add_flag(

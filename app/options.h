@@ -33,6 +33,9 @@ void add_map_options(CLI::App& command, raster::MapOptions& map);
 /// The values of --technique.
 std::vector<std::string> technique_names();
 std::span<const std::pair<std::string_view, raster::Technique>> all_techniques();
+/// The values of --depth-format and of --cull.
+std::span<const std::pair<std::string_view, raster::DepthFormat>> depth_formats();
+std::span<const std::pair<std::string_view, raster::Cull>> culls();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// " --backend NAME" for what was chosen; nothing for auto.
 std::string backend_argument(raster::Backend backend);

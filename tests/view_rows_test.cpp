@@ -7,6 +7,7 @@
 
 #include "app/technique_options.h"
 #include "app/view/layout.h"
+#include "app/view/map_option.h"
 #include "app/view/projection.h"
 #include "raster/technique_traits.h"
 #include "tests/view_fixture.h"
@@ -53,6 +54,22 @@ TEST(ViewRows, NumbersAreSetWhereTheyAreRead) {
       EXPECT_EQ(integer->get(map), integer->to) << row.option;
     }
     EXPECT_TRUE(raster::check_map_options(map)) << row.option;
+  }
+}
+
+TEST(ViewRows, ChoicesAreTheCommandLines) {
+  for (const MapRow& row : map_rows()) {
+    const auto* choice = std::get_if<ChoiceRow>(&row.kind);
+    if (choice == nullptr) continue;
+    const std::vector<std::string_view> names = choice->names();
+    EXPECT_GE(names.size(), 3u) << row.option;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      raster::MapOptions map, panel;
+      ASSERT_TRUE(set_map_option(map, std::string(row.option), std::string(names[i]))) << names[i];
+      EXPECT_EQ(choice->get(map), i) << names[i];
+      choice->set(panel, i);
+      EXPECT_EQ(choice->get(panel), i) << names[i];
+    }
   }
 }
 

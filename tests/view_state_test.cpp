@@ -117,9 +117,12 @@ TEST(ViewState, MapSizeStaysWithinTheContext) {
 
 TEST(ViewState, FormatsAndCullingGoRound) {
   const ViewState start = two_light_state();
-  EXPECT_EQ(after(start, {NextDepthFormat{}}).setup.map.depth_format, raster::DepthFormat::d16);
-  EXPECT_EQ(after(start, {NextDepthFormat{}, NextDepthFormat{}, NextDepthFormat{}}).setup.map.depth_format,
-            start.setup.map.depth_format);
+  ViewState formats = start;
+  for (const auto next : {raster::DepthFormat::d32f_reversed, raster::DepthFormat::d16,
+                          raster::DepthFormat::d24, raster::DepthFormat::d32f}) {
+    carry_out(formats, NextDepthFormat{});
+    EXPECT_EQ(formats.setup.map.depth_format, next);
+  }
   EXPECT_EQ(after(start, {NextCull{}}).setup.map.cull, raster::Cull::front);
   EXPECT_EQ(after(start, {NextCull{}, NextCull{}, NextCull{}}).setup.map.cull, raster::Cull::none);
 }

@@ -1,7 +1,9 @@
 #include "app/view/map_rows.h"
 
-#include <array>
+#include <algorithm>
 
+#include "app/filter_options.h"
+#include "app/options.h"
 #include "app/technique_options.h"
 #include "raster/technique_traits.h"
 
@@ -11,9 +13,22 @@ namespace {
 
 using raster::MapOptions;
 
-constexpr std::array<std::string_view, 4> depth_names{"d16", "d24", "d32f", "d32f-reversed"};
-constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
-constexpr std::array<std::string_view, 4> kernel_names{"box", "hardware", "vogel", "optimised"};
+template <class Enum>
+using NamedValues = std::span<const std::pair<std::string_view, Enum>>;
+
+template <class Enum>
+std::size_t place_among(NamedValues<Enum> all, Enum value) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.second == value; });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+template <class Enum>
+std::vector<std::string_view> names_among(NamedValues<Enum> all) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : all) names.push_back(name);
+  return names;
+}
 
 /// Rows over one field of a part of the options; `part` and `field` are members.
 template <auto part, auto field>
@@ -35,10 +50,12 @@ constexpr SwitchRow flag() {
   return {[](const MapOptions& map) { return map.*part.*field; },
           [](MapOptions& map, bool on) { map.*part.*field = on; }};
 }
-template <auto field, class Enum>
-constexpr ChoiceRow choice(std::span<const std::string_view> names) {
-  return {[](const MapOptions& map) { return static_cast<int>(map.*field); },
-          [](MapOptions& map, int value) { map.*field = static_cast<Enum>(value); }, names};
+/// `all`: the function that lists the values.
+template <auto field, auto all>
+constexpr ChoiceRow choice() {
+  return {[](const MapOptions& map) { return place_among(all(), map.*field); },
+          [](MapOptions& map, std::size_t place) { map.*field = all()[place].second; },
+          [] { return names_among(all()); }};
 }
 
 constexpr auto bias = &MapOptions::bias;
@@ -53,11 +70,10 @@ constexpr MapRow rows[] = {
                 [](MapOptions& map, int value) { map.size = value; }, 16, 16384, "texels", true},
      "Texels on a side of the depth map.", "Twice the texels need half the bias.",
      "Less bias is enough, so shadows start closer to their casters."},
-    {"depth-format", "Depth format", RowGroup::map,
-     choice<&MapOptions::depth_format, raster::DepthFormat>(depth_names),
+    {"depth-format", "Depth format", RowGroup::map, choice<&MapOptions::depth_format, &depth_formats>(),
      "The number format of the stored depth.", "Few bits round the depth: speckles that look like acne.",
      "None, but that coarser steps ask for more bias."},
-    {"cull", "Leave out", RowGroup::map, choice<&MapOptions::cull, raster::Cull>(cull_names),
+    {"cull", "Leave out", RowGroup::map, choice<&MapOptions::cull, &culls>(),
      "The sides of surfaces that the map leaves out, as the light sees them.",
      "Without front faces, lit surfaces cannot shadow themselves; the back sides do.",
      "Without front faces a thin caster's shadow starts behind it, and open meshes leak."},
@@ -85,10 +101,9 @@ constexpr MapRow rows[] = {
      "As much as the receiver's plane rises up to the texel's centre (Dou et al. 2014).",
      "None is left on a plane.", "As little as the place in the texel allows."},
     {"filter-kernel", "Kernel", RowGroup::filter,
-     ChoiceRow{
-         [](const MapOptions& map) { return static_cast<int>(map.filter.kernel); },
-         [](MapOptions& map, int value) { map.filter.kernel = static_cast<raster::FilterKernel>(value); },
-         kernel_names},
+     ChoiceRow{[](const MapOptions& map) { return place_among(filter_kernels(), map.filter.kernel); },
+               [](MapOptions& map, std::size_t place) { map.filter.kernel = filter_kernels()[place].second; },
+               [] { return names_among(filter_kernels()); }},
      "Which texels are compared with, and how they are weighed.",
      "A filter turns its stripes into grey; it does not take them away.", "Blurs the gap."},
     {"filter-radius", "Radius", RowGroup::filter,

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "raster/options.h"
 
@@ -31,10 +32,11 @@ struct SwitchRow {
   bool (*get)(const raster::MapOptions&) = nullptr;
   void (*set)(raster::MapOptions&, bool) = nullptr;
 };
+/// One of the values that the command line takes, by its place among them.
 struct ChoiceRow {
-  int (*get)(const raster::MapOptions&) = nullptr;
-  void (*set)(raster::MapOptions&, int) = nullptr;
-  std::span<const std::string_view> names;
+  std::size_t (*get)(const raster::MapOptions&) = nullptr;
+  void (*set)(raster::MapOptions&, std::size_t) = nullptr;
+  std::vector<std::string_view> (*names)() = nullptr;
 };
 /// The constant bias, which has three units.
 struct BiasRow {};

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/options.h"
 #include "app/view/map_option.h"
 
 namespace gnomon::app {
@@ -41,6 +42,14 @@ LightPose tidy(LightPose pose) {
 
 double clamped(double value, double limit) {
   return std::clamp(value, -limit, limit);
+}
+
+/// Of all that there are, and from the last to the first.
+template <class Enum>
+void go_to_next(Enum& value, std::span<const std::pair<std::string_view, Enum>> all) {
+  std::size_t place = 0;
+  while (all[place].second != value) ++place;
+  value = all[(place + 1) % all.size()].second;
 }
 
 /// The setup's changes; each is followed by a new revision.
@@ -113,17 +122,8 @@ struct SetupChange {
         static_cast<int>(std::min<std::int64_t>(2 * std::int64_t{s.setup.map.size}, s.max_map_size));
   }
   void operator()(const HalveMap&) const { s.setup.map.size = std::max(1, s.setup.map.size / 2); }
-  void operator()(const NextDepthFormat&) const {
-    using enum raster::DepthFormat;
-    raster::DepthFormat& format = s.setup.map.depth_format;
-    format = format == d16 ? d24 : format == d24 ? d32f : d16;
-  }
-  void operator()(const NextCull&) const {
-    raster::Cull& cull = s.setup.map.cull;
-    cull = cull == raster::Cull::none    ? raster::Cull::front
-           : cull == raster::Cull::front ? raster::Cull::back
-                                         : raster::Cull::none;
-  }
+  void operator()(const NextDepthFormat&) const { go_to_next(s.setup.map.depth_format, depth_formats()); }
+  void operator()(const NextCull&) const { go_to_next(s.setup.map.cull, culls()); }
   void operator()(const SetMapOption& c) const {
     [[maybe_unused]] const Expected<void> set = set_map_option(s.setup.map, c.name, c.value);
     assert(set && "checked when it was read");

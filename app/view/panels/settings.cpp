@@ -109,19 +109,19 @@ struct RowControl {
   }
   bool operator()(const ChoiceRow& choice) const {
     title_of(row, {});
-    const int now = choice.get(map);
+    const std::vector<std::string_view> names = choice.names();
+    const std::size_t now = choice.get(map);
     ImGui::SetNextItemWidth(-FLT_MIN);
     bool changed = false;
-    const bool open =
-        ImGui::BeginCombo("##value", std::string(choice.names[static_cast<std::size_t>(now)]).c_str());
+    const bool open = ImGui::BeginCombo("##value", std::string(names[now]).c_str());
     if (!open) {
       Note(row).of_control();
       return false;
     }
-    for (std::size_t i = 0; i < choice.names.size(); ++i) {
-      const bool chosen = static_cast<int>(i) == now;
-      if (ImGui::Selectable(std::string(choice.names[i]).c_str(), chosen) && !chosen) {
-        choice.set(map, static_cast<int>(i));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool chosen = i == now;
+      if (ImGui::Selectable(std::string(names[i]).c_str(), chosen) && !chosen) {
+        choice.set(map, i);
         changed = true;
       }
     }
