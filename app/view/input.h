@@ -72,7 +72,6 @@ class Pointer {
   /// What moving here makes, if a button is down. `pane`: pixels of the picture's place on the screen.
   std::optional<Change> move_to(double x, double y, ImageSize pane);
   Vec2 place() const { return {x_, y_}; }
-  bool dragging() const { return drag_ != Drag::none; }
 
  private:
   double x_ = 0.0, y_ = 0.0;

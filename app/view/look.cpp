@@ -49,14 +49,8 @@ std::string_view picture_legend(Picture picture) {
 Expected<Picture> parse_picture(std::string_view name) {
   return parse<Picture>(name, picture_names, "view");
 }
-std::string_view pane_layout_name(PaneLayout layout) {
-  return layout_names[static_cast<std::size_t>(layout)];
-}
 Expected<PaneLayout> parse_pane_layout(std::string_view name) {
   return parse<PaneLayout>(name, layout_names, "layout");
-}
-std::string_view theme_name(Theme theme) {
-  return theme_names[static_cast<std::size_t>(theme)];
 }
 Expected<Theme> parse_theme(std::string_view name) {
   return parse<Theme>(name, theme_names, "theme");

@@ -24,11 +24,9 @@ Expected<Picture> parse_picture(std::string_view name);
 
 /// One view, two with a line between them, or four.
 enum class PaneLayout : std::uint8_t { single, swipe, quad };
-std::string_view pane_layout_name(PaneLayout layout);
 Expected<PaneLayout> parse_pane_layout(std::string_view name);
 
 enum class Theme : std::uint8_t { dark, light };
-std::string_view theme_name(Theme theme);
 Expected<Theme> parse_theme(std::string_view name);
 
 /// A pixel of the picture, (0, 0) at its upper left.

@@ -100,8 +100,7 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   return story;
 }
 
-std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story, ImageSize,
-                                    int texels) {
+std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story, int texels) {
   const raster::LightRecord& record = outcome.comparison.raster.lights.front();
   const LightView& view = record.map.view;
   if (!looks_up(record, story)) return std::nullopt;

@@ -40,8 +40,7 @@ struct LightCut {
   double bias = 0.0;  ///< all of it, world units, where it is the same all over the texel; else the constant
 };
 /// Empty where there is no surface, or the map was not drawn as depths. `texels`: shown on each side.
-std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story,
-                                    ImageSize picture, int texels);
+std::optional<LightCut> cut_through(const ComparisonOutcome& outcome, const PixelStory& story, int texels);
 
 /// The texels around the pixel's own as the light sees them: u grows to the right, v upwards.
 struct LightSpace {

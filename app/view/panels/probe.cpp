@@ -179,7 +179,7 @@ void probe_panel(PanelContext& context) {
   if (!story.seen) return;
   if (compare::is_compared(story.label)) ladder(context, story);
   static constexpr int texels = 4;
-  if (const auto cut = cut_through(outcome, story, picture, texels)) drawing(context, *cut, story);
+  if (const auto cut = cut_through(outcome, story, texels)) drawing(context, *cut, story);
   if (const auto space = light_space(outcome, story, texels)) light_space_drawing(context, *space, story);
   const std::string gap = std::isfinite(story.gap) ? fmt::format("gap {:.4g}", story.gap) : "nothing stored";
   faint(fmt::format("{}, distance {:.5g}, texel {:.2f}, {:.2f}{}", gap, story.distance, story.u, story.v,
