@@ -6,19 +6,11 @@
 #include <CLI/CLI.hpp>
 
 #include "app/session.h"
-#include "app/values.h"
 #include "scene/files/validate.h"
 
 namespace gnomon::app {
 
 namespace {
-
-constexpr NumberRange azimuth_range{-360.0, 360.0};
-constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
-constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
-constexpr NumberRange distance_range{0.0, 1e12, true};
-constexpr NumberRange coordinate_range{-1e12, 1e12};
-constexpr NumberRange size_range{0.0, 1e12};
 
 Expected<Vec2> parse_orbit(const std::string& text) {
   const std::size_t comma = text.find(',');
@@ -142,6 +134,8 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
     pose.distance = poses.camera_distance.value_or(pose.distance);
     pose.target = poses.camera_target;
     pose.up = poses.camera_up;
+    if (const auto defect = find_camera_defect(posed_camera(scene.camera, pose)))
+      return fail(ErrorKind::usage, fmt::format("the camera's pose: {} {}", defect->field, defect->reason));
     resolved.camera = pose;
   }
   if (!poses.light_azimuth && !poses.light_elevation && !poses.light_distance && !poses.light_size)
@@ -171,11 +165,7 @@ Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, S
                            const World& world) {
   const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, world);
   if (!resolved) return fail(resolved.error());
-  if (resolved->camera) {
-    scene.camera = posed_camera(scene.camera, *resolved->camera);
-    if (const auto defect = find_camera_defect(scene.camera))
-      return fail(ErrorKind::usage, fmt::format("the camera's pose: {} {}", defect->field, defect->reason));
-  }
+  if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
   if (!resolved->light_pose) return {};
   Light& turned = scene.lights[resolved->light];
   turned = posed_light(turned, scene_centre(world), *resolved->light_pose);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/pose.h"
+#include "app/values.h"
 #include "scene/expected.h"
 #include "scene/world.h"
 
@@ -16,6 +17,15 @@ class App;
 namespace gnomon::app {
 
 struct LoadedScene;
+
+// What the options take, and the lab's script with them: degrees, and world units.
+inline constexpr NumberRange azimuth_range{-360.0, 360.0};
+inline constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees,
+                                                    max_camera_elevation_degrees};
+inline constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
+inline constexpr NumberRange distance_range{0.0, 1e12, true};
+inline constexpr NumberRange coordinate_range{-1e12, 1e12};
+inline constexpr NumberRange size_range{0.0, 1e12};
 
 struct PoseOptions {
   std::optional<Vec2> camera_orbit;                      ///< azimuth, elevation: degrees
@@ -36,7 +46,8 @@ struct ResolvedPoses {
   std::uint32_t light = 0;  ///< whose pose it is
 };
 
-/// The light is the one of that name or, without a name, the only one there is. Errors are ErrorKind::usage.
+/// The light is the one of that name or, without a name, the only one there is. Errors are ErrorKind::usage, also
+/// where the camera's pose is one that nothing can be seen with.
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const World& world);
 
 /// Moves the scene's camera and turns its light.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/values.h"
+#include "app/pose_options.h"
 
 namespace gnomon::app {
 
@@ -12,12 +12,6 @@ namespace {
 
 using Values = std::vector<std::string>;
 
-constexpr NumberRange azimuth_range{-360.0, 360.0};
-constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees, max_camera_elevation_degrees};
-constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
-constexpr NumberRange distance_range{0.0, 1e12, true};
-constexpr NumberRange size_range{0.0, 1e12};
-constexpr NumberRange coordinate_range{-1e12, 1e12};
 constexpr NumberRange hour_range{0.0, 24.0};
 constexpr NumberRange film_range{0.0, 1e6};
 constexpr NumberRange share_range{0.0, 1.0};
