@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/view_fixture.h"
 
 namespace gnomon::app {
@@ -49,6 +51,16 @@ TEST(ViewStatus, TheTunerIsAskedForThePictureShown) {
   EXPECT_EQ(words.find("map"), std::string::npos) << words;
   state.setup.size = {96, 64};
   EXPECT_EQ(tuning_words(state, options)[1], "96x64");
+}
+
+// As every command takes it, the sweep with them.
+TEST(ViewStatus, AFlagOfTheMapsSettingsIsOn) {
+  raster::MapOptions map;
+  map.bias.receiver_plane = true;
+  const auto settings = map_settings(map);
+  EXPECT_EQ(std::count(settings.begin(), settings.end(),
+                       std::pair<std::string, std::string>("receiver-plane", "on")),
+            1);
 }
 
 TEST(ViewStatus, LightsThatTheCommandCannotTurnAreNamed) {

@@ -143,16 +143,36 @@ TEST(SaveScene, TakesOverTheLightsOfIncludedFiles) {
   EXPECT_EQ(scene->shapes.size(), 2u);
 }
 
-// A model's file is included; one of the project's own format is written again.
-TEST(SaveScene, KnowsItsOwnFormatWhateverTheCaseOfTheExtension) {
+// What the scene includes is not in the new file's folder: the file that stands there stays.
+TEST(SaveScene, AFileThatWouldNotReadAgainIsNotWritten) {
+  const app_test::TemporaryFolder folder, other;
+  write_whole(folder / "plain.json", scene_with_radius("0.5"));
+  write_whole(folder / "outer.json", R"({"schema": "gnomon/scene/1", "include": ["plain.json"]})");
+  Lab lab(folder / "outer.json", {});
+  const auto shown = lab.until(is_open);
+  const std::string path = other / "kept.json";
+  write_whole(path, "kept");
+  EXPECT_FALSE(write_scene(path, shown->scene->argument, lab.state(*shown)));
+  EXPECT_EQ(app_test::read_file(path), "kept");
+}
+
+// The ending of a scene's own format in capitals.
+TEST(SaveScene, AnEndingInCapitalsIsTheSameFormat) {
   const app_test::TemporaryFolder folder;
   write_whole(folder / "PLAIN.JSON", scene_with_radius("0.5"));
   Lab lab(folder / "PLAIN.JSON", {});
   const auto shown = lab.until(is_open);
-  const std::string path = folder / "saved.json";
-  const auto written = write_scene(path, shown->scene->argument, lab.state(*shown));
-  ASSERT_TRUE(written) << written.error().message();
-  EXPECT_EQ(app_test::read_file(path).find("\"include\""), std::string::npos);
+  ViewState state = lab.state(*shown);
+  carry_out(state, SetMapOption{"bias", "0.5texel"});
+  for (const char* name : {"saved.json", "SAVED.JSON"}) {
+    const std::string path = folder / name;
+    const auto written = write_scene(path, shown->scene->argument, state);
+    ASSERT_TRUE(written) << written.error().message();
+    EXPECT_EQ(app_test::read_file(path).find("include"), std::string::npos);
+    const auto map = first_map_options({path, false});
+    ASSERT_TRUE(map);
+    EXPECT_EQ(map->bias.constant, 0.5) << name;
+  }
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 #include "app/output_path.h"
 #include "app/view/status.h"
 #include "scene/builtin.h"
+#include "scene/files/formats.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
-#include "scene/load.h"
 
 namespace gnomon::app {
 
@@ -97,9 +97,9 @@ Expected<Json> base_json(const std::string& name, const std::string& path) {
   return json;
 }
 
-/// Read again, the file says what was meant.
-Expected<void> check(const std::string& path, const Scene& meant) {
-  const auto scene = load_scene(path, {.confine_paths = true});
+/// Read again, the text of the file says what was meant.
+Expected<void> check(const std::string& text, const std::string& path, const Scene& meant) {
+  const auto scene = load_json_scene(text, path, folder_of(path), {.confine_paths = true});
   if (!scene) return fail(scene.error());
   bool same = scene->lights.size() == meant.lights.size();
   for (std::size_t i = 0; same && i < meant.lights.size(); ++i) {
@@ -137,11 +137,9 @@ Expected<void> write_scene(const std::string& path, const SceneArgument& opened,
   for (const auto& [option, value] : map_settings(state.setup.map)) (*json)["settings"][option] = value;
   const OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
-  if (auto written = write_file(path, json->dump(2) + "\n"); !written) return written;
-  auto same = check(path, meant);
-  std::error_code ignored;
-  if (!same) fs::remove(path, ignored);
-  return same;
+  const std::string text = json->dump(2) + "\n";
+  if (auto same = check(text, path, meant); !same) return same;
+  return write_file(path, text);
 }
 
 }  // namespace gnomon::app

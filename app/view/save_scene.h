@@ -12,7 +12,8 @@ namespace gnomon::app {
 
 /// A .json that `gnomon compare` takes. A scene in the project's own format is written again with all that is in
 /// it, but for comments; a model is included, and a file that the scene names must lie in the new file's folder
-/// or below. Its lights are all of the file's own, whatever file brought them. Error: usage where the place is wrong.
+/// or below. Its lights are all of the file's own, whatever file brought them, and those that the state has: what
+/// --max-lights left out is left out here. Error: usage where the place is wrong; what stood there is then left as it was.
 Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state);
 
 /// Where such a file of this scene finds all that it names: the scene's own folder.

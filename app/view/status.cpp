@@ -139,7 +139,7 @@ std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapO
     }
     const std::size_t equals = words[i].find('=');
     const std::string name = words[i].substr(2, equals == std::string::npos ? equals : equals - 2);
-    settings.emplace_back(name, equals == std::string::npos ? "true" : words[i].substr(equals + 1));
+    settings.emplace_back(name, equals == std::string::npos ? "on" : words[i].substr(equals + 1));
   }
   return settings;
 }

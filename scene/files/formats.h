@@ -72,7 +72,8 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
 /// A list for messages: ".json .gltf .glb .obj .ply".
 std::string_view known_extensions();
 
-/// A JSON scene that is not in a file of its own: built-in scenes.
+/// A JSON scene that is not in a file of its own: built-in scenes, and what is yet to be written. Errors as of
+/// load_scene().
 Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
                                 const LoadOptions& options);
 

@@ -110,6 +110,12 @@ Error unknown_name(const std::string& name) {
                       printable(name), suggestion(name, names))};
 }
 
+Error no_memory(const std::string& file) {
+  Error error{ErrorKind::graphics, "not enough memory to load the scene"};
+  error.file = file;
+  return error;
+}
+
 Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
   const auto file = MappedFile::open(path);
   if (!file) return fail(file.error());
@@ -165,10 +171,12 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
 }
 
 Expected<Scene> load_json_scene(std::string_view text, const std::string& file, const std::string& folder,
-                                const LoadOptions& options) {
+                                const LoadOptions& options) try {
   IncludeState includes;
   auto sha256 = hash_beside(text);
   return complete(read_json_scene(text, file, folder, options, includes), file, std::move(sha256), options);
+} catch (const std::bad_alloc&) {
+  return fail(no_memory(file));
 }
 
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options) try {
@@ -177,9 +185,7 @@ Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& o
     return load_json_scene(builtin->text, path_or_name, "", options);
   return fail(unknown_name(path_or_name));
 } catch (const std::bad_alloc&) {
-  Error error{ErrorKind::graphics, "not enough memory to load the scene"};
-  error.file = path_or_name;
-  return fail(std::move(error));
+  return fail(no_memory(path_or_name));
 }
 
 }  // namespace gnomon
