@@ -27,6 +27,7 @@ struct LoadedScene {
   std::vector<KeyedPath>
       paths{};  ///< that the file itself has (LoadOptions::paths), where they were asked for
   double load_ms = 0.0;
+  std::size_t lights_left_out = 0;  ///< by keep_strongest_lights()
 };
 
 /// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles

@@ -94,6 +94,7 @@ void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vecto
   for (std::size_t i = 0; i < all; ++i)
     if (stays[i] != 0) std::swap(scene.lights[kept++], scene.lights[i]);
   scene.lights.resize(kept);
+  loaded.lights_left_out = all - kept;
   loaded.plan = plan_effects(scene);
   std::string note = fmt::format(
       "the scene has {} lights: the {} that would light most of what the camera sees are kept{}; all "

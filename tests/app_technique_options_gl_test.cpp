@@ -9,6 +9,7 @@
 #include "app/command_line.h"
 #include "app/effect_options.h"
 #include "app/options.h"
+#include "app/setting.h"
 #include "app/sweep/axes.h"
 #include "app/technique_options.h"
 #include "app/view/map_option.h"
@@ -61,7 +62,7 @@ TEST(TechniqueOptions, EveryOptionOfTheTableIsTried) {
   for (const std::string_view option : app::technique_options())
     EXPECT_TRUE(tried.contains(option)) << option;
   // All that the command line knows of the map, but for what concerns every technique.
-  for (const std::string& option : app::map_option_names())
+  for (const std::string& option : app::map_setting_names())
     EXPECT_TRUE(tried.contains(option) || option == "map-size" || option == "technique") << option;
 }
 

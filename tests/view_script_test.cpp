@@ -57,7 +57,6 @@ TEST(ViewScript, StepsKeepTheirLines) {
 TEST(ViewScript, EveryKeySets) {
   EXPECT_EQ(only_change<Show>("set view difference").picture, Picture::difference);
   EXPECT_EQ(only_change<Resize>("set size 640x360").size, (ImageSize{640, 360}));
-  EXPECT_EQ(only_change<PickLight>("set light lamp").light, 1u);
   EXPECT_EQ(only_change<LightAzimuthTo>("set light-azimuth -122").azimuth, -122.0);
   EXPECT_EQ(only_change<LightElevationTo>("set light-elevation 46.5").elevation, 46.5);
   EXPECT_EQ(only_change<OrbitTo>("set camera-orbit 30 -20").elevation, -20.0);
@@ -96,6 +95,7 @@ TEST(ViewScript, StepsBesideSet) {
   EXPECT_EQ(std::get<SaveScene>((*steps)[3].what).path, "a.json");
   EXPECT_TRUE(std::holds_alternative<PrintCommand>((*steps)[4].what));
   EXPECT_EQ(std::get<OpenScene>((*steps)[5].what).name, "fence");
+  EXPECT_EQ(std::get<NameLight>((*steps)[6].what).name, "sun");
   EXPECT_TRUE(std::get<DragPointer>((*steps)[7].what).light);
   EXPECT_EQ(std::get<DragPointer>((*steps)[7].what).to, Vec2(7.0, 8.0));
   EXPECT_EQ(std::get<DropFile>((*steps)[8].what).path, "acne");

@@ -7,7 +7,7 @@ gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_te
   LIBS app_process gnomon::app gnomon::compare gnomon::raster gnomon::scene)
 
 # Each its own program: together they would take too long on a busy machine.
-foreach(subject window lab keys)
+foreach(subject window lab keys opened)
   gnomon_test(view_${subject}_gl_test SOURCES view_${subject}_gl_test.cpp view_display.cpp
     LIBS app_process gnomon::compare gnomon::scene)
   add_dependencies(view_${subject}_gl_test gnomon_program)

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/options.h"
+#include "app/setting.h"
 
 namespace gnomon::app {
 
@@ -23,18 +24,8 @@ Expected<void> set_map_option(raster::MapOptions& map, const std::string& name, 
   return {};
 }
 
-std::vector<std::string> map_option_names() {
-  CLI::App options;
-  options.set_help_flag();
-  raster::MapOptions map;
-  add_map_options(options, map);
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options.get_options()) names.push_back(option->get_lnames().front());
-  return names;
-}
-
 bool is_map_option(const std::string& name) {
-  const std::vector<std::string> names = map_option_names();
+  const std::vector<std::string> names = map_setting_names();
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "raster/options.h"
 #include "scene/expected.h"
@@ -13,8 +12,7 @@ namespace gnomon::app {
 /// name "bias", value "0.5texel": as --bias 0.5texel. A flag takes on or off. Errors are ErrorKind::usage.
 Expected<void> set_map_option(raster::MapOptions& map, const std::string& name, const std::string& value);
 
-/// Whether there is such an option, and the names of all of them.
+/// Whether there is such an option; map_setting_names() (setting.h) has all of them.
 bool is_map_option(const std::string& name);
-std::vector<std::string> map_option_names();
 
 }  // namespace gnomon::app

@@ -169,6 +169,7 @@ void RenderThread::install(const SceneSource& source, bool again) {
   scene->camera = source.camera;
   scene->name = source.loaded->scene->name;
   scene->given = studio_->given();
+  scene->lights_left_out = source.loaded->lights_left_out;
   scene->map = *map;
   now_ = Snapshot{};
   now_.scene = std::move(scene);

@@ -26,7 +26,8 @@ struct OpenedScene {
   std::string camera;  ///< SceneSource::camera
   std::string name;
   GivenScene given;
-  raster::MapOptions map;  ///< what a lesson or the file asks for, else the defaults
+  std::size_t lights_left_out = 0;  ///< by --max-lights
+  raster::MapOptions map;           ///< what a lesson or the file asks for, else the defaults
 };
 
 /// What there is to show, at one moment.

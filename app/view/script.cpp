@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/lesson_scene.h"
+#include "app/setting.h"
 #include "app/suggest.h"
 #include "app/values.h"
 #include "app/view/map_option.h"
@@ -45,13 +46,11 @@ Expected<void> expect_count(const Words& words, std::size_t count, std::string_v
   return wrong(fmt::format("wrong number of words (got {}, allowed {}: {})", words.size(), count, usage));
 }
 
-Expected<Change> pick_light(const std::string& name, const std::vector<Light>& lights) {
-  std::vector<std::string_view> names;
-  for (const Light& light : lights) names.push_back(light.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return Change{PickLight{static_cast<std::uint32_t>(found - names.begin())}};
-  return wrong(fmt::format("the scene has no such light (got {}, allowed {}){}", name, fmt::join(names, ", "),
-                           did_you_mean(name, names)));
+Expected<Step> parse_light(const Words& words, const std::vector<Light>& lights) {
+  if (const auto complete = expect_count(words, 3, "set light NAME"); !complete)
+    return fail(complete.error());
+  if (const auto known = light_of_name(words[2], lights); !known) return fail(known.error());
+  return Step{NameLight{words[2]}};
 }
 
 Expected<Change> set_map(const std::string& key, const std::string& value) {
@@ -62,7 +61,7 @@ Expected<Change> set_map(const std::string& key, const std::string& value) {
 
 Expected<Change> unknown_key(const std::string& key) {
   std::vector<std::string> names = script_key_names();
-  for (const std::string& name : map_option_names()) names.push_back(name);
+  for (const std::string& name : map_setting_names()) names.push_back(name);
   const std::vector<std::string_view> known(names.begin(), names.end());
   return wrong(fmt::format("nothing to set by this name (got {}, allowed {}){}", key, fmt::join(names, ", "),
                            did_you_mean(key, known)));
@@ -76,15 +75,14 @@ Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
       return fail(complete.error());
     return Step{NameFilm{words[2]}};
   }
+  if (key == "light") return parse_light(words, lights);
   const ScriptKey* own = find_script_key(key);
-  const bool light = key == "light";
-  if (own == nullptr && !light && !is_map_option(key)) return fail(unknown_key(key).error());
+  if (own == nullptr && !is_map_option(key)) return fail(unknown_key(key).error());
   const std::size_t values = own != nullptr ? own->values : 1;
   const auto complete = expect_count(words, 2 + values, own != nullptr ? own->usage : "set KEY VALUE");
   if (!complete) return fail(complete.error());
-  const Expected<Change> change = own != nullptr ? own->read(Words(words.begin() + 2, words.end()))
-                                  : light        ? pick_light(words[2], lights)
-                                                 : set_map(key, words[2]);
+  const Expected<Change> change =
+      own != nullptr ? own->read(Words(words.begin() + 2, words.end())) : set_map(key, words[2]);
   if (change) return Step{*change};
   Error error = change.error();
   error.field = key;
@@ -201,8 +199,20 @@ std::span<const std::string_view> script_verbs() {
   return verbs;
 }
 
+Expected<std::uint32_t> light_of_name(const std::string& name, const std::vector<Light>& lights) {
+  std::vector<std::string_view> names;
+  for (const Light& light : lights) names.push_back(light.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::uint32_t>(found - names.begin());
+  Error error{ErrorKind::bad_input, fmt::format("the scene has no such light (got {}, allowed {}){}", name,
+                                                fmt::join(names, ", "), did_you_mean(name, names))};
+  error.field = "light";
+  return fail(std::move(error));
+}
+
 Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std::string& file,
-                                               const std::vector<Light>& lights) {
+                                               const std::vector<Light>& lights,
+                                               std::vector<std::string>* opened) {
   std::vector<ScriptStep> steps;
   std::vector<Light> known = lights;
   std::istringstream lines{std::string(text)};
@@ -214,7 +224,7 @@ Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std:
     Expected<Step> step = parse_step(words, known);
     if (step && (std::holds_alternative<OpenScene>(*step) || std::holds_alternative<DropFile>(*step))) {
       // Its lights' names are needed from here on.
-      const auto scene = load_scene(scene_of_lesson(words[1]), {.confine_paths = true});
+      const auto scene = load_scene(scene_of_lesson(words[1]), {.confine_paths = true, .files = opened});
       if (scene) known = scene->lights;
       if (!scene) step = fail(scene.error());
     }

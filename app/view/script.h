@@ -53,6 +53,10 @@ struct DropFile {
 struct NameFilm {
   std::string name;  ///< or off
 };
+/// A light by its name; which ones the window keeps of very many is known when the scene is open.
+struct NameLight {
+  std::string name;
+};
 struct PressKey {
   Key key;  ///< one that does something
 };
@@ -73,15 +77,20 @@ struct PointAt {
 struct ScriptStep {
   int line = 0;  ///< from 1
   std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PointAt,
-               PressKey, OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm>
+               PressKey, OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm, NameLight>
       what;
 };
 
 /// The first words of steps.
 std::span<const std::string_view> script_verbs();
 
-/// Errors are ErrorKind::bad_input with file, line and field. Light names must be among the scene's.
+/// Errors are ErrorKind::bad_input with file, line and field. Light names must be among the scene's. `opened`: where
+/// given, takes the files of all scenes that the script opens.
 Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std::string& file,
-                                               const std::vector<Light>& lights);
+                                               const std::vector<Light>& lights,
+                                               std::vector<std::string>* opened = nullptr);
+
+/// The light's place among these. Error (bad_input): there is none of that name.
+Expected<std::uint32_t> light_of_name(const std::string& name, const std::vector<Light>& lights);
 
 }  // namespace gnomon::app

@@ -31,14 +31,20 @@ Expected<void> check_step_output(const ScriptStep& step, const std::string& scri
   return fail(std::move(error));
 }
 
-Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene) {
+/// `files` learns what its steps read and write.
+Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene, RunFiles& files) {
   if (path.empty()) return std::vector<ScriptStep>{};
+  files.reads(path);
   const Expected<std::string> text = read_file(path);
   if (!text) return fail(text.error());
-  auto steps = parse_script(*text, path, scene.lights);
+  std::vector<std::string> opened;
+  auto steps = parse_script(*text, path, scene.lights, &opened);
   if (!steps) return steps;
+  for (const std::string& file : opened) files.reads(file);
   for (const ScriptStep& step : *steps) {
     if (const auto writable = check_step_output(step, path); !writable) return fail(writable.error());
+    if (const std::string output = output_of(step); !output.empty())
+      files.writes(fmt::format("{}:{}", path, step.line), output);
   }
   return steps;
 }
@@ -73,21 +79,18 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   const ThreadLimit thread_limit(options.threads, console);
   RunFiles files;
   files.reads(options.scene);
-  files.reads(options.script);
   auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
   if (!loaded) return fail(loaded.error());
   keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
   if (options.exposure) loaded->scene->exposure = *options.exposure;
+  const std::vector<std::string> scene_files = files.inputs();  // what the window watches: not the script's
   auto state = first_state(options, *loaded);
   if (!state) return fail(state.error());
-  auto script = read_script(options.script, *loaded->scene);
+  auto script = read_script(options.script, *loaded->scene, files);
   if (!script) return fail(script.error());
-  for (const ScriptStep& step : *script)
-    if (const std::string path = output_of(step); !path.empty())
-      files.writes(fmt::format("{}:{}", options.script, step.line), path);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   SceneSource source{options.scene, options.camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
-                     files.inputs()};
+                     scene_files};
   const auto viewer =
       Viewer::open(options, std::move(source), std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());

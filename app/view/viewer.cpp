@@ -210,6 +210,7 @@ Expected<void> Viewer::take_snapshot() {
 void Viewer::show_scene(const OpenedScene& scene) {
   const bool first = scene_ == 0;
   scene_ = scene.number;
+  options_.camera = scene.camera;
   posted_ = 0;
   state_.given = scene.given;
   if (first || scene.again) return;

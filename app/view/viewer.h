@@ -78,7 +78,8 @@ class Viewer {
   Expected<void> save_screenshot(const std::string& path);
   Expected<Rgb8Image> screenshot() const;
   void save_numbered(const std::string& start, const std::string& extension,
-                     std::function<Expected<void>(const std::string&)> save);
+                     std::function<Expected<void>(const std::string&)> save, const std::string& remark = {});
+  std::string left_out_words() const;
   std::string file_start(std::string_view kind) const;
   void save_numbered_screenshot();
   void save_picture();
@@ -101,6 +102,7 @@ class Viewer {
   Expected<bool> pass_resize(const Resize& resize);
   Expected<bool> pass_open(const std::function<void()>& ask);
   Expected<bool> pass_film(const NameFilm& wanted);
+  Expected<bool> pass_light(const NameLight& wanted);
   Expected<bool> pass_drag(DragPointer drag);
   bool pass_point(Vec2 at);
   ScriptPointer& move_script_pointer(Vec2 to);
@@ -108,7 +110,7 @@ class Viewer {
   /// With the script's line, where there is one and the error does not name a place of its own.
   Error located(Error error, int line) const;
 
-  ViewOptions options_;  ///< backend: the one that was taken
+  ViewOptions options_;  ///< backend: the one that was taken; camera: of the scene that is shown
   Console& console_;
   ViewState state_;
   std::optional<Setup> drawable_;  ///< the last one that could be drawn
@@ -142,7 +144,7 @@ class Viewer {
   std::unique_ptr<Job> job_;
   bool job_tunes_ = false;
   std::future<Expected<void>> saving_;  ///< a file that is written beside the window
-  std::string saving_path_;
+  std::string saving_path_, saving_remark_;
   FrameWatch watch_;  ///< of this frame
   LabLayout layout_;
   Pointer pointer_;

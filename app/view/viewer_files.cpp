@@ -61,10 +61,19 @@ Expected<Rgb8Image> Viewer::screenshot() const {
   return presenter_->read({0, 0, size.width, size.height});
 }
 
-/// SCENE-KIND-001.png and so on; nothing is overwritten. `save` runs beside the window.
+/// What is to be said of --max-lights where the window does not have all of the scene's lights.
+std::string Viewer::left_out_words() const {
+  const std::size_t count = shown_->scene->lights_left_out;
+  return count == 0 ? std::string() : fmt::format(", without {} lights that --max-lights leaves out", count);
+}
+
+/// SCENE-KIND-001.png and so on; nothing is overwritten. `save` runs beside the window; the remark is said when it is
+/// done.
 void Viewer::save_numbered(const std::string& start, const std::string& extension,
-                           std::function<Expected<void>(const std::string&)> save) {
+                           std::function<Expected<void>(const std::string&)> save,
+                           const std::string& remark) {
   if (saving_.valid()) return note("still saving " + saving_path_);
+  saving_remark_ = remark;
   for (int number = 1;; ++number) {
     saving_path_ = fmt::format("{}-{:03}{}", start, number, extension);
     std::error_code ignored;
@@ -98,7 +107,8 @@ void Viewer::save_scene() {
   const SceneArgument& opened = shown_->scene->argument;
   save_numbered(
       folder_for_scene(opened) + file_start("scene"), ".json",
-      [opened, state = state_](const std::string& path) { return write_scene(path, opened, state); });
+      [opened, state = state_](const std::string& path) { return write_scene(path, opened, state); },
+      left_out_words());
 }
 
 void Viewer::copy_command() {
@@ -157,7 +167,7 @@ void Viewer::find_best() {
 void Viewer::look_after_job() {
   if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     const Expected<void> saved = saving_.get();
-    saved ? note("saved " + saving_path_) : note(saved.error());
+    saved ? note("saved " + saving_path_ + saving_remark_) : note(saved.error());
   }
   if (!job_ || !job_->ended()) return;
   const std::unique_ptr<Job> done = std::move(job_);

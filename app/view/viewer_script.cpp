@@ -67,10 +67,14 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     return pass_open([this, drop] { window_->drop(drop->path); });
   if (const auto* film = std::get_if<NameFilm>(&step.what)) return pass_film(*film);
   changed_line_ = step.line;
+  if (const auto* light = std::get_if<NameLight>(&step.what)) return pass_light(*light);
   if (const auto* press = std::get_if<PressKey>(&step.what)) return pass_key(press->key);
   if (const auto* save = std::get_if<SaveScene>(&step.what)) {
     const auto saved = write_scene(save->path, shown_->scene->argument, state_);
-    return saved ? Expected<bool>(true) : fail(saved.error());
+    if (!saved) return fail(saved.error());
+    if (const std::string words = left_out_words(); !words.empty())
+      console_.note("saved " + save->path + words);
+    return true;
   }
   if (const auto* use = std::get_if<UsePreset>(&step.what)) {
     act(*use);
@@ -112,6 +116,17 @@ Expected<bool> Viewer::pass_film(const NameFilm& wanted) {
   }
   return fail(ErrorKind::bad_input,
               fmt::format("film: the scene has no such film (got {}, allowed off{})", wanted.name, names));
+}
+
+Expected<bool> Viewer::pass_light(const NameLight& wanted) {
+  const auto light = light_of_name(wanted.name, state_.given.lights);
+  if (light) {
+    act(Change{PickLight{*light}});
+    return true;
+  }
+  Error error = light.error();
+  error.reason += left_out_words();
+  return fail(std::move(error));
 }
 
 /// A press, a move in steps and a release, each in a frame of its own, for the panels and the pictures alike.
