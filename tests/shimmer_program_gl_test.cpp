@@ -59,9 +59,9 @@ TEST(ShimmerProgram, PlaysTheScenesOwnPath) {
   // The keys' times are theirs; with a speed alone a built-in path is meant.
   EXPECT_EQ(run_gnomon(film + Words{"--path", "past", "--speed", "2"}).exit_code, 2);
   // What the path has no keys of would stand still.
-  for (const auto& [path, move] : {std::pair{"past", "light"}, std::pair{"noon", "camera"}}) {
-    const ProcessResult still = run_gnomon(film + Words{"--path", path, "--move", move});
-    EXPECT_EQ(still.exit_code, 2) << path;
+  for (const auto& [name, move] : {std::pair{"past", "light"}, std::pair{"noon", "camera"}}) {
+    const ProcessResult still = run_gnomon(film + Words{"--path", name, "--move", move});
+    EXPECT_EQ(still.exit_code, 2) << name;
     EXPECT_NE(still.err.find(std::string("--move ") + move + ": the path has no keys of"), std::string::npos)
         << still.err;
   }

@@ -20,7 +20,7 @@ Scene lit_floor() {
 }
 
 TEST(VerifyRays, AreAtLeast256AndNeverMoreThanTheMost) {
-  const Run run = run_of({.rays = 10'000});
+  const auto run = run_of({.rays = 10'000});
   EXPECT_EQ(run.rays(1e-4, 64), 64u);
   EXPECT_EQ(run.rays(1e-4), 256u);
   EXPECT_EQ(run.rays(0.5), 5000u);
@@ -28,7 +28,7 @@ TEST(VerifyRays, AreAtLeast256AndNeverMoreThanTheMost) {
 }
 
 TEST(VerifyRows, WhatCouldNotBeTriedIsWrong) {
-  Run run = run_of({});
+  auto run = run_of({});
   run.fault("a drawing", "why it failed");
   const std::vector<Row> rows = run.take_rows();
   ASSERT_EQ(rows.size(), 1u);
@@ -40,7 +40,7 @@ TEST(VerifyRows, WhatCouldNotBeTriedIsWrong) {
 
 TEST(VerifyRows, OnlyAMachineWithoutAContextSkips) {
   DrawnWorld drawn(lit_floor());
-  Run run = run_of({});
+  auto run = run_of({});
   add_row_of_undrawn(run, drawn, "a drawing");
   const std::vector<Row> rows = run.take_rows();
   ASSERT_EQ(rows.size(), 1u);
