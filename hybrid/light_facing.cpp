@@ -63,7 +63,7 @@ std::vector<TriangleFacing> find_facing(const World& world, const Topology& topo
   });
   tbb::parallel_for(all, [&](const auto& range) {
     for (std::uint32_t t = range.begin(); t != range.end(); ++t) {
-      const bool masked = world.scene->materials[world.material_of(t)].alpha_mode == AlphaMode::mask;
+      const bool masked = world.is_masked(t);
       unsigned bits = masked || out[t].facing == 0 ? TriangleFacing::whole : 0U;
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t across = topology.across(t, k);

@@ -90,7 +90,7 @@ bool SoftLight::shapes_cut(const SurfacePoint& point, const LightCone& cone) con
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const Shape& shape = world.shape(id);
     const bool own = id == point.primitive;
-    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    const bool masked = world.is_masked(id);
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
       if (!own && (masked || plane_cuts(*plane, point))) return true;
     } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {

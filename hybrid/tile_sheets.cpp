@@ -179,7 +179,7 @@ void TileBuilder::clip(Piece& piece, float slope_u, float slope_v) const {
 void TileBuilder::add_shapes(int tile_x, int tile_y) {
   for (std::uint32_t id = world_.triangle_count(); id < world_.primitive_count(); ++id) {
     const Shape& shape = world_.shape(id);
-    const bool masked = world_.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    const bool masked = world_.is_masked(id);
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
       if (const auto cover = plane_cover(grid_, face_, tile_x, tile_y, *plane, masked))
         covers_.push_back(*cover);

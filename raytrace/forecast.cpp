@@ -19,10 +19,7 @@ double rays_of_a_pixel(const Tracer& tracer, const EffectPlan& plan, const Raytr
   const Scene& scene = *tracer.world().scene;
   double lights = 1.0;
   for (const Light& light : scene.lights)
-    lights += !plan.simulates(Effect::soft_shadow) ? 1.0
-              : !has_size(light)                   ? 1.0
-              : options.shadow_samples > 0         ? options.shadow_samples
-                                                   : light.shadow_samples;
+    lights += plan.simulates(Effect::soft_shadow) && has_size(light) ? samples_of(light, options) : 1;
   const double glossy = plan.simulates(Effect::glossy) ? scene.glossy_samples : 1.0;
   const double indirect = plan.simulates(Effect::indirect_light) ? scene.indirect_samples : 0.0;
   return options.samples_per_pixel * glossy * (lights + indirect);

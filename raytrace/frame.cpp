@@ -131,7 +131,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
 void trace_soft_shadows(const Tracer& tracer, const Band& band, const RaytraceOptions& options,
                         const Image<SurfacePoint>& receivers, LightTruth& truth) {
   const Light& light = tracer.world().scene->lights[truth.light];
-  truth.samples = options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
+  truth.samples = samples_of(light, options);
   truth.visibility = Image<float>(options.size, 1.0f);
   truth.standard_error = Image<float>(options.size, 0.0f);
   const TileGrid grid{options.size, options.stop};

@@ -37,10 +37,17 @@ struct RaytraceOptions {
   bool operator==(const RaytraceOptions&) const = default;
 };
 
+/// Rays per point to a light with size.
+inline int samples_of(const Light& light, const RaytraceOptions& options) {
+  return options.shadow_samples > 0 ? options.shadow_samples : light.shadow_samples;
+}
+
 struct RayCounts {
   std::uint64_t primary = 0;
+  // Rays cast: behind each surface of glass on the way to a light, which the picture's shadows look through, goes on
+  // another one.
   std::uint64_t shadow = 0;       ///< to lights without size, and to the centres of those with one
-  std::uint64_t soft_shadow = 0;  ///< to samples of lights with size, cast
+  std::uint64_t soft_shadow = 0;  ///< to samples of lights with size
   /// The samples that were wanted: of them none is cast below a point's own horizon, and none at all where
   /// nothing surely stands between point and light (raytrace/shading/light_shaft.h).
   std::uint64_t soft_shadow_asked = 0;

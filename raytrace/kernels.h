@@ -84,8 +84,8 @@ struct RobustArithmetic {
 /// A masked sphere's near side may be a hole while its far side is not; so with each side of a solid.
 inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   const World& world = *s.world;
+  if (!world.is_masked(hit.primitive)) return true;
   const Material& material = world.scene->materials[world.material_of(hit.primitive)];
-  if (material.alpha_mode != AlphaMode::mask) return true;
   const auto position = [&] {
     return Vec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
            hit.t * Vec3(ray.direction[0], ray.direction[1], ray.direction[2]);
@@ -109,12 +109,15 @@ inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   return !is_masked_out(world, material, hit.primitive, hit.barycentric, position());
 }
 
-/// Whether what sees goes through: a triangle's back that is not seen.
-inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint32_t primitive) {
+/// Whether it is a triangle whose back is not seen.
+inline bool hides_back(const Structures& s, std::uint32_t primitive) {
   const World& world = *s.world;
   return s.hides_backs && world.is_triangle(primitive) &&
-         !shows_back(world.scene->materials[world.material_of(primitive)]) &&
-         is_back(world, direction, primitive);
+         !shows_back(world.scene->materials[world.material_of(primitive)]);
+}
+/// Whether what sees goes through: a triangle's back that is not seen.
+inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint32_t primitive) {
+  return hides_back(s, primitive) && is_back(*s.world, direction, primitive);
 }
 
 inline bool precedes(const Hit& a, const Hit& b) {
@@ -142,6 +145,7 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
   // it.
   const auto report = [&](const Hit& hit) {
     if (!precedes(hit, best)) return false;
+    if constexpr (requires(const Arithmetic& told) { told.took(hit); }) arithmetic.took(hit);
     best = hit;
     ray.t.max = std::min(frame.t.max, next_above(best.t));
     return true;
@@ -169,6 +173,8 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats,
                            bool seen = false) {
+  for (const std::uint32_t plane : s.planes)
+    if (plane != skip) stats.primitive();
   const auto report = [&](const RayFrame& ray, const auto& visit) {
     BoxRay boxes(ray, s.bvh.center);
     traverse(s, boxes, stats, [&](std::uint32_t i) {
@@ -187,8 +193,10 @@ bool any(const Structures& s, const RayFrame& ray, Stats stats) {
     if constexpr (masks) return passes_alpha_test(s, ray, hit);
     return true;
   };
-  for (const std::uint32_t plane : s.planes)
+  for (const std::uint32_t plane : s.planes) {
+    stats.primitive();
     if (arithmetic.plane(s, ray, plane, hit) && blocks()) return true;
+  }
   BoxRay boxes(ray, s.bvh.center);
   return traverse(s, boxes, stats,
                   [&](std::uint32_t i) { return arithmetic.leaf(s, ray, i, hit) && blocks(); });

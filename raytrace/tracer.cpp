@@ -173,7 +173,7 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const Bvh& bvh = impl_->structures.bvh;
   const StructureSize size = size_of(impl_->structures.structure);
   impl_->stats = {.build_ms = watch.elapsed_ms(),
-                  .bytes = bytes_of(bvh) + size.bytes,
+                  .bytes = bytes_of(bvh) + size.bytes + impl_->structures.fast.size() * sizeof(FastPrimitive),
                   .nodes = nodes_of(bvh) + size.nodes,
                   .dropped = bvh.dropped};
 }

@@ -68,7 +68,8 @@ struct AccelStats {
 
 /// What a query cost, machine-independent. Queries that count are slower; the plain ones do not count.
 struct WorkCounts {
-  std::uint64_t boxes = 0, primitives = 0;  ///< tested
+  std::uint64_t boxes = 0;  ///< tested; of a node of the default hierarchy all four places, empty ones too
+  std::uint64_t primitives = 0;  ///< tested: triangles and shapes, infinite planes among them
 };
 
 class Tracer {

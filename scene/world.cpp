@@ -155,7 +155,7 @@ void put_parts(World& world, const std::vector<char>& kept) {
     part.mesh = &scene.meshes[instance.mesh];
     part.world_from_object = instance.world_from_object;
     // A mirrored instance of two-sided materials keeps its authored winding, so the normal that the right-hand rule
-    // gives may point inwards: there only consistency matters.
+    // gives points inwards: who needs the outer side asks outward_normal().
     part.normal_from_object = glm::transpose(glm::inverse(Mat3(instance.world_from_object)));
     part.material = instance.material;
     part.turned = is_turned_round(scene, *part.mesh, instance);
@@ -283,6 +283,11 @@ Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& p
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) return glm::normalize(position - sphere->center);
   if (is_solid(geometry)) return solid_normal(geometry, position);
   return std::get<Plane>(geometry).normal;
+}
+
+Vec3 outward_normal(const World& world, std::uint32_t primitive, const Vec3& position) {
+  const Vec3 normal = geometric_normal(world, primitive, position);
+  return world.is_triangle(primitive) && world.part_of(primitive).is_inside_out() ? -normal : normal;
 }
 
 }  // namespace gnomon

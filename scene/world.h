@@ -34,7 +34,8 @@ struct WorldPart {
   Aabb bounds;  ///< of the triangles' corners, in the world
 
   bool kept() const { return positions == nullptr; }
-  /// Mirrored, its corners as the mesh has them: they run clockwise as seen from a triangle's front.
+  /// Mirrored, its corners as the mesh has them: they run clockwise as seen from a triangle's front, and the
+  /// right-hand rule gives normals that point to its back.
   bool is_inside_out() const { return !turned && glm::determinant(Mat3(world_from_object)) < 0.0; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh->positions.size()); }
@@ -81,6 +82,10 @@ struct World {
   std::uint32_t object_of(std::uint32_t primitive) const {
     return is_triangle(primitive) ? triangle_ranges.of(primitive)
                                   : static_cast<std::uint32_t>(parts.size()) + (primitive - triangle_count());
+  }
+  /// Whether hits may be none: its material has an alpha mask.
+  bool is_masked(std::uint32_t primitive) const {
+    return scene->materials[material_of(primitive)].alpha_mode == AlphaMode::mask;
   }
   /// Of a triangle.
   const WorldPart& part_of(std::uint32_t triangle) const { return parts[triangle_ranges.of(triangle)]; }
@@ -148,10 +153,13 @@ World make_world(const Scene& scene, const Mesh& mesh);
 std::vector<Vec3> positions_of(const World& world);
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const World& world);
 
-/// Outward geometric normal of a primitive at a point on it, unit length; of a triangle by the right-hand
-/// rule (zero for a degenerate triangle).
+/// Geometric normal of a primitive at a point on it, unit length: of a shape outwards, of a triangle by the
+/// right-hand rule (zero for a degenerate triangle), which says nothing about what is outside where a part is
+/// mirrored.
 Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 Vec3 geometric_normal(const std::array<Vec3, 3>& corners);
+/// The same, but of a triangle to its front (scene/scene.h, shows_back), mirrored or not.
+Vec3 outward_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 /// Whether rays can hit a triangle: it is finite and has an area.
 bool has_surface(const std::array<Vec3, 3>& corners);
 

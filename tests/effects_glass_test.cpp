@@ -112,6 +112,25 @@ TEST(NestedGlass, Case30WhatALowerPriorityHidesIsNotThere) {
   EXPECT_GT(worst_difference(trace_picture(marble(2, true), size), without), 0.1);
 }
 
+// A box on a floor, mirrored or not: the same body, its triangles wound the other way. Seen from `eye`.
+raytrace::RayTracedFrame box_of_glass(bool mirrored, const Vec3& eye) {
+  Scene scene =
+      test::scene_of({test::box({-1, 0.25, -0.75}, {1, 1.75, 0.75})}, {test::plane({0, 0, 0}, {0, 1, 0}, 1)});
+  scene.materials = {glass_of(1.5f), Material{}};
+  scene.materials[0].absorption = {0.1f, 0.3f, 0.6f};
+  if (mirrored) scene.instances[0].world_from_object[0][0] = -1.0;
+  scene.lights = {test::point_light({2, 6, 3})};
+  scene.lights[0].intensity = Vec3f(40.0f);
+  scene.background = {0.3f, 0.5f, 0.8f};
+  scene.camera.eye = eye, scene.camera.target = {0.125, 0.875, 0};
+  return trace_picture(scene, {80, 60});
+}
+
+TEST(MirroredGlass, IsTheSameBody) {
+  for (const Vec3& eye : {Vec3(1.75, 2.25, 5), Vec3(0.375, 1.125, 0.5)})  // outside, and within the glass
+    EXPECT_LT(worst_difference(box_of_glass(false, eye), box_of_glass(true, eye)), 2e-5) << eye.z;
+}
+
 TEST(NestedGlass, TheEyeInGlassIsFoundThere) {
   // From the middle of a ball of glass to its surface, and out: absorption over the radius, one boundary.
   Scene scene = test::scene_of({}, {test::sphere({0, 0, 0}, 2.0)});

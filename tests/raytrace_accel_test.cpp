@@ -173,6 +173,14 @@ TEST(Accel, Case17And18RaysInWallsAndThroughCornersOfCells) {
   EXPECT_GT(rivals.hits(), 10000u);
 }
 
+TEST(Accel, BytesHoldWhatFastReads) {
+  const TestWorld w(test::scene_of({test::triangle_soup(100, 1.0, 0.2, 61)}));
+  const auto bytes = [&](Precision precision) {
+    return Tracer(w.world(), Accel::bvh, precision).stats().bytes;
+  };
+  EXPECT_EQ(bytes(Precision::fast), bytes(Precision::robust) + 100 * sizeof(FastPrimitive));
+}
+
 TEST(Accel, CellCornersOfTheGridItselfAndSplitsOfTheKdTree) {
   const TestWorld w(test::scene_of({test::triangle_soup(500, 3.0, 0.8, 11)}));
   Rivals rivals(w.world());

@@ -332,6 +332,30 @@ TEST(Hits, Case26TiesGoToTheLowestId) {
   }
 }
 
+// Two surfaces nearer to each other than doubles tell, and before both a hole that is looked at between them.
+TEST(Hits, ExactOrderIsNotForgottenAtAHole) {
+  const auto triangle = [](const Vec3& first, double rest) {
+    Mesh mesh;
+    mesh.positions = {first, {1, -1, rest}, {0, 1, rest}};
+    mesh.triangles = {{0, 1, 2}};
+    return mesh;
+  };
+  constexpr double little = 0x1p-52;  // on the axis a quarter of it is left, and an eighth
+  Scene scene = test::scene_of({triangle({-1, -1, 1.0 + little}, 1.0), triangle({-1, -1, 0.5}, 0.5),
+                                triangle({-3, -1, 1.0 + little}, 1.0)});
+  scene.materials.resize(2);
+  scene.materials[1].alpha_mode = AlphaMode::mask, scene.materials[1].alpha = 0.0f;
+  scene.instances[1].material = 1;
+  const TestWorld w(scene);
+  for (const raytrace::Accel accel : {raytrace::Accel::brute, raytrace::Accel::bvh}) {
+    const raytrace::Tracer tracer(w.world(), accel, raytrace::Precision::exact);
+    const auto hit = tracer.closest_hit({{0, 0, 0}, {0, 0, 1}});
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->primitive, 2U);
+    EXPECT_EQ(hit->t, 1.0);
+  }
+}
+
 TEST(Hits, RaysMayReachBackToMinusInfinity) {
   const TestWorld w(test::scene_of(
       {test::quad({-1, -1, 5}, {2, 0, 0}, {0, 2, 0}), test::quad({-1, -1, -5}, {2, 0, 0}, {0, 2, 0})}));

@@ -182,6 +182,32 @@ TEST(LightShaft, ShapesAndPlanes) {
   expect_clear(w.world(), 6000, 0.4, 12);
 }
 
+// From outside, the point's own sphere lies below the horizon; from within, its far side is in the way.
+TEST(LightShaft, ThePointsOwnSphereFromBothSides) {
+  const Mesh aside = test::moved(test::triangle_soup(30, 0.5, 0.2, 21), 1.0, {6, 0, 0});
+  const TestWorld w(test::scene_of({aside}, {test::sphere(Vec3(0.0), 10.0)}));
+  const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::bvh_median);
+  prepare_single_rays(tracer);
+  Random random(22);
+  int outside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 up = random.direction();
+    Light light = i % 2 == 0 ? test::sun(-up) : test::point_light(30.0 * up);
+    if (i % 2 == 0)
+      light.extent = SunDisc{0.05};
+    else
+      light.extent = SphereLight{0.5};
+    const SurfacePoint above = test::seen(other, 12.0 * up, Vec3(0.0));
+    const SurfacePoint within = test::seen(other, -9.0 * up, -12.0 * up);
+    ASSERT_EQ(above.primitive, w.world().triangle_count());
+    ASSERT_EQ(within.primitive, w.world().triangle_count());
+    outside += surely_sees_whole_light(tracer, above, light) ? 1 : 0;
+    ASSERT_FALSE(surely_sees_whole_light(tracer, within, light));
+    ASSERT_EQ(light_visibility(tracer, within, light, samples, 23).share, 0.0);
+  }
+  EXPECT_EQ(outside, 300);
+}
+
 TEST(LightShaft, SharesAreThoseOfAllRays) {
   const TestWorld w(test::scene_of({test::triangle_soup(60, 2.0, 0.4, 13)}));
   const Tracer tracer(w.world(), Accel::bvh), other(w.world(), Accel::bvh_median);

@@ -107,7 +107,7 @@ TEST(Inside, OddCrossingsAgreeWithTheBodies) {
     const InsideTest inside(w.world());
     ASSERT_EQ(inside.is_closed(0), is_closed(shape.geometry)) << shape.name;
     if (!inside.is_closed(0)) {
-      EXPECT_TRUE(inside.objects_around(Vec3(0.0)).empty());
+      EXPECT_FALSE(inside.contains(0, Vec3(0.0)));
       continue;
     }
     int wrong = 0, within = 0;
@@ -130,7 +130,6 @@ TEST(Inside, MeshesByOddCrossings) {
                       test::quad({-5, -2, -5}, {10, 0, 0}, {0, 0, 10})},
                      {test::sphere({0, 0, 0}, 0.5), test::plane({0, -3, 0}, {0, 1, 0})}));
   const InsideTest inside(w.world());
-  ASSERT_EQ(inside.object_count(), 5u);
   const bool closed[] = {true, true, false, true, false};
   for (std::uint32_t object = 0; object < 5; ++object) EXPECT_EQ(inside.is_closed(object), closed[object]);
   Random random(81);
@@ -147,7 +146,8 @@ TEST(Inside, MeshesByOddCrossings) {
     wrong += inside.contains(2, p) ? 1 : 0;
   }
   EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(inside.objects_around({0.4, 0.1, 0.1}), (std::vector<std::uint32_t>{0, 1, 3}));
+  for (std::uint32_t object = 0; object < 5; ++object)
+    EXPECT_EQ(inside.contains(object, {0.4, 0.1, 0.1}), closed[object]);
 }
 
 }  // namespace

@@ -93,6 +93,27 @@ TEST(PointVisibility, SharedEdgeIsNoDoubt) {
               PointVisibility::shadowed);
 }
 
+TEST(PointVisibility, SharedEdgeWithAHoleIsInDoubt) {
+  // The same, but one of the two is a hole: within rounding of the edge, either side of it may be the true one.
+  Scene scene =
+      test::scene_of({test::quad({0, 1, 0}, {0, 0, 1}, {1, 0, 0})}, {test::plane({0, 0, 0}, {0, 1, 0})});
+  scene.materials.resize(2);
+  scene.materials[1].alpha = 0.0f;
+  for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask})
+    for (const std::uint32_t hole : {0U, 1U}) {
+      scene.materials[1].alpha_mode = mode;
+      scene.meshes[0].triangle_materials = {hole, 1 - hole};
+      const TestWorld w(scene);
+      const Tracer tracer(w.world(), Accel::bvh);
+      for (const double beside : {-0x1p-53, 0.0, 0x1p-53}) {
+        const SurfacePoint p = test::seen(tracer, {0.25, 0.5, 0.25 + beside}, {0.25, 0, 0.25 + beside});
+        EXPECT_EQ(tracer.centre_visibility(p, test::sun({0, -1, 0})),
+                  mode == AlphaMode::mask ? PointVisibility::uncertain : PointVisibility::shadowed)
+            << hole << " " << beside;
+      }
+    }
+}
+
 TEST(PointVisibility, BvhAndBruteForceAgree) {
   Scene scene = test::scene_of(
       {test::triangle_soup(200, 3.0, 1.0, 31), test::quad({-6, -4, -6}, {0, 0, 12}, {12, 0, 0})},

@@ -31,7 +31,7 @@ raytrace::Refraction naive_refract(const Vec3& in, const Vec3& normal, double et
   const float cos_out = std::sqrt(1.0f - e * e * (1.0f - cos_in * cos_in));
   const float s = (e * cos_in - cos_out) / (e * cos_in + cos_out),
               p = (cos_in - e * cos_out) / (cos_in + e * cos_out);
-  return {0.5f * (s * s + p * p), Vec3(e * i + (e * cos_in - cos_out) * n), false};
+  return {0.5f * (s * s + p * p), Vec3(e * i + (e * cos_in - cos_out) * n)};
 }
 
 void boundary(const Run& run, double angle, double eta, Random& r, Tally& tally) {
@@ -45,7 +45,7 @@ void boundary(const Run& run, double angle, double eta, Random& r, Tally& tally)
       run.is_textbook() ? naive_refract(in, normal, eta) : raytrace::refract(in, normal, eta);
   const double r_share = refraction.reflectance;
   tally.check(r_share >= 0.0 && r_share <= 1.0 && raytrace::all_finite(refraction.direction));
-  if (refraction.total || !(glm::dot(refraction.direction, refraction.direction) > 0.0)) return;
+  if (!(glm::dot(refraction.direction, refraction.direction) > 0.0)) return;
   tally.error(std::abs(r_share + transmitted(in, normal, refraction.direction, eta) - 1.0) / DBL_EPSILON);
 }
 

@@ -9,19 +9,17 @@
 
 namespace gnomon::raytrace {
 
-inline constexpr float crossing_slack = 4.0f * FLT_EPSILON;  // as in intersect_boxes()
-
 /// The ray's parameter at the wall, or just before.
 inline float entry_bound(const BoxRay& ray, std::size_t axis, float wall) {
   const float t = (wall - ray.near_origin[axis]) * ray.inverse[axis];
-  const float lower = t * (t > 0.0f ? 1.0f - crossing_slack : 1.0f + crossing_slack);
+  const float lower = t * (t > 0.0f ? 1.0f - wall_slack : 1.0f + wall_slack);
   return lower >= -FLT_MAX ? lower : -std::numeric_limits<float>::infinity();  // NaN: already there
 }
 
 /// The ray's parameter at the wall, or just after.
 inline float exit_bound(const BoxRay& ray, std::size_t axis, float wall) {
   const float t = (wall - ray.far_origin[axis]) * ray.inverse[axis];
-  const float upper = t * (t > 0.0f ? 1.0f + crossing_slack : 1.0f - crossing_slack);
+  const float upper = t * (t > 0.0f ? 1.0f + wall_slack : 1.0f - wall_slack);
   return upper <= FLT_MAX ? upper : std::numeric_limits<float>::infinity();  // NaN: never leaves
 }
 

@@ -49,15 +49,13 @@ Structure build_structure(const World& world, Accel accel) {
 }
 
 StructureSize size_of(const Structure& structure) {
-  if (const auto* s = std::get_if<MedianBvh>(&structure))
-    return {s->nodes.size(), s->items.size(), s->bytes()};
-  if (const auto* s = std::get_if<KdTree>(&structure)) return {s->nodes.size(), s->items.size(), s->bytes()};
-  if (const auto* s = std::get_if<Octree>(&structure)) return {s->nodes.size(), s->items.size(), s->bytes()};
-  if (const auto* s = std::get_if<UniformGrid>(&structure)) return {s->nodes(), s->items.size(), s->bytes()};
+  if (const auto* s = std::get_if<MedianBvh>(&structure)) return {s->nodes.size(), s->bytes()};
+  if (const auto* s = std::get_if<KdTree>(&structure)) return {s->nodes.size(), s->bytes()};
+  if (const auto* s = std::get_if<Octree>(&structure)) return {s->nodes.size(), s->bytes()};
+  if (const auto* s = std::get_if<UniformGrid>(&structure)) return {s->nodes(), s->bytes()};
   if (const auto* s = std::get_if<BspTree>(&structure))
-    return {s->nodes.size() + s->leaves.size(), s->items.size(), s->bytes()};
-  if (const auto* s = std::get_if<TwoLevel>(&structure))
-    return {s->nodes(), s->placements.size(), s->bytes()};
+    return {s->nodes.size() + s->leaves.size(), s->bytes()};
+  if (const auto* s = std::get_if<TwoLevel>(&structure)) return {s->nodes(), s->bytes()};
   return {};
 }
 

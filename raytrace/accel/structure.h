@@ -26,7 +26,7 @@ bool has_structure(Accel accel);
 Structure build_structure(const World& world, Accel accel);
 
 struct StructureSize {
-  std::uint64_t nodes = 0, references = 0, bytes = 0;  ///< without the primitives
+  std::uint64_t nodes = 0, bytes = 0;  ///< without the primitives
 };
 StructureSize size_of(const Structure& structure);
 

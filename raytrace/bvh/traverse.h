@@ -51,9 +51,12 @@ struct BoxRay {
   }
 };
 
+/// Share of itself by which a ray's parameter at the wall of a box or cell is moved outwards: >= 2 gamma(3) of
+/// float and the rounding of 1/d.
+inline constexpr float wall_slack = 4.0f * FLT_EPSILON;
+
 /// Bit i: child i's box may be intersected; t_near[i] is then a lower bound of where.
 inline int intersect_boxes(const BvhNode& node, const BoxRay& ray, float t_max, float* t_near) {
-  constexpr float widening = 4.0f * FLT_EPSILON;  // >= 2 gamma(3) of float and the rounding of 1/d
   Float4 near = Float4::all(ray.t_min), far = Float4::all(t_max);
   for (std::size_t a = 0; a < 3; ++a) {
     const Float4 inverse = Float4::all(ray.inverse[a]);
@@ -63,8 +66,8 @@ inline int intersect_boxes(const BvhNode& node, const BoxRay& ray, float t_max, 
                    far);
   }
   // An infinite bound on the wrong side becomes NaN here and fails the comparison, as it must.
-  near = near - magnitude(near) * Float4::all(widening);
-  far = far + magnitude(far) * Float4::all(widening);
+  near = near - magnitude(near) * Float4::all(wall_slack);
+  far = far + magnitude(far) * Float4::all(wall_slack);
   near.store(t_near);
   return less_equal_mask(near, far);
 }

@@ -24,7 +24,7 @@
 //   f = 12 e |o'| + `corner_error` g + `coordinate_error`,
 // where corner_error is 1.03 > 1 + 12 e 2^15 and coordinate_error 2.75 e q + 2^-34 r, whose last term holds
 // what the doubles' own coordinates are off by, and the bounds of a visibility
-// (raytrace/precision/visibility.cpp) in a point's place, all below 2^-41 r.
+// (raytrace/precision/ambiguous_ray.cpp) in a point's place, all below 2^-41 r.
 //   First, for all triangles of a leaf: let no component of an edge be above L >= 2^-16 r. Where the doubles
 // see edge functions of one sign, or cannot tell their signs for a visibility and pass the triangle's box, the axis
 // passes within the corners' x and y, so none of these is above 2 L but for f. The edge functions U, V, W =

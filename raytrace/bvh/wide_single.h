@@ -56,7 +56,6 @@ bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std
 template <bool masks, class Arithmetic>
 bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& found,
               WorkCounts* work = nullptr) {
-  if (work != nullptr) work->primitives += s.planes.size();
   RayFrame frame;
   if (!scale_ray(ray, frame)) return true;
   shear_ray(frame);
@@ -66,8 +65,10 @@ bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& f
     if constexpr (masks) return passes_alpha_test(s, frame, hit);
     return true;
   };
-  for (const std::uint32_t plane : s.planes)
+  for (const std::uint32_t plane : s.planes) {
+    if (work != nullptr) ++work->primitives;
     if (arithmetic.plane(s, frame, plane, hit) && blocks()) return found = true;
+  }
   const auto visit = [&](std::uint32_t leaf, WideRay&) {
     return arithmetic.leaf(s, frame, leaf, hit) && blocks();
   };

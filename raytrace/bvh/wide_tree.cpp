@@ -44,6 +44,16 @@ bool is_empty(const BvhChild& child) {
   return child.is_leaf() && child.count() == 0;
 }
 
+/// No fewer than the leaves of the wide tree: a leaf of the default hierarchy is one, unless it has to be
+/// halved.
+std::size_t most_parts(const Bvh& bvh, bool has_shapes) {
+  std::size_t parts = 0;
+  for (const BvhNode& node : bvh.nodes)
+    for (const BvhChild& child : node.child)
+      if (child.is_leaf()) parts += has_shapes || child.count() > leaf_corners / 3 ? child.count() : 1U;
+  return parts;
+}
+
 /// A leaf's corners, each once.
 struct Corners {
   std::array<std::uint32_t, leaf_corners> number{};  // as LeafPrimitives has them
@@ -81,12 +91,14 @@ class Collapse {
         world_(world),
         tree_(tree),
         has_shapes_(world.primitive_count() > world.triangle_count()),
-        pairs_(bvh.primitives.size()) {
-    tree.nodes.resize(bvh.primitives.size()), resize_leaves(bvh.primitives.size());
+        pairs_(most_parts(bvh, has_shapes_)) {
     WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
       if (!is_empty(bvh.nodes[0].child[i])) all.grow(wide_box_of(bvh.nodes[0], i));
-    collapse(part_of(BvhChild::node(0), all), nodes_++, 0);
+    const Part root = part_of(BvhChild::node(0), all);
+    const std::size_t most = std::size_t{1} + used_pairs_.load();  // a node is a pair, or the only leaf's
+    tree.nodes.resize(most), resize_leaves(most);
+    collapse(root, nodes_++, 0);
     tree.nodes.resize(nodes_), resize_leaves(leaves_);
   }
 
@@ -358,8 +370,14 @@ std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world,
 // Isolated, for else a thread that waits for the rest of the tree would begin another tile of the picture.
 void WideOnDemand::collapse(const Bvh& bvh, const World& world) {
   if (begun_.exchange(true)) return;
-  tbb::this_task_arena::isolate(
-      [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
+  try {
+    tbb::this_task_arena::isolate(
+        [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
+  } catch (const std::bad_alloc&) {  // not tried again: the default hierarchy answers every ray
+  } catch (...) {                    // given up with the work around it: the next work begins anew
+    begun_ = false;
+    throw;
+  }
 }
 
 std::uint64_t WideOnDemand::bytes() const {

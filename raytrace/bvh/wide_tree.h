@@ -87,7 +87,8 @@ struct WideTree {
 /// 2^-26.
 std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world, bool plain = false);
 
-/// Collapses the tree when so many rays have asked for it that it pays. Any number of threads may ask.
+/// Collapses the tree when so many rays have asked for it that it pays. Any number of threads may ask. There is
+/// none where memory does not suffice for it.
 class WideOnDemand {
  public:
   explicit WideOnDemand(bool plain = false) : plain_(plain) {}

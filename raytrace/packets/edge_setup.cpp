@@ -15,10 +15,6 @@ PrimitiveEdges void_edges(std::uint32_t id) {
           .id = id | never_sure};
 }
 
-bool is_masked(const World& world, std::uint32_t id) {
-  return world.scene->materials[world.material_of(id)].alpha_mode == AlphaMode::mask;
-}
-
 // A plane's reciprocal depth is linear in d as a triangle's is; its edge functions are not asked.
 PrimitiveEdges set_up_plane(const Structures& s, const EdgeSetup& setup, const EdgeSetupPass& pass,
                             std::uint32_t id) {
@@ -26,7 +22,7 @@ PrimitiveEdges set_up_plane(const Structures& s, const EdgeSetup& setup, const E
   const Vec3 n = plane.normal;
   const double height = glm::dot(n, plane.point - setup.origin), length = glm::length(n);
   const double slope = setup.directional ? glm::dot(n, setup.axes[2]) : height;
-  if (is_masked(*s.world, id) ||
+  if (s.world->is_masked(id) ||
       !(std::abs(slope) > 0x1p-30 * length * (pass.directional ? 1.0 : pass.largest)))
     return void_edges(id);
   Vec3 m = n / height;
@@ -128,7 +124,7 @@ unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span
                                                      0.0f, 0.0f, 0.0f, 0.0f, inf,  inf,  -inf};
       for (std::size_t k = 0; k < EdgeSetupRows::count; ++k) rows.out[k][i] = void_rows[k];
       never |= 1u << i;
-    } else if (s.has_masks && is_masked(*s.world, id)) {
+    } else if (s.has_masks && s.world->is_masked(id)) {
       never |= 1u << i;
     }
   }

@@ -8,7 +8,7 @@
 // - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
 // error
 //   boxes included: gamma(7) and gamma(24) of raytrace/precision/ray_offset.h, gamma(12) of
-//   raytrace/precision/visibility.cpp, times the shear), so an edge function by 2^-41 M C with C the farthest
+//   raytrace/precision/ambiguous_ray.cpp, times the shear), so an edge function by 2^-41 M C with C the farthest
 //   corner; four times that is taken, for one edge function surely negative then leaves another one surely
 //   positive.
 // - The depth: the mean of the corners' with weights known to the same bound.

@@ -34,14 +34,4 @@ inline std::uint16_t bit_of(std::size_t lane) {
   return static_cast<std::uint16_t>(1u << (lane % packet_rays));
 }
 
-/// Clears the bits of places outside the rectangle.
-inline void keep_within(const TileRect& rect, LaneMask& bits) {
-  if (is_whole(rect)) return;
-  for (std::size_t lane = 0; lane < tile_rays; ++lane) {
-    const TilePixel place = tile_pixel(lane);
-    if (place.x < rect.x1 - rect.x0 && place.y < rect.y1 - rect.y0) continue;
-    bits[lane / packet_rays] &= static_cast<std::uint16_t>(~bit_of(lane));
-  }
-}
-
 }  // namespace gnomon::raytrace

@@ -3,16 +3,12 @@
 // instruction set.
 #pragma once
 
-#include <array>
-
 #include "raytrace/packets/passes.h"
 
 namespace gnomon::raytrace {
 
-/// A tile's points by place: [16 * y + x].
-using TilePoints = std::array<SurfacePoint, tile_rays>;
-
-/// Writes the receivers of the asked pixels that see planes for sure; returns the bits of those it wrote.
+/// Writes the receivers of the asked pixels that see planes for sure, by place: points[16 * y + x]. Returns the bits of
+/// those it wrote.
 LaneMask find_plane_receivers(const Structures& structures, const View& view, const TileRect& rect,
                               const TileHits& hits, const LaneMask& asked, SurfacePoint* points);
 

@@ -18,7 +18,7 @@ struct ShadowTileRays {
   TileShadows* shadows;
 };
 
-/// `setup`: a direction's, or a framed point's; its primitives are not read. At most most_shadow_tiles.
+/// `setup`: a direction's, or a framed point's. At most most_shadow_tiles.
 void shadows_in_block(const Structures& structures, const EdgeSetup& setup,
                       std::span<const ShadowTileRays> tiles);
 

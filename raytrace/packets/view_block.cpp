@@ -175,8 +175,7 @@ class BlockClosest {
     unsigned backs = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       const std::uint32_t leaf = leaves[i], id = s_.bvh.id_at(leaf);
-      if (!s_.world->is_triangle(id) || shows_back(s_.world->scene->materials[s_.world->material_of(id)]))
-        continue;
+      if (!hides_back(s_, id)) continue;
       const Facing facing = facing_of(s_.bvh.primitive_at(leaf).v.data(), setup_.origin);
       if (facing == Facing::back) backs |= 1u << i;
       if (facing == Facing::ambiguous) never |= 1u << i;

@@ -23,12 +23,6 @@ class Dyadic {
   }
 
   int sign() const { return sgn(mantissa_); }
-  /// Rounded towards zero to 53 bits.
-  double value() const {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, mantissa_.get_mpz_t());
-    return std::ldexp(mantissa, static_cast<int>(exponent + exponent_));
-  }
 
   /// a / b to a few roundings, also where neither is in the range of doubles; b is not zero.
   friend double quotient(const Dyadic& a, const Dyadic& b) {

@@ -122,7 +122,7 @@ bool ExactArithmetic::triangle(const RayFrame& ray, const LeafPrimitive& triangl
   };
   if (order(given_.min) <= 0 || order(given_.max) >= 0 || !comes_first(ray, *found)) return false;
   hit.barycentric = found->barycentric, hit.t = found->t;
-  taken_ = *found;
+  found_ = *found, found_id_ = hit.primitive;
   return true;
 }
 

@@ -39,6 +39,9 @@ class ExactArithmetic {
     return intersect_plane(s, ray, id, hit);
   }
 
+  /// Told of each hit that became the nearest: what a later one is compared with.
+  void took(const Hit& hit) const { taken_ = hit.primitive == found_id_ ? found_ : Intersection{}; }
+
   /// The t of the nearest hit as its triangle alone gives it: on the traversal it may have been moved to the
   /// right side of another's, by which it would depend on the order of the traversal.
   double own_t(const Structures& s, const RayFrame& ray, const Hit& hit) const;
@@ -54,9 +57,10 @@ class ExactArithmetic {
   bool triangle(const RayFrame& ray, const LeafPrimitive& triangle, Hit& hit) const;
   bool comes_first(const RayFrame& ray, Intersection& candidate) const;
   Interval given_;  ///< the ray's own; a traversal for the closest hit shortens it by rounded values
-  /// The last triangle that was given as a hit: where it shortened the ray, the nearest.
-  mutable Intersection taken_{};
-  mutable bool moved_ = false;  ///< some hit's t was
+  mutable Intersection found_{};  ///< the last triangle that was given as a hit
+  mutable std::uint32_t found_id_ = no_id;
+  mutable Intersection taken_{};  ///< the nearest, if it is a triangle
+  mutable bool moved_ = false;    ///< some hit's t was
 };
 
 }  // namespace gnomon::raytrace

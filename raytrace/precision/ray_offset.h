@@ -1,7 +1,7 @@
 // The one ray-offset policy. A computed surface point lies within a bound of its surface (PBR 4th ed.,
 // section 6.8.4-6.8.5); a ray that leaves it starts where that bound ends along the geometric normal
 // (section 6.8.6), on the side it leaves to. Nothing else in the project moves a ray's origin, and no t_min
-// above zero is used.
+// above zero is used but by Precision::fast (raytrace/precision/fast.h, textbook_epsilon).
 #pragma once
 
 #include <bit>

@@ -11,7 +11,7 @@ namespace {
 /// neighbour across it may resolve it.
 struct AmbiguousTriangle {
   std::uint32_t triangle;
-  int edge;       ///< from corner `edge` to the next; -1: more than one, or the distance is ambiguous
+  int edge;  ///< from corner `edge` to the next; -1: more than one, or the distance is ambiguous, or it has a mask
   bool positive;  ///< the projected winding, known when edge >= 0
 };
 
@@ -97,6 +97,8 @@ class Query {
     // A structure may report a primitive twice.
     for (std::size_t i = 0; i < std::min(ambiguous_count_, remembered_triangles); ++i)
       if (triangles_[i].triangle == id) return false;
+    if constexpr (masks)
+      if (s_.world->is_masked(id)) edge = -1;  // it may have a hole where its neighbour ends
     if (ambiguous_count_ < remembered_triangles) triangles_[ambiguous_count_] = {id, edge, positive};
     ++ambiguous_count_;
     return false;
@@ -107,7 +109,7 @@ class Query {
   bool is_opaque_here(std::uint32_t id) const {
     const World& world = *s_.world;
     const RayFrame& ray = ambiguous_.frame();
-    if (world.scene->materials[world.material_of(id)].alpha_mode != AlphaMode::mask) return true;
+    if (!world.is_masked(id)) return true;
     Hit hit;
     hit.primitive = id;
     bool intersected = false;

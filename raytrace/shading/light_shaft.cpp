@@ -153,13 +153,20 @@ bool spares_triangle(const LightShaft& shaft, const LeafPrimitive& triangle, boo
          shaft.rises_above(a, normal, normal_error);
 }
 
+/// is_source: it is the point's. Seen from outside, it lies below the horizon; from within, all around.
+bool spares_sphere(const LightShaft& shaft, const Sphere& sphere, const SurfacePoint& from, bool is_source) {
+  if (is_source) return glm::dot(from.normal, from.position - sphere.center) > 0.0;
+  return shaft.has_outside(shaft.seen(sphere.center), sphere.radius);
+}
+
 /// Whether the shaft surely passes by the leaf's primitive.
-bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t leaf, std::uint32_t source) {
+bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t leaf, const SurfacePoint& from) {
   const std::uint32_t id = s.bvh.id_at(leaf);
+  const bool is_source = id == from.primitive;
   if (!s.has_shapes || s.world->is_triangle(id))
-    return spares_triangle(shaft, s.bvh.primitives[leaf], id == source);
+    return spares_triangle(shaft, s.bvh.primitives[leaf], is_source);
   const auto* sphere = std::get_if<Sphere>(&s.world->shape(id).geometry);
-  return sphere != nullptr && (id == source || shaft.has_outside(shaft.seen(sphere->center), sphere->radius));
+  return sphere != nullptr && spares_sphere(shaft, *sphere, from, is_source);
 }
 
 bool spares_planes(const Structures& s, const LightShaft& shaft, std::uint32_t source) {
@@ -186,7 +193,7 @@ bool surely_sees_whole_light(const Tracer& tracer, const SurfacePoint& from, con
   if (!leaves_in_shaft(*tree, shaft.shaft(), leaves)) return false;
   for (const LeafRange& range : leaves.ranges())
     for (std::uint32_t i = 0; i < range.count; ++i)
-      if (!spares_leaf(s, shaft, range.first + i, from.primitive)) return false;
+      if (!spares_leaf(s, shaft, range.first + i, from)) return false;
   return true;
 }
 

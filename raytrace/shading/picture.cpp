@@ -26,12 +26,11 @@ PictureKernel kernel_for(const EffectPlan& plan, const RaytraceOptions& options)
   return kernel_of<Secondary::none>(options);
 }
 
-/// Rays from a point to a light with size.
+/// Rays from a point to a light with size, of all lights the most.
 int most_samples(const Scene& scene, const RaytraceOptions& options) {
-  int most = options.shadow_samples;
-  if (most > 0) return most;
+  int most = 0;
   for (const Light& light : scene.lights)
-    if (has_size(light)) most = std::max(most, light.shadow_samples);
+    if (has_size(light)) most = std::max(most, samples_of(light, options));
   return most;
 }
 

@@ -146,17 +146,16 @@ class Shader {
   Vec3f transmittance(const SurfacePoint& point, const Path& path, std::uint32_t light_index) {
     const Light& light = scene_.lights[light_index];
     if (on_.soft && has_size(light)) return soft_transmittance(point, path, light, light_index);
+    if constexpr (Kind::refracts)
+      return through_glass(tracer_.shadow_ray(point, light), path.inside, counts_.shadow);
     ++counts_.shadow;
-    if constexpr (!Kind::refracts)
-      return Vec3f(is_blocked(point, light) ? 0.0f : 1.0f);
-    else
-      return through_glass(tracer_.shadow_ray(point, light), path.inside);
+    return Vec3f(is_blocked(point, light) ? 0.0f : 1.0f);
   }
 
  private:
   static constexpr int max_glass_surfaces = 64;  // on one straight line; what is behind more of them is dark
 
-  /// `exact` certifies the ray to the light's centre; samples of a light's size are decided as `robust` does.
+  /// `exact` certifies the answer for a light's centre; a sample of its size is taken to be exactly what its doubles say.
   bool is_blocked(const SurfacePoint& point, const Light& light) const {
     if (tracer_.precision() == Precision::exact)
       return tracer_.centre_visibility(point, light) != PointVisibility::lit;
@@ -174,8 +173,7 @@ class Shader {
   /// The mean over the light's samples; each point of the pixel's paths has its own.
   Vec3f soft_transmittance(const SurfacePoint& point, const Path& path, const Light& light,
                            std::uint32_t light_index) {
-    const int count =
-        shared(options_.shadow_samples > 0 ? options_.shadow_samples : light.shadow_samples, path);
+    const int count = shared(samples_of(light, options_), path);
     const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_sampled_);
     counts_.soft_shadow_asked += static_cast<std::uint64_t>(count);
     if (is_in_vacuum(path) && count >= least_shaft_rays && surely_sees_whole_light(tracer_, point, light))
@@ -185,11 +183,12 @@ class Shader {
     for (int i = 0; i < count; ++i) {
       const std::optional<Ray> ray = samples[i];
       if (!ray) continue;
-      ++counts_.soft_shadow;
-      if constexpr (Kind::refracts)
-        sum += through_glass(*ray, path.inside);
-      else
+      if constexpr (Kind::refracts) {
+        sum += through_glass(*ray, path.inside, counts_.soft_shadow);
+      } else {
+        ++counts_.soft_shadow;
         sum += Vec3f(tracer_.occluded(*ray) ? 0.0f : 1.0f);
+      }
     }
     return sum / static_cast<float>(count);
   }
@@ -303,7 +302,7 @@ class Shader {
                      const Vec3& normal, const Vec3& facet, Path& next) const {
     if (material.thin) {
       const Vec3 mirrored = reflect(path.direction, facet);
-      return {0.0, mirrored - 2.0 * glm::dot(mirrored, normal) * normal, false};
+      return {0.0, mirrored - 2.0 * glm::dot(mirrored, normal) * normal};
     }
     const Crossing crossing =
         cross(scene_, path.inside, world_.material_of(point.primitive), is_entering(point));
@@ -328,7 +327,7 @@ class Shader {
   }
 
   bool is_entering(const SurfacePoint& point) const {
-    return glm::dot(geometric_normal(world_, point.primitive, point.position), point.normal) > 0.0;
+    return glm::dot(outward_normal(world_, point.primitive, point.position), point.normal) > 0.0;
   }
 
   /// False for glass behind which the medium is the same; then `inside` is what is there.
@@ -347,9 +346,11 @@ class Shader {
     return glm::exp(-scene_.materials[medium].absorption * static_cast<float>(length));
   }
 
-  Vec3f through_glass(Ray ray, Interior inside) const {
+  /// `count` counts this ray and those that go on behind glass.
+  Vec3f through_glass(Ray ray, Interior inside, std::uint64_t& count) const {
     Vec3f share(1.0f);
     for (int surfaces = 0; surfaces < max_glass_surfaces; ++surfaces) {
+      ++count;
       const std::optional<Hit> hit = tracer_.closest_hit(ray);
       if (!hit) return share * to_the_light(ray, inside);
       const std::uint32_t id = world_.material_of(hit->primitive);

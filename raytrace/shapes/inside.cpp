@@ -87,11 +87,4 @@ bool InsideTest::mesh_contains(const Object& object, const Vec3& point) const {
   return false;  // a point on an edge of the mesh, seen edge-on from everywhere
 }
 
-std::vector<std::uint32_t> InsideTest::objects_around(const Vec3& point) const {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t object = 0; object < object_count(); ++object)
-    if (contains(object, point)) found.push_back(object);
-  return found;
-}
-
 }  // namespace gnomon::raytrace

@@ -18,12 +18,9 @@ class InsideTest {
   /// Finds out which objects are closed. The world must outlive this.
   explicit InsideTest(const World& world);
 
-  std::uint32_t object_count() const { return static_cast<std::uint32_t>(objects_.size()); }
   bool is_closed(std::uint32_t object) const { return objects_[object].closed; }
   /// Takes time linear in the object's triangles. On the surface itself either answer may come.
   bool contains(std::uint32_t object, const Vec3& point) const;
-  /// Every closed object that holds the point, in ascending order.
-  std::vector<std::uint32_t> objects_around(const Vec3& point) const;
 
  private:
   struct Object {

@@ -9,7 +9,7 @@ namespace gnomon::raytrace {
 enum class Intersects : std::uint8_t { no, perhaps, surely };
 
 /// Crossings count in ray.t; from its end to `surely_out` they may count. `error`: of the origin, per axis of
-/// the world. `own_normal`: for a ray that starts on this solid, its normal there on the side the ray leaves
+/// the world. `source_normal`: for a ray that starts on this solid, its normal there on the side the ray leaves
 /// to (else none); the start itself is no crossing.
 Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& error,
                             const ShapeGeometry& solid, const Vec3* source_normal);

@@ -44,8 +44,7 @@ class Splitter {
     Node& node = nodes_[i];
     for (std::size_t k = 0; k < 3; ++k) node.corners[k] = column_.vertex(corners[k]);
     node.facing = column_.facing(node.corners);
-    const Material& material = world_.scene->materials[world_.material_of(ids_[i])];
-    node.boundary = node.facing == 0 || material.alpha_mode == AlphaMode::mask;
+    node.boundary = node.facing == 0 || world_.is_masked(ids_[i]);
     node.parent = i;
   }
 
@@ -167,7 +166,7 @@ std::vector<Sheet> find_sheets(const World& world, const Topology& topology, con
   splitter.split(sheets);
   for (const std::uint32_t id : primitives.subspan(triangle_count)) {
     const Shape& shape = world.shape(id);
-    const bool masked = world.scene->materials[shape.material].alpha_mode == AlphaMode::mask;
+    const bool masked = world.is_masked(id);
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       append_sphere_sheets(*sphere, id, masked, splitter.column(), sheets);
     else if (is_solid(shape.geometry))
