@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace gnomon::compare {
+namespace {
+
+// From here on three digits would round to a thousand, which "g" writes with an exponent.
+constexpr double first_of_four_digits = 999.5;
+
+}  // namespace
 
 std::string grouped(std::uint64_t count) {
   const std::string digits = std::to_string(count);
@@ -32,7 +38,7 @@ std::string plain_number(double value) {
   if (std::isnan(value)) return "unknown";
   if (std::isinf(value)) return "unlimited";
   const double size = std::abs(value);
-  if (size >= 1000.0 && size < 1e6) return fmt::format("{:.0f}", value);
+  if (size >= first_of_four_digits && size < 1e6) return fmt::format("{:.0f}", value);
   return fmt::format("{:.3g}", value);
 }
 
@@ -59,14 +65,15 @@ std::string milliseconds(double ms) {
   if (!(ms >= 0.0)) return "not timed";
   if (ms < 10.0) return fmt::format("{:.2g} ms", ms);
   if (ms < 1000.0) return fmt::format("{:.0f} ms", ms);
-  return fmt::format("{:.3g} s", ms / 1000.0);
+  const double seconds = ms / 1000.0;
+  return seconds < first_of_four_digits ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
 std::string byte_count(std::uint64_t bytes) {
   constexpr std::array<const char*, 5> units{"bytes", "kB", "MB", "GB", "TB"};
   double value = static_cast<double>(bytes);
   std::size_t unit = 0;
-  for (; value >= 1000.0 && unit + 1 < units.size(); ++unit) value /= 1000.0;
+  for (; value >= first_of_four_digits && unit + 1 < units.size(); ++unit) value /= 1000.0;
   return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.3g} {}", value, units[unit]);
 }
 

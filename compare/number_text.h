@@ -23,7 +23,7 @@ std::string signed_number(double value);
 std::string unsigned_number(double value);
 /// "0.8 texel", "1.6 texels".
 std::string texels_text(double texels);
-/// "12 ms", "0.42 ms", "1.9 s"; "not timed" for a negative value.
+/// "12 ms", "0.42 ms", "1.9 s", "3723 s"; "not timed" for a negative value.
 std::string milliseconds(double ms);
 /// "16.8 MB" (powers of ten).
 std::string byte_count(std::uint64_t bytes);
