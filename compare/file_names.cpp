@@ -1,5 +1,5 @@
 // File names that carry a light's name: letters, digits, '_' and '-' stay, every other run becomes one '-'.
-// Two lights that would then share a name get their number in the scene behind it.
+// Where two lights would then share a name, or one has none left, all get their number in the scene behind it.
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -34,8 +34,8 @@ std::string in_small_letters(std::string text) {
 
 std::string light_file_part(const Comparison& c, const LightComparison& light) {
   const std::string own = sanitised(light_of(c, light).name);
-  std::set<std::string> seen;
-  bool all_differ = !own.empty();
+  std::set<std::string> seen{""};
+  bool all_differ = true;
   for (const LightComparison& other : c.lights)
     if (!seen.insert(in_small_letters(sanitised(light_of(c, other).name))).second) all_differ = false;
   if (all_differ) return own;
