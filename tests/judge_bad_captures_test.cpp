@@ -96,6 +96,8 @@ TEST(BadCaptures, OfMapsNameTheField) {
   capture.map = {layer(Mat4(1.0))};
   capture.map[0].rows.reset();
   expect_named(capture, "map[0].rows: is missing");
+  capture.map.assign(7, layer(Mat4(1.0)));
+  expect_named(capture, "map: needs one layer to six");
 }
 
 TEST(BadCaptures, ThatContradictNameTheField) {

@@ -10,6 +10,7 @@
 #include "compare/option_names.h"
 #include "compare/outputs.h"
 #include "support/capture_support.h"
+#include "tests/synthetic_comparison.h"
 
 namespace gnomon::test {
 namespace {
@@ -107,6 +108,28 @@ TEST(JudgeIdentify, FindsMapSizeAndBias) {
   // Of 24 settings at least 20.
   EXPECT_GE(size * 24, tried * 20);
   EXPECT_GE(bias * 24, tried * 20);
+}
+
+// A pixel that the model draws otherwise is no longer one whose shadow stands off.
+TEST(JudgeIdentify, CountsTheDetachmentOfWhatIsExplainedAlone) {
+  const auto made = compare::make_synthetic();
+  compare::LightComparison& light = made->comparison.lights.front();
+  const ImageSize size = light.labels.size;
+  Image<float> model = light.rungs[6];
+  light.detachment_map = Image<float>(size, std::numeric_limits<float>::quiet_NaN());
+  std::uint64_t kept = 0;
+  for (std::size_t i = 0, n = 0; i < light.labels.data.size(); ++i) {
+    if (light.labels.data[i] != compare::Label::peter_panning) continue;
+    light.detachment_map.data[i] = 0.5f;
+    if (n++ % 2 == 0)
+      model.data[i] = 1.0f - model.data[i];
+    else
+      ++kept;
+  }
+  ASSERT_GT(kept, 0u);
+  compare::mark_unexplained(model, light);
+  EXPECT_EQ(light.classes[static_cast<std::size_t>(compare::Label::peter_panning) - 1], kept);
+  EXPECT_EQ(light.detachment.pixels, kept);
 }
 
 // Gnomon's own pcf compares with the receiver's plane, which few other renderers do.

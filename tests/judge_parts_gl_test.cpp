@@ -184,6 +184,21 @@ TEST_P(JudgeOtherTests, AreClimbedToWhatTheyDrew) {
 INSTANTIATE_TEST_SUITE_P(Of, JudgeOtherTests, testing::ValuesIn(kinds(true)),
                          [](const auto& kind) { return name_of(kind.param); });
 
+// Engines keep the back faces of single-sided materials in the map, which the eye looks through and light does not.
+TEST(JudgeSides, BacksOfSingleSidedMaterialsAreFoundInTheMap) {
+  Scene scene =
+      sunlit_scene({floor_mesh(4, 4), box_mesh({-0.5, 0.6, -0.5}, {0.5, 1.0, 0.5})}, {0.1, -1.0, 0.05});
+  scene.camera = {{2.5, 3.0, 4.0}, {0.2, 0.2, 0}, {0, 1, 0}, 0.7};
+  for (Material& material : scene.materials) material.double_sided = false;
+  raster::MapOptions map = hard_map(128);
+  map.cull = raster::Cull::front;
+  const Compared drawn = draw_scene(scene, small_picture, map);
+  const JudgeOutcome judged =
+      judge(self_capture(drawn, folder_for("single_sided"), {.map = true}), *drawn.scene);
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_EQ(judged.result->raster.options.map.cull, raster::Cull::front);
+}
+
 // ---- where the pixels are, and two pictures for one ----
 
 using compare::CapturedDepth;

@@ -6,6 +6,7 @@
 
 #include "scene/files/json_reader.h"
 #include "scene/files/read_file.h"
+#include "scene/light_view.h"
 
 namespace gnomon::compare {
 namespace {
@@ -14,6 +15,8 @@ constexpr std::string_view schema_name = "gnomon/capture/1";
 constexpr NumberRange side_range{1.0, 16384.0, false, false, true};
 constexpr NumberRange place_range{0.0, 1e6, false, false, true};
 constexpr NumberRange radius_range{0.0, 64.0, true};
+constexpr std::size_t most_layers = std::tuple_size_v<decltype(LightView::faces)>;
+constexpr const char* layers_wanted = "needs one layer to six";
 
 template <std::size_t N>
 std::vector<std::string_view> choices(const std::array<std::string_view, N>& names) {
@@ -148,7 +151,7 @@ Capture CaptureReader::read(const JsonValue& value) {
   if (const auto node = root.find("depth")) read_depth(*node);
   if (const auto node = root.find("map")) {
     const auto layers = node->as_array();
-    if (layers.empty() || layers.size() > 6) node->error("needs one layer to six");
+    if (layers.empty() || layers.size() > most_layers) node->error(layers_wanted);
     for (const JsonNode& layer : layers) read_layer(layer);
   }
   if (const auto node = root.find("bias")) read_bias(*node);
@@ -178,6 +181,7 @@ Expected<void> check_depth(const Capture& capture) {
 
 Expected<void> check_map(const Capture& capture) {
   const std::size_t layers = capture.map.size();
+  if (layers > most_layers) return capture_error(capture, "map", layers_wanted);
   for (std::size_t i = 0; i < layers; ++i) {
     const CapturedLayer& layer = capture.map[i];
     const auto wrong = [&](const char* field, std::string reason) {

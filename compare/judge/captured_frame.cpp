@@ -115,7 +115,8 @@ StoredSurface surface_of(const raytrace::Tracer& tracer, const raster::ShadowMap
   StoredSurface best;
   double nearest = infinity;
   visit_hits(
-      ray, [&](const Ray& from) { return tracer.closest_seen(from); },
+      // As casters are found: both sides of single-sided materials cast shadows, and a map may hold their backs.
+      ray, [&](const Ray& from) { return tracer.closest_hit(from); },
       [&](const raytrace::Hit& hit) {
         const double off = std::abs(glm::dot(ray.at(hit.t) - map.view.origin, forward) - wanted);
         if (off >= nearest) return false;

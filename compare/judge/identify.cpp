@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "compare/budget.h"
+#include "compare/edges.h"
 #include "compare/labelling.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
@@ -278,18 +280,24 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
   auto compared = compare_frames(world, tracer, judged.raster, judged.raytraced, comparing);
   if (!compared) return fail(compared.error());
   judged.lights = std::move(*compared);
-  LightComparison& light = judged.lights.front();
-  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    const bool differs = std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
-    if (is_wrong(light.labels.data[i]) && differs) light.labels.data[i] = Label::unexplained;
-  }
-  // Other reasons for the same wrong pixels: what truth and picture alone decide, FLIP and SSIM among it, stays.
-  light.classes = count_classes(light.labels);
-  light.budget = add_up_budget(light.rungs, light.labels);
+  mark_unexplained(drawn_by_model, judged.lights.front());
   return {};
 }
 
 }  // namespace
+
+void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light) {
+  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+    const bool differs = std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
+    if (!is_wrong(light.labels.data[i]) || !differs) continue;
+    light.labels.data[i] = Label::unexplained;
+    light.detachment_map.data[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  // Other reasons for the same wrong pixels: what truth and picture alone decide, FLIP and SSIM among it, stays.
+  light.classes = count_classes(light.labels);
+  light.budget = add_up_budget(light.rungs, light.labels);
+  light.detachment = measure_detachment(light.detachment_map);
+}
 
 Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const IdentifyOptions& options,
                         const Progress& progress) {

@@ -19,4 +19,8 @@ struct IdentifyOptions {
 Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const IdentifyOptions& options,
                         const Progress& progress = {});
 
+/// The wrong pixels that a model draws otherwise than the picture get the label `unexplained`, and what is counted by
+/// labels is counted anew.
+void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light);
+
 }  // namespace gnomon::compare

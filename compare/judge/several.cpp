@@ -15,6 +15,8 @@
 namespace gnomon::compare {
 namespace {
 
+constexpr std::string_view no_figures = "nothing compared";
+
 /// The two labels with the most wrong pixels.
 std::string main_labels(const LightComparison& light) {
   std::vector<std::pair<std::uint64_t, std::string>> counts;
@@ -32,9 +34,10 @@ std::string main_labels(const LightComparison& light) {
 std::vector<const JudgedRow*> worst_first(const JudgedSet& set) {
   std::vector<const JudgedRow*> rows;
   for (const JudgedRow& row : set.rows) rows.push_back(&row);
-  std::stable_sort(rows.begin(), rows.end(), [](const JudgedRow* a, const JudgedRow* b) {
-    if (a->refused.empty() != b->refused.empty()) return a->refused.empty();
-    return a->wrong > b->wrong;
+  // Rows without figures last.
+  const auto rank = [](const JudgedRow& row) { return !row.refused.empty() ? 2 : row.compared == 0 ? 1 : 0; };
+  std::stable_sort(rows.begin(), rows.end(), [&](const JudgedRow* a, const JudgedRow* b) {
+    return rank(*a) != rank(*b) ? rank(*a) < rank(*b) : a->wrong > b->wrong;
   });
   return rows;
 }
@@ -44,13 +47,26 @@ std::string page_row(const JudgedRow& row) {
     return fmt::format(R"(<tr><th scope="row">{}</th><td colspan="7">not judged: {}</td></tr>
 )",
                        escaped(row.name), escaped(row.refused));
+  const std::string head =
+      fmt::format(R"(<tr><th scope="row"><a href="{}/report.html">{}</a><small>{}</small></th><td>{}</td>)",
+                  url_segment(row.name), escaped(row.name), escaped(row.scene), escaped(row.renderer));
+  if (row.compared == 0)
+    return fmt::format(R"({}<td colspan="5">{}</td><td>{}</td></tr>
+)",
+                       head, no_figures, escaped(row.advice));
   return fmt::format(
-      R"(<tr><th scope="row"><a href="{}/report.html">{}</a><small>{}</small></th><td>{}</td><td class="n">{}</td><td
+      R"({}<td class="n">{}</td><td
 class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td><td>{}</td></tr>
 )",
-      escaped(row.name), escaped(row.name), escaped(row.scene), escaped(row.renderer), percent(row.wrong),
-      percent(row.mean_error), escaped(row.labels), plain_number(row.edge_pixels),
+      head, percent(row.wrong), percent(row.mean_error), escaped(row.labels), plain_number(row.edge_pixels),
       row.detachment_world ? plain_number(*row.detachment_world) : "\u2013", escaped(row.advice));
+}
+
+std::string judged_line(const JudgedRow& row, std::size_t width) {
+  if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", row.name, width, row.refused);
+  if (row.compared == 0) return fmt::format("{:{}}  {}\n", row.name, width, no_figures);
+  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", row.name, width, percent(row.wrong),
+                     percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
 }
 
 std::string judged_page(const JudgedSet& set) {
@@ -113,11 +129,7 @@ std::string judged_table(const JudgedSet& set) {
   for (const JudgedRow& row : set.rows) width = std::max(width, row.name.size());
   std::string text = fmt::format("{:{}}  {:>8}  {:>8}  {:>7}  {:8}  {}\n", "capture", width, "wrong", "mean",
                                  "edge px", "ladder", "mostly");
-  for (const JudgedRow* row : worst_first(set))
-    text += row->refused.empty() ? fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", row->name, width,
-                                               percent(row->wrong), percent(row->mean_error),
-                                               row->edge_pixels, row->ladder, row->labels)
-                                 : fmt::format("{:{}}  not judged: {}\n", row->name, width, row->refused);
+  for (const JudgedRow* row : worst_first(set)) text += judged_line(*row, width);
   return text;
 }
 

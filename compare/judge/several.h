@@ -12,7 +12,7 @@
 
 namespace gnomon::compare {
 
-/// One capture, judged or refused.
+/// One capture, judged or refused. `compared` 0: judged, but its shares say nothing.
 struct JudgedRow {
   std::string name;     ///< of its folder below that of all
   std::string refused;  ///< why it was not judged; the rest is then empty
@@ -33,7 +33,7 @@ struct JudgedSet {
   void add_refused(const std::string& name, const std::string& why);
 };
 
-/// At most 100 columns, for the terminal; the worst first, refused ones last.
+/// At most 100 columns, for the terminal; the worst first, then those of which nothing was compared, refused ones last.
 std::string judged_table(const JudgedSet& set);
 /// report.html, judge.jsonl (one result.json a line, with "axes": {"capture": NAME}) and judge.csv.
 Expected<void> write_judged_set(const JudgedSet& set, const std::string& folder);

@@ -74,6 +74,15 @@ std::string flowing(std::string_view text) {
   return with_whole_options(escaped(out));
 }
 
+std::string url_segment(std::string_view name) {
+  constexpr std::string_view kept = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
+  std::string out;
+  for (const char c : name)
+    out += kept.find(c) != std::string_view::npos ? std::string(1, c)
+                                                  : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
 std::string data_uri(std::string_view mime, std::string_view bytes) {
   return fmt::format("data:{};base64,{}", mime, base64(bytes));
 }

@@ -14,6 +14,8 @@ namespace gnomon::compare {
 std::string escaped(std::string_view text);
 /// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break), and options whole.
 std::string flowing(std::string_view text);
+/// A file's name as a part of a relative address: "shot#1" -> "shot%231".
+std::string url_segment(std::string_view name);
 std::string data_uri(std::string_view mime, std::string_view bytes);
 /// Appends JSON text that may stand inside <script>: no '<' is left in it.
 void append_script_safe(std::string& html, std::string_view json);
