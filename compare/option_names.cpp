@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "compare/number_text.h"
+
 /// The program brings it along (cmake/GnomonCommit.cmake), so that a new commit compiles no library anew;
 /// other programs that use this room have none.
 extern "C" [[gnu::weak]] const char* gnomon_commit();
@@ -64,6 +66,22 @@ std::string bias_arguments(const raster::Bias& bias, const raster::MapOptions& d
   if (bias.unit == raster::BiasUnit::automatic) return text + "--bias auto";
   return text +
          fmt::format("--bias {}{}", bias.constant, bias.unit == raster::BiasUnit::texel ? "texel" : "");
+}
+
+std::vector<std::string> bias_parts(const raster::Bias& bias) {
+  std::vector<std::string> parts;
+  if (bias.slope != 0.0) parts.push_back("slope bias " + plain_number(bias.slope));
+  if (bias.normal_offset_texels != 0.0)
+    parts.push_back("normal offset " + texels_text(bias.normal_offset_texels));
+  if (bias.receiver_plane) parts.emplace_back("receiver plane");
+  if (bias.adaptive) parts.emplace_back("adaptive bias");
+  return parts;
+}
+
+std::string beside_constant(const raster::MapOptions& map) {
+  std::string text;
+  for (const std::string& part : bias_parts(map.bias)) text += ", " + part;
+  return map.cull == raster::Cull::none ? text : text + fmt::format(", cull {}", cull_name(map.cull));
 }
 
 std::string_view program_version() {

@@ -30,7 +30,7 @@ Rgb8Image raytraced_picture(const Comparison& comparison);
 Rgb8Image difference_picture(const Comparison& comparison, const LightComparison& light);
 /// From raster_picture(), where that has been made.
 Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& light);
-Rgb8Image label_picture(const Comparison& comparison, const LightComparison& light);
+Rgb8Image label_picture(const LightComparison& light);
 /// |V6 - V0|, FLIP and 1 - SSIM of the visibility pictures, each on magma from 0 to 1; black where nothing is
 /// compared. FLIP and SSIM need the light's maps.
 Rgb8Image error_picture(const LightComparison& light);

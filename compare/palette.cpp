@@ -21,6 +21,12 @@ glm::u8vec3 between(const std::array<glm::u8vec3, count>& table, double t) {
 
 }  // namespace
 
+glm::u8vec3 grey_backdrop(const glm::u8vec3& c) {
+  const float luma = 0.2126f * static_cast<float>(c.r) + 0.7152f * static_cast<float>(c.g) +
+                     0.0722f * static_cast<float>(c.b);
+  return glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
+}
+
 glm::u8vec3 viridis(double t) {
   // Every sixteenth entry of matplotlib's table of 256, the last one included.
   static constexpr std::array<glm::u8vec3, 17> table{{{68, 1, 84},

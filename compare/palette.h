@@ -17,6 +17,9 @@ inline constexpr glm::u8vec3 surely_lit_colour{0xf0, 0xe4, 0x42}, surely_shadowe
 /// Where nothing was stored in a depth map, and the gaps between its faces.
 inline constexpr glm::u8vec3 nothing_stored_colour{0x3c, 0x42, 0x4c};
 
+/// Grey of a picture, kept between 64 and 232 so that both error colours stand out from it.
+glm::u8vec3 grey_backdrop(const glm::u8vec3& colour);
+
 /// Viridis (Smith & van der Walt 2015) at t in [0, 1]: dark purple to bright yellow; clamped.
 glm::u8vec3 viridis(double t);
 /// Magma, from black over purple and orange to pale yellow: for errors, 0 no error; clamped, NaN as 0.

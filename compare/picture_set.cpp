@@ -55,7 +55,7 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image
   out.error.file_name = "error" + suffix + ".png";
   add_map_jobs(jobs, c, light, out);
   jobs.push_back({&out.difference, [&drawn, &light] { return difference_picture(drawn, light); }});
-  jobs.push_back({&out.labels, [&c, &light] { return label_picture(c, light); }});
+  jobs.push_back({&out.labels, [&light] { return label_picture(light); }});
   jobs.push_back({&out.error, [&light] { return error_picture(light); }});
   const auto& external = drawn_record(c, light).external;
   if (external && !external->decision.data.empty()) {

@@ -24,13 +24,6 @@ Rgb8Image picture(ImageSize size, const Function& colour_of) {
   return image;
 }
 
-// Grey of the drawn picture, kept between 64 and 232 so that both error colours stand out from it.
-glm::u8vec3 backdrop(const glm::u8vec3& c) {
-  const float luma = 0.2126f * static_cast<float>(c.r) + 0.7152f * static_cast<float>(c.g) +
-                     0.0722f * static_cast<float>(c.b);
-  return glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
-}
-
 // How far a stored depth lies through the map's range: 0 at its near end, 1 at its far end. Even in depth for
 // an orthographic map; in its logarithm for a perspective one, whose range may span several powers of ten.
 double depth_share(const LightView& view, int face, int row, float stored) {
@@ -59,7 +52,7 @@ Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& ligh
   const Image<float>& v0 = light.rungs[static_cast<std::size_t>(Rung::truth)];
   const Image<float>& v6 = light.rungs[static_cast<std::size_t>(Rung::drawn)];
   return picture(drawn.size, [&](std::size_t i) {
-    const glm::u8vec3 grey = backdrop(drawn.data[i]);
+    const glm::u8vec3 grey = grey_backdrop(drawn.data[i]);
     const float difference = v6.data[i] - v0.data[i];
     if (!is_compared(light.labels.data[i]) || difference == 0.0f) return grey;
     const glm::u8vec3 error = difference < 0.0f ? false_shadow_colour : missed_shadow_colour;
@@ -67,7 +60,7 @@ Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& ligh
   });
 }
 
-Rgb8Image label_picture(const Comparison&, const LightComparison& light) {
+Rgb8Image label_picture(const LightComparison& light) {
   const Image<float>& truth = light.rungs[static_cast<std::size_t>(Rung::truth)];
   return picture(light.labels.size, [&](std::size_t i) {
     const Label label = light.labels.data[i];
@@ -101,7 +94,7 @@ Rgb8Image decision_picture(const Comparison& c, const LightComparison& light) {
   return picture(drawn.size, [&](std::size_t i) {
     const std::uint8_t who = decision.data[i];
     if (who == static_cast<std::uint8_t>(hybrid::Decision::traced)) return traced_colour;
-    const glm::u8vec3 grey = backdrop(drawn.data[i]);
+    const glm::u8vec3 grey = grey_backdrop(drawn.data[i]);
     if (who >= tints.size()) return grey;
     return glm::u8vec3(glm::mix(Vec3f(grey), Vec3f(tints[who]), strength) + 0.5f);
   });

@@ -72,13 +72,7 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   if (texel > 0.0)
     text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
                         plain_number(texel));
-  if (map.bias.slope != 0.0) text += fmt::format(", slope bias {}", plain_number(map.bias.slope));
-  if (map.bias.normal_offset_texels != 0.0)
-    text += fmt::format(", normal offset {}", texels_text(map.bias.normal_offset_texels));
-  if (map.bias.receiver_plane) text += ", receiver plane";
-  if (map.bias.adaptive) text += ", adaptive bias";
-  if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
-  return text;
+  return text + beside_constant(map);
 }
 
 std::string hybrid_line(const raster::ExternalCosts& e) {

@@ -44,7 +44,7 @@ TEST(Palette, EveryLabelHasItsOwnColour) {
 TEST(Pictures, LabelPictureShowsEachPixelInItsLabelsColour) {
   const auto made = make_synthetic();
   const LightComparison& light = made->comparison.lights[0];
-  const Rgb8Image image = label_picture(made->comparison, light);
+  const Rgb8Image image = label_picture(light);
   for (std::size_t i = 0; i < image.data.size(); ++i) {
     const Label label = light.labels.data[i];
     const bool dark = label == Label::right && light.rungs[0].data[i] < 0.5f;
@@ -194,6 +194,15 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   const auto picture = read_channels((folder / "raster.png").string());
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->size, synthetic::image_size);
+  fs::remove_all(folder);
+}
+
+TEST(WriteOutputs, TimesOfSeveralLightsAreAddedUp) {
+  const auto made = make_synthetic(3);
+  const fs::path folder = fresh_folder("times");
+  ASSERT_TRUE(write_outputs(made->comparison, {.folder = folder.string()}));
+  const std::string page = file_text(folder / "report.html");
+  EXPECT_NE(page.find("36 ms for the maps, 93 ms to shade with them"), std::string::npos);
   fs::remove_all(folder);
 }
 

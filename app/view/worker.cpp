@@ -31,7 +31,7 @@ void draw_pictures(ComparisonOutcome& outcome) {
   const compare::LightComparison& light = comparison.lights.front();
   outcome.raytrace = compare::raytraced_picture(comparison);
   outcome.difference = compare::difference_picture(comparison, light);
-  outcome.labels = compare::label_picture(comparison, light);
+  outcome.labels = compare::label_picture(light);
   const raster::LightRecord& record = comparison.raster.lights.front();
   outcome.truth = truth_picture(light);
   outcome.gap = gap_picture(record, light);

@@ -70,7 +70,7 @@ std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
   };
   add(out.difference, "difference", {.raster = true, .visibility = true},
       [](const Comparison& c, const LightComparison& l) { return difference_picture(c, l); });
-  add(out.labels, "labels", {.visibility = true}, label_picture);
+  add(out.labels, "labels", {.visibility = true}, of_light(label_picture));
   add(out.error, "error", {.visibility = true}, of_light(error_picture));
   if (!stored.decisions.empty())
     add(out.decisions, "decisions", {.raster = true, .decisions = true}, decision_picture);

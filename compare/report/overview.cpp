@@ -34,6 +34,9 @@ double median_sum(const Comparison& c, const Times& (*pick)(const Comparison&, c
 const Times& map_times(const Comparison& c, const LightComparison& light) {
   return drawn_record(c, light).map_pass;
 }
+const Times& shade_times(const Comparison& c, const LightComparison& light) {
+  return drawn_record(c, light).shade_pass;
+}
 const Times& ray_times(const Comparison& c, const LightComparison& light) {
   return true_record(c, light).exact_times();
 }
@@ -53,13 +56,12 @@ std::string raster_caption(const Comparison& c) {
                        escaped(c.judged->version)) +
            (c.judged->of_ratio ? ", with its shadow"
                                : ": what it drew of the light, white lit and black shadowed");
-  const LightComparison& first = c.lights.front();
   const bool is_hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
   return fmt::format("<b>{}</b>, {}{}: {} for the {}{}, {} to shade with {}",
                      is_hybrid ? "Hybrid" : "Rasterizer", is_hybrid ? "sheets and rays" : "shadow map",
                      c.lights.size() > 1 && !is_hybrid ? "s" : "", shadow_time(c, "map_pass", map_times),
                      is_hybrid ? "sheet" : "map", c.lights.size() > 1 || is_hybrid ? "s" : "",
-                     timed(light_key(0, "times_ms.shade_pass"), drawn_record(c, first).shade_pass),
+                     shadow_time(c, "shade_pass", shade_times),
                      c.lights.size() > 1 || is_hybrid ? "them" : "it");
 }
 
@@ -109,13 +111,7 @@ std::string map_text(const Comparison& c) {
     text += fmt::format(", bias {}", plain_number(bias));
     if (texel > 0.0) text += fmt::format(" ({})", texels_text(bias / texel));
   }
-  if (map.bias.slope != 0.0) text += fmt::format(", slope bias {}", plain_number(map.bias.slope));
-  if (map.bias.normal_offset_texels != 0.0)
-    text += fmt::format(", normal offset {}", texels_text(map.bias.normal_offset_texels));
-  if (map.bias.receiver_plane) text += ", receiver plane";
-  if (map.bias.adaptive) text += ", adaptive bias";
-  if (map.cull != raster::Cull::none) text += fmt::format(", cull {}", cull_name(map.cull));
-  return text;
+  return text + beside_constant(map);
 }
 
 std::string setting_line(const PageInput& in) {

@@ -62,10 +62,11 @@ std::string shadow_cost_table(const PageInput& in) {
                      " to upload the scene to the rasterizer, " +
                      keyed("times_ms.accel_build.median", c.accel_build_ms, milliseconds(c.accel_build_ms)) +
                      " to build the tracer\u2019s hierarchy.";
-  if (is_software(c.raster.context))
-    note +=
-        " A software rasterizer\u2019s times are not a GPU\u2019s; texels, lookups, rays and tests hold "
-        "everywhere.";
+  if (is_software(c.raster.context)) {
+    std::string said(software_note);
+    said.front() = 'A';
+    note += " " + escaped(said) + ".";
+  }
   note += "</p>\n";
   if (rows.empty()) return note;
   return R"(<table class="times"><caption>The shadows alone, without what the picture costs</caption><thead><tr><th scope="col">part</th><th scope="col" class="n">rasterizer</th><th scope="col"

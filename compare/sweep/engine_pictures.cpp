@@ -61,10 +61,7 @@ float Engine::Impl::worst_error(std::size_t pixel) const {
 void Engine::Impl::make_backdrop() {
   if (!backdrop.data.empty()) return;
   backdrop = raytraced_picture(comparison);
-  for (glm::u8vec3& c : backdrop.data) {
-    const float luma = 0.2126f * float(c.r) + 0.7152f * float(c.g) + 0.0722f * float(c.b);
-    c = glm::u8vec3(static_cast<std::uint8_t>(64.5f + luma * (168.0f / 255.0f)));
-  }
+  for (glm::u8vec3& c : backdrop.data) c = grey_backdrop(c);
 }
 
 glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, int x1, int y0,
