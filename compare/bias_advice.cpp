@@ -20,49 +20,46 @@ std::string bias_text(const LightComparison& light, double bias) {
                                             : world;
 }
 
-bool is_tiny(const LightComparison& light, double bias) {
-  return bias < 0.01 * light.bias_texel_world;
+bool is_tiny(double texel, double bias) {
+  return bias < 0.01 * texel;
 }
 
 // "0.5 texel"; tiny numbers say nothing to a reader.
-std::string bound_text(const LightComparison& light, double bias) {
-  const double texel = light.bias_texel_world;
+std::string bound_text(double texel, double bias) {
   if (!(texel > 0.0)) return plain_number(bias) + " world units";
-  return is_tiny(light, bias) ? "a hundredth of a texel" : texels_text(bias / texel);
+  return is_tiny(texel, bias) ? "a hundredth of a texel" : texels_text(bias / texel);
 }
 
 // "213 lit pixels need at least 2 texels"; nothing where they are lit without any.
-std::string need_of_lit(const LightComparison& light) {
-  const BestBias& best = light.best_bias;
+std::string need_of_lit(const BestBias& best, double texel) {
   if (!(best.needs_more_than > 0.0)) return {};
   const std::string who = fmt::format("{} lit pixel{} ", grouped(best.lit_pixels_above),
                                       best.lit_pixels_above == 1 ? " needs" : "s need");
-  const std::string bound = bound_text(light, best.needs_more_than);
+  const std::string bound = bound_text(texel, best.needs_more_than);
   return who +
-         (is_tiny(light, best.needs_more_than) ? "some, though not " + bound + "," : "at least " + bound) +
+         (is_tiny(texel, best.needs_more_than) ? "some, though not " + bound + "," : "at least " + bound) +
          " and ";
 }
 
-std::string need_of_shadowed(const LightComparison& light) {
-  const BestBias& best = light.best_bias;
+std::string need_of_shadowed(const BestBias& best, double texel) {
   const std::uint64_t count = best.shadowed_pixels_below;
   if (!(best.needs_less_than > 0.0))
     return fmt::format("{} shadowed pixel{} lit even without one", grouped(count),
                        count == 1 ? " is" : "s are");
-  const std::string bound = bound_text(light, best.needs_less_than);
-  const bool said = best.needs_more_than > 0.0 && bound == bound_text(light, best.needs_more_than);
+  const std::string bound = bound_text(texel, best.needs_less_than);
+  const bool said = best.needs_more_than > 0.0 && bound == bound_text(texel, best.needs_more_than);
   return fmt::format("{} shadowed pixel{} less{}", grouped(count), count == 1 ? " needs" : "s need",
                      said ? "" : " than " + bound);
 }
 
 // What the drawing has beside its constant, with which every other constant is tried: " beside the slope bias of 1".
 std::string beside_drawn(const raster::Bias& drawn) {
-  const bool offset = drawn.normal_offset_texels != 0.0;
-  const int parts = int{drawn.slope != 0.0} + int{offset} + int{drawn.receiver_plane} + int{drawn.adaptive};
+  const std::size_t parts = bias_parts(drawn).size();
   if (parts == 0) return {};
   if (parts > 1) return " beside the other parts of the bias";
   if (drawn.slope != 0.0) return fmt::format(" beside the slope bias of {}", plain_number(drawn.slope));
-  if (offset) return " beside the normal offset of " + texels_text(drawn.normal_offset_texels);
+  if (drawn.normal_offset_texels != 0.0)
+    return " beside the normal offset of " + texels_text(drawn.normal_offset_texels);
   return drawn.receiver_plane ? " beside the receiver's plane" : " beside the adaptive bias";
 }
 
@@ -100,8 +97,9 @@ std::string beside_text(const BiasKind& kind, const LightComparison& light) {
 std::string constant_subject(const raster::Bias& bias, const LightComparison& light) {
   if (bias.constant == 0.0) return "No constant bias";
   if (bias.unit == raster::BiasUnit::texel) return "A constant bias of " + texels_text(bias.constant);
-  return (is_tiny(light, bias.constant) ? "A constant bias of less than " : "A constant bias of ") +
-         bound_text(light, bias.constant);
+  const double texel = light.bias_texel_world;
+  return (is_tiny(texel, bias.constant) ? "A constant bias of less than " : "A constant bias of ") +
+         bound_text(texel, bias.constant);
 }
 
 std::string subject(const BiasKind& kind, const LightComparison& light) {
@@ -158,15 +156,21 @@ std::string constant_part(const LightComparison& light) {
 
 }  // namespace
 
-std::string contradiction(const LightComparison& light, const raster::Bias& drawn) {
-  if (light.best_bias.needs_less_than == -infinity)
+std::string contradiction(const BestBias& best, double texel, const raster::Bias& drawn) {
+  if (best.needs_less_than == -infinity)
     return "No constant bias can be right everywhere: some shadowed pixels find no caster stored in the map.";
-  const std::string needs = need_of_lit(light) + need_of_shadowed(light);
+  const std::string needs = need_of_lit(best, texel) + need_of_shadowed(best, texel);
   return fmt::format("No constant bias{} can be right everywhere: {}.", beside_drawn(drawn), needs);
 }
 
+bool names_both_bounds(const BestBias& best) {
+  return !best.feasible && best.needs_more_than > 0.0 && best.needs_less_than > 0.0;
+}
+
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn) {
-  const std::string why = light.best_bias.feasible ? std::string() : contradiction(light, drawn.bias);
+  const BestBias& best = light.best_bias;
+  const std::string why =
+      best.feasible ? std::string() : contradiction(best, light.bias_texel_world, drawn.bias);
   if (light.bias_kinds.empty()) return {constant_part(light), why};
   return {best_kind(light, drawn), joined_sentences({constant_alone(light), why})};
 }

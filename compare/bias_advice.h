@@ -16,7 +16,9 @@ struct BiasAdvice {
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn);
 
 /// "No constant bias beside the slope bias of 1 can be right everywhere: 213 lit pixels need at least 2 texels and …": of
-/// a light whose best bias is not feasible. `drawn`: the bias that it was drawn with.
-std::string contradiction(const LightComparison& light, const raster::Bias& drawn);
+/// a best bias that is not feasible. `texel_world`: what a bias in texels is a multiple of; `drawn`: the bias drawn with.
+std::string contradiction(const BestBias& best, double texel_world, const raster::Bias& drawn);
+/// Whether that sentence names both a least bias of lit pixels and a largest one of shadowed pixels.
+bool names_both_bounds(const BestBias& best);
 
 }  // namespace gnomon::compare

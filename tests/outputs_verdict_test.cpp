@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/judge/judged.h"
+#include "compare/tune/page.h"
 #include "compare/verdict.h"
 #include "tests/synthetic_comparison.h"
 
@@ -286,6 +287,34 @@ TEST(Verdict, CountsWhatIsUncertain) {
   EXPECT_EQ(c.verdict(),
             "None of the 5,000 lit-or-shadowed pixels is wrong. 15,000 more (75.0 %) are "
             "uncertain: the truth there lies within its own error bound.");
+}
+
+std::string tuned_page(double needs_more_than, double needs_less_than) {
+  TuneGoal goal;
+  goal.max_error = Threshold{ErrorMeasure::wrong, 1e-6};
+  TuneResult result;
+  FamilyResult& family = result.families.emplace_back();
+  family.family.name = "slope bias 1";
+  family.family.map.bias.slope = 1.0;
+  family.closest.size = 64, family.closest.texel_world = 0.0125;
+  family.closest.best = {0.0, 0.01, false, needs_more_than, needs_less_than, 213, 97};
+  const std::vector<std::string> commands{"gnomon compare ball"};
+  return tune_introduction({"ball", goal, result, commands, {}}).html;
+}
+
+// The tuner says why no constant bias is right as the verdict does.
+TEST(TunePage, NamesNoNeedThatIsNone) {
+  const std::string both = tuned_page(0.031, 0.012);
+  EXPECT_NE(both.find("No constant bias beside the slope bias of"), std::string::npos) << both;
+  EXPECT_NE(both.find("lit pixels need at least"), std::string::npos) << both;
+  EXPECT_NE(both.find("orange"), std::string::npos) << both;
+  const std::string shadowed = tuned_page(-0.00012, -0.003);
+  EXPECT_EQ(shadowed.find("need at least"), std::string::npos) << shadowed;
+  EXPECT_NE(shadowed.find("shadowed pixels are lit even without one."), std::string::npos) << shadowed;
+  EXPECT_EQ(shadowed.find("orange"), std::string::npos) << shadowed;
+  const std::string nothing = tuned_page(0.031, -infinity);
+  EXPECT_NE(nothing.find("some shadowed pixels find no caster stored in the map."), std::string::npos);
+  EXPECT_EQ(nothing.find("unlimited"), std::string::npos) << nothing;
 }
 
 }  // namespace

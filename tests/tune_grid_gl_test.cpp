@@ -6,6 +6,7 @@
 
 #include "compare/tune/full_grid.h"
 #include "compare/tune/ties.h"
+#include "compare/tune/tuner.h"
 #include "scene/load.h"
 #include "support/one_world.h"
 
@@ -153,6 +154,23 @@ TEST(TuneTies, SettingsJustOverTheLimitAreTold) {
   ASSERT_EQ(over.size(), 1u);
   EXPECT_EQ(over[0].family, 1u);
   EXPECT_TRUE(just_over_limit(0, families, error_goal(0.05)).empty());
+}
+
+// The grid and the tuner ask this.
+TEST(Tune, WhatIsUncertainOrNotKnownIsNotGood) {
+  compare::ErrorFigures known;
+  known.compared = 1000;
+  compare::Attempt attempt;
+  compare::set_figures({known}, compare::ErrorMeasure::wrong, attempt);
+  EXPECT_TRUE(is_good(error_goal(0.001), attempt));
+  compare::ErrorFigures doubtful = known;
+  doubtful.uncertain = 100;
+  compare::set_figures({doubtful}, compare::ErrorMeasure::wrong, attempt);
+  EXPECT_FALSE(is_good(error_goal(0.001), attempt));
+  compare::ErrorFigures unknown = known;
+  unknown.wrong_fraction = std::numeric_limits<double>::quiet_NaN();
+  compare::set_figures({known, unknown}, compare::ErrorMeasure::wrong, attempt);
+  EXPECT_FALSE(is_good(error_goal(0.001), attempt));
 }
 
 // A family that is left because its error levels off is not good enough at the largest size either.

@@ -39,8 +39,7 @@ std::string bias_words(const LightBlock& b) {
   };
   const double texel = b.light.bias_texel_world;
   const raster::Bias& drawn = b.in.comparison.raster.options.map.bias;
-  const bool more =
-      drawn.slope != 0.0 || drawn.normal_offset_texels != 0.0 || drawn.receiver_plane || drawn.adaptive;
+  const bool more = !bias_parts(drawn).empty();
   std::string text = fmt::format(
       R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one{}, is
 larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
@@ -49,7 +48,7 @@ The best is {}{}, which leaves {} wrong.)",
       texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
       keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
   if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
-  return text + " " + escaped(contradiction(b.light, drawn));
+  return text + " " + escaped(contradiction(best, texel, drawn));
 }
 
 std::string fact(std::string_view name, const std::string& value, const std::string& what) {

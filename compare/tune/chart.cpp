@@ -52,8 +52,9 @@ class Chart {
     std::string svg = fmt::format(
         R"(<svg class="chart" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="Wrong pixels against the constant bias, a line for each kind">)",
         width, height);
-    svg +=
-        R"(<defs><clipPath id="tune-clip"><rect x="58" y="20" width="580" height="292"/></clipPath></defs>)";
+    svg += fmt::format(
+        R"(<defs><clipPath id="tune-clip"><rect x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/></clipPath></defs>)",
+        left, top, width - left - right, height - top - bottom);
     svg += axes();
     for (std::size_t i = 0; i < lines_.size(); ++i) svg += line(i);
     return svg + "</svg>";

@@ -37,7 +37,7 @@ Expected<void> Tuner::verify(TuneResult& result) {
     if (auto units = engine_units(**compared, light); !units.empty())
       result.engine_units.push_back({light_of(**compared, light).name, std::move(units)});
   }
-  set_figures(lights, attempt);
+  set_figures(lights, options_.goal.measure(), attempt);
   if (winner.answer && !good(*winner.answer)) {
     winner.closest = *winner.answer;
     winner.answer.reset();

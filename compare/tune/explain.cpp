@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compare/bias_advice.h"
 #include "compare/number_text.h"
 #include "compare/tune/tuner.h"
 
@@ -14,20 +15,12 @@ std::string setting_text(const Attempt& a, ErrorMeasure measure) {
                      a.size, a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
 
-std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
-std::string proof(const BestBias& best) {
-  if (best.feasible || best.lit_pixels_above == 0) return {};
-  const std::string shadowed = counted(best.shadowed_pixels_below, "shadowed pixel");
-  return fmt::format("; no constant bias is right everywhere: {} need{} at least {} world units, {}",
-                     counted(best.lit_pixels_above, "lit pixel"), best.lit_pixels_above == 1 ? "s" : "",
-                     plain_number(best.needs_more_than),
-                     best.needs_less_than > 0.0
-                         ? fmt::format("{} less than {}", shadowed, plain_number(best.needs_less_than))
-                         : fmt::format("{} {} lit even without one", shadowed,
-                                       best.shadowed_pixels_below == 1 ? "is" : "are"));
+// The sentence of why no constant bias is right everywhere, as a part of a longer one.
+std::string proof(const FamilyResult& family, const Attempt& attempt) {
+  if (!has_proof(attempt)) return {};
+  std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
+  text.front() = 'n', text.pop_back();
+  return "; " + text;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -95,15 +88,15 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
   if (!loser.answer) {
     const std::string nearest = setting_text(loser.closest, measure);
     if (loser.stop == TuneStop::too_dear)
-      return "slower before it is good enough: " + nearest + proof(loser.closest.best);
+      return "slower before it is good enough: " + nearest + proof(loser, loser.closest);
     if (loser.stop == TuneStop::levels_off)
       return fmt::format("levels off near {}: {}{}", floor_text(loser.floor, measure), nearest,
-                         proof(loser.closest.best));
+                         proof(loser, loser.closest));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
-                         proof(loser.closest.best));
+                         proof(loser, loser.closest));
     return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
-           proof(loser.closest.best);
+           proof(loser, loser.closest);
   }
   const Attempt& a = *loser.answer;
   const std::string text = setting_text(a, measure);
@@ -115,7 +108,7 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
     return (a.times.runs.empty() ? "slower, measured once: " : "slower, measured in turn with the best: ") +
            text;
   if (price(a) == price(*winner.answer)) return "as good, and slower: " + text;
-  return "less accurate: " + text + proof(a.best);
+  return "less accurate: " + text + proof(loser, a);
 }
 
 void Tuner::explain(TuneResult& result) const {
@@ -132,7 +125,7 @@ void Tuner::explain(TuneResult& result) const {
                    just_over_text(result, options_.goal.measure());
     else
       family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
-                   doubt(options_.goal.max_error, family.closest.figures) + proof(family.closest.best);
+                   doubt(options_.goal.max_error, family.closest.figures) + proof(family, family.closest);
   }
 }
 

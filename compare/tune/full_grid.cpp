@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/tune/tuner.h"
 #include "raster/technique_traits.h"
 
 namespace gnomon::compare {
@@ -51,12 +52,11 @@ Expected<void> FullGrid::draw(std::size_t family, int size, const raster::Bias& 
   Attempt attempt;
   attempt.size = size;
   attempt.bias_world = probe->best ? probe->best->constant_world : probe->bias_world;
-  for (const ErrorFigures& light : probe->best ? probe->lights_at_best : probe->lights)
-    attempt.error = std::max(attempt.error, figure(light, options_.goal.measure()));
+  set_figures(probe->best ? probe->lights_at_best : probe->lights, options_.goal.measure(), attempt);
   attempt.texel_world = probe->texel_world;
   attempt.time_ms = probe->raster_ms;
   attempt.cost = options_.cost ? options_.cost(setting, *probe) : probe->raster_ms;
-  if (attempt.error <= options_.goal.max_error->limit) good_.push_back({family, attempt});
+  if (is_good(options_.goal, attempt)) good_.push_back({family, attempt});
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compare/bias_advice.h"
 #include "compare/number_text.h"
 #include "compare/report/html.h"
 #include "compare/report/sections.h"
@@ -34,19 +35,18 @@ std::string verdict(const TunePageInput& in) {
          answer;
 }
 
-// Why no constant bias can be right everywhere, with the two sets of pixels.
+// Why no constant bias can be right everywhere, and where the two sets of pixels are seen.
 std::string proof(const TunePageInput& in) {
-  const BestBias& best = in.result.families[in.result.winner].attempt().best;
-  if (in.result.feasible || best.feasible || best.lit_pixels_above == 0) return {};
-  return fmt::format(
-      R"(<p class="lead">No constant bias is right everywhere with this map: {} lit pixel{} {} or more,
-{} shadowed pixel{} less than {}. In the picture of differences below the first are those that turn
+  const FamilyResult& winner = in.result.families[in.result.winner];
+  const Attempt& a = winner.attempt();
+  if (in.result.feasible || !has_proof(a)) return {};
+  const std::string_view seen = names_both_bounds(a.best)
+                                    ? R"( In the picture of differences below the first are those that turn
 <b class="false-text">orange</b> when the bias is dragged to the left of that, the second those that turn
-<b class="missed-text">blue</b> to the right of it.</p>
-)",
-      grouped(best.lit_pixels_above), best.lit_pixels_above == 1 ? " needs" : "s need",
-      plain_number(best.needs_more_than), grouped(best.shadowed_pixels_below),
-      best.shadowed_pixels_below == 1 ? " needs" : "s need", plain_number(best.needs_less_than));
+<b class="missed-text">blue</b> to the right of it.)"
+                                    : "";
+  return fmt::format("<p class=\"lead\">{}{}</p>\n",
+                     flowing(contradiction(a.best, a.texel_world, winner.family.map.bias)), seen);
 }
 
 // Wrong pixels, mean error, and what the goal is about besides.

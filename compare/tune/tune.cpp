@@ -64,7 +64,7 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   Attempt attempt;
   attempt.size = size;
   attempt.bias_world = probe->bias_world;
-  set_figures(probe->lights, attempt);
+  set_figures(probe->lights, options_.goal.measure(), attempt);
   attempt.time_ms = probe->raster_ms;
   attempt.cost = options_.cost ? options_.cost(setting, *probe) : probe->raster_ms;
   attempt.compared = probe->compared;
@@ -77,18 +77,21 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   if (gaps == nullptr || !probe->best) return attempt;
   *gaps = std::move(probe->gaps);
   attempt.best = *probe->best;
-  set_figures(probe->lights_at_best, attempt);
+  set_figures(probe->lights_at_best, options_.goal.measure(), attempt);
   return attempt;
 }
 
-// The worst light is what a threshold is held against.
-void Tuner::set_figures(const std::vector<ErrorFigures>& lights, Attempt& attempt) const {
-  const ErrorMeasure measure = options_.goal.measure();
+void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt) {
   attempt.error = 0.0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const double error = figure(lights[i], measure);
     if (i == 0 || !(error <= attempt.error)) attempt.error = error, attempt.figures = lights[i];
   }
+}
+
+bool is_good(const TuneGoal& goal, const Attempt& a) {
+  if (!goal.max_error) return a.cost <= *goal.max_time_ms;
+  return a.error <= goal.max_error->limit && !too_uncertain(*goal.max_error, a.figures);
 }
 
 // One drawing tells the error of every constant bias, but where a shader of the user's own decides.

@@ -72,6 +72,12 @@ struct Attempt {
   bool custom_shader = false, reads_bias = true;
 };
 
+/// Whether `best` proves that no constant bias is right everywhere: where a drawing tells the error of every bias, some
+/// shadowed pixels stand in the way.
+inline bool has_proof(const Attempt& a) {
+  return !a.best.feasible && a.best.shadowed_pixels_below > 0;
+}
+
 /// Why larger maps were not tried.
 enum class TuneStop : std::uint8_t {
   none,        ///< they were, or need not be

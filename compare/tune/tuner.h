@@ -8,6 +8,11 @@
 
 namespace gnomon::compare {
 
+/// The worst light is what a threshold is held against: sets `error` and `figures`.
+void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt);
+/// Whether an attempt meets the goal.
+bool is_good(const TuneGoal& goal, const Attempt& attempt);
+
 class Tuner {
  public:
   Tuner(Engine& engine, const Setting& base, const TuneOptions& options, const TuneProgress& progress)
@@ -16,10 +21,7 @@ class Tuner {
   Expected<TuneResult> run();
 
  private:
-  bool good(const Attempt& a) const {
-    if (!options_.goal.max_error) return a.cost <= *options_.goal.max_time_ms;
-    return a.error <= options_.goal.max_error->limit && !too_uncertain(*options_.goal.max_error, a.figures);
-  }
+  bool good(const Attempt& a) const { return is_good(options_.goal, a); }
   /// What is to be small among those that are good.
   double price(const Attempt& a) const { return options_.goal.max_error ? a.cost : a.error; }
   /// What is to be small where none is good.
@@ -49,7 +51,6 @@ class Tuner {
   Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
   Expected<void> confirm(FamilyResult& result);
   Expected<void> draw_again(FamilyResult& result);
-  void set_figures(const std::vector<ErrorFigures>& lights, Attempt& attempt) const;
   std::size_t prefer_by_cost(TuneResult& result, std::size_t fastest) const;
   Expected<void> choose(TuneResult& result);
   Expected<void> verify(TuneResult& result);
