@@ -14,6 +14,7 @@
 #include "compare/report/log_chart.h"
 #include "compare/report/shell.h"
 #include "compare/shadow_cost.h"
+#include "compare/sweep/summary.h"
 #include "compare/text_layout.h"
 #include "tests/synthetic_comparison.h"
 
@@ -41,7 +42,12 @@ TEST(NumberText, WritesCountsSharesAndTimes) {
   EXPECT_EQ(milliseconds(0.423), "0.42 ms");
   EXPECT_EQ(milliseconds(95.25), "95 ms");
   EXPECT_EQ(milliseconds(1904.0), "1.9 s");
+  EXPECT_EQ(milliseconds(999600.0), "1000 s");
+  EXPECT_EQ(milliseconds(3723000.0), "3723 s");
   EXPECT_EQ(milliseconds(-1.0), "not timed");
+  EXPECT_EQ(plain_number(999.4), "999");
+  EXPECT_EQ(plain_number(-999.7), "-1000");
+  EXPECT_EQ(byte_count(999700000), "1 GB");
   EXPECT_EQ(byte_count(16777216), "16.8 MB");
   EXPECT_EQ(texels_text(0.8), "0.8 texel");
   EXPECT_EQ(texels_text(1.0), "1 texel");
@@ -225,6 +231,22 @@ TEST(FileNames, KeepLightsApart) {
   EXPECT_EQ(aov_path(two->comparison, two->comparison.lights[0], "d.x/aov"), "d.x/aov-sun");
   EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[1]), "lamp-2-1");
   EXPECT_EQ(light_file_part(three->comparison, three->comparison.lights[2]), "lamp-2-2");
+  // A name of which nothing is left gets a number, which must not make it another light's.
+  two->scene.lights[0].name = "light-1", two->scene.lights[1].name = "\u592a\u967d";
+  EXPECT_EQ(light_file_part(two->comparison, two->comparison.lights[0]), "light-1-0");
+  EXPECT_EQ(light_file_part(two->comparison, two->comparison.lights[1]), "light-1");
+}
+
+// A light without edges says nothing of how far edges lie off.
+TEST(CellSummary, WeighsEdgesByTheirNumber) {
+  const auto made = make_synthetic(3);
+  std::vector<LightComparison>& lights = made->comparison.lights;
+  lights[0].edges = {10, 0.0, 4.0, 4.0}, lights[1].edges = {}, lights[2].edges = {30, 0.0, 2.0, 2.0};
+  const auto cell = summarise(result_line(made->comparison, {{"map_size", "64"}}),
+                              times_line(made->comparison, 0, false, 1.0));
+  ASSERT_TRUE(cell) << cell.error().message();
+  EXPECT_EQ(cell->edges, 40u);
+  EXPECT_NEAR(cell->edge_rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {

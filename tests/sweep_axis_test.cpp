@@ -46,6 +46,7 @@ TEST(Axis, FactorRangesStopAtTheEnd) {
   EXPECT_EQ(expanded("128:8192:x2"), (Texts{"128", "256", "512", "1024", "2048", "4096", "8192"}));
   EXPECT_EQ(expanded("100:1000:x3"), (Texts{"100", "300", "900"}));
   EXPECT_EQ(expanded("0.001:1:x10").size(), 4u);  // the end is met although 0.001 is no binary number
+  EXPECT_EQ(expanded("0.07:70:x10"), (Texts{"0.07", "0.7", "7", "70"}));
 }
 
 TEST(Axis, RefusesWhatIsNoRange) {

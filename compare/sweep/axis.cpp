@@ -113,7 +113,7 @@ Expected<std::vector<std::string>> factor_values(std::string_view text, const Ra
   for (int i = 0; start * std::pow(*factor, i) <= end * (1.0 + 1e-12); ++i) {
     if (values.size() == max_axis_values)
       return wrong("too many values", text, fmt::format("up to {}", max_axis_values));
-    values.push_back(value_text({std::min(end, start * std::pow(*factor, i))}, to.unit));
+    values.push_back(value_text({std::min(end, rounded(start * std::pow(*factor, i)))}, to.unit));
   }
   return values;
 }

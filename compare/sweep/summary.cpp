@@ -24,7 +24,7 @@ std::string value_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// Sums over lights: counts, and means weighted by compared pixels.
+// Sums over lights: counts, means weighted by compared pixels, and those of edges by the edges.
 void add_light(const Json& light, CellSummary& sum, Json& classes) {
   const Json& error = light.at("error");
   const auto compared = light.at("pixels").at("compared").get<std::uint64_t>();
@@ -38,7 +38,10 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
   sum.rms += weight * number(error.at("rms")) * number(error.at("rms"));
   sum.flip += weight * number(error.at("flip"));
   sum.ssim += weight * number(error.at("ssim"));
-  sum.edge_rms_texels += weight * number(light.at("edges").at("rms_texels"));
+  const auto edges = light.at("edges").at("count").get<std::uint64_t>();
+  const double edge_rms = number(light.at("edges").at("rms_texels"));
+  sum.edges += edges;
+  sum.edge_rms_texels += static_cast<double>(edges) * edge_rms * edge_rms;
   if (light.contains("shimmer")) {
     const Json& film = light.at("shimmer");
     sum.flips += film.at("flips").get<std::uint64_t>();
@@ -48,10 +51,9 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
   const Json& pixels = light.at("pixels");
   sum.lights.push_back(
       {number(error.at("wrong_fraction")), number(error.at("mean_absolute")), number(error.at("flip")),
-       number(light.at("edges").at("rms_texels")), compared, pixels.at("uncertain").get<std::uint64_t>(),
+       edge_rms, compared, pixels.at("uncertain").get<std::uint64_t>(),
        pixels.at("uncertain_by_samples").get<std::uint64_t>(),
        light.contains("shimmer") ? number(light.at("shimmer").at("flips_per_receiver_second")) : not_known});
-  sum.shadow_rays += light.at("shadow_rays").get<std::uint64_t>();
   for (const auto& [name, count] : light.at("classes").items())
     classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
 }
@@ -63,7 +65,8 @@ void finish_means(CellSummary& sum, const Json& classes) {
   sum.rms = std::sqrt(sum.rms / weight);
   sum.flip /= weight;
   sum.ssim /= weight;
-  sum.edge_rms_texels /= weight;
+  sum.edge_rms_texels =
+      std::sqrt(sum.edge_rms_texels / static_cast<double>(std::max<std::uint64_t>(sum.edges, 1)));
   sum.flips_per_second *=
       static_cast<double>(sum.flips) / static_cast<double>(std::max<std::uint64_t>(sum.receiver_steps, 1));
   std::uint64_t most = 0;

@@ -22,14 +22,15 @@ struct CellSummary {
   // Errors over the compared pixels of all lights; NaN where not computed.
   std::uint64_t compared = 0, wrong = 0, ties = 0, false_shadow = 0, missed_shadow = 0;
   double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
-  double edge_rms_texels = 0.0;
+  std::uint64_t edges = 0;                      ///< measured, of all lights
+  double edge_rms_texels = 0.0;                 ///< over all of them
   std::uint64_t flips = 0, receiver_steps = 0;  ///< of the films; none where none was made
   /// Per receiver, over all lights; NaN without films.
   double flips_per_second = std::numeric_limits<double>::quiet_NaN();
   std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
   std::string main_label;            ///< of most wrong pixels; empty when none is wrong
   double map_size = 0.0;             ///< texels on a side
-  std::uint64_t map_texels = 0, map_bytes = 0, shadow_rays = 0;
+  std::uint64_t map_texels = 0, map_bytes = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
