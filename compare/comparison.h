@@ -122,7 +122,7 @@ struct BiasCurvePoint {
 /// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right
 /// everywhere. When none can, the proof stands in the last four fields: `lit_pixels_above` truly lit pixels
 /// need a bias of at least needs_more_than, `shadowed_pixels_below` truly shadowed ones need less than
-/// needs_less_than, and needs_less_than <= needs_more_than: no bias satisfies both.
+/// needs_less_than, and no bias >= 0 satisfies both: needs_less_than <= needs_more_than, or needs_less_than <= 0.
 struct BestBias {
   double constant_world = 0.0;
   double wrong_fraction = 0.0;
@@ -175,6 +175,8 @@ struct PenumbraStats {
   std::uint64_t edges = 0, umbra_edges = 0;
   double true_penumbra_world = 0.0, drawn_penumbra_world = 0.0;
   double true_umbra_world = 0.0, drawn_umbra_world = 0.0;
+  /// Of the pixels climbed (labels_climbed), with those that only samples leave uncertain: without them an area would
+  /// have holes where half of the light is seen.
   std::uint64_t true_umbra_pixels = 0, true_penumbra_pixels = 0;
   std::uint64_t drawn_umbra_pixels = 0, drawn_penumbra_pixels = 0;
   /// Of the truth's samples, over compared pixels whose truth lies between 0 and 1.

@@ -8,7 +8,7 @@
 
 namespace gnomon::compare {
 
-/// At every true shadow edge between two neighbouring compared pixels of one object, walks along the edge's
+/// At every true shadow edge between two neighbouring pixels of one object that are climbed (labels_climbed), walks along the edge's
 /// normal (the gradient of the truth over a 7x7 window) in half-pixel steps until the drawn shadow has its
 /// edge there; edges that are not found within 64 pixels are missing features, not displaced edges, and are
 /// left out. Offsets are > 0 where the drawn shadow is larger. Texel figures are distances between looked-up

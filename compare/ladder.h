@@ -42,7 +42,7 @@ Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels
 /// V0: the share of the light that the pixel's receiver sees; of a light without size, all or nothing.
 float true_visibility(const LadderInput& input, std::size_t pixel);
 
-/// Why a wrong pixel is wrong needs more than its rungs: the step, and what was found on the way.
+/// The rungs of every pixel, and its label.
 struct Climb {
   std::array<Image<float>, rung_count> rungs;  ///< V0 … V6; 1 where not climbed
   Image<Label> labels;

@@ -49,11 +49,6 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   return lines;
 }
 
-std::string left_padded(std::string_view text, std::size_t width) {
-  const std::size_t own = text_width(text);
-  return (own < width ? std::string(width - own, ' ') : std::string()) + std::string(text);
-}
-
 std::string right_padded(std::string_view text, std::size_t width) {
   const std::size_t own = text_width(text);
   return std::string(text) + (own < width ? std::string(width - own, ' ') : std::string());

@@ -13,8 +13,7 @@ std::size_t text_width(std::string_view text);
 /// Lines of at most `width` code points, broken at spaces that do not follow a digit ("95 ms" stays
 /// together); a longer word is cut.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
-/// Filled with spaces to `width` on the left or the right side.
-std::string left_padded(std::string_view text, std::size_t width);
+/// Filled with spaces to `width` on the right side.
 std::string right_padded(std::string_view text, std::size_t width);
 /// With a space between those that are not empty.
 std::string joined_sentences(std::initializer_list<std::string_view> sentences);

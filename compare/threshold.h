@@ -30,7 +30,7 @@ struct Threshold {
 };
 /// As it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 std::string threshold_text(const Threshold& threshold);
-/// "at most 1 % wrong and mean error"
+/// "at most 1.0 % wrong, and a mean error of at most as much"
 std::string limit_words(const Threshold& threshold);
 
 /// What thresholds are held against; NaN where it was not computed.

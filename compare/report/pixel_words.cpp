@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/ladder.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/report/explanations.h"
@@ -150,16 +151,9 @@ struct Story {
 int deciding_rung(const PixelFacts& pixel) {
   if (!is_wrong(pixel.label)) return 0;
   if (pixel.label == Label::precision) return 4;
-  const auto& v = pixel.rungs;
-  const auto wrong = [&](std::size_t k) { return std::abs(v[k] - v[0]) > 0.5; };
-  int first = 0, last = 0;
-  for (std::size_t k = 1; k < v.size(); ++k) {
-    if (!wrong(k) || wrong(k - 1)) continue;
-    if (first == 0) first = static_cast<int>(k);
-    last = static_cast<int>(k);
-  }
-  if (v[6] < v[0]) return last;
-  return wrong(5) ? first : 6;
+  std::array<float, rung_count> rungs{};
+  for (std::size_t k = 0; k < rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
+  return static_cast<int>(deciding_step(rungs)) + 1;
 }
 
 std::string pixel_words(const Comparison& comparison, const LightComparison& light, const PixelFacts& pixel) {

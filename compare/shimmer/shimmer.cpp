@@ -204,7 +204,6 @@ std::optional<double> Film::unsnapped_texel(const Light& light) const {
 void Film::begin_lights() {
   const ShimmerOptions& o = out_.options;
   out_.receivers = truth_->receiver;
-  out_.first_picture = drawn_.color;
   out_.context = drawn_.context;
   const ReceiverSpacing spacing = receiver_spacing(truth_->receiver, world_, o.anchors);
   for (const raster::LightRecord& record : drawn_.lights) {

@@ -31,7 +31,6 @@ struct Shimmer {
   const World* world = nullptr;
   ShimmerOptions options;
   Image<raytrace::SurfacePoint> receivers;  ///< by pixel of the first frame
-  ColorImage first_picture;                 ///< as the rasterizer drew it, linear
   std::vector<ShimmerLight> lights;
   raster::ContextInfo context;
   Times frame_ms;  ///< by frame: maps, drawing, truth where it changes, rungs
