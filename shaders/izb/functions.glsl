@@ -42,7 +42,7 @@ double d_exponential(double x) {
 }
 
 double d_logarithm(double x) {
-  if (!(x > 0.0LF)) return x == 0.0LF ? -1e300LF * 1e300LF : double(no_value);
+  if (!(x > 0.0LF)) return x == 0.0LF ? -1e300LF * 1e300LF : double(uintBitsToFloat(0x7fc00000u));
   int n;
   double m = frexp(x, n);
   if (m < 0.70710678118654752440LF) {
