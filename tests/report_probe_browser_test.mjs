@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { browser, checkAccessibility, checkPhone, close, open, pixelsOf, violations } from "./browser/open_page.mjs";
+import { browser, checkAccessibility, checkPhone, checkPicture, close, open, pixelsOf, violations } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
 const width = 240, height = 136, biases = ["0.02", "0.3"];
@@ -398,7 +398,7 @@ async function checkBeside() {
   assert.ok(statSync(join(large, "report.html")).size < 0.2e6);
   const page = await open(large, { beside: true }, "#light-0?pixel=100,80&exposure=1");
   assert.match(await page.locator(".beside").textContent(), /lie beside it/);
-  for (const image of await page.locator("main img:visible").all()) assert.ok(await image.evaluate((e) => e.naturalWidth > 0));
+  for (const image of await page.locator("main img:visible").all()) await checkPicture(image);
   const single = await open(folderOf(biases[0]), {}, "#light-0?pixel=100,80&exposure=1");
   assert.deepEqual(await shown(page), await shown(single));
   assert.deepEqual(await canvasOf(page, 0), await canvasOf(single, 0));

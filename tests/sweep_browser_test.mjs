@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { browser, checkAccessibility, checkPhone, close, open, pixelsOf } from "./browser/open_page.mjs";
+import { browser, checkAccessibility, checkPhone, checkPicture, close, open, pixelsOf } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
 rmSync(folder, { recursive: true, force: true });
@@ -68,7 +68,7 @@ async function checkGrid(page) {
     const cell = Number((await link.getAttribute("href")).slice(6));
     const [row, column] = await link.evaluate((a) => [a.closest("tr").querySelector("th").textContent, a.closest("table").tHead.rows[0].cells[a.closest("td").cellIndex].textContent]);
     assert.deepEqual([all[cell].axes.bias, all[cell].axes.map_size, all[cell].axes.slope_bias].map(String), [row, column, "1"]);
-    assert.ok(await link.locator("img").evaluate((e) => e.naturalWidth > 0));
+    await checkPicture(link.locator("img"));
   }
   const link = grid.locator("a").nth(4), number = Number((await link.getAttribute("href")).slice(6));
   await link.click();

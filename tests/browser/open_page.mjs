@@ -78,6 +78,17 @@ export async function checkAccessibility(folder, options = {}, hash = "") {
   }
 }
 
+/** A picture can be read. One that the page has only just set may still be loading, so this waits until it has loaded or failed. */
+export async function checkPicture(image) {
+  const width = await image.evaluate((e) => new Promise((done) => {
+    const tell = () => done(e.naturalWidth);
+    if (e.complete) return tell();
+    e.addEventListener("load", tell);
+    e.addEventListener("error", tell);
+  }));
+  assert.ok(width > 0, "a picture cannot be read");
+}
+
 /** A canvas' pixels, four bytes each. */
 export async function pixelsOf(canvas) {
   return Buffer.from(await canvas.evaluate((e) => {
