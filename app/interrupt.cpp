@@ -7,6 +7,8 @@
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -23,6 +25,17 @@ std::mutex& output_mutex() {
   return mutex;
 }
 
+/// Of the folders that live; the mutex of the outputs guards it.
+std::list<std::string>& temporary_folders() {
+  static std::list<std::string> folders;
+  return folders;
+}
+
+void remove_folder(const std::string& path) {
+  std::error_code none;
+  if (!path.empty()) std::filesystem::remove_all(path, none);
+}
+
 bool is_ignored(int signal_number) {
   struct sigaction current {};
   return sigaction(signal_number, nullptr, &current) == 0 && current.sa_handler == SIG_IGN;
@@ -37,6 +50,7 @@ void wait_and_exit(sigset_t awaited) {
   if (sigwait(&awaited, &signal_number) != 0) return;
   received_signal = signal_number;
   const std::lock_guard<std::mutex> outputs_are_whole(output_mutex());
+  for (const std::string& folder : temporary_folders()) remove_folder(folder);
   const std::string_view text =
       isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: interrupted\n" : "gnomon: interrupted\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
@@ -76,5 +90,19 @@ int interrupt_exit_code() {
 }
 
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}
+
+TemporaryFolder::TemporaryFolder(const std::string& name) {
+  const OutputGuard guard;
+  std::error_code error;
+  std::string path = (std::filesystem::temp_directory_path(error) / (name + "-XXXXXX")).string();
+  if (error || mkdtemp(path.data()) == nullptr) path.clear();
+  place_ = temporary_folders().insert(temporary_folders().end(), path);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  const OutputGuard guard;
+  remove_folder(*place_);
+  temporary_folders().erase(place_);
+}
 
 }  // namespace gnomon::app

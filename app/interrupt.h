@@ -1,8 +1,11 @@
 // SIGINT and SIGTERM end the process at once with 130 or 143, except while outputs are being written: those
-// are finished first, so that what stands in the output folder is always one whole result.
+// are finished first, so that what stands in the output folder is always one whole result. Temporary folders are
+// removed before the process ends.
 #pragma once
 
+#include <list>
 #include <mutex>
+#include <string>
 
 namespace gnomon::app {
 
@@ -24,6 +27,20 @@ class OutputGuard {
 
  private:
   std::unique_lock<std::mutex> lock_;
+};
+
+/// A new folder for temporary files; it goes with all that is in it, also when a signal ends the process.
+class TemporaryFolder {
+ public:
+  /// `name`: the start of the folder's own name.
+  explicit TemporaryFolder(const std::string& name);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return *place_; }  ///< empty: it could not be made
+
+ private:
+  std::list<std::string>::iterator place_;
 };
 
 }  // namespace gnomon::app

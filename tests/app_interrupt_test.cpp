@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -55,6 +56,33 @@ TEST(Interrupt, WaitsForTheOutputs) {
             }),
             130);
   EXPECT_EQ(app_test::read_file(folder / "whole"), "all of it");
+}
+
+TEST(Interrupt, RemovesTemporaryFolders) {
+  const app_test::TemporaryFolder folder;
+  EXPECT_EQ(exit_code_of([&] {
+              watch_for_interrupts();
+              const TemporaryFolder temporary("gnomon-interrupt-test");
+              app_test::write_text(temporary.path() + "/drawing", "of a student");
+              app_test::write_text(folder / "path", temporary.path());
+              kill(getpid(), SIGTERM);
+              wait_for_the_end();
+            }),
+            143);
+  const std::string path = app_test::read_file(folder / "path");
+  EXPECT_NE(path.find("gnomon-interrupt-test-"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Interrupt, ATemporaryFolderGoesWithWhatIsInIt) {
+  std::string path;
+  {
+    const TemporaryFolder temporary("gnomon-interrupt-test");
+    path = temporary.path();
+    app_test::write_text(path + "/drawing", "of a student");
+    EXPECT_TRUE(std::filesystem::exists(path + "/drawing"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Interrupt, ItsExitCodeIsKnownWhileTheOutputsAreFinished) {

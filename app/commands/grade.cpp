@@ -5,8 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 
 #include "app/console.h"
@@ -33,26 +31,6 @@ struct GradeCommand {
   int jobs = 0;
   bool quiet = false;
   std::string command_line;
-};
-
-/// A folder for drawings, gone with all that is in it at the end.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::error_code error;
-    std::string name = (std::filesystem::temp_directory_path(error) / "gnomon-grade-XXXXXX").string();
-    if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~WorkFolder() {
-    std::error_code none;
-    if (!path_.empty()) std::filesystem::remove_all(path_, none);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const std::string& path() const { return path_; }  ///< empty: it could not be made
-
- private:
-  std::string path_;
 };
 
 Expected<ExitCode> write_new_kit(const GradeCommand& command, Console& console) {
@@ -132,7 +110,7 @@ Expected<ExitCode> run_grade(const GradeCommand& command) {
   if (!command.kit_folder.empty()) return write_new_kit(command, console);
   auto files = check_grade_files(command);
   if (!files) return fail(files.error());
-  const WorkFolder work;
+  const TemporaryFolder work("gnomon-grade");
   if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
   const auto rubric = find_rubric(command, work.path());
   if (!rubric) return fail(rubric.error());
