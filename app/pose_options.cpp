@@ -121,9 +121,8 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
              "degrees or world units");
 }
 
-Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light,
+Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,
                                       const World& world) {
-  const Scene& scene = *world.scene;
   ResolvedPoses resolved;
   if (poses.camera_orbit || poses.camera_distance || poses.camera_target || poses.camera_up) {
     Camera camera = scene.camera;
@@ -163,7 +162,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
 
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
                            const World& world) {
-  const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, world);
+  const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, scene, world);
   if (!resolved) return fail(resolved.error());
   if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
   if (!resolved->light_pose) return {};

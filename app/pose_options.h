@@ -47,8 +47,10 @@ struct ResolvedPoses {
 };
 
 /// The light is the one of that name or, without a name, the only one there is. Errors are ErrorKind::usage, also
-/// where the camera's pose is one that nothing can be seen with.
-Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const World& world);
+/// where the camera's pose is one that nothing can be seen with. `scene`: whose camera and lights are posed, not always
+/// as the world's own scene has them.
+Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,
+                                      const World& world);
 
 /// Moves the scene's camera and turns its light.
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,

@@ -152,18 +152,22 @@ Expected<void> check_use(const FilmOptions& film, const compare::ShimmerPath& pa
   return {};
 }
 
-// The keys of what is to move. A film in which nothing moves says nothing.
+// The keys of what is to move. What was asked to move and stands still is refused.
 Expected<void> play_keys(const FilmOptions& film, compare::ShimmerPath& path) {
   const bool camera = path.keys.moves_camera() && film.moves != Moves::light;
   const bool light = !path.keys.lights.empty() && film.moves != Moves::camera;
   path.camera = camera ? CameraPath::keys : CameraPath::still;
   path.light = light ? LightPath::keys : LightPath::still;
-  if (camera || light) return check_use(film, path);
-  if (film.moves == Moves::camera)
-    return fail(ErrorKind::usage, "--move camera: the path has no keys of the camera");
-  if (film.moves == Moves::light)
-    return fail(ErrorKind::usage, "--move light: the path has no keys of a light that is drawn");
-  return fail(ErrorKind::usage, "--path: it has no keys of the camera, nor of a light that is drawn");
+  if (!camera && !light && !film.moves)
+    return fail(ErrorKind::usage, "--path: it has no keys of the camera, nor of a light that is drawn");
+  const auto stands_still = [&film](std::string_view what) {
+    const auto move = std::find_if(std::begin(all_moves), std::end(all_moves),
+                                   [&film](const auto& one) { return film.moves == one.second; });
+    return fail(ErrorKind::usage, fmt::format("--move {}: the path has no keys of {}", move->first, what));
+  };
+  if (!camera && film.moves && film.moves != Moves::light) return stands_still("the camera");
+  if (!light && film.moves && film.moves != Moves::camera) return stands_still("a light that is drawn");
+  return check_use(film, path);
 }
 
 // Of very many lights some are left out, and their keys with them.
@@ -176,23 +180,23 @@ KeyedPath of_kept_lights(KeyedPath path, const Scene& scene) {
 }
 
 // A file's keys, or those of one of the scene's own paths; nothing where a built-in path is meant.
-Expected<std::optional<KeyedPath>> find_keys(const FilmOptions& film, const LoadedScene& loaded,
-                                             Console& console) {
+Expected<std::optional<KeyedPath>> find_keys(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
+                                             const Scene& scene, Console& console) {
   if (const std::string file = path_file(film); !file.empty()) {
     auto keys = read_path(file);
     if (!keys) return fail(keys.error());
     return std::optional(std::move(*keys));
   }
-  for (const KeyedPath& own : loaded.paths)
+  for (const KeyedPath& own : own_paths)
     if (film.paths.size() == 1 && own.name == film.paths.front())
-      return std::optional(of_kept_lights(own, *loaded.scene));
+      return std::optional(of_kept_lights(own, scene));
   const bool asked =
       film.moves || !film.paths.empty() || is_given(film, "--speed") || is_given(film, "--drift");
-  if (asked || loaded.paths.empty()) return std::optional<KeyedPath>();
-  const KeyedPath& first = loaded.paths.front();
+  if (asked || own_paths.empty()) return std::optional<KeyedPath>();
+  const KeyedPath& first = own_paths.front();
   console.note(fmt::format("the scene's path {} is taken; it lasts {:g} s (--path takes another)", first.name,
                            first.seconds()));
-  return std::optional(of_kept_lights(first, *loaded.scene));
+  return std::optional(of_kept_lights(first, scene));
 }
 
 }  // namespace
@@ -222,13 +226,13 @@ std::string path_file(const FilmOptions& film) {
   return film.paths.size() == 1 && is_file(film.paths.front()) ? film.paths.front() : std::string();
 }
 
-Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedScene& loaded,
-                                         Console& console) {
+Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
+                                         const Scene& scene, Console& console) {
   compare::FilmPlan plan{{}, film.time, film.anchors};
   compare::ShimmerPath& path = plan.path;
   path.speed = film.speed;
   path.drift_texels = film.drift_texels;
-  auto keys = find_keys(film, loaded, console);
+  auto keys = find_keys(film, own_paths, scene, console);
   if (!keys) return fail(keys.error());
   if (*keys) {
     path.keys = std::move(**keys);
@@ -237,10 +241,10 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedSc
   }
   const Moves moves = film.moves.value_or(Moves::camera);
   path.camera = moves != Moves::light ? CameraPath::orbit : CameraPath::still;
-  path.light = moves != Moves::camera ? usual_light_path(*loaded.scene) : LightPath::still;
+  path.light = moves != Moves::camera ? usual_light_path(scene) : LightPath::still;
   if (const auto taken = take_names(film, path); !taken) return fail(taken.error());
   if (const auto used = check_use(film, path); !used) return fail(used.error());
-  if (const auto sound = check_path(path, *loaded.scene); !sound) return fail(sound.error());
+  if (const auto sound = check_path(path, scene); !sound) return fail(sound.error());
   return plan;
 }
 

@@ -30,8 +30,8 @@ void add_film_options(CLI::App& app, FilmOptions& film);
 std::string path_file(const FilmOptions& film);
 /// The scene's own path goes before a built-in one of the same name; where nothing is asked for, its first one is taken
 /// and a note says so. Errors: usage for a path that does not suit what moves; bad input of a file.
-Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const LoadedScene& loaded,
-                                         Console& console);
+Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
+                                         const Scene& scene, Console& console);
 
 /// What errors of a sweep or of the tuner are about.
 enum class Metric : std::uint8_t { still, shimmer };

@@ -15,12 +15,12 @@ namespace {
 
 constexpr ImageSize grid{64, 36};  // a light that reaches a 2,000th of the picture meets one of these points
 
-/// Once it is posed; the scene's own where the pose will be refused.
-Camera camera_of(PoseOptions poses, const LoadedScene& loaded) {
+/// Once it is posed; the given one where the pose will be refused.
+Camera posed_by(PoseOptions poses, const Camera& given, const World& world) {
   poses.light_azimuth = poses.light_elevation = poses.light_distance = poses.light_size = std::nullopt;
   Scene posed;
-  posed.camera = loaded.scene->camera;
-  return apply_poses(poses, {}, posed, *loaded.world) ? posed.camera : loaded.scene->camera;
+  posed.camera = given;
+  return apply_poses(poses, {}, posed, world) ? posed.camera : given;
 }
 
 raytrace::RayTracedFrame receivers(const LoadedScene& loaded, const Camera& camera) {
@@ -43,9 +43,8 @@ double light_given(const Light& light, const raytrace::RayTracedFrame& frame) {
   return sum;
 }
 
-bool is_light(const Scene& scene, const std::string& name) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [&](const Light& light) { return light.name == name; });
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
@@ -61,9 +60,8 @@ std::string max_lights_argument(int max_lights) {
   return max_lights == usual_max_lights ? std::string() : fmt::format(" --max-lights {}", max_lights);
 }
 
-std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, const Camera& camera,
-                                            std::size_t count) {
-  const std::vector<Light>& lights = loaded.scene->lights;
+std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, const std::vector<Light>& lights,
+                                            const Camera& camera, std::size_t count) {
   std::vector<std::uint32_t> order(lights.size());
   std::iota(order.begin(), order.end(), 0u);
   if (order.size() <= count) return order;
@@ -78,28 +76,51 @@ std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, const Cam
   return order;
 }
 
-void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,
-                           const PoseOptions& poses, Console& console) {
-  Scene& scene = *loaded.scene;
-  const std::size_t all = scene.lights.size(), most = static_cast<std::size_t>(max_lights);
-  if (all <= most) return;
-  for (const std::string& name : named)
-    if (!is_light(scene, name)) return;
-  const TimedStage stage("load");
-  std::vector<char> stays(all, 0);
-  for (const std::uint32_t light : strongest_lights(loaded, camera_of(poses, loaded), most)) stays[light] = 1;
-  for (std::size_t i = 0; i < all; ++i)
-    if (std::find(named.begin(), named.end(), scene.lights[i].name) != named.end()) stays[i] = 1;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < all; ++i)
-    if (stays[i] != 0) std::swap(scene.lights[kept++], scene.lights[i]);
-  scene.lights.resize(kept);
-  loaded.lights_left_out = all - kept;
-  loaded.plan = plan_effects(scene);
-  std::string note = fmt::format(
+LightKeeper::LightKeeper(const LoadedScene& loaded, int max_lights)
+    : loaded_(loaded),
+      most_(static_cast<std::size_t>(max_lights)),
+      camera_(loaded.scene->camera),
+      lights_(loaded.scene->lights) {}
+
+bool LightKeeper::leaves_out(const std::vector<std::string>& named) const {
+  return lights_.size() > most_ && std::all_of(named.begin(), named.end(), [this](const std::string& name) {
+           return std::any_of(lights_.begin(), lights_.end(),
+                              [&name](const Light& light) { return light.name == name; });
+         });
+}
+
+std::vector<Light> LightKeeper::kept(const std::vector<std::string>& named, const PoseOptions& poses) {
+  if (!leaves_out(named)) return lights_;
+  const Camera camera = posed_by(poses, camera_, *loaded_.world);
+  if (seen_by_ != camera) {
+    strongest_ = strongest_lights(loaded_, lights_, camera, most_);
+    seen_by_ = camera;
+  }
+  std::vector<Light> kept;
+  for (std::uint32_t i = 0; i < lights_.size(); ++i)
+    if (std::binary_search(strongest_.begin(), strongest_.end(), i) || holds(named, lights_[i].name))
+      kept.push_back(lights_[i]);
+  return kept;
+}
+
+std::string LightKeeper::note(const std::vector<std::string>& named) const {
+  return fmt::format(
       "the scene has {} lights: the {} that would light most of what the camera sees are kept{}; all "
       "others are left out of everything (--light NAME takes another one in, --max-lights N more)",
-      all, most, named.empty() ? "" : ", and those named");
+      lights_.size(), most_, named.empty() ? "" : ", and those named");
+}
+
+void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,
+                           const PoseOptions& poses, Console& console) {
+  LightKeeper keeper(loaded, max_lights);
+  if (!keeper.leaves_out(named)) return;
+  const TimedStage stage("load");
+  Scene& scene = *loaded.scene;
+  const std::size_t all = scene.lights.size();
+  scene.lights = keeper.kept(named, poses);
+  loaded.lights_left_out = all - scene.lights.size();
+  loaded.plan = plan_effects(scene);
+  std::string note = keeper.note(named);
   console.note(note);
   scene.notes.push_back(std::move(note));  // for the page and the JSON
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/app_process.h"
 
@@ -137,6 +138,32 @@ TEST(ManyLights, TheStrongestAreThoseThatThePosedCameraSees) {
       out({"tune", "--technique", "hard", "--max-error", "90%", "--json", "-"}, map + from_behind)));
   out({"sweep", "-o", "s"}, map + from_behind);
   EXPECT_TRUE(is_of_south(read_file(folder / "s/sweep.jsonl")));
+}
+
+// Each cell has those that `compare` with its camera has.
+TEST(ManyLights, EveryCellOfASweepHasItsOwn) {
+  const TemporaryFolder folder;
+  write_text(folder / "two.json", two_lamps());
+  const Words words{"two.json", "--max-lights", "1", "--size", "40x30", "--map-size", "32"};
+  const auto run = [&](const Words& command) {
+    const ProcessResult result = run_gnomon(command, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  run(Words{"sweep"} + words + Words{"--camera-orbit", "0,27/180,27/1,27", "-o", "s"});
+  std::istringstream cells(read_file(folder / "s/sweep.jsonl"));
+  for (const auto& [orbit, name] :
+       {std::pair("0,27", "north"), std::pair("180,27", "south"), std::pair("1,27", "north")}) {
+    std::string line;
+    ASSERT_TRUE(std::getline(cells, line));
+    const Json cell = Json::parse(line),
+               alone = Json::parse(run(Words{"compare"} + words +
+                                       Words{"--camera-orbit", orbit, "--json", "-", "--runs", "1"}));
+    ASSERT_EQ(cell["lights"].size(), 1u);
+    EXPECT_EQ(cell["lights"][0]["light"]["name"], name);
+    EXPECT_EQ(cell["lights"][0]["classes"], alone["lights"][0]["classes"]) << orbit;
+    EXPECT_EQ(cell["lights"][0]["error"]["wrong"], alone["lights"][0]["error"]["wrong"]) << orbit;
+  }
 }
 
 TEST(ManyLights, TheForecastOfMemoryIsOfThoseThatAreCompared) {

@@ -59,7 +59,8 @@ TEST(ShimmerProgram, PlaysTheScenesOwnPath) {
   // The keys' times are theirs; with a speed alone a built-in path is meant.
   EXPECT_EQ(run_gnomon(film + Words{"--path", "past", "--speed", "2"}).exit_code, 2);
   // What the path has no keys of would stand still.
-  for (const auto& [name, move] : {std::pair{"past", "light"}, std::pair{"noon", "camera"}}) {
+  for (const auto& [name, move] : {std::pair{"past", "light"}, std::pair{"noon", "camera"},
+                                   std::pair{"past", "both"}, std::pair{"noon", "both"}}) {
     const ProcessResult still = run_gnomon(film + Words{"--path", name, "--move", move});
     EXPECT_EQ(still.exit_code, 2) << name;
     EXPECT_NE(still.err.find(std::string("--move ") + move + ": the path has no keys of"), std::string::npos)

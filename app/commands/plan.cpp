@@ -46,8 +46,10 @@ std::vector<BandPlan> band_plans(const PlanCommand& command, const LoadedScene& 
   const auto add = [&](std::string_view name, const PictureBytes& bytes) {
     plans.push_back({name, bytes, plan_bands(command.memory, size, bytes)});
   };
-  add("compare", compare_bytes(*loaded.scene,
-                               strongest_lights(loaded, loaded.scene->camera, usual_max_lights), size, true));
+  add("compare",
+      compare_bytes(*loaded.scene,
+                    strongest_lights(loaded, loaded.scene->lights, loaded.scene->camera, usual_max_lights),
+                    size, true));
   add("raster", raster_png);
   add("raytrace", raytrace_png);
   return plans;

@@ -72,7 +72,7 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   for (const std::string& note :
        idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
-  auto plan = resolve_film(command.film, loaded, console);
+  auto plan = resolve_film(command.film, loaded.paths, *loaded.scene, console);
   if (!plan) return fail(plan.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());

@@ -49,7 +49,7 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
 
 /// The ray tracer's own points, made by the first shard.
 Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan, const LoadedScene& loaded,
-                                  Console& console) {
+                                  LightKeeper& keeper, Console& console) {
   if (!command.ray_tracer || command.shard.part != 1) return {};
   if (std::filesystem::exists(compare::ray_points_path(command.folder))) return {};
   auto options = command.options.parse_cell(plan.grid, 0);
@@ -57,7 +57,10 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   options->options.raytrace.runs = command.runs.value_or(1);  // as the rasterizer's cells
   options->options.raytrace.warm_up = true;
   options->options.raytrace.seed = command.seed;
-  const auto setting = resolve_setting(*options, *loaded.scene, *loaded.world);
+  Scene given;
+  given.camera = loaded.scene->camera;
+  given.lights = keeper.kept(named_lights(options->light), options->poses);
+  const auto setting = resolve_setting(*options, given, *loaded.world);
   if (!setting) return fail(setting.error());
   const Camera given_camera = std::exchange(loaded.scene->camera, setting->camera);
   const std::vector<Light> given_lights = std::exchange(loaded.scene->lights, setting->lights);
@@ -82,18 +85,18 @@ Expected<void> check_same_drawer(const compare::Journal& journal, const raster::
                           before, now));
 }
 
-Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
+Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded, LightKeeper& keeper,
                     compare::Journal& journal, Console& console) {
   const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
   if (command.metric.is_filmed()) {
-    const auto film = resolve_film(command.metric.film, loaded, console);
+    const auto film = resolve_film(command.metric.film, loaded.paths, *loaded.scene, console);
     if (!film) return fail(film.error());
     engine.film_with(*film);
   }
-  Workshop shop{command, plan, loaded, {}, machine_info(), engine, {command.folder, engine}, console};
+  Workshop shop{command, plan, loaded, keeper, {}, machine_info(), engine, {command.folder, engine}, console};
   shop.given.camera = loaded.scene->camera;
   shop.given.lights = loaded.scene->lights;
   if (auto made = shop.pictures.make_folders(); !made) return made;
@@ -171,11 +174,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  // All cells have the same lights: those of the first one's camera.
-  const auto first = command.options.parse_cell(plan->grid, 0);
-  if (!first) return fail(first.error());
-  keep_strongest_lights(*loaded, command.max_lights, command.options.values_given("light"), first->poses,
-                        console);
+  LightKeeper keeper(*loaded, command.max_lights);
+  if (const auto named = command.options.values_given("light"); keeper.leaves_out(named)) {
+    console.note(keeper.note(named));
+    loaded->scene->notes.push_back(keeper.note(named));  // for the page and the JSON
+  }
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
     if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());
@@ -188,10 +191,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (!journal->lines().empty())
     console.message(fmt::format("{} of {} cell{} there already", journal->lines().size(), plan->cells.size(),
                                 plan->cells.size() == 1 ? " is" : "s are"));
-  if (auto measured = measure_ray_tracer(command, *plan, *loaded, console); !measured)
+  if (auto measured = measure_ray_tracer(command, *plan, *loaded, keeper, console); !measured)
     return fail(measured.error());
   if (journal->lines().size() < plan->cells.size()) {
-    if (auto filled = fill(command, *plan, *loaded, *journal, console); !filled) return fail(filled.error());
+    if (auto filled = fill(command, *plan, *loaded, keeper, *journal, console); !filled)
+      return fail(filled.error());
   }
   const auto written = [&command] {
     const OutputGuard whole_page;

@@ -158,7 +158,7 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   if (!fitting) return fail(fitting.error());
   Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
   if (command.metric.is_filmed()) {
-    auto film = resolve_film(command.metric.film, loaded, console);
+    auto film = resolve_film(command.metric.film, loaded.paths, *loaded.scene, console);
     if (!film) return fail(film.error());
     bench.film = std::move(*film);
   }

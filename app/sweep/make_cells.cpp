@@ -29,6 +29,19 @@ struct MadeCell {
   std::future<Expected<void>> written;
 };
 
+/// The lights that `compare` would keep for the cell, and the film of these.
+Expected<void> take_lights(Workshop& shop, const SettingOptions& options) {
+  std::vector<Light> lights = shop.keeper.kept(named_lights(options.light), options.poses);
+  if (lights == shop.given.lights) return {};
+  shop.given.lights = std::move(lights);
+  if (!shop.command.metric.is_filmed()) return {};
+  Console quiet(true);  // its notes were there before the first cell
+  const auto film = resolve_film(shop.command.metric.film, shop.loaded.paths, shop.given, quiet);
+  if (!film) return fail(film.error());
+  shop.engine.film_with(*film);
+  return {};
+}
+
 Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   const Stopwatch watch;
   const std::size_t cell = shop.plan.cells[index];
@@ -37,6 +50,7 @@ Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
   options->options.raytrace.seed = shop.command.seed;
   options->options.raster.shadow_cost = true;
+  if (const auto taken = take_lights(shop, *options); !taken) return fail(taken.error());
   auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
   if (!setting) return fail(setting.error());
   const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);

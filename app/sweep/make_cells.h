@@ -15,7 +15,8 @@ struct Workshop {
   const SweepCommand& command;
   const Plan& plan;
   const LoadedScene& loaded;
-  Scene given;  ///< camera and lights as loaded
+  LightKeeper& keeper;
+  Scene given;  ///< camera and lights as loaded, less those that the last cell left out
   compare::MachineInfo machine;
   compare::Engine& engine;
   CellPictureWriter pictures;

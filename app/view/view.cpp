@@ -60,7 +60,7 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
   state.setup.map = options.compare.raster.map;
   state.setup.size = options.compare.raster.size;
   state.setup.precision = options.compare.precision;
-  const auto poses = resolve_poses(options.poses, options.light, *loaded.world);
+  const auto poses = resolve_poses(options.poses, options.light, *loaded.scene, *loaded.world);
   if (!poses) return fail(poses.error());
   state.setup.camera = poses->camera;
   if (poses->light_pose) state.setup.lights[poses->light] = poses->light_pose;

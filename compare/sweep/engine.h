@@ -19,7 +19,7 @@ struct Setting {
   raytrace::Accel accel = raytrace::Accel::bvh;
   raytrace::Precision precision = raytrace::Precision::robust;
   Camera camera;
-  std::vector<Light> lights;            ///< as many as the scene has, of the same types
+  std::vector<Light> lights;            ///< the scene's, of the same types; some may be left out
   std::vector<std::uint32_t> compared;  ///< indices in `lights`
 };
 
