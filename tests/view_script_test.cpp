@@ -95,12 +95,14 @@ TEST(ViewScript, StepsBesideSet) {
   EXPECT_EQ(std::get<SaveScene>((*steps)[3].what).path, "a.json");
   EXPECT_TRUE(std::holds_alternative<PrintCommand>((*steps)[4].what));
   EXPECT_EQ(std::get<OpenScene>((*steps)[5].what).name, "fence");
-  EXPECT_EQ(std::get<NameLight>((*steps)[6].what).name, "sun");
+  EXPECT_EQ(std::get<PickByName>((*steps)[6].what).name, "sun");
+  EXPECT_EQ(std::get<PickByName>((*steps)[6].what).kind, PickByName::Kind::light);
   EXPECT_TRUE(std::get<DragPointer>((*steps)[7].what).light);
   EXPECT_EQ(std::get<DragPointer>((*steps)[7].what).to, Vec2(7.0, 8.0));
   EXPECT_EQ(std::get<DropFile>((*steps)[8].what).path, "acne");
   EXPECT_TRUE(std::holds_alternative<PrintClipboard>((*steps)[9].what));
-  EXPECT_EQ(std::get<NameFilm>((*steps)[10].what).name, "camera-walk");
+  EXPECT_EQ(std::get<PickByName>((*steps)[10].what).name, "camera-walk");
+  EXPECT_EQ(std::get<PickByName>((*steps)[10].what).kind, PickByName::Kind::film);
   EXPECT_EQ(std::get<PointAt>((*steps)[11].what).at, Vec2(9.0, 10.0));
 }
 

@@ -50,11 +50,11 @@ constexpr SwitchRow flag() {
   return {[](const MapOptions& map) { return map.*part.*field; },
           [](MapOptions& map, bool on) { map.*part.*field = on; }};
 }
-/// `all`: the function that lists the values.
-template <auto field, auto all>
+/// `all`: the function that lists the values; `path`: the members that lead to the field.
+template <auto all, auto... path>
 constexpr ChoiceRow choice() {
-  return {[](const MapOptions& map) { return place_among(all(), map.*field); },
-          [](MapOptions& map, std::size_t place) { map.*field = all()[place].second; },
+  return {[](const MapOptions& map) { return place_among(all(), (map.*....*path)); },
+          [](MapOptions& map, std::size_t place) { (map.*....*path) = all()[place].second; },
           [] { return names_among(all()); }};
 }
 
@@ -70,10 +70,10 @@ constexpr MapRow rows[] = {
                 [](MapOptions& map, int value) { map.size = value; }, 16, 16384, "texels", true},
      "Texels on a side of the depth map.", "Twice the texels need half the bias.",
      "Less bias is enough, so shadows start closer to their casters."},
-    {"depth-format", "Depth format", RowGroup::map, choice<&MapOptions::depth_format, &depth_formats>(),
+    {"depth-format", "Depth format", RowGroup::map, choice<&depth_formats, &MapOptions::depth_format>(),
      "The number format of the stored depth.", "Few bits round the depth: speckles that look like acne.",
      "None, but that coarser steps ask for more bias."},
-    {"cull", "Leave out", RowGroup::map, choice<&MapOptions::cull, &culls>(),
+    {"cull", "Leave out", RowGroup::map, choice<&culls, &MapOptions::cull>(),
      "The sides of surfaces that the map leaves out, as the light sees them.",
      "Without front faces, lit surfaces cannot shadow themselves; the back sides do.",
      "Without front faces a thin caster's shadow starts behind it, and open meshes leak."},
@@ -100,10 +100,7 @@ constexpr MapRow rows[] = {
     {"adaptive-bias", "Adaptive bias", RowGroup::bias, flag<bias, &Bias::adaptive>(),
      "As much as the receiver's plane rises up to the texel's centre (Dou et al. 2014).",
      "None is left on a plane.", "As little as the place in the texel allows."},
-    {"filter-kernel", "Kernel", RowGroup::filter,
-     ChoiceRow{[](const MapOptions& map) { return place_among(filter_kernels(), map.filter.kernel); },
-               [](MapOptions& map, std::size_t place) { map.filter.kernel = filter_kernels()[place].second; },
-               [] { return names_among(filter_kernels()); }},
+    {"filter-kernel", "Kernel", RowGroup::filter, choice<&filter_kernels, filter, &FilterOptions::kernel>(),
      "Which texels are compared with, and how they are weighed.",
      "A filter turns its stripes into grey; it does not take them away.", "Blurs the gap."},
     {"filter-radius", "Radius", RowGroup::filter,

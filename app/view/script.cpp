@@ -50,7 +50,7 @@ Expected<Step> parse_light(const Words& words, const std::vector<Light>& lights)
   if (const auto complete = expect_count(words, 3, "set light NAME"); !complete)
     return fail(complete.error());
   if (const auto known = light_of_name(words[2], lights); !known) return fail(known.error());
-  return Step{NameLight{words[2]}};
+  return Step{PickByName{PickByName::Kind::light, words[2]}};
 }
 
 Expected<Change> set_map(const std::string& key, const std::string& value) {
@@ -73,7 +73,7 @@ Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
   if (key == "film") {
     if (const auto complete = expect_count(words, 3, "set film NAME|off"); !complete)
       return fail(complete.error());
-    return Step{NameFilm{words[2]}};
+    return Step{PickByName{PickByName::Kind::film, words[2]}};
   }
   if (key == "light") return parse_light(words, lights);
   const ScriptKey* own = find_script_key(key);

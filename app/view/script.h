@@ -49,13 +49,11 @@ struct PrintClipboard {};
 struct DropFile {
   std::string path;
 };
-/// A film by its name; which there are is known when the scene is open.
-struct NameFilm {
-  std::string name;  ///< or off
-};
-/// A light by its name; which ones the window keeps of very many is known when the scene is open.
-struct NameLight {
-  std::string name;
+/// A film or a light by its name; which ones the window has is known when the scene is open.
+struct PickByName {
+  enum class Kind : std::uint8_t { film, light };
+  Kind kind;
+  std::string name;  ///< "off": no film
 };
 struct PressKey {
   Key key;  ///< one that does something
@@ -77,7 +75,7 @@ struct PointAt {
 struct ScriptStep {
   int line = 0;  ///< from 1
   std::variant<Change, WaitFrames, WaitDone, Screenshot, Quit, PrintCommand, SaveScene, DragPointer, PointAt,
-               PressKey, OpenScene, UsePreset, PrintClipboard, DropFile, NameFilm, NameLight>
+               PressKey, OpenScene, UsePreset, PrintClipboard, DropFile, PickByName>
       what;
 };
 

@@ -101,8 +101,8 @@ class Viewer {
   Expected<bool> pass(const ScriptStep& step);
   Expected<bool> pass_resize(const Resize& resize);
   Expected<bool> pass_open(const std::function<void()>& ask);
-  Expected<bool> pass_film(const NameFilm& wanted);
-  Expected<bool> pass_light(const NameLight& wanted);
+  Expected<bool> pass_film(const std::string& wanted);
+  Expected<bool> pass_light(const std::string& wanted);
   Expected<bool> pass_drag(DragPointer drag);
   bool pass_point(Vec2 at);
   ScriptPointer& move_script_pointer(Vec2 to);

@@ -64,7 +64,9 @@ Expected<Rgb8Image> Viewer::screenshot() const {
 /// What is to be said of --max-lights where the window does not have all of the scene's lights.
 std::string Viewer::left_out_words() const {
   const std::size_t count = shown_->scene->lights_left_out;
-  return count == 0 ? std::string() : fmt::format(", without {} lights that --max-lights leaves out", count);
+  if (count == 0) return {};
+  return count == 1 ? ", without one light that --max-lights leaves out"
+                    : fmt::format(", without {} lights that --max-lights leaves out", count);
 }
 
 /// SCENE-KIND-001.png and so on; nothing is overwritten. `save` runs beside the window; the remark is said when it is

@@ -65,9 +65,9 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
   if (const auto* open = std::get_if<OpenScene>(&step.what)) return pass_open([this, open] { act(*open); });
   if (const auto* drop = std::get_if<DropFile>(&step.what))
     return pass_open([this, drop] { window_->drop(drop->path); });
-  if (const auto* film = std::get_if<NameFilm>(&step.what)) return pass_film(*film);
   changed_line_ = step.line;
-  if (const auto* light = std::get_if<NameLight>(&step.what)) return pass_light(*light);
+  if (const auto* pick = std::get_if<PickByName>(&step.what))
+    return pick->kind == PickByName::Kind::film ? pass_film(pick->name) : pass_light(pick->name);
   if (const auto* press = std::get_if<PressKey>(&step.what)) return pass_key(press->key);
   if (const auto* save = std::get_if<SaveScene>(&step.what)) {
     const auto saved = write_scene(save->path, shown_->scene->argument, state_);
@@ -100,26 +100,26 @@ Expected<bool> Viewer::pass_open(const std::function<void()>& ask) {
   return true;
 }
 
-Expected<bool> Viewer::pass_film(const NameFilm& wanted) {
-  if (wanted.name == "off") {
+Expected<bool> Viewer::pass_film(const std::string& wanted) {
+  if (wanted == "off") {
     app::carry_out(state_, PickFilm{});
     return true;
   }
   std::string names;
   for (std::size_t i = 0; i < state_.given.films.size(); ++i) {
     const std::string& name = state_.given.films[i].name;
-    if (name == wanted.name) {
+    if (name == wanted) {
       app::carry_out(state_, PickFilm{i});
       return true;
     }
     names += ", " + name;
   }
   return fail(ErrorKind::bad_input,
-              fmt::format("film: the scene has no such film (got {}, allowed off{})", wanted.name, names));
+              fmt::format("film: the scene has no such film (got {}, allowed off{})", wanted, names));
 }
 
-Expected<bool> Viewer::pass_light(const NameLight& wanted) {
-  const auto light = light_of_name(wanted.name, state_.given.lights);
+Expected<bool> Viewer::pass_light(const std::string& wanted) {
+  const auto light = light_of_name(wanted, state_.given.lights);
   if (light) {
     act(Change{PickLight{*light}});
     return true;

@@ -17,6 +17,7 @@ namespace {
 
 /// Heights go by the square root of the share: without a bias half of the picture may be wrong, and what a good bias
 /// leaves, some per mille, has to be seen beside it.
+/// The marks' words stand in lines above the curves.
 struct Plot {
   ImVec2 low;  ///< its lower left corner
   ImVec2 size;
@@ -62,13 +63,14 @@ double most_share(const compare::LightComparison& light) {
   return 1.05 * double(most) / double(std::max<std::uint64_t>(1, light.pixels.compared));
 }
 
-void mark(const Plot& plot, double bias, ImU32 ink, const char* name, float line) {
+/// `line`: of the words above the curves, from below.
+void mark(const Plot& plot, double bias, ImU32 ink, const char* name, int line) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 foot = plot.at(std::clamp(bias, 0.0, plot.most_bias), 0.0);
-  draw.AddLine(foot, {foot.x, plot.low.y - plot.size.y}, ink, 0.13f * ImGui::GetFontSize());
-  const float width = ImGui::CalcTextSize(name).x;
-  const float x = std::min(foot.x + 3.0f, plot.low.x + plot.size.x - width);
-  draw.AddText({x, plot.low.y - plot.size.y + line * ImGui::GetFontSize()}, ink, name);
+  const ImVec2 word = ImGui::CalcTextSize(name);
+  const float top = plot.low.y - plot.size.y - static_cast<float>(line + 1) * word.y;
+  draw.AddLine(foot, {foot.x, top}, ink, 0.13f * ImGui::GetFontSize());
+  draw.AddText({std::min(foot.x + 3.0f, plot.low.x + plot.size.x - word.x), top}, ink, name);
 }
 
 void drag_bias(PanelContext& context, const Plot& plot) {
@@ -93,11 +95,13 @@ void curve_panel(PanelContext& context) {
   }
   const float em = ImGui::GetFontSize();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 size{ImGui::GetContentRegionAvail().x, 8.0f * em};
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 9.5f * em};
   ImGui::InvisibleButton("curve", size);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Drag: the constant bias");
-  const Plot plot{
-      {corner.x, corner.y + size.y}, size, std::max(1e-300, light.bias_curve.back().bias), most_share(light)};
+  const Plot plot{{corner.x, corner.y + size.y},
+                  {size.x, size.y - 2.0f * ImGui::GetTextLineHeight()},
+                  std::max(1e-300, light.bias_curve.back().bias),
+                  most_share(light)};
   drag_bias(context, plot);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, context.ink.paper);
@@ -106,8 +110,8 @@ void curve_panel(PanelContext& context) {
   line(plot, light, context.ink.text, [](const auto& p) { return p.false_shadow + p.missed_shadow; });
   line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
   line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
-  mark(plot, light.best_bias.constant_world, context.ink.good, "best", 0.0f);
-  mark(plot, context.shown.live.bias_world, context.ink.accent, "now", 1.1f);
+  mark(plot, light.best_bias.constant_world, context.ink.good, "best", 1);
+  mark(plot, context.shown.live.bias_world, context.ink.accent, "now", 0);
   draw.PopClipRect();
   draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, context.ink.grid);
   const double texel = light.bias_texel_world;
