@@ -240,16 +240,20 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
 }
 
 // A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: the rungs from
-// V1 on are what it drew. Under a light without size V1 to V3 are the truth, and rounding is what is left.
+// V1 on are what it drew. Under a light without size V1 to V3 are the truth, and rounding is what is left, or a
+// shader of the user's own.
 Climb climb_without_map(const LadderInput& in, Climb out) {
   const Image<Label> climbed = labels_climbed(in, out.labels);
   const bool sized = has_size(in.light);
   const std::size_t first_drawn = sized ? 1 : 4;
+  const Label label = in.drawn.custom_shader ? Label::custom_shader
+                      : sized                ? Label::light_size
+                                             : Label::precision;
   for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
     if (!is_compared(climbed.data[i])) continue;
     for (std::size_t k = 0; k < rung_count; ++k)
       out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record.visibility.data[i];
-    if (drawn_wrong(in, out, i)) out.labels.data[i] = sized ? Label::light_size : Label::precision;
+    if (drawn_wrong(in, out, i)) out.labels.data[i] = label;
   }
   return out;
 }
