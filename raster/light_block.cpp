@@ -1,5 +1,7 @@
 #include "raster/light_block.h"
 
+#include "scene/light.h"
+
 namespace gnomon::raster {
 namespace {
 
@@ -38,9 +40,8 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   block.origin_and_size = Vec4f(Vec4(view.origin - reference, view.size));
   block.bias = Vec4f(Vec4(constant_world, map.bias.slope, map.bias.normal_offset_texels, 0.0));
   const double cos_outer = std::cos(light.outer_angle);
-  const double ramp = std::max(1e-9, std::cos(light.inner_angle) - cos_outer);  // as in scene/light.cpp
   block.direction_and_cos_outer = Vec4f(Vec4(light.direction, cos_outer));
-  block.intensity_and_cone = Vec4f(light.intensity, static_cast<float>(1.0 / ramp));
+  block.intensity_and_cone = Vec4f(light.intensity, static_cast<float>(1.0 / spot_ramp(light)));
   block.rounding = Vec4f(Vec4(rounding.float_world, rounding.stored_step, rounding.adaptive_epsilon_world,
                               rounding.constant_texel_world));
   block.counts = glm::ivec4(view.face_count, 0, 0, 0);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "raster/technique_traits.h"
+#include "scene/size_steps.h"
 
 namespace gnomon::raster {
 
@@ -67,13 +68,12 @@ void move_window(const Vec3& shift, double margin, LightView& view) {
 void snap_window(LightView& view) {
   LightFace& face = view.faces[0];
   if (view.projection != LightProjection::orthographic || view.face_count > 1 || face.warp != 0.0) return;
-  constexpr double steps_per_octave = 4.0;
   const Vec3 middle = face_origin(view, face);
   const Vec2 place(glm::dot(face.right, middle), glm::dot(face.up, middle));
   for (int axis = 0; axis < 2; ++axis) {
     const double room =
         face.half_extent[axis] * view.size / std::max(1.0, view.size - 2.0);  // for half a texel
-    face.half_extent[axis] = std::exp2(std::ceil(std::log2(room) * steps_per_octave) / steps_per_octave);
+    face.half_extent[axis] = up_to_size_step(room);
     const double texel = 2.0 * face.half_extent[axis] / view.size;
     face.center[axis] += std::round(place[axis] / texel) * texel - place[axis];
   }

@@ -1,6 +1,7 @@
 #include "scene/cascade_fit.h"
 
 #include "scene/light_fit_parts.h"
+#include "scene/size_steps.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -12,8 +13,6 @@ using light_fit::to_light_space;
 // The nearest slice starts here at the latest, as a share of the farthest depth: below it, slices would cover
 // what no pixel shows.
 constexpr double nearest_share = 0.01;
-// Sizes that must not change with every step of the camera are taken from this ladder.
-constexpr double steps_per_octave = 4.0;
 // Shadows on infinite planes are followed no farther than so many times the scene's size and distance.
 constexpr double farthest_shadow = 20.0;
 
@@ -25,10 +24,6 @@ struct Fit {
   Vec3 reference;
   Rect casters;
 };
-
-double rounded_up(double size) {
-  return std::exp2(std::ceil(std::log2(size) * steps_per_octave) / steps_per_octave);
-}
 
 double view_depth(const Fit& fit, const Vec3& p) {
   return glm::dot(p - fit.view.eye, fit.view.forward);
@@ -119,9 +114,9 @@ double nearest_seen(const World& world, const View& view, double limit) {
 // The practical split scheme (Zhang et al. 2006, equation 9). Slice i lies between splits i and i + 1; the
 // first begins at the eye.
 std::vector<double> split_depths(const Interval& seen, const CascadeOptions& options) {
-  const double far = options.snap && !options.fit_samples ? rounded_up(seen.max) : seen.max;
+  const double far = options.snap && !options.fit_samples ? up_to_size_step(seen.max) : seen.max;
   double near = std::max(seen.min, nearest_share * far);
-  if (options.snap && !options.fit_samples) near = 0.5 * rounded_up(near);
+  if (options.snap && !options.fit_samples) near = 0.5 * up_to_size_step(near);
   std::vector<double> splits{0.0};
   for (int i = 1; i <= options.count; ++i) {
     const double share = double(i) / options.count;
@@ -279,15 +274,15 @@ Vec3 stepped_up(const Vec3& towards, const Vec3& ahead) {
 
 // Both ends along up moved outwards to whole steps.
 Rect stepped_sides(Rect rect) {
-  const double step = rounded_up(rect.extent().y) / steps_per_side;
+  const double step = up_to_size_step(rect.extent().y) / steps_per_side;
   rect.min.y = std::floor(rect.min.y / step) * step, rect.max.y = std::ceil(rect.max.y / step) * step;
   return rect;
 }
 
 Warp stepped_width(const std::vector<Vec2>& polygon, const Rect& rect, double warp, const Warp& narrowest) {
-  const double step = rounded_up(narrowest.half) / steps_per_side;
+  const double step = up_to_size_step(narrowest.half) / steps_per_side;
   const double middle = std::round(narrowest.middle / step) * step;
-  return {middle, rounded_up(half_width(polygon, middle, rect.middle().y, warp))};
+  return {middle, up_to_size_step(half_width(polygon, middle, rect.middle().y, warp))};
 }
 
 }  // namespace
@@ -334,7 +329,7 @@ Expected<LightView> fit_warped(const World& world, const Light& light, const Cam
   if (snap) rect = stepped_sides(rect);
   // Wimmer et al. 2004, equation 8: the warp's near distance in world units.
   const double exact_n_opt = (near + std::sqrt(near * far)) / sine;
-  const double n_opt = snap ? rounded_up(exact_n_opt) : exact_n_opt;
+  const double n_opt = snap ? up_to_size_step(exact_n_opt) : exact_n_opt;
   const double half = 0.5 * rect.extent().y;
   LightFace face = fit.frame;
   face.warp = 1.0 / (n_opt + half);

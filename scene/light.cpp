@@ -2,12 +2,15 @@
 
 namespace gnomon {
 
+double spot_ramp(const Light& light) {
+  return std::max(1e-9, std::cos(light.inner_angle) - std::cos(light.outer_angle));
+}
+
 double spot_falloff(const Light& light, const Vec3& to_light) {
   if (light.type != LightType::spot) return 1.0;
   const double cos_outer = std::cos(light.outer_angle);
-  const double cos_inner = std::cos(light.inner_angle);
   const double cos_angle = -glm::dot(light.direction, to_light);
-  const double ramp = (cos_angle - cos_outer) / std::max(1e-9, cos_inner - cos_outer);
+  const double ramp = (cos_angle - cos_outer) / spot_ramp(light);
   const double clamped = std::clamp(ramp, 0.0, 1.0);
   return clamped * clamped;
 }

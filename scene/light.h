@@ -14,6 +14,9 @@ struct LightAtPoint {
 
 LightAtPoint light_at(const Light& light, const Vec3& position);
 
+/// Cosine of a spot's inner angle less that of its outer one, kept from 0.
+double spot_ramp(const Light& light);
+
 /// Smooth spot falloff in [0, 1]: 1 inside inner_angle, 0 from outer_angle on, the KHR_lights_punctual
 /// formula.
 double spot_falloff(const Light& light, const Vec3& to_light);
