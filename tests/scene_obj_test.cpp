@@ -65,6 +65,7 @@ TEST(Obj, MistakesHaveTheirPlace) {
       {q + "f 1/1/1/1 2 3\n", ":5:5: f: texture coordinate index out of range"},
       {"v 1,5 0 0\n", ":1:3: not a finite number (got 1,5, allowed for example -1.5e2)"},
       {"v 0 nan 0\n", ":1:5: not a finite number (got nan, allowed for example -1.5e2)"},
+      {"v +-1 0 0\n", ":1:3: not a finite number (got +-1"},
       {"v 0 0 inf\n", ":1:7: not a finite number (got inf"},
       {"v 0 0 1e400\n", ":1:7: not a finite number (got 1e400"},
       {"v 0 0 1e30\n", ":1:7: coordinate (got 1e30, allowed up to 1e+15 in magnitude)"},

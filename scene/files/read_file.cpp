@@ -94,7 +94,10 @@ LineColumn line_column(std::string_view text, std::size_t offset) {
 }
 
 std::optional<double> parse_decimal(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+')) {
+    word.remove_prefix(1);
+    if (word.starts_with('-')) return std::nullopt;
+  }
   double value = 0.0;
   const char* const last = word.data() + word.size();
   const auto [end, status] = std::from_chars(word.data(), last, value);
