@@ -39,6 +39,10 @@ TEST(GeneratorParameters, WrongCombinationsAreNamed) {
   expect_refused("fence", {{"length", 0.12}}, "length", "room");
   expect_refused("fence", {{"bevel", 0.01}}, "bevel", "half");
   expect_refused("fence", {{"top_height", 1.2}}, "top_height", "less");
+  expect_refused("fence", {{"bevel", 0.006}, {"rail_height", 0.01}}, "bevel", "rails");
+  expect_refused("fence", {{"height", 0.1}, {"jitter", 4.0}}, "top_height", "lowest");
+  expect_refused("fence", {{"top", std::string("round")}, {"top_height", 0.001}}, "bevel", "tops");
+  EXPECT_TRUE(generate("fence", {{"top", std::string("flat")}, {"height", 0.05}}));
   expect_refused("column", {{"height", 0.5}}, "height", "six times");
   expect_refused("arcade", {{"arch_radius", 1.2}}, "arch_radius", "room");
   expect_refused("arcade", {{"height", 3.7}}, "height", "crown");
@@ -46,6 +50,8 @@ TEST(GeneratorParameters, WrongCombinationsAreNamed) {
   expect_refused("balustrade", {{"length", 0.5}}, "length", "room");
   expect_refused("window", {{"width", 0.2}}, "width", "shutters");
   expect_refused("paving", {{"joint", 0.5}}, "joint", "nothing");
+  expect_refused("paving", {{"joint", 0.06}, {"size", std::vector{1.0, 0.05}}}, "joint", "nothing");
+  expect_refused("paving", {{"thickness", 0.005}}, "thickness", "bevel");
   expect_refused("lathe", {{"profile", std::vector{0.0, 0.0, 1.0, 0.0, 1.0}}}, "profile", "even");
   expect_refused("lathe", {{"profile", std::vector{0.0, 0.0, -1.0, 0.0}}}, "profile", "negative");
   expect_refused("lathe", {{"profile", std::vector{1.0, 0.0, 1.0, 0.0}}}, "profile", "twice");

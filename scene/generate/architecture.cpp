@@ -1,6 +1,8 @@
 // Columns and arcades, after the Tuscan order in Vignola's "Regola delli cinque ordini d'architettura"
 // (1562): plinth, torus, shaft with entasis, astragal, echinus, abacus. Every stone is a closed body; stones
 // that rest on each other run a few millimetres into each other, so that no two faces coincide.
+#include <fmt/format.h>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/generate/generator.h"
@@ -139,7 +141,9 @@ Expected<GeneratedModel> make_arcade(const Values& v) {
   if (a.column < 6.0 * a.radius)
     return fail_parameter("column_height", "must be at least six times the column's radius");
   if (a.top < a.column + a.arch + band + 0.4) {
-    return fail_parameter("height", "must exceed the arches' crown by the band and the cornice: 0.56 m");
+    return fail_parameter(
+        "height",
+        fmt::format("must exceed the arches' crown by the band and the cornice: {:.2f} m", band + 0.4));
   }
   const double end = v.number("end");
   MeshBuilder columns;

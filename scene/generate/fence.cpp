@@ -1,6 +1,7 @@
 // Garden carpentry. A picket fence along the x axis, from x = 0 to x = length, its pickets on the +z side of
 // two rails that run between posts. Every picket, rail and post is its own closed body; rails run into the
 // posts, pickets stand off the rails by nothing but a hair's overlap, so that no two faces coincide.
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/generate/generator.h"
@@ -24,6 +25,15 @@ std::vector<Vec2> picket_outline(double width, double height, const std::string&
     outline.insert(outline.end(), {{w, height}, {-w, height}});
   }
   return outline;
+}
+
+/// None of them turns round when the outline is moved inwards.
+bool keeps_its_edges(std::span<const Vec2> outline, double distance) {
+  const std::vector<Vec2> moved = inset(outline, distance);
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(glm::dot(outline[(i + 1) % n] - outline[i], moved[(i + 1) % n] - moved[i]) > 0.0)) return false;
+  return true;
 }
 
 Mesh pickets(const Values& v, double length) {
@@ -84,12 +94,21 @@ Mesh posts(const Values& v, double length) {
 }
 
 Expected<GeneratedModel> make_fence(const Values& v) {
-  const double length = v.number("length");
-  if (2.0 * v.number("bevel") >= std::min(v.number("picket_thickness"), v.number("picket_width"))) {
+  const double length = v.number("length"), bevel = v.number("bevel");
+  if (2.0 * bevel >= std::min(v.number("picket_thickness"), v.number("picket_width")))
     return fail_parameter("bevel", "must be less than half of the picket's thickness and width");
-  }
-  if (v.number("top_height") >= v.number("height"))
-    return fail_parameter("top_height", "must be less than the height");
+  if (!v.list("rails").empty() &&
+      2.0 * bevel >= std::min(v.number("rail_thickness"), v.number("rail_height")))
+    return fail_parameter("bevel", "must be less than half of the rails' thickness and height");
+  const double lowest = v.number("height") - 0.01 * v.number("jitter"), room = 2.0 * bevel;
+  const bool flat = v.text("top") == "flat";
+  if (flat && lowest <= room) return fail_parameter("height", "leaves nothing of the lowest picket");
+  if (!flat && v.number("top_height") >= lowest - room)
+    return fail_parameter("top_height",
+                          "must be less than the height of the lowest picket without its bevel");
+  if (!keeps_its_edges(
+          picket_outline(v.number("picket_width"), lowest, v.text("top"), v.number("top_height")), bevel))
+    return fail_parameter("bevel", "is too large for the shape of the pickets' tops");
   if (length < v.number("post_width") + v.number("picket_width")) {
     return fail_parameter("length", "leaves no room for a post and a picket");
   }

@@ -1,5 +1,6 @@
 // Things of a garden floor: flagstones, stepping stones, tufts of grass. Stones are closed bodies that reach
 // below y = 0, so that the ground hides their feet; grass blades are open.
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/generate/generator.h"
@@ -29,12 +30,13 @@ Expected<GeneratedModel> make_paving(const Values& v) {
   const Vec2 size = v.vec2("size"), flag = v.vec2("flag");
   const double joint = v.number("joint"), jitter = v.number("jitter"), bevel = v.number("bevel");
   const double thickness = v.number("thickness"), rise = v.number("rise");
-  if (flag.x <= joint + 2.5 * bevel || flag.y <= joint + 2.5 * bevel) {
-    return fail_parameter("joint", "leaves nothing of the flags");
-  }
-  Random random(v.seed());
   const int rows = std::max(1, static_cast<int>(std::lround(size.y / flag.y)));
   const double depth = size.y / rows, least = joint + 3.0 * bevel;
+  if (std::min({flag.x, flag.y, size.x, depth}) <= joint + 2.5 * bevel)
+    return fail_parameter("joint", "leaves nothing of the flags");
+  if (thickness <= bevel + 0.003 * jitter)
+    return fail_parameter("thickness", "must exceed the bevel, and with jitter by 3 mm more");
+  Random random(v.seed());
   MeshBuilder b;
   for (int row = 0; row < rows; ++row) {
     double x = -0.5 * size.x;
@@ -95,7 +97,8 @@ Expected<GeneratedModel> make_stepping_stones(const Values& v) {
     }
     const Mat4 place = glm::rotate(glm::translate(Mat4(1.0), Vec3(across, 0.0, along)),
                                    random.between(0.0, pi), Vec3(0.0, 1.0, 0.0));
-    add_stone(b, outline, -0.05, v.number("rise") * random.between(0.7, 1.3), 0.35 * v.number("rise"), place);
+    const double bevel = std::min(0.35 * v.number("rise"), 0.15 * size * aspect);
+    add_stone(b, outline, -0.05, v.number("rise") * random.between(0.7, 1.3), bevel, place);
   }
   GeneratedModel model;
   model.parts.push_back({"stone", b.take()});
@@ -142,8 +145,9 @@ Expected<GeneratedModel> make_grass(const Values& v) {
     }
     const Vec3 off = random.in_ball();
     const double height = v.number("height") * random.between(0.45, 1.0);
+    const double lean = random.between(0.1, 0.8), heading = random.between(0.0, 2.0 * pi);
     add_blade(b, middle + clump * Vec3(off.x, 0.0, off.z) - Vec3(0.0, 0.002, 0.0), height, v.number("width"),
-              random.between(0.0, 2.0 * pi), random.between(0.1, 0.8));
+              heading, lean);
   }
   GeneratedModel model;
   model.parts.push_back({"blade", b.take()});

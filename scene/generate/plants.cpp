@@ -65,7 +65,8 @@ class Tree {
     // Leaves are dealt to twigs at random, so that their number is exact.
     for (int i = 0; i < values_.count("leaves"); ++i) {
       const auto& [from, to] = twigs_[random_.bits() % twigs_.size()];
-      const Vec3 foot = glm::mix(from, to, random_.unit()) + 0.02 * height * random_.in_ball();
+      const Vec3 stray = 0.02 * height * random_.in_ball();
+      const Vec3 foot = glm::mix(from, to, random_.unit()) + stray;
       add_random_leaf(leaves_, random_, foot, glm::normalize(to - from), values_.number("leaf_size"));
     }
     GeneratedModel model;

@@ -9,6 +9,7 @@
 
 namespace gnomon {
 
+/// Two draws never stand in one call's arguments, nor on both sides of a sum: compilers differ in which goes first.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

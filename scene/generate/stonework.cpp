@@ -45,7 +45,7 @@ Expected<GeneratedModel> make_balustrade(const Values& v) {
   const double pitch = (length - pedestal) / spans, clear = pitch - pedestal;
   if (clear < v.number("spacing"))
     return fail_parameter("length", "leaves no room for a baluster between the pedestals");
-  const double bevel = 0.01 * height;
+  const double bevel = std::min({0.01 * height, 0.1 * pedestal, 0.1 * clear});
   MeshBuilder pedestals, rails, balusters;
   for (int i = 0; i <= spans; ++i) {
     const double x = 0.5 * pedestal + i * pitch, w = 0.5 * pedestal;
@@ -117,12 +117,13 @@ Expected<GeneratedModel> make_stairs(const Values& v) {
   const int steps = v.count("steps");
   const double rise = v.number("rise"), tread = v.number("tread"), width = v.number("width");
   const double slab = 0.3 * rise, nose = v.number("nosing");
+  const double bevel = std::min({0.06 * rise, 0.2 * tread, 0.2 * width});
   MeshBuilder treads;
   for (int i = 0; i < steps; ++i) {
     const double y = (i + 1) * rise, z0 = -i * tread + nose;
     // The next tread's riser stands on this slab; the last one ends with the body.
     const double z1 = -(i + 1) * tread - (i + 1 < steps ? 0.25 * tread : 0.0);
-    treads.box({-0.5 * width - nose, y - slab, z1 - stone_overlap}, {0.5 * width + nose, y, z0}, 0.06 * rise);
+    treads.box({-0.5 * width - nose, y - slab, z1 - stone_overlap}, {0.5 * width + nose, y, z0}, bevel);
   }
   GeneratedModel model;
   model.parts.push_back({"riser", stair_body(steps, rise, tread, width, 0.5 * slab)});

@@ -29,8 +29,8 @@ Expected<GeneratedModel> make_swarm(const Values& values) {
     for (int z = 0; z < static_cast<int>(count.z); ++z)
       for (int x = 0; x < static_cast<int>(count.x); ++x) {
         const Vec3 middle = spacing * (Vec3(x, y, z) + Vec3(0.5) - 0.5 * Vec3(count.x, 0.0, count.z));
-        const Vec3 shift(random.between(-reach, reach), random.between(-reach, reach),
-                         random.between(-reach, reach));
+        Vec3 shift;
+        for (int axis = 2; axis >= 0; --axis) shift[axis] = random.between(-reach, reach);
         add_octahedron(builder, middle + shift, radius);
       }
   GeneratedModel model;
