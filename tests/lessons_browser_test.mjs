@@ -122,6 +122,7 @@ const slide = (page, id, values) => page.evaluate(([figure, all]) => {
   return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
 }, [id, values]);
 const said = (page, id) => page.locator(`${id} [role=status]`).evaluate(({ dataset }) => Object.fromEntries(Object.entries(dataset).map(([key, value]) => [key, Number(value)])));
+const words = (page, id) => page.locator(`${id} [role=status]`).textContent();
 const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
@@ -177,6 +178,11 @@ const flatlands = {
       const { texel, measured, bias: used } = await said(page, id);
       near(measured, Math.max(0, used * Math.sin(radians(Math.abs(angle))) - 0.05), texel / Math.cos(radians(angle)) + 0.006, `wall at ${angle} degrees, bias ${bias}`);
     }
+    // Square to the floor there is nothing for a bias to cure, and no shadow.
+    await slide(page, id, { angle: 0, bias: 0 });
+    assert.match(await words(page, id), /no shadow is drawn/);
+    assert.equal((await said(page, id)).falseShare, 0);
+    await slide(page, id, { angle: 60 });
   },
   async penumbra(page, id) {
     for (const [radius, height] of [[0.4, 4], [0.2, 3], [0, 4], [0.9, 4]]) {
@@ -185,6 +191,12 @@ const flatlands = {
       near(umbra, Math.max(0, (a * height - radius * h) / (height - h)), 1e-6, "umbra");
       near(penumbra, (a * height + radius * h) / (height - h), 1e-6, "penumbra");
     }
+    // So wide a lamp leaves no umbra, and of one so far aside the umbra lies beyond the drawing.
+    await slide(page, id, { radius: 1, height: 2, x: 0 });
+    assert.match(await words(page, id), /there is no umbra/);
+    assert.ok(!(await page.locator(`${id} svg text`).allTextContents()).includes("umbra"));
+    await slide(page, id, { radius: 0.1, height: 2, x: 1.5 });
+    assert.deepEqual(await page.locator(`${id} svg text`).allTextContents(), ["penumbra"]);
   },
   async terminator(page, id) {
     for (const [angle, sides] of [[35, 14], [-100, 9], [0, 60]]) {
@@ -194,6 +206,12 @@ const flatlands = {
       near(lostRight, formulaRight, piece, "right");
       assert.ok(Math.max(lostLeft, lostRight) <= 180 / sides + 1e-9);
     }
+    // Below the floor: the sun is drawn there, and what the floor shadows is no fault of the ball's faces.
+    await slide(page, id, { angle: 180, sides: 14 });
+    const { lostLeft, lostRight } = await said(page, id), round = 2 * Math.PI * 0.7 * (960 / 5);
+    const [low, orange] = await page.locator(`${id} svg`).evaluate((svg) => [Number(svg.querySelector(".sun").getAttribute("cy")), svg.querySelector(".surface.false").getTotalLength()]);
+    assert.ok(low > (960 / 5) * 2.3, `the sun is drawn at ${low}`);
+    near(orange, ((lostLeft + lostRight) / 360) * round, 0.02 * round, "orange");
   },
   // Bias cures false shadow, and takes true shadow with it.
   async shadow(page, id) {
@@ -238,6 +256,8 @@ operate.intersection = async (page, { settings: { kind }, data: { checks } }, id
       assert.equal(hit === "true", t !== null, JSON.stringify(corners));
       if (t !== null) near(Number(z), t, 1e-9, "z");
     }
+    await slide(page, id, { Ax: 1, Ay: 1, Bx: 1, By: 1, Cx: 1, Cy: 1 });
+    assert.match(await words(page, id), /the triangle has no area/);
     return;
   }
   for (const { from, to, t } of checks) {
@@ -247,6 +267,10 @@ operate.intersection = async (page, { settings: { kind }, data: { checks } }, id
     if (t === null) assert.deepEqual(roots, [], `${kind} from ${from} to ${to}`);
     else near(roots[0], t, 1e-6, `${kind} from ${from} to ${to}`);
   }
+  // A ray that begins where it touches the ball, and one of a single stretch.
+  await slide(page, id, kind === "sphere" ? { ox: 0.2, oy: 0.9, ax: 2, ay: 0.9 } : { ox: 2.5, oy: 1, ax: 3, ay: 1.5 });
+  if (kind === "sphere") assert.match(await words(page, id), /t = 0, 0\.$/);
+  if (kind === "implicit") assert.match(await words(page, id), /^1 stretch after 0 halvings: /);
 };
 // The lookup of a cube map, worked out here; and what the texel in the middle below the lamp stores.
 operate["cube-faces"] = async (page, figure, id) => {
@@ -258,6 +282,8 @@ operate["cube-faces"] = async (page, figure, id) => {
     assert.ok(u > 0 && u < 1 && texel === Math.floor(u * texels));
     if (lampX === x) near(stored, lampY, 1e-9, "depth below the lamp");
   }
+  await slide(page, id, { lampX: 0, lampY: 0.85, x: 0, texels: 9 });  // the middle of the ball: it stores the ball's far side
+  near((await said(page, id)).stored, 0.7, 1e-9, "depth within the ball");
 };
 operate.whitted = async (page, { data: { fresnel } }, id) => {
   const shares = await page.evaluate((all) => all.map(({ cosine, ratio }) => globalThis.gnomonFresnel(cosine, ratio)), fresnel);
@@ -270,7 +296,44 @@ operate.whitted = async (page, { data: { fresnel } }, id) => {
     await page.locator(`${id} .next-ray`).click();
     await page.waitForFunction(([i, n]) => document.querySelector(`${i} [role=status]`).dataset.rays === n, [id, String(ray)]);
   }
+  // The floor below the glass ball, and the lamp above it: two surfaces with 4 % reflected at each, and a shadow ray more behind each.
+  await slide(page, id, { eyeX: 0.6 / 8.2, eyeY: 1.4 / 4.6, aimX: 3.6 / 8.2, aimY: 0.4 / 4.6, lampX: 3.6 / 8.2, lampY: 4.4 / 4.6, step: 1 });
+  assert.equal((await said(page, id)).total, 4);
+  assert.match(await words(page, id), /the surfaces of the glass let 92 % of the light through/);
 };
+/** A drag holds its handle, past the other one as well, and the handle stays under the pointer: also on a slide, where the drawing is
+    narrower than its element. */
+async function checkDrag() {
+  const page = await at("intersections.html", { viewport: { width: 1024, height: 768 } }), id = '[data-figure="0"]', drawing = page.locator(`${id} svg.flatland`);
+  await page.click(".open-slides");
+  for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
+  const screen = (at) => drawing.evaluate((svg, [x, y]) => {
+    const place = new DOMPoint(160 * (x + 3), 160 * (1.5 - y)).matrixTransform(svg.getScreenCTM());
+    return [place.x, place.y];
+  }, at);
+  await slide(page, id, { ox: -2, oy: 0, ax: 0, ay: 0.02 });
+  await page.mouse.move(...await screen([-2, 0]));
+  await page.mouse.down();
+  await page.mouse.move(...await screen([2, 0.1]), { steps: 40 });
+  await page.mouse.up();
+  await slide(page, id, {});
+  const { ox, oy, ax, ay } = await said(page, id);
+  near(ox, 2, 0.01, "the start, dragged");
+  near(oy, 0.1, 0.01, "the start, dragged");
+  assert.deepEqual([ax, ay], [0, 0.02]);
+  await close(page);
+}
+
+/** What is written in the drawings can be read from a projector of 1024 × 768. */
+async function checkProjector() {
+  const page = await at("shadow-map.html", { viewport: { width: 1024, height: 768 } }), drawing = page.locator(".light-space");
+  await page.click(".open-slides");
+  for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
+  const pixels = await drawing.evaluate((svg) => svg.getScreenCTM().a * parseFloat(getComputedStyle(svg.querySelector("text")).fontSize));
+  assert.ok(pixels >= 11, `the drawing on a slide is written in ${pixels} pixels`);
+  await close(page);
+}
+
 const operated = new Set();
 /** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
 const wanted = ["bias", "cube-faces", "flatland", "intersection", "map-size", "structure", "two-passes", "whitted"];
@@ -294,6 +357,8 @@ try {
     await close(page);
   }
   assert.deepEqual([...operated].sort(), wanted);
+  await checkDrag();
+  await checkProjector();
   const linked = await at("acne.html", {}, "#slide-2");
   assert.equal(await linked.locator(".slide-bar output").textContent().then((text) => text.slice(0, 5)), "2 of ");
   await checkAxe(linked, "a slide");

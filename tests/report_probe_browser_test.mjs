@@ -4,7 +4,7 @@
 // GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { browser, checkAccessibility, checkPhone, checkPicture, close, open, pixelsOf, violations } from "./browser/open_page.mjs";
 
@@ -218,8 +218,9 @@ async function checkUrl() {
   assert.equal((await view(second)).mode, "flip");
   await close(first);
   await close(second);
-  const strange = await open(folderOf(biases[0]), {}, "#light-0?pixel=9999,-3&zoom=x&mode=<b>&bias=");
+  const strange = await open(folderOf(biases[0]), {}, "#light-0?pixel=9999,-3&zoom=x&mode=<b>&bias=&texels=5.5");
   assert.equal((await view(strange)).mode, "swipe");
+  assert.equal(await strange.locator("[data-texels='16']").getAttribute("aria-pressed"), "true", "half a texel is no width");
   await close(strange);
   // Names that every object has are none of the state's; a pixel outside is the nearest one, with its marker.
   const outside = await open(folderOf(biases[0]), {}, "#light-0?constructor=2&__proto__=1&toString=3&pixel=9999,9999");
@@ -241,7 +242,7 @@ async function checkPresenterOnProjectors() {
     for (const drawing of ["svg.light-space", "svg.section"]) {
       const pixels = await page.locator(`dialog.presenter ${drawing}`).evaluate((svg) =>
         svg.getScreenCTM().a * parseFloat(getComputedStyle(svg.querySelector("text")).fontSize));
-      assert.ok(pixels >= 9, `${w}: ${drawing} is written in ${pixels} pixels`);
+      assert.ok(pixels >= 11, `${w}: ${drawing} is written in ${pixels} pixels`);
     }
     await close(page);
   }
@@ -327,6 +328,13 @@ async function checkControls(page) {
   const stage = page.locator(".stage"), box = await stage.boundingBox();
   await stage.click({ position: { x: (100.5 / width) * box.width, y: (80.5 / height) * box.height } });
   await page.waitForFunction(() => document.querySelector(".pixel-title").textContent.trim().startsWith("Pixel 100, 80:"));
+  await stage.click({ button: "right", position: { x: (50.5 / width) * box.width, y: (40.5 / height) * box.height } });
+  await redrawn(page);
+  assert.match(await title(page), /^Pixel 100, 80:/, "a click for the menu pins a pixel");
+  await page.locator(".exposure input").fill("1");
+  await redrawn(page);
+  assert.equal(await page.locator(".exposure input").getAttribute("aria-valuetext"), "1 stop");
+  await page.locator(".exposure input").fill("0");
   await page.locator(".stage").focus();
   await page.keyboard.press("Escape");
   await page.locator(".marker").first().waitFor({ state: "hidden" });
@@ -408,6 +416,13 @@ async function checkBeside() {
   await close(page);
   await close(single);
   await checkAccessibility(large, { beside: true });
+  // Without the scene's file all but the cross-section is there, and that says why.
+  rmSync(join(large, "report-data", "geometry.js"));
+  const lacking = await open(large, { beside: true }, "#light-0?pixel=100,80");
+  await lacking.locator(".probe-section").getByText("The cross-section is missing").waitFor();
+  assert.equal(await lacking.locator("svg.light-space").count(), 1);
+  assert.deepEqual(lacking.offences.splice(0).filter((text) => !text.includes("ERR_FILE_NOT_FOUND")), []);
+  await close(lacking);
 }
 
 // A page with every pixel of a scene of 150 thousand triangles can be sent by mail: below 10 MB. Its speed is printed, not
@@ -443,6 +458,13 @@ try {
   const aov = readAov(biases[0]), page = await open(folderOf(biases[0]));
   const depthStep = await checkData(page, aov);
   console.log(`${aov.length} pixels carry the numbers of the EXR file`);
+  // One that sees exactly half the light is in neither shadow, whatever the bias.
+  assert.deepEqual(await page.evaluate(async () => {
+    const light = await gnomon.light(0), { visibility_steps: steps } = JSON.parse(document.getElementById("page-data").textContent);
+    const wrongWith = (share) => { light.truth[0] = share * steps; return [-1e9, 1e9].map((bias) => light.wrongAt(0, bias)); };
+    light.gap[0] = 0;
+    return [0, 0.5, 1].map(wrongWith);
+  }), [[0, 1], [0, 0], [-1, 0]]);
   const names = new Map(JSON.parse(await page.locator("#page-data").textContent()).labels.map(({ value, name }) => [value, name]));
   console.log(`${await checkProbe(aov, names, depthStep)} labels probed`);
   await checkDrawing(page);

@@ -4,7 +4,7 @@
 // Usage: node shimmer_browser_test.mjs GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
 import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
@@ -107,6 +107,11 @@ try {
   const beside = await open(parts, { beside: true });
   await checkProbe(beside);
   await close(beside);
+  rmSync(join(parts, "report-data", "film-0.js"));
+  const lacking = await open(parts, { beside: true });
+  assert.match(await lacking.locator(".shimmer-light .left-out").textContent(), /^The film and its probe are missing: /);
+  assert.deepEqual(lacking.offences.splice(0).filter((text) => !text.includes("ERR_FILE_NOT_FOUND")), []);
+  await close(lacking);
   await checkAccessibility(whole);
   await checkPhone(whole);
   console.log(`${light.flips} flips in ${frames} frames: page, films and result agree`);

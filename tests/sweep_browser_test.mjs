@@ -62,7 +62,10 @@ async function checkGrid(page) {
   await pick("Columns", "map_size");
   assert.deepEqual(await grid.locator("thead th").allTextContents(), ["32", "64", "128"]);
   assert.deepEqual(await grid.locator("tbody th").allTextContents(), ["0", "0.05", "0.4"]);
+  const slope = bar.getByLabel("slope bias", { exact: true });
+  await slope.focus();
   await pick("slope bias", "1");
+  assert.equal(await slope.evaluate((e) => e === document.activeElement), true, "the keyboard has left the list that it used");
   // Each place of the grid shows the cell of its row, its column and the slice.
   for (const link of await grid.locator("a").all()) {
     const cell = Number((await link.getAttribute("href")).slice(6));
@@ -84,6 +87,9 @@ async function checkGrid(page) {
   await opened(again, number + 1);
   assert.equal(await again.locator("#cell .tag").last().textContent(), `cell ${number}: labels`);
   assert.equal(await again.getByRole("button", { name: `Kept: cell ${number}` }).count(), 1);
+  // A link without a cell to keep lets the kept one go. (The page has then written its own view into the URL.)
+  await again.evaluate((n) => new Promise((done) => setTimeout(() => done(location.hash = `#sweep?cell=${n}`), 300)), number);
+  await again.getByRole("button", { name: "Keep for comparison" }).waitFor();
   await close(again);
   const missing = await open(swept, {}, `#sweep?cell=${number}&held=12345`);
   await opened(missing, number);
@@ -91,6 +97,13 @@ async function checkGrid(page) {
   await close(missing);
   await page.locator("#cell .stage").hover({ position: { x: 300, y: 300 } });
   assert.match(await page.locator("#cell .probe").textContent(), new RegExp(`^Pixel \\d+, \\d+: [a-z-, ]+; in cell ${number}: `));
+  const label = page.locator("#cell .cell-labels button").first();
+  await label.focus();
+  for (const pressed of ["true", "false"]) {
+    await page.keyboard.press("Enter");
+    assert.equal(await label.getAttribute("aria-pressed"), pressed);
+    assert.equal(await label.evaluate((e) => e === document.activeElement), true, "the keyboard has left the label's button");
+  }
 }
 
 async function checkTable(page) {

@@ -85,12 +85,13 @@ export class BiasPanel {
     if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(Number(bias.toPrecision(6)));
     const counts = recolour(this.light, bias, this.backdrop, new Uint32Array(this.image.data.buffer));
     this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
-    const wrong = counts.falseShadow + counts.missedShadow, texels = bias / this.light.json.texel_world;
+    const wrong = counts.falseShadow + counts.missedShadow + counts.ties / 2, texels = bias / this.light.json.texel_world;
     this.said.dataset.bias = String(bias);
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
     this.said.textContent = `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +
-      `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow.`;
+      `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow` +
+      `${counts.ties > 0 ? `, ${grouped(counts.ties)} off by exactly one half (two count as one wrong)` : ""}.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
   }
 
@@ -112,14 +113,14 @@ export class BiasPanel {
     };
     let dragging = false;
     drawing.classList.add("live");
-    drawing.addEventListener("pointerdown", (event) => { dragging = true; drawing.setPointerCapture(event.pointerId); drag(event); });
+    drawing.addEventListener("pointerdown", (event) => { if (event.button !== 0) return; dragging = true; drawing.setPointerCapture(event.pointerId); drag(event); });
     drawing.addEventListener("pointermove", (event) => { if (dragging) drag(event); });
     for (const end of ["pointerup", "pointercancel"]) drawing.addEventListener(end, () => { dragging = false; });
     const pick = (event: PointerEvent) => {
       const box = this.canvas.getBoundingClientRect(), at = (share: number, size: number) => Math.floor(Math.min(Math.max(share, 0), 1) * (size - 1e-6));
       pin(at((event.clientX - box.left) / box.width, page.width), at((event.clientY - box.top) / box.height, page.height));
     };
-    this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); pick(event); });
+    this.canvas.addEventListener("pointerdown", (event) => { if (event.button !== 0) return; this.canvas.setPointerCapture(event.pointerId); pick(event); });
     this.canvas.addEventListener("pointermove", (event) => { if (this.canvas.hasPointerCapture(event.pointerId)) pick(event); });
   }
 

@@ -5,11 +5,13 @@ async function copy(text: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
   } catch {  // no permission, or a page from disk: the old way
-    const area = html("textarea", { "aria-hidden": "true" }, text);
+    const area = html("textarea", { "aria-hidden": "true" }, text), focused = document.activeElement;
+    Object.assign(area.style, { position: "fixed", top: "0" });  // where selecting it scrolls nothing
     document.body.append(area);
     area.select();
     document.execCommand("copy");
     area.remove();
+    if (focused instanceof HTMLElement) focused.focus({ preventScroll: true });
   }
 }
 

@@ -36,7 +36,7 @@ async function restore(): Promise<void> {
   const section = /^#light-(\d+)/.exec(location.hash);
   if (section && tabs && Number(section[1]) < page.lights) {
     tabs.show(Number(section[1]));
-    if (!location.hash.includes("?")) document.querySelector(section[0])!.scrollIntoView();
+    if (!location.hash.includes("?")) document.getElementById(`light-${Number(section[1])}`)!.scrollIntoView();
   }
   const wanted = readLight(location.hash);
   if (!wanted || wanted.light >= page.lights) return;

@@ -199,6 +199,7 @@ export class Light {
   }
 
   lit(index: number): boolean { return this.truth[index]! > 0.5 * page.visibility_steps; }
+  halfLit(index: number): boolean { return this.truth[index]! === 0.5 * page.visibility_steps; }
   u(index: number): number { return this.us[index]! / page.position_steps; }
   v(index: number): number { return this.vs[index]! / page.position_steps; }
   face(index: number): number { return this.faces[index]!; }
@@ -208,10 +209,12 @@ export class Light {
     const distance = this.channels.distance![index]! * this.json.depth_step;
     return distance / alongRay(this.json.view, this.face(index), this.u(index), this.v(index));
   }
-  /** Whether the pixel is drawn lit at a constant bias: by a hard test, on 32-bit floats as in the shader; or, where gaps
-      do not decide, as it was drawn. */
-  litAt(index: number, bias: number): boolean {
-    return this.json.gaps_decide ? !(this.gap[index]! > Math.fround(bias)) : this.drawn[index]! > 0.5 * page.visibility_steps;
+  /** How the pixel is drawn wrong at a constant bias, by more than one half: -1 in false shadow, 1 in missed shadow, 0 not. By
+      a hard test, on 32-bit floats as in the shader; or, where gaps do not decide, as it was drawn. */
+  wrongAt(index: number, bias: number): number {
+    const steps = page.visibility_steps, tested = this.gap[index]! > Math.fround(bias) ? 0 : steps;
+    const error = (this.json.gaps_decide ? tested : this.drawn[index]!) - this.truth[index]!;
+    return Math.abs(error) > 0.5 * steps ? Math.sign(error) : 0;
   }
 
   /** The compared pixels that look up a row (axis 0) or column (axis 1) of the map, at positions in [from, to) on it. */

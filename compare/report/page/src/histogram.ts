@@ -15,7 +15,7 @@ interface Bins {
 function sorted(light: Light, limit: number): Bins {
   const out: Bins = { lit: new Array<number>(bins).fill(0), dark: new Array<number>(bins).fill(0), beyond: 0, before: 0 };
   light.gap.forEach((gap, i) => {
-    if (light.label[i]! < 0) return;
+    if (light.label[i]! < 0 || light.halfLit(i)) return;
     const bin = Math.floor(((gap + limit) / (2 * limit)) * bins);
     if (bin >= bins) ++out.beyond;
     else if (!(bin >= 0)) ++out.before;

@@ -136,7 +136,8 @@ export class LightPanel {
   }
 
   private update(): void {
-    const bias = this.state.bias ?? this.light.json.bias.constant;
+    // A bias that cannot be dragged here is not taken from a link either: what was drawn has its own.
+    const bias = (this.bias && this.state.bias) ?? this.light.json.bias.constant;
     this.viewer.show();
     this.probe.show(this.shown, bias, this.passing);
     this.map?.show(this.shown);

@@ -26,10 +26,11 @@ export class MapMarker {
   }
 
   show(pixel: Pixel): void {
-    this.marker.hidden = !pixel.seen;
-    const scale = this.side / this.light.json.view.size;
-    const x = (pixel.face % this.across) * (this.side + this.gap) + pixel.at.u * scale;
-    const y = Math.floor(pixel.face / this.across) * (this.side + this.gap) + this.side - pixel.at.v * scale;
+    const { size } = this.light.json.view, { u, v } = pixel.at;
+    this.marker.hidden = !(pixel.seen && u >= 0 && v >= 0 && u < size && v < size);  // of a pixel outside the map there is no place in it
+    const scale = this.side / size;
+    const x = (pixel.face % this.across) * (this.side + this.gap) + u * scale;
+    const y = Math.floor(pixel.face / this.across) * (this.side + this.gap) + this.side - v * scale;
     this.marker.style.left = `${(100 * x) / this.width}%`;
     this.marker.style.top = `${(100 * y) / this.height}%`;
   }

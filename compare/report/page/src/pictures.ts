@@ -51,9 +51,9 @@ export function lightPicture(light: Light, name: string): ImageData | null {
   }
 }
 
-/** The names of these pictures, with a sign for what the page does not know of this light left out. */
+/** The names of these pictures; those of what the page does not know of this light are left out. */
 export const lightPictureNames = (light: Light): string[] =>
-  ["truth", "drawn", "gap", "absolute error", ...(light.flip ? ["FLIP"] : []), ...(light.ssim ? ["1 − SSIM"] : [])];
+  ["truth", "drawn", ...(light.json.map_known ? ["gap"] : []), "absolute error", ...(light.flip ? ["FLIP"] : []), ...(light.ssim ? ["1 − SSIM"] : [])];
 
 /** The label picture with every other label faded towards white. */
 export function isolatedLabel(labels: ArrayLike<number>, wanted: number, size?: { width: number; height: number }): ImageData {
@@ -73,6 +73,7 @@ export function isolatedLabel(labels: ArrayLike<number>, wanted: number, size?: 
 export interface Recoloured {
   falseShadow: number;
   missedShadow: number;
+  ties: number;  // of which exactly half the light is seen: as near to right as to wrong at any bias
 }
 
 // A colour as one number, red in the lowest byte: ImageData's order on little-endian machines, which browsers run on.
@@ -80,17 +81,18 @@ const pixelOf = ([r, g, b]: Rgb): number => ((255 << 24) | (b << 16) | (g << 8) 
 
 /** What a constant bias would draw wrong, over a backdrop; writes into `out`. Arrays of pixels as numbers. */
 export function recolour(light: Light, bias: number, backdrop: Uint32Array, out: Uint32Array): Recoloured {
-  const counts = { falseShadow: 0, missedShadow: 0 };
+  const counts = { falseShadow: 0, missedShadow: 0, ties: 0 };
   const threshold = Math.fround(bias), half = 0.5 * page.visibility_steps, { gap, label, truth } = light;
   const orange = pixelOf(falseShadow), blue = pixelOf(missedShadow);
   out.set(backdrop);
   for (let i = 0; i < gap.length; ++i) {
     if (label[i]! < 0) continue;
-    const dark = gap[i]! > threshold, lit = truth[i]! > half;
-    if (dark && lit) {
+    const dark = gap[i]! > threshold, seen = truth[i]!;
+    if (seen === half) ++counts.ties;
+    else if (dark && seen > half) {
       ++counts.falseShadow;
       out[i] = orange;
-    } else if (!dark && !lit) {
+    } else if (!dark && seen < half) {
       ++counts.missedShadow;
       out[i] = blue;
     }

@@ -25,8 +25,9 @@ function ladder(pixel: Pixel): HTMLElement {
 
 function facts(light: Light, pixel: Pixel): HTMLElement {
   const parts = otherParts(light.json.bias), beyond = parts === "" ? "" : ` beyond ${parts}`;
+  const perTexel = light.json.bias.scales ? ` for a texel of ${number(light.json.texel_world, 3)}` : "";  // as the bias is
   const rows: [string, string, string][] = [
-    ["gap", number(pixel.gap, 6), isFinite(pixel.gap) ? `world units${beyond}, to ${number(light.json.depth_step, 1)}` : ""],
+    ["gap", number(pixel.gap, 6), isFinite(pixel.gap) ? `world units${perTexel}${beyond}, to ${number(light.json.depth_step, 1)}` : ""],
     ["texel", `${number(pixel.at.u, 6)}, ${number(pixel.at.v, 6)}`, light.json.view.faces.length === 1 ? "u, v" : light.json.view.perspective ? `u, v on face ${["+x", "−x", "+y", "−y", "+z", "−z"][pixel.face]}` : `u, v in cascade ${pixel.face + 1}`],
     ["distance", number(pixel.distance, 6), light.json.view.perspective ? "from the light" : "along the light, from the map's origin"],
     ["primitive", String(pixel.primitive), ""],
@@ -60,6 +61,7 @@ export class Probe {
   private readonly widths: HTMLElement;
   private readonly ways: HTMLElement;
   private scene: Geometry | null = null;
+  private missing = "";  // why the scene cannot be cut
   private resting = 0;
   private shown: { pixel: Pixel; bias: number } | null = null;
 
@@ -74,7 +76,8 @@ export class Probe {
     const known = light.json.map_known;
     this.bar.hidden = !known;
     host.append(html("h3", {}, known ? "One pixel, in light space" : "One pixel"), html("div", { class: "probe-body" }, this.words, this.drawing), this.bar, this.below);
-    void geometry().then((scene) => { this.scene = scene; this.redraw(); });
+    void geometry().then((scene) => { this.scene = scene; }, (error: Error) => { this.missing = `The cross-section is missing: ${error.message}.`; })
+      .then(() => this.redraw());
   }
 
   /** The cross-section of a pixel only passed over waits until the pointer rests. */
@@ -97,8 +100,8 @@ export class Probe {
       ...remarks(pixel).map((text) => html("p", { class: "remark" }, text)), ...(pixel.seen && known ? [ladder(pixel), facts(this.light, pixel)] : []));
     this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
-    const section = () => this.below.replaceChildren(drawable && this.scene
-      ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`)
+    const section = () => this.below.replaceChildren(drawable
+      ? this.scene ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`) : html("p", {}, this.missing)
       : known ? html("p", {}, "No surface here to cut through.") : "");
     if (passing) this.resting = window.setTimeout(section, 120);
     else section();

@@ -1,5 +1,5 @@
 // The scene cut by the plane of light rays through one row or column of the map: exact for spheres and planes, and for triangles
-// up to the rounding of the corners that the page carries (2^-24 of the scene's size).
+// up to the rounding of the corners that the page carries (2^-20 of the scene's size).
 import type { Geometry } from "./data";
 import { add, cross, dot, length, place, project, scaled, sub, texelRay, unit, type LightView, type MapPoint, type Vec3 } from "./light_view";
 

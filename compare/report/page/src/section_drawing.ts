@@ -5,6 +5,7 @@ import type { Geometry, Light, Pixel } from "./data";
 import { alongRay, halfSlopes, texelWidth } from "./light_view";
 import { sceneCut, type Curve } from "./scene_cut";
 import { counted, grouped, html, niceTicks, number, svg, tickTexts } from "./svg";
+import { gapScale } from "./texel_drawing";
 import { otherParts } from "./words";
 
 const width = 1160, height = 420, left = 72, right = 12, top = 34, bottom = 46;
@@ -52,10 +53,10 @@ function lineThrough(light: Light, pixel: Pixel, axis: 0 | 1, scene: Geometry, f
 }
 
 function dotOf(light: Light, axis: 0 | 1, index: number, bias: number): Dot {
-  const lit = light.lit(index), drawn = light.litAt(index, bias);
+  const wrong = light.wrongAt(index, bias);
   return {
     t: axis === 0 ? light.u(index) : light.v(index), depth: light.depth(index), index,
-    outcome: lit ? (drawn ? "lit" : "false") : drawn ? "missed" : "dark",
+    outcome: wrong < 0 ? "false" : wrong > 0 ? "missed" : light.lit(index) ? "lit" : "dark",
   };
 }
 
@@ -99,11 +100,13 @@ function texelBars(frame: Frame, size: number): SVGElement {
 // Stored depths as steps, and the map's shadow below them.
 function storedSteps(light: Light, pixel: Pixel, frame: Frame, bias: number): SVGElement {
   let line = "", shade = "", before = NaN;
-  const ratio = alongRay(light.json.view, pixel.face, pixel.at.u, pixel.at.v), floor = height - bottom;
+  const { view } = light.json, { face } = pixel, floor = height - bottom;
   for (let k = frame.from; k < frame.to; ++k) {
     const depth = depthAt(light, pixel, frame.axis, k), x = frame.x(k), next = frame.x(k + 1);
     if (isFinite(depth)) {
-      const y = frame.y(depth), tested = Math.min(frame.y(depth + bias / ratio), floor);
+      const [u, v] = frame.axis === 0 ? [k + 0.5, pixel.at.v] : [pixel.at.u, k + 0.5];
+      const allowed = (gapScale(light, { u, v, depth, face }) * bias) / alongRay(view, face, u, v);
+      const y = frame.y(depth), tested = Math.min(frame.y(depth + allowed), floor);
       line += `${isFinite(before) ? "L" : "M"}${x.toFixed(1)},${y.toFixed(1)}H${next.toFixed(1)}`;
       shade += `M${x.toFixed(1)},${tested.toFixed(1)}H${next.toFixed(1)}V${floor}H${x.toFixed(1)}Z`;
     }

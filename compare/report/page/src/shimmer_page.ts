@@ -68,7 +68,8 @@ class FilmPlayer {
     this.slider.addEventListener("input", () => { this.pause(); void this.show(Number(this.slider.value)); });
     this.canvas.addEventListener("click", (event) => {
       const box = this.canvas.getBoundingClientRect(), step = page.anchors;
-      const snap = (share: number, size: number): number => Math.min(Math.floor((share * size) / step) * step, size - 1);
+      // A click's place is whole, the picture's need not be: its first column may be met just before it begins.
+      const snap = (share: number, size: number): number => Math.floor(Math.min(Math.max(share * size, 0), size - 1) / step) * step;
       void this.read(snap((event.clientY - box.top) / box.height, page.height) * page.width + snap((event.clientX - box.left) / box.width, page.width));
     });
     this.canvas.addEventListener("keydown", (event) => {
@@ -179,5 +180,10 @@ class FilmPlayer {
 
 export async function startShimmer(): Promise<void> {
   const sections = [...document.querySelectorAll<HTMLElement>(".shimmer-light")];
-  for (const [index, section] of sections.entries()) await new FilmPlayer(section).start(index);
+  for (const [index, section] of sections.entries())
+    try {
+      await new FilmPlayer(section).start(index);
+    } catch (error) {
+      section.querySelector(".film")!.after(html("p", { class: "left-out" }, `The film and its probe are missing: ${(error as Error).message}.`));
+    }
 }

@@ -61,7 +61,7 @@ const viewReaders: Readers<ViewState> = {
   },
 };
 const lightReaders: Readers<LightState> = {
-  ...viewReaders, cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined), texels: (t) => inRange(t, 4, 1e6),
+  ...viewReaders, cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined), texels: (t) => (index(t) === undefined ? undefined : inRange(t, 4, 1e6)),
   bias: (t) => inRange(t, -1e30, 1e30),
 };
 const sweepReaders: Readers<SweepState> = {

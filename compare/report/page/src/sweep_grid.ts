@@ -1,7 +1,6 @@
 // The grid of thumbnails, by any two axes; the others stand still at values that the reader chooses.
 import type { CellJson } from "./cell";
-import { number } from "./svg";
-import { html } from "./svg";
+import { html, percent } from "./svg";
 import type { SweepState } from "./state";
 
 interface Axis {
@@ -51,6 +50,7 @@ export class SweepGrid {
     const { rows, columns, rest } = this.settle(), names = this.axes.map((axis) => axis.name);
     const change = (update: () => void) => { update(); this.show(); this.changed(); };
     const slice = () => rest.filter((_, k) => k !== rows && k !== columns).join("|");
+    const used = this.bar.contains(document.activeElement) ? document.activeElement!.getAttribute("aria-label") : null;
     this.bar.replaceChildren(
       ...(rows >= 0 ? [pick("Rows", names, names[rows]!, (name) => change(() => {
         if (name === names[columns]) this.state.columns = names[rows]!;
@@ -64,6 +64,8 @@ export class SweepGrid {
         change(() => { rest[k] = value; this.state.slice = slice(); }))])));
     const shown = this.cells.filter((cell) => cell.values.every((value, k) => k === rows || k === columns || value === rest[k]));
     this.table.replaceChildren(this.grid(shown, rows, columns));
+    // The list that was used is made anew: the keyboard stays on it.
+    if (used !== null) [...this.bar.querySelectorAll("select")].find((select) => select.getAttribute("aria-label") === used)?.focus();
   }
 
   private grid(cells: CellJson[], rows: number, columns: number): HTMLTableElement {
@@ -87,7 +89,7 @@ export class SweepGrid {
   private link(cell: CellJson): HTMLAnchorElement {
     let link = this.links.get(cell.cell);
     if (!link) {
-      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${number(100 * cell.wrong, 2)} %${cell.front ? " ★" : ""}`));
+      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${percent(cell.wrong)}${cell.front ? " ★" : ""}`));
       this.links.set(cell.cell, link);
     }
     if (cell.cell === this.state.cell) link.setAttribute("aria-current", "true");

@@ -55,9 +55,14 @@ class SweepPage {
     const wanted = readSweep(location.hash);
     if (wanted) Object.assign(this.state, wanted);
     this.grid?.show();
-    if (wanted?.sort) this.table.show();
-    if (this.state.held !== null) this.hold(await this.load(this.state.held)?.catch(() => null) ?? null);
+    if (wanted) this.table.show();
+    const { held } = this.state, cell = held === null ? null : await this.load(held)?.catch(() => null) ?? null;
+    if (this.state.held === held) this.hold(cell);  // else another one was chosen meanwhile
     if (wanted && this.state.cell !== null) await this.open(this.state.cell, true);
+    else if (wanted) {
+      this.section.hidden = true;
+      this.table.mark();
+    }
   }
 
   private neighbour(step: number): number {
@@ -84,7 +89,9 @@ class SweepPage {
     try {
       cell = await loading;
     } catch (error) {
+      if (this.state.cell !== number) return;
       this.section.hidden = false;
+      this.section.querySelector("h2")!.textContent = `Cell ${number}`;
       this.section.querySelector(".cell-line")!.textContent = (error as Error).message;
       return;
     }
@@ -125,7 +132,8 @@ class SweepPage {
     button.addEventListener("click", () => {
       this.state.label = this.state.label === words.name ? null : words.name;
       if (this.state.label !== null && this.state.left !== "labels" && this.state.right !== "labels") this.state.right = "labels";
-      this.describe(this.shown!);
+      for (const other of this.section.querySelectorAll(".cell-labels button"))  // in place: the keyboard stays on its button
+        other.setAttribute("aria-pressed", String(other === button && this.state.label !== null));
       this.viewer!.show();
       this.save();
     });

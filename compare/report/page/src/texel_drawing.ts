@@ -1,7 +1,7 @@
 // The light-space drawing of one pixel, to scale: light comes from above; across, the map's texels; downwards, depth.
 // The thick steps are the stored depths, the slanted line is the receiver's own plane, cut through the pixel's point.
 import type { Light, Pixel } from "./data";
-import { alongRay, halfSlopes, planeDepth, texelWidth, add, project, length, cross, texelRay } from "./light_view";
+import { alongRay, halfSlopes, planeDepth, texelWidth, add, project, length, cross, texelRay, type MapPoint } from "./light_view";
 import { html, number, svg } from "./svg";
 
 const width = 560, height = 400, top = 46, bottom = 44, side = 12;
@@ -18,11 +18,10 @@ interface Frame {
   high: number;    // at the bottom edge
 }
 
-/** World units of this pixel for one of its gap: where the bias scales with the texel, that is for a texel of texel_world. */
-function gapScale(light: Light, pixel: Pixel): number {
+/** World units at a place of the map for one of its gap: where the bias scales with the texel, that is for a texel of texel_world. */
+export function gapScale(light: Light, at: MapPoint & { face: number }): number {
   const { bias, texel_world, view } = light.json;
   if (!bias.scales) return 1;
-  const at = { ...pixel.at, face: pixel.face };
   return Math.max(texelWidth(view, 0, at), texelWidth(view, 1, at)) / texel_world;
 }
 
@@ -35,7 +34,7 @@ interface BiasPart {
 /** What the bias of this pixel is made of: its constant first, then what follows the slope of the surface. */
 function biasParts(light: Light, pixel: Pixel, constant: number): BiasPart[] {
   const { view, bias } = light.json, { u, v } = pixel.at;
-  const parts = [{ name: "constant", depth: (gapScale(light, pixel) * constant) / alongRay(view, pixel.face, u, v) }];
+  const parts = [{ name: "constant", depth: (gapScale(light, { ...pixel.at, face: pixel.face }) * constant) / alongRay(view, pixel.face, u, v) }];
   if (bias.slope !== 0) {
     const [su, sv] = halfSlopes(view, pixel.face, pixel.at, pixel.position, pixel.normal);
     parts.push({ name: "slope", depth: bias.slope * (su + sv) });
@@ -128,7 +127,7 @@ function biasMark(light: Light, frame: Frame, pixel: Pixel, x: number, stored: n
   const whole = `bias ${text(total(parts))}`;
   const mark = bracket(frame, x, stored, stored + total(parts), "bias-mark", parts.length === 1 ? [whole] :
     [`${whole}:`, ...parts.map(({ name, depth }, i) => `${i > 0 ? "+ " : ""}${name} ${text(depth)}`)]);
-  for (const split of parts.slice(0, -1)) mark.append(svg("path", { class: "bracket", d: `M${x - 3},${frame.y(stored + split.depth)}h6` }));
+  parts.slice(0, -1).forEach((_, i) => mark.append(svg("path", { class: "bracket", d: `M${x - 3},${frame.y(stored + total(parts.slice(0, i + 1)))}h6` })));
   return mark;
 }
 

@@ -1,6 +1,7 @@
 // Two pictures over each other or side by side, with one zoom and one position: swipe, flip, enlarge, point at pixels.
 import { legend } from "./colour_maps";
 import type { ViewState } from "./state";
+import { number } from "./svg";
 
 const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
 
@@ -30,6 +31,7 @@ export class Viewer {
   private readonly painted: (Source | null)[] = [null, null];
   private readonly legends = document.createElement("div");
   private last: readonly [number, number] | null = null;  // the pixel read last
+  private pinned: readonly [number, number] | null = null;  // as it was last shown
   private drag: { divider: boolean; moved: boolean; x: number; y: number } | null = null;
 
   constructor(private readonly root: HTMLElement, private readonly state: ViewState,
@@ -68,7 +70,8 @@ export class Viewer {
       this.put(i, this.events.source(option.value), option.textContent!);
       this.panes[i]!.querySelector(".tag")!.textContent = option.textContent;
     });
-    this.legends.replaceChildren(...[...new Set([this.state.left, this.state.right])].flatMap((name) => legend(name) ?? []));
+    const names = this.picks.map((pick) => pick.selectedOptions[0]!.textContent!);
+    this.legends.replaceChildren(...[...new Set(names)].flatMap((name) => legend(name) ?? []));
     this.draw();
   }
 
@@ -111,7 +114,7 @@ export class Viewer {
     this.slider.value = String(100 * s.split);
     this.slider.parentElement!.hidden = s.mode !== "swipe";
     this.exposure.value = String(s.exposure);
-    this.exposure.setAttribute("aria-valuetext", `${s.exposure} stops`);
+    this.exposure.setAttribute("aria-valuetext", `${number(s.exposure)} stop${Math.abs(s.exposure) === 1 ? "" : "s"}`);
     this.root.querySelector(".zoom-value")!.textContent =
       `${s.zoom < 10 ? s.zoom.toFixed(1).replace(".0", "") : Math.round(s.zoom)}×`;
     for (const button of this.root.querySelectorAll<HTMLElement>("button[data-mode]"))
@@ -121,6 +124,8 @@ export class Viewer {
 
   private mark(): void {
     const { pixel, zoom, x, y } = this.state, page = this.size;
+    // Steps start from a pixel that was pinned elsewhere: by a label, in the bias's picture, by a link.
+    if (pixel !== this.pinned) this.last = (this.pinned = pixel) ?? this.last;
     for (const marker of this.markers) {
       marker.hidden = pixel === null || pixel[0] >= page.width || pixel[1] >= page.height;
       if (!pixel || marker.hidden) continue;
@@ -177,16 +182,19 @@ export class Viewer {
   private listen(): void {
     const { stage, state, events } = this;
     stage.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || !event.isPrimary) return;  // a menu swallows the end of a drag; a second finger would jump
       const at = this.paneAt(event), near = Math.abs(at.x - state.split) * at.box.width < 16;
       this.drag = { divider: state.mode === "swipe" && (state.zoom === 1 || near), moved: false, x: event.clientX, y: event.clientY };
       stage.setPointerCapture(event.pointerId);
     });
     stage.addEventListener("pointermove", (event) => {
+      if (!event.isPrimary) return;
       if (this.drag) return this.moveDrag(event);
       const pixel = this.pixelAt(event);
       if (pixel) events.hover(...(this.last = pixel));
     });
     stage.addEventListener("pointerup", (event) => {
+      if (!event.isPrimary) return;
       const pixel = this.pixelAt(event);
       if (this.drag && !this.drag.moved && pixel) events.pin(...(this.last = pixel));
       this.drag = null;

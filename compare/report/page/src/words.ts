@@ -87,9 +87,8 @@ function compared(light: Light, pixel: Pixel, bias: number): string {
   if (!light.json.map_known) return comparedAlone(pixel);
   if (!light.json.compares_depths) return exactly(light, pixel, bias);
   if (!light.json.gaps_decide) return filtered(light, pixel, bias);
-  const lit = pixel.rungs[0]! > 0.5, drawn = light.litAt(pixel.index, bias);
   const test = `${mapTest(light, pixel, bias)} ${say("ray_says", { brightness: brightness(pixel, pixel.rungs[0]!) })}`;
-  if (bias !== light.json.bias.constant) return `${test} ${say(lit === drawn ? "with_this_bias_right" : "with_this_bias_wrong")}`;
+  if (bias !== light.json.bias.constant) return `${test} ${say(light.wrongAt(pixel.index, bias) === 0 ? "with_this_bias_right" : "with_this_bias_wrong")}`;
   return `${test} ${pixel.label === 0 ? say("right") : wentWrong(pixel)}`;
 }
 

@@ -24,12 +24,11 @@ export function lookUp(d: Vec2): { face: Face; z: number; u: number } {
 export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
   const json = data as FlatlandJson, world = world2(json), { window } = json, [left, right, , top] = window, floor = world.segments[0]!;
   let lamp: Vec2 = [0, 0], target: Vec2 = [0, 0];
-  const stage = new Stage(window, "A lamp over a ball on a floor: the faces of its cube map, and the texel that a point looks up", (at) => {
-    if (length(sub(at, lamp)) < length(sub(at, target))) {
-      sliders.set("lampX", at[0]);
-      sliders.set("lampY", at[1]);
-    } else sliders.set("x", at[0]);
-  });
+  const stage = new Stage(window, "A lamp over a ball on a floor: the faces of its cube map, and the texel that a point looks up", (at, handle) => {
+    if (handle === "target") return sliders.set("x", at[0]);
+    sliders.set("lampX", at[0]);
+    sliders.set("lampY", at[1]);
+  }, () => ({ target, lamp }));
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, from: number, to: number, value: number) => ({ name, from, to, step: 0.005, value, text: (v: number) => number(v, 3) });
   const sliders: Sliders<string> = new Sliders<string>({

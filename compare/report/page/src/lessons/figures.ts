@@ -19,12 +19,23 @@ export interface FigureJson<Data = never> {
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
 const makers: Record<string, Maker> = { bias: biasFigure, "cube-faces": cubeFigure, flatland: flatlandFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
 
+/** Null where that fails: the other figures and the slides do not wait for it. */
+async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement | null> {
+  try {
+    return await makers[figure.name]!(figure, id);
+  } catch (error) {
+    console.error(`${id}, ${figure.name}:`, error);
+    return null;
+  }
+}
+
 export async function startFigures(): Promise<void> {
   const { figures } = pageData<{ figures: (FigureJson | null)[] }>();
   for (const host of document.querySelectorAll<HTMLElement>(".live")) {
     const at = Number(host.dataset.figure), figure = figures[at];
     if (!figure) continue;
-    const made = await makers[figure.name]!(figure, `figure-${at}`);
+    const made = await makeFigure(figure, `figure-${at}`);
+    if (!made) continue;
     made.classList.add("live-figure");
     made.dataset.name = figure.name;
     host.prepend(made);

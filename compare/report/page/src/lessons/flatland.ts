@@ -65,12 +65,10 @@ export function occluded(world: World2, { surface, at }: Place, direction: Vec2,
   return false;
 }
 
-/** The depth of the first surface along a ray of unit direction from far away: endless where there is none. */
+/** The depth of the first surface ahead of a ray of unit direction: endless where there is none. */
 export function firstDepth(world: World2, origin: Vec2, direction: Vec2): number {
-  let depth = Infinity;
-  for (const segment of world.segments) depth = Math.min(depth, meetSegment(origin, direction, segment));
-  for (const circle of world.circles) depth = Math.min(depth, meetCircle(origin, direction, circle)?.[0] ?? Infinity);
-  return depth;
+  const meetings = [...world.segments.map((segment) => meetSegment(origin, direction, segment)), ...world.circles.flatMap((circle) => meetCircle(origin, direction, circle) ?? [])];
+  return Math.min(...meetings.filter((t) => t > 0));
 }
 
 /** A sun's shadow map: `count` texels side by side, square to the light. Depth counts along the light from a line through
@@ -121,7 +119,7 @@ export type Outcome = "lit" | "dark" | "false" | "missed" | "away";
 export function outcomeAt(world: World2, place: Place, map: SunMap, bias: number, offset: number): Outcome {
   const toLight: Vec2 = [-map.light[0], -map.light[1]];
   if (dot(place.normal, toLight) <= 0) return "away";
-  const truth = !occluded(world, place, toLight), drawn = !(map.gap(place, offset) > bias);
+  const truth = !occluded(world, place, toLight), drawn = !(map.gap(place, offset) > bias + 1e-9);  // more than rounding
   return truth ? (drawn ? "lit" : "false") : drawn ? "missed" : "dark";
 }
 

@@ -54,10 +54,10 @@ export const rays = (stage: Stage, window: FlatlandJson["window"], light: Vec2):
   }));
 };
 
-export const sun = (stage: Stage, window: FlatlandJson["window"], light: Vec2): SVGElement[] => {
-  const [left, right, bottom, top] = window, middle: Vec2 = [(left + right) / 2, Math.max(0, bottom)];
+/** `middle`: round which it is dragged. */
+export const sun = (stage: Stage, [left, right, bottom, top]: FlatlandJson["window"], light: Vec2, middle: Vec2 = [(left + right) / 2, Math.max(0, bottom)]): SVGElement[] => {
   // On the way out of the window, just inside.
-  const reach = Math.min(...[[light[0], light[0] > 0 ? left : right, middle[0]], [light[1], top, middle[1]]].map(([l, edge, from]) => (l === 0 ? Infinity : (edge! - from!) / -l!)));
+  const reach = Math.min(...[[light[0], light[0] > 0 ? left : right, middle[0]], [light[1], light[1] > 0 ? bottom : top, middle[1]]].map(([l, edge, from]) => (l === 0 ? Infinity : (edge! - from!) / -l!)));
   return [stage.circle("sun", add(middle, light, -0.93 * reach), 16)];
 };
 
@@ -130,6 +130,7 @@ function wallForm(world: World2, map: SunMap, pieces: (Place & { outcome: Outcom
   const drawn = pieces.filter((p) => p.normal[1] > 0.5 && p.at[1] < 1e-6 && side * (p.at[0] - face) > 0 && p.outcome === "dark").map((p) => side * (p.at[0] - face));
   const measured = drawn.length > 0 ? Math.min(...drawn) : NaN;
   Object.assign(said.dataset, { formula: String(formula), measured: String(measured) });
+  if (drawn.length === 0) return "Behind the wall no shadow is drawn.";
   return `The shadow starts ${number(measured, 2)} behind the wall; the formula max(0, δ·sin θ − w) says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
 }
 

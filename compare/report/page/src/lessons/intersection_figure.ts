@@ -1,6 +1,6 @@
 // A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a
 // triangle: the numbers of each test, as the lesson derives them.
-import { html, number } from "../svg";
+import { counted, html, number } from "../svg";
 import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
@@ -20,7 +20,7 @@ export function slab(origin: number, direction: number, low: number, high: numbe
 export function sphereRoots(origin: Vec2, direction: Vec2, center: Vec2, radius: number): { foot: Vec2; discriminant: number; roots: number[] } {
   const f = sub(origin, center), b = -dot(f, direction), l = add(f, direction, b), discriminant = radius * radius - dot(l, l);
   if (discriminant < 0) return { foot: add(center, l), discriminant, roots: [] };
-  const q = b + Math.sign(b || 1) * Math.sqrt(discriminant), roots = [q, (dot(f, f) - radius * radius) / q];
+  const q = b + Math.sign(b || 1) * Math.sqrt(discriminant), roots = [q, q === 0 ? 0 : (dot(f, f) - radius * radius) / q];  // 0: it touches the ball where it begins
   return { foot: add(center, l), discriminant, roots: roots.sort((a, c) => a - c) };
 }
 
@@ -108,7 +108,7 @@ function drawSphere(stage: Stage, o: Vec2, d: Vec2): Drawn {
 }
 
 function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
-  const { stretches, roots } = implicitRoots(o, d, 0, 8), side: Vec2 = [-d[1], d[0]], leaves = stretches.filter((s) => s.verdict !== "split");
+  const { stretches, roots } = implicitRoots(o, d, 0, 8), side: Vec2 = [-d[1], d[0]], leaves = stretches.filter((s) => s.verdict !== "split"), empty = leaves.filter((s) => s.verdict === "none");
   const inner = Math.sqrt(c2 - Math.sqrt(a4)), outer = Math.sqrt(c2 + Math.sqrt(a4));
   const body = [-1, 1].map((sign) => Array.from({ length: 241 }, (_, i): Vec2 => {  // twice along x, once above and once below
     const turn = (i * Math.PI) / 120, x = 0.5 * (inner + outer) - 0.5 * (outer - inner) * Math.cos(turn), yy = Math.sqrt(4 * c2 * x * x + a4) - x * x - c2;
@@ -116,9 +116,9 @@ function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
   }));
   const ticks = leaves.map((s): Vec2[] => [add(add(o, d, s.to), side, -0.05), add(add(o, d, s.to), side, 0.05)]);
   return {
-    elements: [stage.path("profile thin", body), stage.path("stretch none", leaves.filter((s) => s.verdict === "none").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("stretch one", leaves.filter((s) => s.verdict === "one").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("normals", ticks),
+    elements: [stage.path("profile thin", body), stage.path("stretch none", empty.map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("stretch one", leaves.filter((s) => s.verdict === "one").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("normals", ticks),
       ...roots.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8))],
-    words: `${leaves.length} stretches after ${stretches.length - leaves.length} halvings: ${leaves.filter((s) => s.verdict === "none").length} are proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
+    words: `${counted(leaves.length, "stretch", "stretches")} after ${counted(stretches.length - leaves.length, "halving")}: ${empty.length} ${empty.length === 1 ? "is" : "are"} proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
     numbers: { roots: roots.join(" "), stretches: String(leaves.length) },
   };
 }
@@ -132,11 +132,10 @@ const hints: Record<string, string> = {
 
 function rayFigure(kind: string, id: string): HTMLElement {
   let o: Vec2 = [0, 0], aim: Vec2 = [0, 0];
-  const stage = new Stage(window, `A ray and ${kind === "implicit" ? "a surface given by a function" : `a ${kind}`}`, (at) => {
-    const key = Math.hypot(...sub(at, o)) < Math.hypot(...sub(at, aim)) ? "o" : "a";
-    sliders.set(`${key}x`, at[0]);
-    sliders.set(`${key}y`, at[1]);
-  });
+  const stage = new Stage(window, `A ray and ${kind === "implicit" ? "a surface given by a function" : `a ${kind}`}`, (at, handle) => {
+    sliders.set(`${handle}x`, at[0]);
+    sliders.set(`${handle}y`, at[1]);
+  }, () => ({ a: aim, o }));
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, k: 0 | 1, value: number) => ({ name, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value, text: (v: number) => number(v, 3) });
   const sliders: Sliders<string> = new Sliders<string>({
@@ -158,11 +157,10 @@ function rayFigure(kind: string, id: string): HTMLElement {
 function triangleFigure(id: string): HTMLElement {
   let corners: Vec2[] = [];
   const names = ["A", "B", "C"], depths = [2, 3, 5];
-  const stage = new Stage(window, "A triangle seen along the ray, which is the middle point", (at) => {
-    const i = [0, 1, 2].reduce((a, b) => (Math.hypot(...sub(at, corners[b]!)) < Math.hypot(...sub(at, corners[a]!)) ? b : a));
-    sliders.set(`${names[i]}x`, at[0]);
-    sliders.set(`${names[i]}y`, at[1]);
-  });
+  const stage = new Stage(window, "A triangle seen along the ray, which is the middle point", (at, handle) => {
+    sliders.set(`${handle}x`, at[0]);
+    sliders.set(`${handle}y`, at[1]);
+  }, () => Object.fromEntries(names.map((name, i) => [name, corners[i]!])));
   const said = html("p", { class: "bias-counts", role: "status" });
   const start: Vec2[] = [[-1.2, -0.7], [1.5, -0.4], [0.2, 1.1]];
   const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: `Corner ${name}, ${k === 0 ? "left and right" : "up and down"}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3) }]))), () => show());
@@ -173,7 +171,7 @@ function triangleFigure(id: string): HTMLElement {
     const area = (kind: string, p: Vec2, q: Vec2) => stage.path(`area ${kind}`, [[[0, 0], p, q, [0, 0]]]);
     stage.put(area("u", B, C), area("v", C, A), area("w", A, B), stage.path("profile thin", [[A, B, C, A]]), ...corners.map((p, i) => stage.label("middle", add(p, unit(Math.hypot(...p) > 0 ? p : [1, 0]), 0.16), names[i]!, 6)), ...corners.map((p) => stage.circle("point", p, 9)), stage.circle(inside ? "hit" : "moved", [0, 0], 9));
     Object.assign(said.dataset, { u: String(u), v: String(v), w: String(w), z: String(z), hit: String(inside) });
-    said.textContent = `u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? `none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : "their signs differ, the ray misses."}`;
+    said.textContent = `u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? `none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : sum === 0 ? "their sum is 0, the triangle has no area, the ray misses." : "their signs differ, the ray misses."}`;
   };
   show();
   return frame(id, stage, sliders.bar, said, "Drag a corner: seen along the ray the ray is the point in the middle. Each coloured triangle is half of one of the three numbers.");

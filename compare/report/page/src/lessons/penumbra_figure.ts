@@ -49,10 +49,13 @@ export function penumbraFigure(json: FlatlandJson, id: string): HTMLElement {
     const formula = { umbra: Math.max(0, (a * H - R * h) / (H - h)), penumbra: (a * H + R * h) / (H - h) };
     const lampEnds: Vec2[] = [add(lamp, [-R, 0]), add(lamp, [R, 0])];
     const cone = lampEnds.flatMap((from) => [-a, a].map((x): Vec2[] => [from, [x + ((x - from[0]) * h) / (H - h), 0]]));
+    // Of what there is, where it is in the drawing.
+    const named: [string, number, boolean][] = [["umbra", middle, umbra > 0], ["penumbra", middle + (umbra + penumbra) / 2, penumbra > umbra]];
+    const labels = named.flatMap(([words, x, is]) => (is && x > left && x < right ? [stage.label("middle", [x, 0], words, 34)] : []));
     stage.put(stage.path("sun-ray", cone), stage.path("profile", blockers.map((s: Segment) => [s.from, s.to])), ...Object.entries(lines).map(([kind, all]) => stage.path(`surface ${kind as Outcome}`, all)),
-      stage.path("lamp", [lampEnds]), stage.circle("sun", lamp, 9), stage.label("middle", [middle, 0], "umbra", 34), stage.label("middle", [middle + (umbra + penumbra) / 2, 0], "penumbra", 34));
+      stage.path("lamp", [lampEnds]), stage.circle("sun", lamp, 9), ...labels);
     Object.assign(said.dataset, { radius: String(R), umbra: String(umbra), penumbra: String(penumbra), umbraFormula: String(formula.umbra), penumbraFormula: String(formula.penumbra) });
-    said.textContent = `From the middle of the shadow the umbra reaches ${number(umbra, 4)}, the penumbra ${number(penumbra, 4)}. (aH − Rh)/(H − h) says ${number(formula.umbra, 4)}, (aH + Rh)/(H − h) ${number(formula.penumbra, 4)}: the penumbra is 2Rh/(H − h) = ${number((2 * R * h) / (H - h), 3)} wide.`;
+    said.textContent = `From the middle of the shadow the umbra reaches ${number(umbra, 4)}, the penumbra ${number(penumbra, 4)}. (aH − Rh)/(H − h) says ${number(formula.umbra, 4)}, (aH + Rh)/(H − h) ${number(formula.penumbra, 4)}: ${a * H > R * h ? `the penumbra is 2Rh/(H − h) = ${number((2 * R * h) / (H - h), 3)} wide` : "the lamp is so wide that there is no umbra"}.`;
   };
   show();
   return frame(id, stage, sliders.bar, said, "Drag the lamp, and make it larger: gold is lit, grey sees part of the lamp, dark sees none of it.");

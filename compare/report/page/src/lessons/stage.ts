@@ -1,21 +1,26 @@
 // The drawing of a flatland: world units to those of an SVG, strokes, and a handle that can be dragged. Whoever has no pointer has the
 // sliders below, one for each thing that is dragged.
 import { html, svg } from "../svg";
-import type { Vec2 } from "./flatland";
+import { length, sub, type Vec2 } from "./flatland";
 
 const width = 960;  // of the drawing, in its own units
 
 const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
 
+const nearest = (handles: Record<string, Vec2>, at: Vec2): string => {
+  const away = (key: string) => length(sub(handles[key]!, at));
+  return Object.keys(handles).reduce((a, b) => (away(b) < away(a) ? b : a));
+};
+
 export class Stage {
   readonly drawing: SVGSVGElement;
   private scale = 1;
 
-  /** `window`: left, right, bottom, top. */
-  constructor(private window: readonly [number, number, number, number], name: string, dragged: (at: Vec2) => void) {
+  /** `window`: left, right, bottom, top. Where there are several handles, a drag holds the one nearest to its beginning, and says which. */
+  constructor(private window: readonly [number, number, number, number], name: string, dragged: (at: Vec2, handle: string) => void, handles: () => Record<string, Vec2> = () => ({ "": [0, 0] })) {
     this.drawing = svg("svg", { class: "flatland", role: "img", "aria-label": name }) as SVGSVGElement;
     this.look(window);
-    this.listen(dragged);
+    this.listen(dragged, handles);
     // A narrow window has larger letters, and what is not shown yet has no letters to measure.
     new ResizeObserver(() => this.arrangeLabels()).observe(this.drawing);
   }
@@ -27,14 +32,26 @@ export class Stage {
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${Math.round((top - bottom) * this.scale)}`);
   }
 
-  private listen(dragged: (at: Vec2) => void): void {
+  private listen(dragged: (at: Vec2, handle: string) => void, handles: () => Record<string, Vec2>): void {
+    const held = new Map<number, string>();  // by pointers
     const drag = (event: PointerEvent) => {
-      const box = this.drawing.getBoundingClientRect(), [left, right, bottom, top] = this.window;
-      dragged([left + ((event.clientX - box.left) / box.width) * (right - left), top - ((event.clientY - box.top) / box.height) * (top - bottom)]);
+      const handle = held.get(event.pointerId);
+      if (handle !== undefined) dragged(this.place(event), handle);
     };
     this.drawing.classList.add("dragged");
-    this.drawing.addEventListener("pointerdown", (event) => { this.drawing.setPointerCapture(event.pointerId); drag(event); });
-    this.drawing.addEventListener("pointermove", (event) => { if (this.drawing.hasPointerCapture(event.pointerId)) drag(event); });
+    this.drawing.addEventListener("pointerdown", (event) => {
+      this.drawing.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, nearest(handles(), this.place(event)));
+      drag(event);
+    });
+    this.drawing.addEventListener("pointermove", drag);
+    this.drawing.addEventListener("lostpointercapture", (event) => held.delete(event.pointerId));
+  }
+
+  /** Under a pointer. The drawing may be narrower than its element: on a slide it stands in the middle. */
+  private place(event: PointerEvent): Vec2 {
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.drawing.getScreenCTM()!.inverse());
+    return [this.window[0] + x / this.scale, this.window[3] - y / this.scale];
   }
 
   x(at: Vec2): number { return (at[0] - this.window[0]) * this.scale; }

@@ -1,5 +1,5 @@
 // Watch a ray visit the cells of a structure: the program's own one of a whole scene, in the plane that cuts it.
-import { grouped, html, number } from "../svg";
+import { counted, grouped, html, number } from "../svg";
 import { pageData } from "../parts";
 import { add, length, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
@@ -8,6 +8,8 @@ import { Sliders, Stage } from "./stage";
 import { cellsOf, segmentsOf, walkRay, type StructureJson, type Walk } from "./structure_walk";
 
 const names = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bsp: "BSP tree", bvh: "bounding-volume hierarchy" };
+/** What its walk counts, one and several. */
+const asked: Record<StructureJson["kind"], [string, string]> = { grid: ["cell", "cells"], octree: ["box", "boxes"], kd: ["plane", "planes"], bsp: ["plane", "planes"], bvh: ["box", "boxes"] };
 
 declare global {
   var gnomonWalks: ((at: number) => { wanted: StructureJson["checks"][number]; walk: Walk }[]) | undefined;  // eslint-disable-line no-var
@@ -38,13 +40,12 @@ export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
     ...end("toX", "Ray's aim, left and right", (dense[0] - first[0]) / (first[1] - first[0])), ...end("toY", "Ray's aim, up and down", (dense[1] - first[2]) / (first[3] - first[2])),
   }, () => show());
   let shown = first, ends: [Vec2, Vec2] = [[0, 0], [0, 0]];
-  const share = (at: number, low: number, high: number) => String((at - low) / (high - low));
-  const dragged = (at: Vec2) => {
-    const near = (p: Vec2) => Math.hypot(p[0] - at[0], p[1] - at[1]), key = near(ends[0]) < near(ends[1]) ? "from" : "to";
-    sliders.set(`${key}X`, Number(share(at[0], shown[0], shown[1])));
-    sliders.set(`${key}Y`, Number(share(at[1], shown[2], shown[3])));
+  const share = (at: number, low: number, high: number) => (at - low) / (high - low);
+  const dragged = (at: Vec2, handle: string) => {
+    sliders.set(`${handle}X`, share(at[0], shown[0], shown[1]));
+    sliders.set(`${handle}Y`, share(at[1], shown[2], shown[3]));
   };
-  const stage = new Stage(shown, `The ${names[json.kind]} of the scene ${json.scene}, and the cells that a ray visits`, dragged);
+  const stage = new Stage(shown, `The ${names[json.kind]} of the scene ${json.scene}, and the cells that a ray visits`, dragged, () => ({ to: ends[1], from: ends[0] }));
   const show = () => {
     stage.look(shown = view(2 ** sliders.value("zoom")));
     const point = (key: string): Vec2 => [shown[0] + sliders.value(`${key}X`) * (shown[1] - shown[0]), shown[2] + sliders.value(`${key}Y`) * (shown[3] - shown[2])];
@@ -57,7 +58,7 @@ export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
       stage.path("profile thin", lines), stage.path("ray", [[from, stop]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(isFinite(walk.t) && all ? [stage.circle("hit", stop, 8)] : []));
     const boxes = all ? walk.boxes : (last?.boxes ?? 0), primitives = all ? walk.primitives : (last?.primitives ?? 0);
     Object.assign(said.dataset, { boxes: String(boxes), primitives: String(primitives), cells: String(seen) });
-    said.textContent = `${seen} of ${walk.visits.length} cells: ${grouped(boxes)} ${json.kind === "grid" ? "cells" : json.kind === "bvh" || json.kind === "octree" ? "boxes" : "planes"} and ${grouped(primitives)} triangles tested. ` +
+    said.textContent = `${seen} of ${counted(walk.visits.length, "cell")}: ${counted(boxes, ...asked[json.kind])} and ${counted(primitives, "triangle")} tested. ` +
       `Without a structure it would be all ${grouped(json.primitives)} triangles.${all ? (isFinite(walk.t) ? " The ray hits." : " The ray hits nothing.") : ""}`;
   };
   show();

@@ -33,8 +33,8 @@ export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
     for (const face of faces)
       for (const place of piecesOf(face, pieces)) {
         const normal = unit(sub(place.at, ball.center)), smooth = dot(normal, toLight) > 0;  // along the smooth normal interpolated over a face of equal corners
-        const dark = dot(face.normal, toLight) <= 0 || occluded(world, place, toLight), outcome: Outcome = smooth ? (dark ? "false" : "lit") : "dark";
-        if (outcome === "false" && dot(face.normal, toLight) <= 0) lost[normal[0] * toLight[1] - normal[1] * toLight[0] > 0 ? 1 : -1]! += 360 / sides / pieces;
+        const turned = dot(face.normal, toLight) <= 0, outcome: Outcome = smooth && turned ? "false" : smooth && !occluded(world, place, toLight) ? "lit" : "dark";
+        if (outcome === "false") lost[normal[0] * toLight[1] - normal[1] * toLight[0] > 0 ? 1 : -1]! += 360 / sides / pieces;
         made.push({ ...place, outcome });
       }
     const floor = segments.flatMap((s) => [...piecesOf(s, 700)].map((place) => ({ ...place, outcome: (dot(s.normal, toLight) <= 0 ? "away" : occluded(world, place, toLight) ? "dark" : "lit") as Outcome })));
@@ -46,7 +46,7 @@ export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
     const normals = faces.flatMap((f) => [[f.from, add(f.from, f.smooth![0], 0.22 * r)], [add(f.from, sub(f.to, f.from), 0.5), add(add(f.from, sub(f.to, f.from), 0.5), f.normal, 0.14 * r)]] as Vec2[][]);
     const edge: Vec2 = [-light[1], light[0]];
     stage.put(rays(stage, window, light), stage.path("ghost", [arc]), stage.path("normals", normals), stage.path("ghost", [[add(ball.center, edge, -1.3 * r), add(ball.center, edge, 1.3 * r)]]),
-      ...runs(stage, [...floor, ...made], half), ...sun(stage, window, light));
+      ...runs(stage, [...floor, ...made], half), ...sun(stage, window, light, ball.center));
     const from = Math.atan2(toLight[1], toLight[0]) * degrees, formula = { left: lostAngle(sides, from, -1), right: lostAngle(sides, from, 1) };
     Object.assign(said.dataset, { sides: String(sides), angle: String(sliders.value("angle")), lostRight: String(lost[-1]), lostLeft: String(lost[1]), formulaRight: String(formula.right), formulaLeft: String(formula.left) });
     said.textContent = `Orange: the smooth normal faces the sun, the face does not, and stands in its own shadow: ${number(lost[-1]!, 2)}° on one side and ${number(lost[1]!, 2)}° on the other; by the angles of the faces ${number(formula.right, 2)}° and ${number(formula.left, 2)}°. ` +

@@ -1,7 +1,7 @@
 // Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene: there
 // every ray that begins in the plane stays in it.
-import { html, number, percent } from "../svg";
-import { add, dot, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
+import { counted, html, number, percent } from "../svg";
+import { add, dot, length, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
@@ -50,6 +50,11 @@ declare global {
 }
 globalThis.gnomonFresnel = fresnel;
 
+/** What of a light's straight way a surface lets through: as seen from the thinner side. */
+function passing({ normal, material }: Hit, direction: Vec2): number {
+  return material && material.transmission > 0 ? material.transmission * (1 - fresnel(Math.abs(dot(direction, normal)), 1 / material.ior)) : 0;
+}
+
 class Tracer2 {
   readonly rays: Ray[] = [];
   constructor(private readonly json: WhittedJson, private readonly floor: Segment[], private readonly balls: Circle[], private readonly lamp: Vec2, private readonly far: number) {}
@@ -93,12 +98,20 @@ class Tracer2 {
     }
   }
 
+  /** Straight to the lamp: glass lets light through, less at each of its surfaces, and one ray more goes on behind it. */
   private shadow(at: Vec2, normal: Vec2, share: number, depth: number): void {
-    const way = sub(this.lamp, at), reach = Math.hypot(...way), direction = unit(way);
+    const direction = unit(sub(this.lamp, at));
     if (dot(direction, normal) <= 0) return;  // turned away: dark without asking
-    const hit = this.meet(at, direction, true), blocked = hit !== null && (hit as Hit).t < reach;
-    this.rays.push({ kind: "shadow", from: at, to: blocked ? (hit as Hit).at : this.lamp, share, depth, blocked,
-      story: blocked ? `Shadow ray to the lamp: the ${(hit as Hit).material?.name ?? "floor"} is in its way, the point is in shadow.` : "Shadow ray to the lamp: nothing is in its way, the point is lit." });
+    for (let from = at, light = 1; ;) {
+      const hit = this.meet(from, direction, true), blocker = hit && hit.t < length(sub(this.lamp, from)) ? hit : null;
+      const passes = blocker ? passing(blocker, direction) : 0, glass = passes > 0;
+      light *= blocker ? passes : 1;
+      const what = !blocker ? (light < 1 ? `nothing more is in its way, the surfaces of the glass let ${percent(light)} of the light through` : "nothing is in its way, the point is lit")
+        : glass ? `the ${blocker.material!.name} is in its way and lets ${percent(passes)} through` : `the ${blocker.material?.name ?? "floor"} is in its way, the point is in shadow`;
+      this.rays.push({ kind: "shadow", from, to: blocker?.at ?? this.lamp, share, depth, blocked: blocker !== null && !glass, story: `Shadow ray to the lamp: ${what}.` });
+      if (!blocker || !glass) return;
+      from = blocker.at;
+    }
   }
 }
 
@@ -106,11 +119,10 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
   const json = data as WhittedJson, { segments: floor, circles: balls } = world2(json), { window } = json, [left, right, bottom, top] = window;
   const shareX = (x: number) => (x - left) / (right - left), shareY = (y: number) => (y - bottom) / (top - bottom);
   let handles: Record<"eye" | "aim" | "lamp", Vec2>;
-  const stage = new Stage(window, "A glass ball and a mirror ball over a floor, and the tree of rays of one pixel", (at) => {
-    const near = (p: Vec2) => Math.hypot(p[0] - at[0], p[1] - at[1]), key = (["eye", "aim", "lamp"] as const).reduce((a, b) => (near(handles[b]) < near(handles[a]) ? b : a));
-    sliders.set(`${key}X`, shareX(at[0]));
-    sliders.set(`${key}Y`, shareY(at[1]));
-  });
+  const stage = new Stage(window, "A glass ball and a mirror ball over a floor, and the tree of rays of one pixel", (at, handle) => {
+    sliders.set(`${handle}X`, shareX(at[0]));
+    sliders.set(`${handle}Y`, shareY(at[1]));
+  }, () => handles);
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3) });
   const sliders: Sliders<string> = new Sliders<string>({
@@ -142,7 +154,7 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
       ...balls.map(({ center }, i) => stage.label("middle", center, json.materials[i]!.transmission > 0 ? "glass" : "mirror", 6)),
       stage.circle("sun", handles.lamp, 13), stage.circle("point", handles.eye, 11), stage.circle("moved", handles.aim, 9), stage.label("middle", handles.eye, "eye", -18), stage.label("middle", handles.lamp, "lamp", -20));
     Object.assign(said.dataset, { rays: String(rays.length), total: String(total), share: String(last?.share ?? 0) });
-    said.textContent = `${rays.length} of ${total} rays. ${last ? `${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
+    said.textContent = `${rays.length} of ${counted(total, "ray")}. ${last ? `${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
   };
   show();
   sliders.bar.prepend(html("div", { class: "steps" }, step(-1), step(1)));
