@@ -42,10 +42,7 @@ Expected<ExitCode> run_whole_bench(const WholeBench& bench) {
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   std::vector<std::string> words{program};
   if (bench.runs > 0) words.insert(words.end(), {"--runs", std::to_string(bench.runs)});
-  if (!bench.size.empty()) {
-    const std::size_t x = bench.size.find('x');
-    words.insert(words.end(), {"--width", bench.size.substr(0, x), "--height", bench.size.substr(x + 1)});
-  }
+  if (!bench.size.empty()) words.insert(words.end(), {"--size", bench.size});
   if (!bench.json.empty()) words.insert(words.end(), {"--json", bench.json});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -1,334 +1,22 @@
 // gnomon_bench: the tracer against Embree 3 in one process, the two in turn, so that only ratios are to be
-// believed. Both get the same rays; hits and occlusions are counted and compared. Rows: gnomon/bench/1.
+// believed. Rows: gnomon/bench/1.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 
-#include "app/bench/row.h"
-#include "ball_light.h"
-#include "bench_scenes.h"
-#include "embree_peer.h"
-#include "in_turn.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"
-#include "raytrace/single_rays.h"
-#include "raytrace/tiles.h"
 #include "scene/files/write_file.h"
+#include "tracer_bench.h"
 
 namespace gnomon::bench {
 namespace {
 
 using app::BenchRow;
-using raytrace::Accel;
-using raytrace::HugeArray;
-using raytrace::PointVisibility;
-using raytrace::QuantisedTile;
-using raytrace::RayTracedFrame;
-using raytrace::Tracer;
-
-struct Settings {
-  ImageSize size{1920, 1080};
-  int runs = 5;
-  std::string json;
-  std::vector<std::string> scenes;
-  std::string target;  ///< of instruction_sets(); empty: the best that the machine has
-  /// stdout is the rows' where they go there.
-  std::FILE* table() const { return json == "-" ? stderr : stdout; }
-};
-
-std::string embree_settings(const Settings& settings) {
-  return settings.target.empty() ? std::string() : instruction_sets().at(settings.target).embree;
-}
-
-class Bench {
- public:
-  Bench(const BenchScene& scene, const Settings& settings)
-      : scene_(scene),
-        settings_(settings),
-        world_(make_world(scene.scene)),
-        tracer_(world_, Accel::bvh),
-        embree_(world_, embree_settings(settings)),
-        view_(make_view(scene.scene.camera, settings.size)),
-        primary_(primary_rays(view_)),
-        grid_{settings.size},
-        hits_(grid_.count()),
-        tiles_(grid_.count()) {
-    frame_ = trace({0, 1});
-    for (const Light& light : scene.scene.lights)
-      shadow_.push_back(shadow_rays(frame_, light, world_.finite_bounds.diagonal()));
-  }
-
-  std::vector<BenchRow> run() {
-    fmt::print(settings_.table(), "{}: {} triangles{}, {} x {}\n", scene_.name, world_.triangle_count(),
-               world_.keeps_instances() ? " by kept instances, as Embree's instances" : "",
-               settings_.size.width, settings_.size.height);
-    check_hits();
-    for (std::size_t i = 0; i < 2; ++i) check_shadows(i);
-    for (const int threads : {1, 2}) {
-      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(threads));
-      primary(threads), shadows(0, threads), shadows(1, threads);
-    }
-    two_threads(), mirrors(), ball_light(), memory();
-    whole_frame();
-    return rows_;
-  }
-
- private:
-  RayTracedFrame trace(const std::vector<std::uint32_t>& lights) const {
-    raytrace::RaytraceOptions options;
-    options.size = settings_.size, options.picture = false;
-    return trace_frame(tracer_, plan_effects(scene_.scene), scene_.scene.camera, lights, options);
-  }
-
-  void add(std::string name, int threads, double rays, std::pair<double, double> ms, std::string peer,
-           std::optional<double> goal) {
-    add({.name = std::move(name),
-         .scene = scene_.name,
-         .threads = threads,
-         .value = rays / ms.first * 1e-3,
-         .unit = "Mrays/s",
-         .peer = app::BenchPeer{std::move(peer), rays / ms.second * 1e-3},
-         .goal = goal});
-  }
-  void add(BenchRow row) {
-    const double ratio = row.ratio().value();
-    fmt::print(
-        settings_.table(), "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name,
-        row.threads, row.value, row.unit, row.peer->name, row.peer->value, ratio,
-        row.goal ? fmt::format("  goal {:.1f} {}", *row.goal, ratio >= *row.goal ? "met" : "NOT MET") : "");
-    std::fflush(settings_.table());
-    rows_.push_back(std::move(row));
-  }
-
-  /// Which primitive each pixel sees, as far as floats can tell.
-  void our_hits() {
-    primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
-                 {.size = view_.size, .hits = hits_, .receivers = nullptr, .quantised = {}});
-  }
-  /// The product's pass: a fresh eye, receivers in double and compact.
-  void our_receivers() {
-    primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
-                 {.size = view_.size,
-                  .hits = {},
-                  .receivers = &frame_.receiver,
-                  .quantised = {tiles_.data(), tiles_.size()}});
-  }
-  /// The product's pass: a fresh light.
-  void our_shadows(std::size_t light) {
-    shadow_pass({.tracer = tracer_,
-                 .size = settings_.size,
-                 .stored = &frame_.receiver,
-                 .view = nullptr,
-                 .hits = {},
-                 .quantised = {tiles_.data(), tiles_.size()}},
-                scene_.scene.lights[light], frame_.lights[light].centre);
-  }
-
-  void primary(int threads) {
-    const auto rays = static_cast<double>(primary_.count);
-    const auto against = [&](const char* name, const auto& ours, const auto& theirs, const char* peer,
-                             std::optional<double> goal) {
-      add(name, threads, rays, in_turn(settings_.runs, threads, ours, theirs), peer, goal);
-    };
-    const auto packets = [&] { embree_.closest_packets(primary_, peer_); };
-    against(
-        "primary, hits alone", [&] { our_hits(); }, packets, "Embree 16 coherent", std::nullopt);
-    if (threads > 1) return;
-    against(
-        "primary, hits alone", [&] { our_hits(); }, [&] { embree_.closest_single(primary_, peer_); },
-        "Embree single", std::nullopt);
-    // Like for like: the rows above say which primitive alone, Embree says where on it as well.
-    against(
-        "primary, stored receivers", [&] { our_receivers(); }, packets, "Embree 16 coherent", 1.5);
-  }
-
-  void shadows(std::size_t light, int threads) {
-    const std::string name = light == 0 ? "point shadow" : "sun shadow";
-    const auto rays = static_cast<double>(shadow_[light].count);
-    our_receivers();
-    const auto packets = [&] { embree_.occluded_packets(shadow_[light], occluded_); };
-    const auto ours = [&] { our_shadows(light); };
-    add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 1.5);
-    if (threads == 1)
-      add(name, threads, rays,
-          in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
-          "Embree single", std::nullopt);
-  }
-
-  /// The same pass on one thread and on two; wall clock both.
-  void two_threads() {
-    our_receivers();
-    const auto row = [&](const std::string& name, double rays, const auto& pass) {
-      const auto on = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        pass();
-      };
-      const auto ms = in_turn(
-          settings_.runs, 2, [&] { on(2); }, [&] { on(1); });
-      add(name, 2, rays, ms, "one thread", 1.8);
-    };
-    row("primary, stored receivers", static_cast<double>(primary_.count), [&] { our_receivers(); });
-    row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0); });
-  }
-
-  /// One ray at a time, here and there.
-  void mirrors() {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    const PeerRays rays = mirror_rays(frame_, view_, world_.finite_bounds.diagonal());
-    std::vector<Ray> ours;
-    for (std::size_t i = 0; i < rays.valid.size(); ++i)
-      if (rays.valid[i] != 0)
-        ours.push_back({Vec3(Vec3f(rays.ox[i], rays.oy[i], rays.oz[i])),
-                        Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
-    std::size_t hits = 0, theirs = 0;
-    const auto ms = in_turn(
-        settings_.runs, 1,
-        [&] {
-          hits = 0;
-          for (const Ray& ray : ours) hits += tracer_.closest_hit(ray) ? 1 : 0;
-        },
-        [&] { embree_.closest_single(rays, peer_); });
-    for (std::size_t i = 0; i < rays.valid.size(); ++i)
-      theirs += rays.valid[i] != 0 && peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-    fmt::print(settings_.table(), "  mirrored rays that hit: {} here, {} by Embree\n", hits, theirs);
-    add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, "Embree single", 1.2);
-  }
-
-  void ball_light() {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    const BallLight light(tracer_, frame_, scene_.scene.lights[0]);
-    double with_shaft = 0.0, by_rays = 0.0;
-    const auto ms = in_turn(
-        std::min(settings_.runs, 3), 1, [&] { with_shaft = light.share_by_shaft(); },
-        [&] { by_rays = light.share_by_every_ray(); });
-    fmt::print(settings_.table(), "  mean share of the ball seen: {} with the shaft, {} by every ray\n",
-               with_shaft, by_rays);
-    add("ball light, 64 samples", 1, light.rays(), ms, "every ray cast", std::nullopt);
-  }
-
-  /// Of all that packets need, and with the tree that many single rays make.
-  void memory() {
-    const double theirs = 0x1p-20 * static_cast<double>(embree_.bytes());
-    const auto row = [&](const char* name, std::uint64_t bytes) {
-      const double ours = 0x1p-20 * static_cast<double>(bytes);
-      add({.name = name,
-           .scene = scene_.name,
-           .threads = 1,
-           .value = ours,
-           .unit = "MiB",
-           .more_is_better = false,
-           .peer = app::BenchPeer{"Embree medium", theirs},
-           .goal = 1.0});
-    };
-    row("memory of the structure", tracer_.stats().bytes);
-    row("memory, with single rays", tracer_.stats().bytes + single_ray_bytes(tracer_));
-  }
-
-  void whole_frame() {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
-    double build = 0.0, peer_build = 0.0;
-    const auto ms = in_turn(
-        settings_.runs, 2,
-        [&] {
-          const Stopwatch watch;
-          tracer_ = Tracer(world_, Accel::bvh);
-          build = watch.elapsed_ms();
-          our_receivers(), our_shadows(0);
-        },
-        [&] {
-          const Stopwatch watch;
-          const Embree embree(world_, embree_settings(settings_));
-          peer_build = watch.elapsed_ms();
-          embree.closest_packets(primary_, peer_), embree.occluded_packets(shadow_[0], occluded_);
-        });
-    const auto row = [&](std::string name, double ours, double theirs, std::string peer,
-                         std::optional<double> goal) {
-      add({.name = std::move(name),
-           .scene = scene_.name,
-           .threads = 2,
-           .value = ours,
-           .unit = "ms",
-           .more_is_better = false,
-           .peer = app::BenchPeer{std::move(peer), theirs},
-           .goal = goal});
-    };
-    row("build", build, peer_build, "Embree medium", std::nullopt);
-    const auto [with_single, peer_again] = in_turn(
-        settings_.runs, 2, [&] { raytrace::prepare_single_rays(Tracer(world_, Accel::bvh)); },
-        [&] { const Embree embree(world_, embree_settings(settings_)); });
-    row("build, with single rays", with_single, peer_again, "Embree medium", std::nullopt);
-    row("build, primary, point", ms.first, ms.second, "Embree medium, packets", 1.2);
-  }
-
-  // Receivers against Embree's hits; how many pixels the floats left to double.
-  void check_hits() {
-    std::size_t ours = 0, theirs = 0, differ = 0, ambiguous = 0;
-    our_hits();
-    for (int y = 0; y < settings_.size.height; ++y)
-      for (int x = 0; x < settings_.size.width; ++x) {
-        const std::size_t at = place(x, y);
-        ambiguous +=
-            hits_[at / raytrace::tile_rays].leaf[at % raytrace::tile_rays] == raytrace::ambiguous_hit ? 1 : 0;
-      }
-    our_receivers(), embree_.closest_packets(primary_, peer_);
-    const double tolerance = 1e-4 * world_.finite_bounds.diagonal();
-    for (int y = 0; y < settings_.size.height; ++y)
-      for (int x = 0; x < settings_.size.width; ++x) {
-        const std::size_t at = place(x, y);
-        const auto& point = frame_.receiver.at(x, y);
-        const bool a = point.primitive != no_id, b = peer_.primitive[at] != RTC_INVALID_GEOMETRY_ID;
-        ours += a ? 1 : 0, theirs += b ? 1 : 0;
-        const double t = a ? glm::length(point.position - view_.eye) : 0.0;
-        differ += a != b || (a && std::abs(t - static_cast<double>(peer_.t[at])) > tolerance) ? 1 : 0;
-      }
-    fmt::print(
-        settings_.table(),
-        "  hits: {} here, {} by Embree; {} of {} rays hit another surface (silhouettes, float's rounding); "
-        "{} decided in double\n",
-        ours, theirs, differ, primary_.count, ambiguous);
-  }
-  std::size_t place(int x, int y) const {
-    const std::size_t tile =
-        static_cast<std::size_t>(y / 16) * grid_.columns() + static_cast<std::size_t>(x / 16);
-    return tile * raytrace::tile_rays + raytrace::tile_lane(x % 16, y % 16);
-  }
-  void check_shadows(std::size_t light) {
-    embree_.occluded_packets(shadow_[light], occluded_);
-    std::size_t ours = 0, theirs = 0, differ = 0;
-    for (int y = 0; y < settings_.size.height; ++y)
-      for (int x = 0; x < settings_.size.width; ++x) {
-        const std::size_t at = place(x, y);
-        if (shadow_[light].valid[at] == 0) continue;
-        const bool a = frame_.lights[light].centre.at(x, y) == PointVisibility::shadowed,
-                   b = occluded_[at] != 0;
-        ours += a ? 1 : 0, theirs += b ? 1 : 0, differ += a != b ? 1 : 0;
-      }
-    fmt::print(
-        settings_.table(),
-        "  {} occluded: {} here, {} by Embree; {} of {} rays differ (its rays start 2^-14 off the surface)\n",
-        light == 0 ? "point" : "sun", ours, theirs, differ, shadow_[light].count);
-  }
-
-  const BenchScene& scene_;
-  const Settings& settings_;
-  World world_;
-  Tracer tracer_;
-  Embree embree_;
-  View view_;
-  PeerRays primary_;
-  std::vector<PeerRays> shadow_;
-  raytrace::TileGrid grid_;
-  std::vector<raytrace::TileHits> hits_;
-  HugeArray<QuantisedTile> tiles_;
-  RayTracedFrame frame_;
-  PeerHits peer_;
-  std::vector<std::uint8_t> occluded_;
-  std::vector<BenchRow> rows_;
-};
 
 /// As the program does it (app/render_json.h), of which this one holds only the rows.
 Expected<void> hand_out(const std::string& path, const std::string& json) {
@@ -349,15 +37,13 @@ int run(const Settings& settings) {
   };
   std::vector<BenchRow> rows;
   const auto bench = [&](const BenchScene& scene) {
-    const auto more = Bench(scene, settings).run();
+    const auto more = bench_tracer(scene, settings);
     rows.insert(rows.end(), more.begin(), more.end());
   };
   if (wanted("teapot")) bench(teapot_scene());
   if (wanted("bunny")) {
-    if (const auto scene = bunny_scene())
-      bench(*scene);
-    else
-      fmt::print(settings.table(), "bunny: not here, left out\n");
+    const auto scene = bunny_scene();
+    scene ? bench(*scene) : fmt::print(settings.table(), "bunny: not here, left out\n");
   }
   if (wanted("million")) bench(million_scene());
   const auto named = [&](const std::string& name) { return !settings.scenes.empty() && wanted(name); };
@@ -384,8 +70,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"teapot", "bunny", "million", "terrain-5M", "terrain-20M", "forest"}));
   app.add_option("--runs", settings.runs, "timed repetitions, the median counts (default 5)")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--width", settings.size.width, "pixels (default 1920)")->check(CLI::Range(16, 16384));
-  app.add_option("--height", settings.size.height, "pixels (default 1080)")->check(CLI::Range(16, 16384));
+  std::array<int, 2> size{settings.size.width, settings.size.height};
+  app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 1920x1080)")
+      ->delimiter('x')
+      ->check(CLI::Range(16, 16384));
   app.add_option("--target", settings.target,
                  "hold both to an older instruction set: avx2, sse4 (default: the best that the machine has)")
       ->check(CLI::IsMember({"avx2", "sse4"}));
@@ -396,6 +84,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  settings.size = {size[0], size[1]};
   if (!settings.target.empty() && !gnomon::bench::hold_to(settings.target)) {
     fmt::print(stderr, "--target {}: this machine does not have it\n", settings.target);
     return 2;
