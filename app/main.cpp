@@ -3,10 +3,12 @@
 
 #include "app/command_line.h"
 #include "app/interrupt.h"
+#include "app/large_pages.h"
 #include "scene/freed_memory.h"
 #include "scene/stages.h"
 
 int main(int argc, char** argv) {
+  gnomon::app::start_with_large_pages(argv);
   const gnomon::StageLog stages;  // first of all, so that the account begins with the process
   gnomon::keep_freed_memory();
   // A limit on the size of files is then an error of the write that meets it, and no end of the process where the

@@ -13,7 +13,6 @@
 #include "compare/sweep/engine.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
-#include "scene/paging.h"
 #include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
@@ -48,7 +47,7 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
   KindGaps gaps;
   for (std::size_t k = 0; k < kind_count; ++k) {
     biases[k] = bias_of(static_cast<Kind>(k), bias);
-    gaps[k] = paged_vector<float>(pixels.size());
+    gaps[k].resize(pixels.size());
   }
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
     const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];

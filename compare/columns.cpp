@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "scene/paging.h"
-
 namespace gnomon::compare {
 
 using raytrace::TexelKey;
@@ -35,7 +33,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
 }
 
 std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {
-  auto centres = paged_vector<TexelCentre>(keys.size());
+  std::vector<TexelCentre> centres(keys.size());
   tbb::parallel_for(std::size_t{0}, keys.size(),
                     [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
   return centres;

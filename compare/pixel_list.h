@@ -7,8 +7,6 @@
 #include <numeric>
 #include <vector>
 
-#include "scene/paging.h"
-
 namespace gnomon::compare {
 
 template <class Predicate>
@@ -23,7 +21,7 @@ std::vector<std::uint32_t> pixels_where(std::size_t count, const Predicate& hold
   tbb::parallel_for(std::size_t{0}, blocks,
                     [&](std::size_t b) { each_of(b, [&](std::uint32_t) { ++before[b + 1]; }); });
   std::partial_sum(before.begin(), before.end(), before.begin());
-  auto pixels = paged_vector<std::uint32_t>(before.back());
+  std::vector<std::uint32_t> pixels(before.back());
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     std::size_t next = before[b];
     each_of(b, [&](std::uint32_t i) { pixels[next++] = i; });

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "scene/paging.h"
-
 namespace gnomon::compare {
 
 SeenSurface::SeenSurface(const raytrace::SurfacePoint& receiver) : primitive(receiver.primitive) {
@@ -16,7 +14,7 @@ SeenSurface::SeenSurface(const raytrace::SurfacePoint& receiver) : primitive(rec
 }
 
 Image<SeenSurface> seen_surfaces(const Image<raytrace::SurfacePoint>& receivers) {
-  Image<SeenSurface> out = paged_image<SeenSurface>(receivers.size);
+  Image<SeenSurface> out(receivers.size);
   tbb::parallel_for(std::size_t{0}, out.data.size(),
                     [&](std::size_t i) { out.data[i] = SeenSurface(receivers.data[i]); });
   return out;

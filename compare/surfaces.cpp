@@ -6,8 +6,6 @@
 
 #include <atomic>
 
-#include "scene/paging.h"
-
 namespace gnomon::compare {
 namespace {
 
@@ -38,7 +36,7 @@ void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) 
 }  // namespace
 
 void Surfaces::connect() const {
-  parent_ = paged_vector<std::uint32_t>(world_.vertex_count());
+  parent_.resize(world_.vertex_count());
   const auto for_each = [](std::size_t count, const auto& work) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) work(static_cast<std::uint32_t>(i));

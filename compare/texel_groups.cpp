@@ -55,7 +55,7 @@ class TexelNumbers {
 
 std::vector<std::uint64_t> sorted_entries(const raster::LightRecord& record,
                                           std::span<const std::uint32_t> pixels, const TexelNumbers& texels) {
-  auto entries = paged_vector<std::uint64_t>(pixels.size());
+  std::vector<std::uint64_t> entries(pixels.size());
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
     TexelKey key;
     const bool inside = texel_of_pixel(record, pixels[i], key);
@@ -78,7 +78,7 @@ TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const st
   TexelGroups groups;
   groups.offsets = pixels_where(inside, [&](std::size_t i) { return i == 0 || texel(i) != texel(i - 1); });
   groups.keys.resize(groups.offsets.size());
-  groups.pixels = paged_vector<std::uint32_t>(inside);
+  groups.pixels.resize(inside);
   tbb::parallel_for(std::size_t{0}, groups.keys.size(),
                     [&](std::size_t g) { groups.keys[g] = texels.key(texel(groups.offsets[g])); });
   tbb::parallel_for(std::size_t{0}, inside,

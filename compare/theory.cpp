@@ -9,7 +9,6 @@
 
 #include "compare/biased_test.h"
 #include "scene/camera.h"
-#include "scene/paging.h"
 
 namespace gnomon::compare {
 namespace {
@@ -130,7 +129,7 @@ TheoryValues theory_values(const LadderInput& in, const Image<Label>& labels, co
                            int picture_height) {
   const std::vector<std::size_t> before = compared_before(labels, rows);
   TheoryValues values;
-  for (std::vector<double>& v : values) v = paged_vector<double>(before.back());
+  for (std::vector<double>& v : values) v.resize(before.back());
   const Predictor predictor(in, labels, picture_height);
   tbb::parallel_for(0, rows.count, [&](int row) {
     std::size_t i = before[static_cast<std::size_t>(row)];

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "raster/impostors.h"
-#include "scene/paging.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -210,7 +209,7 @@ void ShadingPass::bind_visibility() const {
 }
 
 void ShadingPass::read_color(ColorImage& out) const {
-  out = paged_image<Vec3f>(size());
+  out = Image<Vec3f>(size());
   color_.read(GL_RGB, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
 }
 
@@ -231,25 +230,25 @@ std::vector<Vec3> ShadingPass::read_positions(const World& world, const View& vi
 }
 
 void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {
-  out = paged_image<std::uint32_t>(size());
+  out = Image<std::uint32_t>(size());
   visibility_.read_rows(rows_, GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
 }
 
 void ShadingPass::read_records(LightRecord& record) const {
   const ImageSize size = this->size();
-  auto values = paged_vector<Vec4f>(size.pixels());
+  std::vector<Vec4f> values(size.pixels());
   std::vector<std::uint8_t> flags(size.pixels());
   record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
-  record.visibility = paged_image<float>(size);
+  record.visibility = Image<float>(size);
   drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
   std::vector<float> lookups(size.pixels());
   drawn_visibility_.read(GL_GREEN, GL_FLOAT, std::as_writable_bytes(std::span(lookups)));
   record.lookups = Image<std::uint16_t>(size);
-  record.texel_uv = paged_image<Vec2f>(size);
+  record.texel_uv = Image<Vec2f>(size);
   record.face = Image<std::uint8_t>(size);
-  record.distance = paged_image<float>(size);
-  record.gap = paged_image<float>(size);
+  record.distance = Image<float>(size);
+  record.gap = Image<float>(size);
   record.outside_map = Image<std::uint8_t>(size);
   tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
     record.texel_uv.data[i] = Vec2f(values[i]);

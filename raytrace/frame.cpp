@@ -11,7 +11,6 @@
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
-#include "scene/paging.h"
 #include "scene/stages.h"
 
 namespace gnomon::raytrace {
@@ -66,7 +65,7 @@ void find_primary(const Tracer& tracer, const Band& band, const RaytraceOptions&
 
 void trace_primary(const Tracer& tracer, const Band& band, PrimaryWay way, const RaytraceOptions& options,
                    RayTracedFrame& frame, QuantisedTiles& tiles) {
-  frame.receiver = paged_image<SurfacePoint>(options.size);
+  frame.receiver = Image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(primary_stages, options, [&] {
     if (way == PrimaryWay::blocks) {
       primary_pass(tracer, band.view, edge_setup_of_eye(tracer, band.view),

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "scene/files/row_file.h"
-#include "scene/paging.h"
 
 namespace gnomon::compare {
 
@@ -27,7 +26,7 @@ class NumberFile {
 
   /// All of them, in their order; the file is gone then.
   Expected<std::vector<T>> take() {
-    std::vector<T> numbers = paged_vector<T>(count_);
+    std::vector<T> numbers(count_);
     if (const auto read = file_.read(0, std::span<T>(numbers)); !read) return fail(read.error());
     file_ = RowFile();
     count_ = 0;

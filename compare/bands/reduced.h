@@ -2,7 +2,6 @@
 #pragma once
 
 #include "compare/comparison.h"
-#include "scene/paging.h"
 
 namespace gnomon::compare {
 
@@ -17,10 +16,8 @@ void append_reduced(Image<T>& to, const Image<T>& rows, int first_row, const Red
   if (rows.data.empty()) return;
   const int step = reduction.step;
   to.size.width = (rows.size.width + step - 1) / step;
-  if (to.data.empty()) {
+  if (to.data.empty())
     to.data.reserve(ImageSize{to.size.width, (reduction.height + step - 1) / step}.pixels());
-    page_in(to.data.data(), to.data.capacity() * sizeof(T));
-  }
   for (int y = (step - first_row % step) % step; y < rows.size.height; y += step) {
     if (const T* row = &rows.at(0, y); step == 1)
       to.data.insert(to.data.end(), row, row + rows.size.width);

@@ -11,7 +11,6 @@
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
-#include "scene/paging.h"
 #include "scene/sort_numbers.h"
 #include "scene/stages.h"
 
@@ -76,15 +75,14 @@ std::uint64_t hash_of(const Vec3& p) {
 /// The lowest vertex at each vertex's position (-0 equals 0).
 class Weld {
  public:
-  explicit Weld(std::span<const Vec3> positions)
-      : positions_(positions), order_(paged_vector<std::uint64_t>(positions.size())) {}
+  explicit Weld(std::span<const Vec3> positions) : positions_(positions), order_(positions.size()) {}
 
   std::vector<std::uint32_t> run() {
     const std::size_t count = positions_.size();
     tbb::parallel_for(std::size_t{0}, count,
                       [&](std::size_t i) { order_[i] = hash_of(positions_[i]) << 32 | i; });
     sort_numbers(std::span(order_));
-    auto welded = paged_vector<std::uint32_t>(count);
+    std::vector<std::uint32_t> welded(count);
     const auto hash_at = [&](std::size_t i) { return order_[i] >> 32; };
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t first) {
       if (first > 0 && hash_at(first) == hash_at(first - 1)) return;
@@ -284,9 +282,9 @@ Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   const Soup soup(parts);
   const Place place{across_.size(), welded_.size()};
   const std::vector<std::uint32_t> welded = Weld(soup.positions()).run();
-  extend_paged(across_, 3 * std::size_t{soup.triangle_count()}, boundary);
+  across_.resize(across_.size() + 3 * std::size_t{soup.triangle_count()}, boundary);
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
-  extend_paged(welded_, welded.size());
+  welded_.resize(welded_.size() + welded.size());
   tbb::parallel_for(std::size_t{0}, welded.size(),
                     [&](std::size_t v) { welded_[place.welded + v] = soup.world_vertex(welded[v]); });
   return place;

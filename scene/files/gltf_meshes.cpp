@@ -9,7 +9,6 @@
 #include "scene/files/first_where.h"
 #include "scene/files/gltf_accessor.h"
 #include "scene/files/validate.h"
-#include "scene/paging.h"
 
 namespace gnomon {
 namespace {
@@ -134,7 +133,7 @@ Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const
   if (part.first + part.count >= no_id)
     return error(part.path, fmt::format("the mesh has too many vertices (got {}, allowed {})",
                                         part.first + part.count, no_id - 1));
-  extend_paged(mesh.positions, part.count);
+  mesh.positions.resize(mesh.positions.size() + part.count);
   accessor(attribute(part.primitive, "POSITION")).for_each([&](std::size_t i, const double* v) {
     mesh.positions[part.first + i] = vec3(v);
   });
@@ -295,7 +294,7 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
   const auto base = static_cast<std::uint32_t>(part.first);
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     const std::size_t first = mesh.triangles.size(), whole = count / 3 * 3;
-    extend_paged(mesh.triangles, count / 3);
+    mesh.triangles.resize(first + count / 3);
     const auto read = for_each_index(part, [&](std::size_t i, std::uint32_t v) {
       if (i < whole) mesh.triangles[first + i / 3][i % 3] = base + v;
     });
@@ -311,7 +310,7 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
   }
   const std::uint32_t material =
       part.primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(part.primitive.material);
-  extend_paged(mesh.triangle_materials, mesh.triangles.size() - mesh.triangle_materials.size(), material);
+  mesh.triangle_materials.resize(mesh.triangles.size(), material);
   return {};
 }
 

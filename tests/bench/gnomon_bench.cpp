@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/large_pages.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "scene/files/write_file.h"
@@ -62,6 +63,7 @@ int run(const Settings& settings) {
 }  // namespace gnomon::bench
 
 int main(int argc, char** argv) {
+  gnomon::app::start_with_large_pages(argv);  // as the program does
   gnomon::bench::Settings settings;
   CLI::App app("Gnomon's tracer against Embree 3: equal rays, in turn, in one process");
   app.add_option(
