@@ -20,9 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-/// Runs of leaves are not divided below this.
-constexpr std::uint32_t run_size = 48;
-
 inline BoxRef box_of(const BvhNode& node, std::uint32_t child) {
   BoxRef box{};
   for (std::size_t a = 0; a < 3; ++a)

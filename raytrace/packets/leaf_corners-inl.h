@@ -22,21 +22,20 @@ using Eight = hn::CappedTag<float, 8>;
 using V8 = hn::Vec<Eight>;
 constexpr Eight eight;
 
-/// Up to eight triangles' corners as floats from the hierarchy's centre; where there are fewer, the last one's again.
+/// Up to eight triangles' corners as floats that count from `origin`; where there are fewer, the last one's again.
 class LeafCorners {
  public:
-  LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves) {
+  LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves, const Vec3& origin) {
     using D = hn::CappedTag<double, 4>;
     constexpr D d;
     constexpr hn::Rebind<float, D> half;
-    const Vec3& c = bvh.center;
-    alignas(32) const double center[4] = {c.x, c.y, c.z, 0.0};
+    alignas(32) const double from[4] = {origin.x, origin.y, origin.z, 0.0};
     for (std::size_t i = 0; i < 8; ++i) {
       PlacedCorners scratch;
       const CornerPointers at = bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t a = 0; a < 4; a += hn::Lanes(d)) {
-          const auto p = hn::Sub(hn::LoadU(d, at[k] + a), hn::Load(d, center + a));
+          const auto p = hn::Sub(hn::LoadU(d, at[k] + a), hn::Load(d, from + a));
           hn::Store(hn::DemoteTo(half, p), half, corner_[k] + 4 * i + a);
         }
     }

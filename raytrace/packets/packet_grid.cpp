@@ -32,6 +32,10 @@ void place_kernel(const PacketAxis& axis, double slack, const float* min, const 
     const auto packet = [&](auto pixel) { return hn::Floor(hn::Mul(hn::Add(pixel, set(0.5)), per_packet)); };
     store(hn::IfThenElse(some, packet(begin), set(1.0)), out.first);
     store(hn::IfThenElseZero(some, packet(end)), out.last);
+    const auto place = [&](auto pixel) {
+      return hn::DemoteTo(half, hn::MulAdd(pixel, set(axis.width), set(axis.first)));
+    };
+    hn::Store(place(begin), half, out.low + i), hn::Store(place(end), half, out.high + i);
   }
 }
 

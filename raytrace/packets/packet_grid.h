@@ -15,9 +15,11 @@ struct PacketAxis {
   static constexpr int per_packet = 4;
 };
 
-/// Along one axis: the packets that eight primitives' bounds may touch; first > last: none.
+/// Along one axis: the packets that eight primitives' bounds may touch; first > last: none. Else low and high are where
+/// the first and the last of these rays meet the plane.
 struct alignas(32) PacketSpans {
   std::int32_t first[8], last[8];
+  float low[8], high[8];
 };
 
 /// `slack`: what rays and bounds may be wrong by. `min`, `max`: eight each.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cfloat>
 #include <span>
 #include <utility>
 
@@ -24,11 +25,25 @@ namespace gnomon::raytrace::HWY_NAMESPACE {
 alignas(32) constexpr float corner_bit[3][8] = {
     {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
-/// PrimitiveBounds of eight leaves, by rows.
-struct alignas(32) BoundsRows {
-  float u_min[8], u_max[8], v_min[8], v_max[8], nearest[8];
+/// Runs of leaves are not divided below this.
+constexpr std::uint32_t run_size = 48;
+
+/// PrimitiveBounds of leaves, by rows; `nearest` is finite, below what nobody asks for.
+struct alignas(64) BoundsRows {
+  float u_min[run_size], u_max[run_size], v_min[run_size], v_max[run_size], nearest[run_size];
   void set(std::size_t i, const PrimitiveBounds& b) {
-    u_min[i] = b.u_min, u_max[i] = b.u_max, v_min[i] = b.v_min, v_max[i] = b.v_max, nearest[i] = b.nearest;
+    u_min[i] = b.u_min, u_max[i] = b.u_max, v_min[i] = b.v_min, v_max[i] = b.v_max;
+    nearest[i] = std::min(b.nearest, FLT_MAX);
+  }
+};
+
+/// Of leaves' triangles the lines through their edges, by rows: a ray at (u, v) surely misses where one of a triangle's
+/// u across + v down + constant is negative.
+struct alignas(64) EdgeLines {
+  float across[3][run_size], down[3][run_size], constant[3][run_size];
+  /// Of what is no triangle, or one of which no line is known: no ray surely misses.
+  void set_unknown(std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) across[k][i] = down[k][i] = 0.0f, constant[k][i] = inf;
   }
 };
 
@@ -39,8 +54,10 @@ class Projection {
       : s_(s),
         setup_(setup),
         slack_(float_above(setup.slack)),
-        least_per_margin_(float_above(0.5 + 0x1p-35 * setup.reach / setup.slack)),
-        least_width_(setup.directional ? 0.0f : 0x1p-17f) {
+        least_width_(float_above(setup.directional ? 0x1p-33 * setup.reach : 0x1p-17)) {
+    const EdgeSetupPass pass = edge_setup_pass(s, setup);
+    kernel_error_ = float_above(0x1p-38 * pass.largest * (setup.directional ? pass.farthest : 1.0));
+    double_error_ = float_above(0x1p-46 * pass.largest);
     const Vec3 origin = setup.origin - s.bvh.center;
     for (int a = 0; a < 3; ++a) {
       origin_[a] = static_cast<float>(origin[a]);
@@ -53,15 +70,17 @@ class Projection {
   PrimitiveBounds of(const BoxRef& box) const {
     Bounds bounds;
     V8 low[3], high[3];
-    for (std::size_t a = 0; a < 3; ++a)
-      low[a] = hn::Set(eight, box.min[a]), high[a] = hn::Set(eight, box.max[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = hn::Set(eight, box.min[a] - origin_[a]);
+      high[a] = hn::Set(eight, box.max[a] - origin_[a]);
+    }
     for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
       V8 corner[3];
       for (std::size_t a = 0; a < 3; ++a) {
         const auto is_high = hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight));
         corner[a] = hn::IfThenElse(is_high, high[a], low[a]);
       }
-      grow(bounds, place_of(corner));
+      grow(bounds, at_box_corner(corner));
     }
     bounds.u_min = hn::MinOfLanes(eight, bounds.u_min), bounds.u_max = hn::MaxOfLanes(eight, bounds.u_max);
     bounds.v_min = hn::MinOfLanes(eight, bounds.v_min), bounds.v_max = hn::MaxOfLanes(eight, bounds.v_max);
@@ -70,36 +89,11 @@ class Projection {
             hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
   }
 
-  /// Of up to eight leaves; the rest is anything. As near as their boxes: where a triangle is seen edge-on, the kernels'
-  /// depth is anywhere between the corners' along a coordinate axis.
-  void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows) const {
-    const LeafCorners from(s_.bvh, leaves);
-    unsigned thin = 0;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 corner[3][3], low[3], high[3];
-      from.get(i, corner);
-      Bounds bounds;
-      Place place[3];
-      for (std::size_t k = 0; k < 3; ++k) {
-        place[k] = place_of(corner[k]), grow(bounds, place[k]);
-        low[k] = hn::Min(corner[0][k], hn::Min(corner[1][k], corner[2][k]));
-        high[k] = hn::Max(corner[0][k], hn::Max(corner[1][k], corner[2][k]));
-      }
-      thin |= widen(bounds, place) << i;
-      finish(bounds, low, high);
-      hn::Store(bounds.u_min, eight, rows.u_min + i), hn::Store(bounds.u_max, eight, rows.u_max + i);
-      hn::Store(bounds.v_min, eight, rows.v_min + i), hn::Store(bounds.v_max, eight, rows.v_max + i);
-      hn::Store(bounds.nearest, eight, rows.nearest + i);
-    }
-    unsigned others = (s_.has_shapes ? 0xffu : thin) & ((1u << leaves.size()) - 1);
-    for (; others != 0; others &= others - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(others));
-      const std::uint32_t id = s_.bvh.id_at(leaves[i]);
-      if (!s_.world->is_triangle(id))
-        rows.set(i, of(shape_box(*s_.world, id, s_.bvh.center)));
-      else if ((thin >> i & 1) != 0)
-        rows.set(i, of(triangle_box(leaves[i])));
-    }
+  /// Of up to run_size leaves; what follows them up to a multiple of eight is anything. As near as their boxes: where a
+  /// triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
+  void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows, EdgeLines& lines) const {
+    for (std::size_t i = 0; i < leaves.size(); i += 8)
+      of_eight(leaves.subspan(i, std::min<std::size_t>(8, leaves.size() - i)), i, rows, lines);
   }
 
  private:
@@ -113,6 +107,55 @@ class Projection {
           v_max(u_max),
           nearest(u_min) {}
   };
+  using M8 = hn::Mask<Eight>;
+  /// A point's, and what each may be wrong by.
+  struct Place {
+    V8 u, v, margin;
+  };
+  /// A triangle's corners. By arrays of vectors, not of structures: GCC copies those through memory.
+  struct Corners {
+    V8 u[3], v[3];
+    V8 margin;           ///< the largest
+    V8 size, per_depth;  ///< of a point's rays: the largest |x| + |y| + |z| from the origin, and 1 / depth
+  };
+
+  void of_eight(std::span<const std::uint32_t> leaves, std::size_t first, BoundsRows& rows,
+                EdgeLines& lines) const {
+    const LeafCorners from(s_.bvh, leaves, setup_.origin);
+    unsigned thin = 0;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
+      V8 corner[3][3], low[3], high[3];
+      from.get(i, corner);
+      for (std::size_t a = 0; a < 3; ++a) {
+        low[a] = hn::Min(corner[0][a], hn::Min(corner[1][a], corner[2][a]));
+        high[a] = hn::Max(corner[0][a], hn::Max(corner[1][a], corner[2][a]));
+      }
+      Bounds bounds;
+      Corners at;
+      at.margin = at.size = at.per_depth = hn::Zero(eight);
+      project(corner[0], 0, at, bounds), project(corner[1], 1, at, bounds), project(corner[2], 2, at, bounds);
+      const Shape shape = shape_of(bounds, at);
+      thin |= mask_bits(eight, hn::Not(shape.wide)) << i;
+      widen(bounds, shape.size);
+      const M8 clear = finish(bounds, low, high);
+      const std::size_t row = first + i;
+      hn::Store(bounds.u_min, eight, rows.u_min + row), hn::Store(bounds.u_max, eight, rows.u_max + row);
+      hn::Store(bounds.v_min, eight, rows.v_min + row), hn::Store(bounds.v_max, eight, rows.v_max + row);
+      hn::Store(hn::Min(bounds.nearest, hn::Set(eight, FLT_MAX)), eight, rows.nearest + row);
+      put_lines(at, shape, hn::And(shape.wide, clear), lines, row);
+    }
+    unsigned others = (s_.has_shapes ? 0xffu : thin) & ((1u << leaves.size()) - 1);
+    for (; others != 0; others &= others - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(others));
+      const std::uint32_t id = s_.bvh.id_at(leaves[i]);
+      if (!s_.world->is_triangle(id)) {
+        rows.set(first + i, of(shape_box(*s_.world, id, s_.bvh.center)));
+        lines.set_unknown(first + i);
+      } else if ((thin >> i & 1) != 0) {
+        rows.set(first + i, of(triangle_box(leaves[i])));
+      }
+    }
+  }
 
   V8 along(std::size_t axis, const V8 (&from_origin)[3]) const {
     const auto times = [&](std::size_t a, V8 sum) {
@@ -120,46 +163,87 @@ class Projection {
     };
     return times(2, times(1, hn::Mul(from_origin[0], hn::Set(eight, axes_[axis][0]))));
   }
-  /// A point's, and what it may be wrong by.
-  struct Place {
-    V8 u, v, u_margin, v_margin;
-  };
-  Place place_of(const V8 (&corner)[3]) const {
-    V8 p[3];
-    for (std::size_t a = 0; a < 3; ++a) p[a] = hn::Sub(corner[a], hn::Set(eight, origin_[a]));
-    const V8 u = along(0, p), v = along(1, p), margin = hn::Set(eight, 4.0f * slack_);
-    if (setup_.directional) return {u, v, margin, margin};
+  /// Of a box's corner, from the origin: boxes are floats already, rounded outwards, and widened by the slack.
+  Place at_box_corner(const V8 (&p)[3]) const {
+    const V8 u = along(0, p), v = along(1, p);
+    if (setup_.directional) return {u, v, hn::Set(eight, 4.0f * slack_)};
     const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
-    const V8 relative = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
+    const V8 error = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
     const V8 at_u = hn::Mul(u, per_depth), at_v = hn::Mul(v, per_depth);
-    return {at_u, at_v, hn::MulAdd(hn::Abs(at_u), relative, relative),
-            hn::MulAdd(hn::Abs(at_v), relative, relative)};
+    return {at_u, at_v, margin_of(at_u, at_v, error)};
+  }
+  /// Of quotients with that relative error.
+  static V8 margin_of(V8 u, V8 v, V8 error) {
+    return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error);
+  }
+  /// Triangles' k-th corners, which were subtracted from the origin in double. With u = 2^-24 a coordinate along an axis has
+  /// 5 roundings of terms that sum to at most the point's size; so has the depth, and the quotient 2 more. A direction's
+  /// corners lie no farther from the origin than the slack's radius, of which a quarter of the slack is 32 u. What is left
+  /// is the rounding of the rays, quantised receivers' included: below 4 u (1 + |u|) of a point's and 6 u of that radius.
+  HWY_INLINE void project(const V8 (&p)[3], std::size_t k, Corners& at, Bounds& bounds) const {
+    at.u[k] = along(0, p), at.v[k] = along(1, p);
+    V8 margin = hn::Set(eight, 0.25f * slack_);
+    if (!setup_.directional) {
+      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
+      const V8 size = hn::Add(hn::Abs(p[0]), hn::Add(hn::Abs(p[1]), hn::Abs(p[2])));
+      const V8 error = hn::MulAdd(size, hn::Set(eight, 0x1.8p-22f), hn::Set(eight, double_error_));
+      at.u[k] = hn::Mul(at.u[k], per_depth), at.v[k] = hn::Mul(at.v[k], per_depth);
+      margin = margin_of(at.u[k], at.v[k], hn::MulAdd(error, per_depth, hn::Set(eight, 0x1p-20f)));
+      at.size = hn::Max(at.size, size), at.per_depth = hn::Max(at.per_depth, per_depth);
+    }
+    at.margin = hn::Max(at.margin, margin);
+    grow(bounds, {at.u[k], at.v[k], margin});
   }
   static void grow(Bounds& bounds, const Place& at) {
-    bounds.u_min = hn::Min(bounds.u_min, hn::Sub(at.u, at.u_margin));
-    bounds.u_max = hn::Max(bounds.u_max, hn::Add(at.u, at.u_margin));
-    bounds.v_min = hn::Min(bounds.v_min, hn::Sub(at.v, at.v_margin));
-    bounds.v_max = hn::Max(bounds.v_max, hn::Add(at.v, at.v_margin));
+    bounds.u_min = hn::Min(bounds.u_min, hn::Sub(at.u, at.margin));
+    bounds.u_max = hn::Max(bounds.u_max, hn::Add(at.u, at.margin));
+    bounds.v_min = hn::Min(bounds.v_min, hn::Sub(at.v, at.margin));
+    bounds.v_max = hn::Max(bounds.v_max, hn::Add(at.v, at.margin));
   }
+
+  /// A triangle in the plane.
+  struct Shape {
+    V8 size, area;  ///< of its bounds the longer side; twice, signed
+    M8 wide;        ///< much wider than what is not known of it
+  };
   /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by 2^-41 of `reach`,
   /// which is more than that beyond a sharp corner: less than a 16th of the triangle's size where the inscribed circle's
-  /// radius is 32 times it. Bits: where that is not sure, and the box is to be taken.
-  unsigned widen(Bounds& bounds, const Place (&at)[3]) const {
-    const V8 size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));
-    V8 margin = hn::Max(at[0].u_margin, at[0].v_margin);
-    for (const Place& p : at) margin = hn::Max(margin, hn::Max(p.u_margin, p.v_margin));
-    const auto edge = [&](std::size_t k) {
-      return std::pair(hn::Sub(at[k].u, at[0].u), hn::Sub(at[k].v, at[0].v));
-    };
-    const auto [u1, v1] = edge(1);
-    const auto [u2, v2] = edge(2);
-    const V8 area = hn::Abs(hn::Sub(hn::Mul(u1, v2), hn::Mul(u2, v1)));  // twice the triangle's
+  /// radius is 32 times it. Not wide: where that is not sure, and the box is to be taken.
+  Shape shape_of(const Bounds& bounds, const Corners& at) const {
+    Shape shape;
+    shape.size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));
+    const V8 u1 = hn::Sub(at.u[1], at.u[0]), v1 = hn::Sub(at.v[1], at.v[0]);
+    const V8 u2 = hn::Sub(at.u[2], at.u[0]), v2 = hn::Sub(at.v[2], at.v[0]);
+    shape.area = hn::Sub(hn::Mul(u1, v2), hn::Mul(u2, v1));
+    V8 least = hn::MulAdd(at.margin, hn::Set(eight, 16.0f), hn::Set(eight, least_width_));
+    if (!setup_.directional) least = hn::MulAdd(at.per_depth, hn::Set(eight, 32.0f * kernel_error_), least);
+    shape.wide = hn::Gt(hn::Abs(shape.area), hn::Mul(shape.size, least));
+    return shape;
+  }
+  static void widen(Bounds& bounds, V8 size) {
     const V8 more = hn::Mul(size, hn::Set(eight, 0x1p-4f));
     bounds.u_min = hn::Sub(bounds.u_min, more), bounds.u_max = hn::Add(bounds.u_max, more);
     bounds.v_min = hn::Sub(bounds.v_min, more), bounds.v_max = hn::Add(bounds.v_max, more);
-    const V8 least = hn::MulAdd(margin, hn::Set(eight, least_per_margin_), hn::Set(eight, least_width_));
-    const auto wide = hn::Gt(area, hn::Mul(size, least));
-    return mask_bits(eight, hn::Not(wide));
+  }
+
+  /// A ray that the double kernels cannot tell from the triangle's is no farther from a corner than 9/8 of the size both
+  /// ways. There the edge function, a product of two differences of places, is off by less than 12 margins times the size,
+  /// and the kernels' own by what edge_setup_kernel.cpp says.
+  void put_lines(const Corners& at, const Shape& shape, M8 known, EdgeLines& lines, std::size_t first) const {
+    V8 kernels = hn::Set(eight, kernel_error_);
+    if (!setup_.directional)
+      kernels = hn::Mul(hn::Mul(kernels, at.size), hn::Mul(at.per_depth, at.per_depth));
+    const V8 tolerance = hn::MulAdd(hn::Mul(at.margin, hn::Set(eight, 12.0f)), shape.size, kernels);
+    const V8 sign = hn::CopySign(hn::Set(eight, 1.0f), shape.area);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const V8 du = hn::Mul(hn::Sub(at.u[next], at.u[k]), sign),
+               dv = hn::Mul(hn::Sub(at.v[next], at.v[k]), sign);
+      const V8 constant = hn::Add(hn::Sub(hn::Mul(dv, at.u[k]), hn::Mul(du, at.v[k])), tolerance);
+      hn::Store(hn::IfThenElseZero(known, hn::Neg(dv)), eight, lines.across[k] + first);
+      hn::Store(hn::IfThenElseZero(known, du), eight, lines.down[k] + first);
+      hn::Store(hn::IfThenElse(known, constant, hn::Set(eight, inf)), eight, lines.constant[k] + first);
+    }
   }
   BoxRef triangle_box(std::uint32_t leaf) const {
     const LeafPrimitive p = s_.bvh.primitive_at(leaf);
@@ -171,19 +255,17 @@ class Projection {
     }
     return box;
   }
-  /// `low`, `high`: the box.
-  void finish(Bounds& bounds, const V8 (&low)[3], const V8 (&high)[3]) const {
+  /// `low`, `high`: the box, from the origin. Returns where it is clear of the origin.
+  M8 finish(Bounds& bounds, const V8 (&low)[3], const V8 (&high)[3]) const {
     V8 corner[3];
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool highest = (axes_[2][a] > 0.0f) == setup_.directional;
-      corner[a] = hn::Sub(highest ? high[a] : low[a], hn::Set(eight, origin_[a]));
-    }
+    for (std::size_t a = 0; a < 3; ++a)
+      corner[a] = (axes_[2][a] > 0.0f) == setup_.directional ? high[a] : low[a];
     const V8 depth = along(2, corner);
     if (setup_.directional) {
       bounds.nearest = hn::Add(depth, hn::Set(eight, 4.0f * slack_));
-      return;
+      return hn::Eq(depth, depth);
     }
-    const auto clear = hn::Gt(depth, hn::Set(eight, 64.0f * slack_));
+    const M8 clear = hn::Gt(depth, hn::Set(eight, 64.0f * slack_));
     const V8 most = hn::Set(eight, inf), least = hn::Set(eight, -inf);
     bounds.u_min = hn::IfThenElse(clear, bounds.u_min, least),
     bounds.u_max = hn::IfThenElse(clear, bounds.u_max, most);
@@ -191,13 +273,16 @@ class Projection {
     bounds.v_max = hn::IfThenElse(clear, bounds.v_max, most);
     const V8 near = hn::Div(hn::Set(eight, 1.0f + 0x1p-20f), hn::Sub(depth, hn::Set(eight, slack_)));
     bounds.nearest = hn::IfThenElse(clear, near, most);
+    return clear;
   }
 
   const Structures& s_;
   const EdgeSetup& setup_;
   float origin_[3], axes_[3][3];  ///< from the middle that boxes count from
   float slack_;
-  float least_per_margin_, least_width_;  ///< of triangles' areas, beyond their own rounding
+  float least_width_;   ///< of triangles' areas, beyond their own rounding
+  float kernel_error_;  ///< of the double kernels' edge functions; of a point's per world unit
+  float double_error_;  ///< of a point's corners, world units, beyond that of the floats
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

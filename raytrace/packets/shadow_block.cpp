@@ -32,8 +32,8 @@ constexpr auto places_of_bits = [] {
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-constexpr hn::CappedTag<std::uint32_t, 8> eight_ids;
-constexpr hn::Rebind<std::uint8_t, decltype(eight_ids)> eight_bytes;
+constexpr hn::CappedTag<std::uint16_t, 8> eight_pairs;
+constexpr hn::Rebind<std::uint8_t, decltype(eight_pairs)> eight_bytes;
 
 class BlockShadows {
  public:
@@ -54,11 +54,11 @@ class BlockShadows {
 
   void run() {
     for (const PrimitiveEdges& plane : setup_.planes) {
-      rows_.set(0, plane);
+      rows_[0].set(0, plane);
       const bool is_sure = (plane.id & never_sure) == 0;
       const Blocker blocker{plane.edge_error < inf ? plane.id & ~never_sure : no_id, is_sure};
       for (std::size_t t = 0; t < count_; ++t)
-        if (tiles_[t].test_all_by_plane({rows_, 0}, blocker)) tiles_[t].update_regions(regions_, t);
+        if (tiles_[t].test_all_by_plane({rows_[0], 0}, blocker)) tiles_[t].update_regions(regions_, t);
     }
     update_limit();
     if (far_min_ < inf) {
@@ -69,13 +69,15 @@ class BlockShadows {
             if (const unsigned tiles = touched_tiles(LaneBounds(projection_.of(box)))) put(leaves, tiles);
           });
       while (pending_.count() > 0) flush();
-      while (ready_ > 0) test_eight();
+      if (ready_ > 0) test_ready();
     }
     for (std::size_t t = 0; t < count_; ++t) tiles_[t].finish();
   }
 
  private:
   static constexpr std::size_t batch = 8;
+  /// Leaves that are set up together: a last batch with few of them is little beside the others.
+  static constexpr std::size_t enough = 16, most_ready = enough + run_size;
 
   /// Around both parts of all tiles.
   Packets whole() const {
@@ -101,78 +103,116 @@ class BlockShadows {
     while (pending_.count() >= std::size_t{2} * run_size) flush();
   }
 
-  /// Of the longest waiting ones finds which tiles each may concern, and which packets of these, in plain loops, because
-  /// branches that nobody can foresee would cost more than the tests.
+  /// Of the longest waiting leaves finds which packets each may concern, in plain loops, because branches that nobody can
+  /// foresee would cost more than the tests.
   void flush() {
-    const std::size_t count = std::min<std::size_t>(pending_.count(), batch);
+    const std::size_t count = std::min<std::size_t>(pending_.count(), run_size);
     const std::span<const std::uint32_t> leaves = pending_.first(count);
-    projection_.of_leaves(leaves, bounds_);
-    std::size_t tiles = 0;
+    projection_.of_leaves(leaves, bounds_, lines_);
     for (std::size_t i = 0; i < count; ++i) {
-      unsigned touched = pending_.tiles_of(i);
-      if (!std::has_single_bit(touched)) touched &= regions_.touched_by({bounds_, i});
-      tiles += list_bits(touched, i, tiles_of_ + tiles);
+      const std::uint32_t id = s_.bvh.id_at(leaves[i]);
+      not_from_[i] = !s_.has_shapes || s_.world->is_triangle(id) ? id : no_id;
     }
-    unsigned concern = 0;
-    std::size_t pairs = pair_end_;
-    for (std::size_t k = 0; k < tiles; ++k) {
-      const std::uint32_t i = tiles_of_[k] / 16, tile = tiles_of_[k] % 16;
-      const std::size_t place = ready_ + static_cast<std::size_t>(std::popcount(concern & ((1u << i) - 1)));
-      const std::size_t packets =
-          list_bits(tiles_[tile].packets().touched_by({bounds_, i}), 16 * place + tile, pairs_ + pairs);
-      pairs += packets, concern |= static_cast<unsigned>(packets != 0) << i;
+    const std::size_t first = pair_end_;
+    std::uint64_t concern = list_pairs(count);
+    for (std::size_t k = first; k < pair_end_; ++k) {
+      const std::uint64_t before = (std::uint64_t{1} << (pairs_[k] / 256)) - 1;
+      pairs_[k] = static_cast<std::uint16_t>(
+          256 * (ready_ + static_cast<std::size_t>(std::popcount(concern & before))) + pairs_[k] % 256);
     }
-    pair_end_ = pairs;
-    for (std::size_t k = 0; k < batch; ++k)
-      ready_leaves_[ready_ + k] = leaves[std::min<std::size_t>(places_of_bits[concern][k], count - 1)];
-    ready_ += static_cast<std::size_t>(std::popcount(concern));
+    for (; concern != 0; concern &= concern - 1)
+      ready_leaves_[ready_++] = leaves[static_cast<std::size_t>(std::countr_zero(concern))];
     pending_.drop(count);
-    if (ready_ >= batch) test_eight();
+    if (ready_ >= enough) test_ready();
   }
 
-  /// Sets up those that concern packets, and tries every pair.
-  void test_eight() {
-    const std::size_t count = std::min<std::size_t>(ready_, batch);
-    const unsigned never = set_up_leaves(s_, pass_, {ready_leaves_, count}, rows_);
-    for (std::size_t i = 0; i < count; ++i)
-      blockers_[i] = {rows_.edge_error()[i] < inf ? s_.bvh.id_at(ready_leaves_[i]) : no_id,
-                      (never >> i & 1) == 0};
+  /// Every leaf with every packet that its bounds touch. Bits of the leaves.
+  std::uint64_t list_pairs(std::size_t count) {
+    unsigned tiles = 0;
+    for (std::size_t i = 0; i < count; ++i) tiles |= pending_.tiles_of(i);
+    const LaneBounds around(bounds_, count);
+    std::uint64_t concern = 0;
+    for (tiles &= regions_.touched_by(around); tiles != 0; tiles &= tiles - 1) {
+      const auto tile = static_cast<std::size_t>(std::countr_zero(tiles));
+      const std::uint64_t touching = regions_.touching(tile, bounds_, count);
+      if (touching == 0) continue;
+      const unsigned packets = tiles_[tile].packets().touched_by(around);
+      const std::size_t tests =
+          (count + lanes() - 1) / lanes() * static_cast<std::size_t>(std::popcount(packets));
+      concern |= static_cast<std::size_t>(std::popcount(touching)) <= tests
+                     ? list_by_leaf(touching, tile)
+                     : list_by_packet(packets, tile, count);
+    }
+    return concern;
+  }
+
+  std::uint64_t list_by_leaf(std::uint64_t leaves, std::size_t tile) {
+    std::uint64_t concern = 0;
+    for (; leaves != 0; leaves &= leaves - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(leaves));
+      const unsigned packets = tiles_[tile].packets().touched_by({bounds_, i, 1});
+      concern |= std::uint64_t{packets != 0} << i;
+      pair_end_ += list_bits<1>(packets, 256 * i + 16 * tile, pairs_ + pair_end_);
+    }
+    return concern;
+  }
+  std::uint64_t list_by_packet(unsigned packets, std::size_t tile, std::size_t count) {
+    std::uint64_t concern = 0;
+    for (; packets != 0; packets &= packets - 1) {
+      const auto packet = static_cast<std::size_t>(std::countr_zero(packets));
+      std::uint64_t leaves = tiles_[tile].packets().touching(packet, bounds_, count);
+      leaves = tiles_[tile].not_missed(bounds_, lines_, not_from_, leaves, packet);
+      concern |= leaves;
+      pair_end_ += list_bits<256>(leaves, 16 * tile + packet, pairs_ + pair_end_);
+    }
+    return concern;
+  }
+
+  /// Sets up the leaves that concern packets, and tries every pair.
+  void test_ready() {
+    for (std::size_t first = 0; first < ready_; first += batch) {
+      const std::size_t count = std::min(ready_ - first, batch);
+      EdgeSetupRows& rows = rows_[first / batch];
+      const unsigned never = set_up_leaves(s_, pass_, {ready_leaves_ + first, count}, rows);
+      for (std::size_t i = 0; i < count; ++i)
+        blockers_[first + i] = {rows.edge_error()[i] < inf ? s_.bvh.id_at(ready_leaves_[first + i]) : no_id,
+                                (never >> i & 1) == 0};
+    }
     unsigned changed = 0;
-    std::size_t k = 0;
-    for (; k < pair_end_ && pairs_[k] < 256 * batch; ++k) changed |= test(pairs_[k]);
+    for (std::size_t k = 0; k < pair_end_; ++k) changed |= test(pairs_[k]);
     for (unsigned left = changed; left != 0; left &= left - 1) {
       const auto t = static_cast<std::size_t>(std::countr_zero(left));
       tiles_[t].update_regions(regions_, t);
     }
     if (changed != 0) update_limit();
-    const std::size_t first = k;
-    for (; k < pair_end_; ++k) pairs_[k - first] = pairs_[k] - std::uint32_t{256 * batch};
-    pair_end_ -= first, ready_ -= count;
-    std::copy_n(ready_leaves_ + count, ready_, ready_leaves_);
+    ready_ = pair_end_ = 0;
   }
 
-  /// 16 `first` + i for every bit i; returns their number.
-  static std::size_t list_bits(unsigned bits, std::size_t first, std::uint32_t* out) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < packet_rays; i += 8) {
-      const unsigned these = bits >> i & 0xffu;
-      const auto base = hn::Set(eight_ids, static_cast<std::uint32_t>(16 * first + i));
-      for (std::size_t k = 0; k < 8; k += hn::Lanes(eight_ids)) {
+  /// `unit` i + `other` for every bit i; returns their number.
+  template <unsigned unit>
+  static std::size_t list_bits(std::uint64_t bits, std::size_t other, std::uint16_t* out) {
+    std::size_t listed = 0;
+    while (bits != 0) {
+      const unsigned i = static_cast<unsigned>(std::countr_zero(bits)) & ~7u;
+      const auto these = static_cast<std::size_t>(bits >> i & 0xff);
+      const auto base = hn::Set(eight_pairs, static_cast<std::uint16_t>(unit * i + other));
+      for (std::size_t k = 0; k < 8; k += hn::Lanes(eight_pairs)) {
         const auto places =
-            hn::PromoteTo(eight_ids, hn::LoadU(eight_bytes, places_of_bits[these].data() + k));
-        hn::StoreU(hn::Add(base, places), eight_ids, out + count + k);
+            hn::PromoteTo(eight_pairs, hn::LoadU(eight_bytes, places_of_bits[these].data() + k));
+        hn::StoreU(hn::Add(base, hn::ShiftLeft<std::countr_zero(unit)>(places)), eight_pairs,
+                   out + listed + k);
       }
-      count += static_cast<std::size_t>(std::popcount(these));
+      listed += static_cast<std::size_t>(std::popcount(these)), bits &= ~(std::uint64_t{0xff} << i);
     }
-    return count;
+    return listed;
   }
 
-  /// `pair`: a pending primitive, a tile and one of its packets. The tile's bit when rays of it were found to be
+  /// `pair`: a leaf that is ready, a tile and one of its packets. The tile's bit when rays of it were found to be
   /// shadowed.
-  unsigned test(std::uint32_t pair) {
-    const std::size_t i = pair / 256, tile = pair / 16 % 16, packet = pair % 16;
-    const bool taken =
-        tiles_[tile].template test_packet<false>({rows_, i}, blockers_[i], ready_leaves_[i], packet);
+  unsigned test(std::uint16_t pair) {
+    const std::size_t at = pair / 256, tile = pair / 16 % 16;
+    const bool taken = tiles_[tile].template test_packet<false>({rows_[at / batch], at % batch},
+                                                                blockers_[at], ready_leaves_[at], pair % 16);
     return static_cast<unsigned>(taken) << tile;
   }
 
@@ -193,12 +233,13 @@ class BlockShadows {
   SplitRegions regions_;  ///< of the tiles
   float far_min_ = inf, limit_ = -inf;
   BoundsRows bounds_;
-  std::uint32_t tiles_of_[batch * most_shadow_tiles + packet_rays];
-  std::uint32_t ready_leaves_[2 * batch];  ///< those that concern packets
+  EdgeLines lines_;
+  std::uint32_t not_from_[run_size];
+  std::uint32_t ready_leaves_[most_ready];  ///< those that concern packets
   std::size_t ready_ = 0, pair_end_ = 0;
-  std::uint32_t pairs_[2 * batch * most_shadow_tiles * tile_packets + packet_rays];
-  EdgeSetupRows rows_;
-  Blocker blockers_[batch];
+  std::uint16_t pairs_[most_ready * most_shadow_tiles * tile_packets + 8];
+  EdgeSetupRows rows_[most_ready / batch];
+  Blocker blockers_[most_ready];
   PendingLeaves pending_;
 };
 

@@ -32,13 +32,29 @@ struct LaneBounds {
         v_min(all(b.v_min)),
         v_max(all(b.v_max)),
         nearest(all(std::min(b.nearest, FLT_MAX))) {}
-  /// Of the i-th of eight primitives.
-  LaneBounds(const BoundsRows& rows, std::size_t i)
+  /// Of row i.
+  LaneBounds(const BoundsRows& rows, std::size_t i, int)
       : u_min(all(rows.u_min[i])),
         u_max(all(rows.u_max[i])),
         v_min(all(rows.v_min[i])),
         v_max(all(rows.v_max[i])),
-        nearest(hn::Min(all(rows.nearest[i]), all(FLT_MAX))) {}
+        nearest(all(rows.nearest[i])) {}
+  /// Around the first `count` of rows.
+  LaneBounds(const BoundsRows& rows, std::size_t count)
+      : u_min(all(inf)), u_max(all(-inf)), v_min(u_min), v_max(u_max), nearest(u_max) {
+    for (std::size_t i = 0; i < count; i += lanes()) {
+      const M here = hn::FirstN(f, count - i);
+      const auto at = [&](const float* row, V otherwise) {
+        return hn::IfThenElse(here, hn::Load(f, row + i), otherwise);
+      };
+      u_min = hn::Min(u_min, at(rows.u_min, u_min)), u_max = hn::Max(u_max, at(rows.u_max, u_max));
+      v_min = hn::Min(v_min, at(rows.v_min, v_min)), v_max = hn::Max(v_max, at(rows.v_max, v_max));
+      nearest = hn::Max(nearest, at(rows.nearest, nearest));
+    }
+    u_min = hn::MinOfLanes(f, u_min), u_max = hn::MaxOfLanes(f, u_max);
+    v_min = hn::MinOfLanes(f, v_min), v_max = hn::MaxOfLanes(f, v_max);
+    nearest = hn::MaxOfLanes(f, nearest);
+  }
 };
 
 /// Bit i: the i-th of sixteen regions may be touched within these bounds, in front of what it knows already.
@@ -54,6 +70,22 @@ inline unsigned touched(const Packets& regions, const LaneBounds& b) {
   return hit;
 }
 
+/// Bit i: the i-th of the first `count` of rows may touch region k, in front of what that knows already.
+inline std::uint64_t touching(const Packets& regions, std::size_t k, const BoundsRows& rows,
+                              std::size_t count) {
+  const V u_min = all(regions.u_min[k]), u_max = all(regions.u_max[k]);
+  const V v_min = all(regions.v_min[k]), v_max = all(regions.v_max[k]), far_min = all(regions.far_min[k]);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < count; i += lanes()) {
+    const auto at = [&](const float* row) { return hn::Load(f, row + i); };
+    const M across = hn::And(hn::Ge(u_max, at(rows.u_min)), hn::Le(u_min, at(rows.u_max)));
+    const M down = hn::And(hn::Ge(v_max, at(rows.v_min)), hn::Le(v_min, at(rows.v_max)));
+    const M asks = hn::Le(far_min, at(rows.nearest));
+    bits |= std::uint64_t{bits_of(hn::And(asks, hn::And(across, down)))} << i;
+  }
+  return bits & ((std::uint64_t{1} << count) - 1);
+}
+
 /// Sixteen regions of the plane, each in one part or in two: a silhouette's rays start from two surfaces, and a
 /// rectangle around both would be touched by all that lies between them.
 struct SplitRegions {
@@ -62,6 +94,11 @@ struct SplitRegions {
 
   unsigned touched_by(const LaneBounds& bounds) const {
     return touched(part[0], bounds) | (split ? touched(part[1], bounds) : 0);
+  }
+  /// Of region k.
+  std::uint64_t touching(std::size_t k, const BoundsRows& rows, std::size_t count) const {
+    return HWY_NAMESPACE::touching(part[0], k, rows, count) |
+           (split ? HWY_NAMESPACE::touching(part[1], k, rows, count) : 0);
   }
   float far_min() const {
     return std::min(smallest(part[0].far_min), split ? smallest(part[1].far_min) : inf);
@@ -158,6 +195,29 @@ class TileState {
     for (std::size_t p = 0; p < tile_packets; ++p) any |= test_packet<true>(plane, blocker, 0, p);
     return any;
   }
+  /// Of `leaves`, bits of rows, those that some ray of the packet does not surely miss; `not_from`: by row, the rays that
+  /// leave it are not blocked by the row.
+  std::uint64_t not_missed(const BoundsRows& rows, const EdgeLines& lines, const std::uint32_t* not_from,
+                           std::uint64_t leaves, std::size_t packet) const {
+    std::uint64_t met = 0;
+    for (std::size_t k = 0; k < packet_steps; ++k) {
+      const std::size_t at = packet * packet_rays + k * lanes();
+      const V u = hn::Load(f, rays_->u + at), v = hn::Load(f, rays_->v + at), far = hn::Load(f, far_ + at);
+      const auto source = hn::Load(ids, rays_->source + at);
+      for (std::uint64_t left = leaves; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        const auto side = [&](std::size_t e) {
+          return value(all(lines.across[e][i]), all(lines.down[e][i]), all(lines.constant[e][i]), u, v);
+        };
+        const M inside = hn::Ge(hn::Min(side(0), hn::Min(side(1), side(2))), all(0.0f));
+        const M asks = hn::And(inside, hn::Le(far, all(rows.nearest[i])));
+        const auto leaves_it = hn::Eq(source, hn::Set(ids, not_from[i]));
+        met |= std::uint64_t{!hn::AllFalse(f, hn::AndNot(hn::RebindMask(f, leaves_it), asks))} << i;
+      }
+    }
+    return met;
+  }
+
   template <bool plane>
   HWY_INLINE bool test_packet(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
                               std::size_t packet) {

@@ -156,17 +156,42 @@ class BlockClosest {
   /// Adds those of eight leaves that packets ask for to `count` others; returns how many there are then.
   std::size_t find_asked(std::span<const std::uint32_t> leaves, std::size_t count, float* nearest) {
     BoundsRows bounds;
+    EdgeLines lines;
     PacketSpans u, v;
-    plane_.projection().of_leaves(leaves, bounds);
+    plane_.projection().of_leaves(leaves, bounds, lines);
     place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), bounds.u_min, bounds.u_max, u);
     place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), bounds.v_min, bounds.v_max, v);
+    const unsigned not_missed = met_by_rays(u, v, lines);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if ((not_missed >> i & 1) == 0) continue;
       const PacketRect covered{std::max(u.first[i], packets_.x0), std::max(v.first[i], packets_.y0),
                                std::min(u.last[i], packets_.x1), std::min(v.last[i], packets_.y1)};
       if (!is_asked(bounds.nearest[i], covered)) continue;
       asked_[count] = {leaves[i], covered}, nearest[count++] = bounds.nearest[i];
     }
     return count;
+  }
+
+  /// Bits of those of eight leaves that one of their rays does not surely miss. Looked at are those of up to two rays each
+  /// way, since most triangles that are smaller than pixels lie between all rays.
+  unsigned met_by_rays(const PacketSpans& u, const PacketSpans& v, const EdgeLines& lines) const {
+    const V8 u_two = hn::Set(eight, static_cast<float>(1.5 * plane_.columns.width));
+    const V8 v_two = hn::Set(eight, static_cast<float>(1.5 * plane_.rows.width));
+    unsigned met = 0;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
+      const auto at = [&](const float* row) { return hn::Load(eight, row + i); };
+      const V8 at_u[2] = {at(u.low), at(u.high)}, at_v[2] = {at(v.low), at(v.high)};
+      auto may = hn::Or(hn::Gt(hn::Sub(at_u[1], at_u[0]), u_two), hn::Gt(hn::Sub(at_v[1], at_v[0]), v_two));
+      for (std::size_t ray = 0; ray < 4; ++ray) {
+        const auto side = [&](std::size_t e) {
+          return hn::MulAdd(at(lines.across[e]), at_u[ray % 2],
+                            hn::MulAdd(at(lines.down[e]), at_v[ray / 2], at(lines.constant[e])));
+        };
+        may = hn::Or(may, hn::Ge(hn::Min(side(0), hn::Min(side(1), side(2))), hn::Zero(eight)));
+      }
+      met |= mask_bits(eight, may) << i;
+    }
+    return met;
   }
 
   /// Bits of those of eight waiting triangles whose back alone the eye could meet, and does not see; which of them it
