@@ -66,7 +66,7 @@ class BlockShadows {
       traverse_block(
           s_.bvh, frustum, [&] { return limit_; },
           [&](const BoxRef& box, LeafRange leaves) {
-            if (const unsigned tiles = touched_tiles(LaneBounds(projection_.of(box)))) put(leaves, tiles);
+            if (const unsigned tiles = touched_tiles(LaneBounds::of(projection_.of(box)))) put(leaves, tiles);
           });
       while (pending_.count() > 0) flush();
       if (ready_ > 0) test_ready();
@@ -126,11 +126,12 @@ class BlockShadows {
     if (ready_ >= enough) test_ready();
   }
 
-  /// Every leaf with every packet that its bounds touch. Bits of the leaves.
+  /// Every leaf with every packet that its bounds touch. Bits of the leaves. Where a tile has more leaves than its packets
+  /// take tests, these are asked packet by packet, and then their rays: of so small a triangle most packets have none.
   std::uint64_t list_pairs(std::size_t count) {
     unsigned tiles = 0;
     for (std::size_t i = 0; i < count; ++i) tiles |= pending_.tiles_of(i);
-    const LaneBounds around(bounds_, count);
+    const LaneBounds around = LaneBounds::around(bounds_, count);
     std::uint64_t concern = 0;
     for (tiles &= regions_.touched_by(around); tiles != 0; tiles &= tiles - 1) {
       const auto tile = static_cast<std::size_t>(std::countr_zero(tiles));
@@ -150,7 +151,7 @@ class BlockShadows {
     std::uint64_t concern = 0;
     for (; leaves != 0; leaves &= leaves - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(leaves));
-      const unsigned packets = tiles_[tile].packets().touched_by({bounds_, i, 1});
+      const unsigned packets = tiles_[tile].packets().touched_by(LaneBounds::of_row(bounds_, i));
       concern |= std::uint64_t{packets != 0} << i;
       pair_end_ += list_bits<1>(packets, 256 * i + 16 * tile, pairs_ + pair_end_);
     }

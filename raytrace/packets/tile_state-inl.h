@@ -26,34 +26,30 @@ namespace gnomon::raytrace::HWY_NAMESPACE {
 /// PrimitiveBounds in every lane.
 struct LaneBounds {
   V u_min, u_max, v_min, v_max, nearest;
-  explicit LaneBounds(const PrimitiveBounds& b)
-      : u_min(all(b.u_min)),
-        u_max(all(b.u_max)),
-        v_min(all(b.v_min)),
-        v_max(all(b.v_max)),
-        nearest(all(std::min(b.nearest, FLT_MAX))) {}
-  /// Of row i.
-  LaneBounds(const BoundsRows& rows, std::size_t i, int)
-      : u_min(all(rows.u_min[i])),
-        u_max(all(rows.u_max[i])),
-        v_min(all(rows.v_min[i])),
-        v_max(all(rows.v_max[i])),
-        nearest(all(rows.nearest[i])) {}
-  /// Around the first `count` of rows.
-  LaneBounds(const BoundsRows& rows, std::size_t count)
-      : u_min(all(inf)), u_max(all(-inf)), v_min(u_min), v_max(u_max), nearest(u_max) {
+
+  static HWY_INLINE LaneBounds of(const PrimitiveBounds& b) {
+    return {all(b.u_min), all(b.u_max), all(b.v_min), all(b.v_max), all(std::min(b.nearest, FLT_MAX))};
+  }
+  static HWY_INLINE LaneBounds of_row(const BoundsRows& rows, std::size_t i) {
+    return {all(rows.u_min[i]), all(rows.u_max[i]), all(rows.v_min[i]), all(rows.v_max[i]),
+            all(rows.nearest[i])};
+  }
+  /// Around the first `count` rows.
+  static HWY_INLINE LaneBounds around(const BoundsRows& rows, std::size_t count) {
+    LaneBounds b{all(inf), all(-inf), all(inf), all(-inf), all(-inf)};
     for (std::size_t i = 0; i < count; i += lanes()) {
       const M here = hn::FirstN(f, count - i);
       const auto at = [&](const float* row, V otherwise) {
         return hn::IfThenElse(here, hn::Load(f, row + i), otherwise);
       };
-      u_min = hn::Min(u_min, at(rows.u_min, u_min)), u_max = hn::Max(u_max, at(rows.u_max, u_max));
-      v_min = hn::Min(v_min, at(rows.v_min, v_min)), v_max = hn::Max(v_max, at(rows.v_max, v_max));
-      nearest = hn::Max(nearest, at(rows.nearest, nearest));
+      b.u_min = hn::Min(b.u_min, at(rows.u_min, b.u_min)),
+      b.u_max = hn::Max(b.u_max, at(rows.u_max, b.u_max));
+      b.v_min = hn::Min(b.v_min, at(rows.v_min, b.v_min)),
+      b.v_max = hn::Max(b.v_max, at(rows.v_max, b.v_max));
+      b.nearest = hn::Max(b.nearest, at(rows.nearest, b.nearest));
     }
-    u_min = hn::MinOfLanes(f, u_min), u_max = hn::MaxOfLanes(f, u_max);
-    v_min = hn::MinOfLanes(f, v_min), v_max = hn::MaxOfLanes(f, v_max);
-    nearest = hn::MaxOfLanes(f, nearest);
+    return {hn::MinOfLanes(f, b.u_min), hn::MaxOfLanes(f, b.u_max), hn::MinOfLanes(f, b.v_min),
+            hn::MaxOfLanes(f, b.v_max), hn::MaxOfLanes(f, b.nearest)};
   }
 };
 
