@@ -1,4 +1,4 @@
-// The corners of eight leaves' triangles, a leaf to a lane.
+// The corners of sixteen leaves' triangles, a leaf to a lane.
 
 #if defined(GNOMON_RAYTRACE_PACKETS_LEAF_CORNERS_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -18,11 +18,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-using Eight = hn::CappedTag<float, 8>;
-using V8 = hn::Vec<Eight>;
-constexpr Eight eight;
+/// Leaves whose corners are brought together.
+constexpr std::size_t leaves_together = 16;
 
-/// Up to eight triangles' corners as floats that count from `origin`; where there are fewer, the last one's again.
+/// Up to leaves_together triangles' corners as floats that count from `origin`; where there are fewer, the last one's again.
 class LeafCorners {
  public:
   LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves, const Vec3& origin) {
@@ -30,7 +29,7 @@ class LeafCorners {
     constexpr D d;
     constexpr hn::Rebind<float, D> half;
     alignas(32) const double from[4] = {origin.x, origin.y, origin.z, 0.0};
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < leaves_together; ++i) {
       PlacedCorners scratch;
       const CornerPointers at = bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
       for (std::size_t k = 0; k < 3; ++k)
@@ -41,14 +40,14 @@ class LeafCorners {
     }
   }
   /// From lane i on: corner[k][axis] of the k-th corners.
-  void get(std::size_t i, V8 (&corner)[3][3]) const {
-    V8 nothing;
+  void get(std::size_t i, V (&corner)[3][3]) const {
+    V nothing;
     for (std::size_t k = 0; k < 3; ++k)
-      hn::LoadInterleaved4(eight, corner_[k] + 4 * i, corner[k][0], corner[k][1], corner[k][2], nothing);
+      hn::LoadInterleaved4(f, corner_[k] + 4 * i, corner[k][0], corner[k][1], corner[k][2], nothing);
   }
 
  private:
-  alignas(32) float corner_[3][32];
+  alignas(64) float corner_[3][4 * leaves_together];
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

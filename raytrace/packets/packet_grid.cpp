@@ -19,7 +19,7 @@ void place_kernel(const PacketAxis& axis, double slack, const float* min, const 
   constexpr hn::Rebind<std::int32_t, decltype(d)> places;
   const auto set = [&](double v) { return hn::Set(d, v); };
   const auto per_width = set(1.0 / axis.width), per_packet = set(1.0 / PacketAxis::per_packet);
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < PacketSpans::together; i += hn::Lanes(d)) {
     const auto low = hn::PromoteTo(d, hn::Load(half, min + i)),
                high = hn::PromoteTo(d, hn::Load(half, max + i));
     const auto store = [&](auto v, std::int32_t* to) { hn::Store(hn::DemoteTo(places, v), places, to + i); };
@@ -72,7 +72,8 @@ void rank_falling(const float* numbers, std::size_t count, std::uint32_t* rank) 
   HWY_DYNAMIC_DISPATCH(rank_kernel)(numbers, count, rank);
 }
 
-void place_eight(const PacketAxis& axis, double slack, const float* min, const float* max, PacketSpans& out) {
+void place_bounds(const PacketAxis& axis, double slack, const float* min, const float* max,
+                  PacketSpans& out) {
   HWY_DYNAMIC_DISPATCH(place_kernel)(axis, slack, min, max, out);
 }
 

@@ -15,15 +15,16 @@ struct PacketAxis {
   static constexpr int per_packet = 4;
 };
 
-/// Along one axis: the packets that eight primitives' bounds may touch; first > last: none. Else low and high are where
+/// Along one axis: the packets that sixteen primitives' bounds may touch; first > last: none. Else low and high are where
 /// the first and the last of these rays meet the plane.
-struct alignas(32) PacketSpans {
-  std::int32_t first[8], last[8];
-  float low[8], high[8];
+struct alignas(64) PacketSpans {
+  static constexpr std::size_t together = 16;
+  std::int32_t first[together], last[together];
+  float low[together], high[together];
 };
 
-/// `slack`: what rays and bounds may be wrong by. `min`, `max`: eight each.
-void place_eight(const PacketAxis& axis, double slack, const float* min, const float* max, PacketSpans& out);
+/// `slack`: what rays and bounds may be wrong by. `min`, `max`: as many each.
+void place_bounds(const PacketAxis& axis, double slack, const float* min, const float* max, PacketSpans& out);
 
 /// How many of `count` numbers come before each when the greatest come first, and of equals the first. Both
 /// are padded by packet_rays.

@@ -22,8 +22,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-alignas(32) constexpr float corner_bit[3][8] = {
-    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
+/// A box's eight corners, twice.
+alignas(64) constexpr float corner_bit[3][packet_rays] = {{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1},
+                                                          {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
+                                                          {0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1}};
 
 /// Runs of leaves are not divided below this.
 constexpr std::uint32_t run_size = 48;
@@ -69,62 +71,56 @@ class Projection {
   /// the common origin.
   PrimitiveBounds of(const BoxRef& box) const {
     Bounds bounds;
-    V8 low[3], high[3];
+    V low[3], high[3];
     for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = hn::Set(eight, box.min[a] - origin_[a]);
-      high[a] = hn::Set(eight, box.max[a] - origin_[a]);
+      low[a] = all(box.min[a] - origin_[a]);
+      high[a] = all(box.max[a] - origin_[a]);
     }
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 corner[3];
+    for (std::size_t i = 0; i < 8; i += lanes()) {
+      V corner[3];
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto is_high = hn::Ne(hn::LoadU(eight, corner_bit[a] + i), hn::Zero(eight));
+        const auto is_high = hn::Ne(hn::LoadU(f, corner_bit[a] + i), hn::Zero(f));
         corner[a] = hn::IfThenElse(is_high, high[a], low[a]);
       }
       grow(bounds, at_box_corner(corner));
     }
-    bounds.u_min = hn::MinOfLanes(eight, bounds.u_min), bounds.u_max = hn::MaxOfLanes(eight, bounds.u_max);
-    bounds.v_min = hn::MinOfLanes(eight, bounds.v_min), bounds.v_max = hn::MaxOfLanes(eight, bounds.v_max);
+    bounds.u_min = hn::MinOfLanes(f, bounds.u_min), bounds.u_max = hn::MaxOfLanes(f, bounds.u_max);
+    bounds.v_min = hn::MinOfLanes(f, bounds.v_min), bounds.v_max = hn::MaxOfLanes(f, bounds.v_max);
     finish(bounds, low, high);
     return {hn::GetLane(bounds.u_min), hn::GetLane(bounds.u_max), hn::GetLane(bounds.v_min),
             hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
   }
 
-  /// Of up to run_size leaves; what follows them up to a multiple of eight is anything. As near as their boxes: where a
+  /// Of up to run_size leaves; what follows them up to a multiple of leaves_together is anything. As near as their boxes: where a
   /// triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
   void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows, EdgeLines& lines) const {
-    for (std::size_t i = 0; i < leaves.size(); i += 8)
-      of_eight(leaves.subspan(i, std::min<std::size_t>(8, leaves.size() - i)), i, rows, lines);
+    for (std::size_t i = 0; i < leaves.size(); i += leaves_together)
+      of_some(leaves.subspan(i, std::min(leaves_together, leaves.size() - i)), i, rows, lines);
   }
 
  private:
   /// PrimitiveBounds in every lane of its own.
   struct Bounds {
-    V8 u_min, u_max, v_min, v_max, nearest;
-    Bounds()
-        : u_min(hn::Set(eight, inf)),
-          u_max(hn::Set(eight, -inf)),
-          v_min(u_min),
-          v_max(u_max),
-          nearest(u_min) {}
+    V u_min, u_max, v_min, v_max, nearest;
+    Bounds() : u_min(all(inf)), u_max(all(-inf)), v_min(u_min), v_max(u_max), nearest(u_min) {}
   };
-  using M8 = hn::Mask<Eight>;
   /// A point's, and what each may be wrong by.
   struct Place {
-    V8 u, v, margin;
+    V u, v, margin;
   };
   /// A triangle's corners. By arrays of vectors, not of structures: GCC copies those through memory.
   struct Corners {
-    V8 u[3], v[3];
-    V8 margin;           ///< the largest
-    V8 size, per_depth;  ///< of a point's rays: the largest |x| + |y| + |z| from the origin, and 1 / depth
+    V u[3], v[3];
+    V margin;           ///< the largest
+    V size, per_depth;  ///< of a point's rays: the largest |x| + |y| + |z| from the origin, and 1 / depth
   };
 
-  void of_eight(std::span<const std::uint32_t> leaves, std::size_t first, BoundsRows& rows,
-                EdgeLines& lines) const {
+  void of_some(std::span<const std::uint32_t> leaves, std::size_t first, BoundsRows& rows,
+               EdgeLines& lines) const {
     const LeafCorners from(s_.bvh, leaves, setup_.origin);
     unsigned thin = 0;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      V8 corner[3][3], low[3], high[3];
+    for (std::size_t i = 0; i < leaves_together; i += lanes()) {
+      V corner[3][3], low[3], high[3];
       from.get(i, corner);
       for (std::size_t a = 0; a < 3; ++a) {
         low[a] = hn::Min(corner[0][a], hn::Min(corner[1][a], corner[2][a]));
@@ -132,19 +128,19 @@ class Projection {
       }
       Bounds bounds;
       Corners at;
-      at.margin = at.size = at.per_depth = hn::Zero(eight);
+      at.margin = at.size = at.per_depth = hn::Zero(f);
       project(corner[0], 0, at, bounds), project(corner[1], 1, at, bounds), project(corner[2], 2, at, bounds);
       const Shape shape = shape_of(bounds, at);
-      thin |= mask_bits(eight, hn::Not(shape.wide)) << i;
+      thin |= bits_of(hn::Not(shape.wide)) << i;
       widen(bounds, shape.size);
-      const M8 clear = finish(bounds, low, high);
+      const M clear = finish(bounds, low, high);
       const std::size_t row = first + i;
-      hn::Store(bounds.u_min, eight, rows.u_min + row), hn::Store(bounds.u_max, eight, rows.u_max + row);
-      hn::Store(bounds.v_min, eight, rows.v_min + row), hn::Store(bounds.v_max, eight, rows.v_max + row);
-      hn::Store(hn::Min(bounds.nearest, hn::Set(eight, FLT_MAX)), eight, rows.nearest + row);
+      hn::Store(bounds.u_min, f, rows.u_min + row), hn::Store(bounds.u_max, f, rows.u_max + row);
+      hn::Store(bounds.v_min, f, rows.v_min + row), hn::Store(bounds.v_max, f, rows.v_max + row);
+      hn::Store(hn::Min(bounds.nearest, all(FLT_MAX)), f, rows.nearest + row);
       put_lines(at, shape, hn::And(shape.wide, clear), lines, row);
     }
-    unsigned others = (s_.has_shapes ? 0xffu : thin) & ((1u << leaves.size()) - 1);
+    unsigned others = (s_.has_shapes ? 0xffffu : thin) & ((1u << leaves.size()) - 1);
     for (; others != 0; others &= others - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(others));
       const std::uint32_t id = s_.bvh.id_at(leaves[i]);
@@ -157,38 +153,36 @@ class Projection {
     }
   }
 
-  V8 along(std::size_t axis, const V8 (&from_origin)[3]) const {
-    const auto times = [&](std::size_t a, V8 sum) {
-      return hn::MulAdd(from_origin[a], hn::Set(eight, axes_[axis][a]), sum);
+  V along(std::size_t axis, const V (&from_origin)[3]) const {
+    const auto times = [&](std::size_t a, V sum) {
+      return hn::MulAdd(from_origin[a], all(axes_[axis][a]), sum);
     };
-    return times(2, times(1, hn::Mul(from_origin[0], hn::Set(eight, axes_[axis][0]))));
+    return times(2, times(1, hn::Mul(from_origin[0], all(axes_[axis][0]))));
   }
   /// Of a box's corner, from the origin: boxes are floats already, rounded outwards, and widened by the slack.
-  Place at_box_corner(const V8 (&p)[3]) const {
-    const V8 u = along(0, p), v = along(1, p);
-    if (setup_.directional) return {u, v, hn::Set(eight, 4.0f * slack_)};
-    const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
-    const V8 error = hn::MulAdd(hn::Set(eight, 2.0f * slack_), per_depth, hn::Set(eight, 0x1p-20f));
-    const V8 at_u = hn::Mul(u, per_depth), at_v = hn::Mul(v, per_depth);
+  Place at_box_corner(const V (&p)[3]) const {
+    const V u = along(0, p), v = along(1, p);
+    if (setup_.directional) return {u, v, all(4.0f * slack_)};
+    const V per_depth = hn::Div(all(1.0f), along(2, p));
+    const V error = hn::MulAdd(all(2.0f * slack_), per_depth, all(0x1p-20f));
+    const V at_u = hn::Mul(u, per_depth), at_v = hn::Mul(v, per_depth);
     return {at_u, at_v, margin_of(at_u, at_v, error)};
   }
   /// Of quotients with that relative error.
-  static V8 margin_of(V8 u, V8 v, V8 error) {
-    return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error);
-  }
+  static V margin_of(V u, V v, V error) { return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error); }
   /// Triangles' k-th corners, which were subtracted from the origin in double. With u = 2^-24 a coordinate along an axis has
   /// 5 roundings of terms that sum to at most the point's size; so has the depth, and the quotient 2 more. A direction's
   /// corners lie no farther from the origin than the slack's radius, of which a quarter of the slack is 32 u. What is left
   /// is the rounding of the rays, quantised receivers' included: below 4 u (1 + |u|) of a point's and 6 u of that radius.
-  HWY_INLINE void project(const V8 (&p)[3], std::size_t k, Corners& at, Bounds& bounds) const {
+  HWY_INLINE void project(const V (&p)[3], std::size_t k, Corners& at, Bounds& bounds) const {
     at.u[k] = along(0, p), at.v[k] = along(1, p);
-    V8 margin = hn::Set(eight, 0.25f * slack_);
+    V margin = all(0.25f * slack_);
     if (!setup_.directional) {
-      const V8 per_depth = hn::Div(hn::Set(eight, 1.0f), along(2, p));
-      const V8 size = hn::Add(hn::Abs(p[0]), hn::Add(hn::Abs(p[1]), hn::Abs(p[2])));
-      const V8 error = hn::MulAdd(size, hn::Set(eight, 0x1.8p-22f), hn::Set(eight, double_error_));
+      const V per_depth = hn::Div(all(1.0f), along(2, p));
+      const V size = hn::Add(hn::Abs(p[0]), hn::Add(hn::Abs(p[1]), hn::Abs(p[2])));
+      const V error = hn::MulAdd(size, all(0x1.8p-22f), all(double_error_));
       at.u[k] = hn::Mul(at.u[k], per_depth), at.v[k] = hn::Mul(at.v[k], per_depth);
-      margin = margin_of(at.u[k], at.v[k], hn::MulAdd(error, per_depth, hn::Set(eight, 0x1p-20f)));
+      margin = margin_of(at.u[k], at.v[k], hn::MulAdd(error, per_depth, all(0x1p-20f)));
       at.size = hn::Max(at.size, size), at.per_depth = hn::Max(at.per_depth, per_depth);
     }
     at.margin = hn::Max(at.margin, margin);
@@ -203,8 +197,8 @@ class Projection {
 
   /// A triangle in the plane.
   struct Shape {
-    V8 size, area;  ///< of its bounds the longer side; twice, signed
-    M8 wide;        ///< much wider than what is not known of it
+    V size, area;  ///< of its bounds the longer side; twice, signed
+    M wide;        ///< much wider than what is not known of it
   };
   /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by 2^-41 of `reach`,
   /// which is more than that beyond a sharp corner: less than a 16th of the triangle's size where the inscribed circle's
@@ -212,16 +206,16 @@ class Projection {
   Shape shape_of(const Bounds& bounds, const Corners& at) const {
     Shape shape;
     shape.size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));
-    const V8 u1 = hn::Sub(at.u[1], at.u[0]), v1 = hn::Sub(at.v[1], at.v[0]);
-    const V8 u2 = hn::Sub(at.u[2], at.u[0]), v2 = hn::Sub(at.v[2], at.v[0]);
+    const V u1 = hn::Sub(at.u[1], at.u[0]), v1 = hn::Sub(at.v[1], at.v[0]);
+    const V u2 = hn::Sub(at.u[2], at.u[0]), v2 = hn::Sub(at.v[2], at.v[0]);
     shape.area = hn::Sub(hn::Mul(u1, v2), hn::Mul(u2, v1));
-    V8 least = hn::MulAdd(at.margin, hn::Set(eight, 16.0f), hn::Set(eight, least_width_));
-    if (!setup_.directional) least = hn::MulAdd(at.per_depth, hn::Set(eight, 32.0f * kernel_error_), least);
+    V least = hn::MulAdd(at.margin, all(16.0f), all(least_width_));
+    if (!setup_.directional) least = hn::MulAdd(at.per_depth, all(32.0f * kernel_error_), least);
     shape.wide = hn::Gt(hn::Abs(shape.area), hn::Mul(shape.size, least));
     return shape;
   }
-  static void widen(Bounds& bounds, V8 size) {
-    const V8 more = hn::Mul(size, hn::Set(eight, 0x1p-4f));
+  static void widen(Bounds& bounds, V size) {
+    const V more = hn::Mul(size, all(0x1p-4f));
     bounds.u_min = hn::Sub(bounds.u_min, more), bounds.u_max = hn::Add(bounds.u_max, more);
     bounds.v_min = hn::Sub(bounds.v_min, more), bounds.v_max = hn::Add(bounds.v_max, more);
   }
@@ -229,20 +223,20 @@ class Projection {
   /// A ray that the double kernels cannot tell from the triangle's is no farther from a corner than 9/8 of the size both
   /// ways. There the edge function, a product of two differences of places, is off by less than 12 margins times the size,
   /// and the kernels' own by what edge_setup_kernel.cpp says.
-  void put_lines(const Corners& at, const Shape& shape, M8 known, EdgeLines& lines, std::size_t first) const {
-    V8 kernels = hn::Set(eight, kernel_error_);
+  void put_lines(const Corners& at, const Shape& shape, M known, EdgeLines& lines, std::size_t first) const {
+    V kernels = all(kernel_error_);
     if (!setup_.directional)
       kernels = hn::Mul(hn::Mul(kernels, at.size), hn::Mul(at.per_depth, at.per_depth));
-    const V8 tolerance = hn::MulAdd(hn::Mul(at.margin, hn::Set(eight, 12.0f)), shape.size, kernels);
-    const V8 sign = hn::CopySign(hn::Set(eight, 1.0f), shape.area);
+    const V tolerance = hn::MulAdd(hn::Mul(at.margin, all(12.0f)), shape.size, kernels);
+    const V sign = hn::CopySign(all(1.0f), shape.area);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      const V8 du = hn::Mul(hn::Sub(at.u[next], at.u[k]), sign),
-               dv = hn::Mul(hn::Sub(at.v[next], at.v[k]), sign);
-      const V8 constant = hn::Add(hn::Sub(hn::Mul(dv, at.u[k]), hn::Mul(du, at.v[k])), tolerance);
-      hn::Store(hn::IfThenElseZero(known, hn::Neg(dv)), eight, lines.across[k] + first);
-      hn::Store(hn::IfThenElseZero(known, du), eight, lines.down[k] + first);
-      hn::Store(hn::IfThenElse(known, constant, hn::Set(eight, inf)), eight, lines.constant[k] + first);
+      const V du = hn::Mul(hn::Sub(at.u[next], at.u[k]), sign),
+              dv = hn::Mul(hn::Sub(at.v[next], at.v[k]), sign);
+      const V constant = hn::Add(hn::Sub(hn::Mul(dv, at.u[k]), hn::Mul(du, at.v[k])), tolerance);
+      hn::Store(hn::IfThenElseZero(known, hn::Neg(dv)), f, lines.across[k] + first);
+      hn::Store(hn::IfThenElseZero(known, du), f, lines.down[k] + first);
+      hn::Store(hn::IfThenElse(known, constant, all(inf)), f, lines.constant[k] + first);
     }
   }
   BoxRef triangle_box(std::uint32_t leaf) const {
@@ -256,22 +250,22 @@ class Projection {
     return box;
   }
   /// `low`, `high`: the box, from the origin. Returns where it is clear of the origin.
-  M8 finish(Bounds& bounds, const V8 (&low)[3], const V8 (&high)[3]) const {
-    V8 corner[3];
+  M finish(Bounds& bounds, const V (&low)[3], const V (&high)[3]) const {
+    V corner[3];
     for (std::size_t a = 0; a < 3; ++a)
       corner[a] = (axes_[2][a] > 0.0f) == setup_.directional ? high[a] : low[a];
-    const V8 depth = along(2, corner);
+    const V depth = along(2, corner);
     if (setup_.directional) {
-      bounds.nearest = hn::Add(depth, hn::Set(eight, 4.0f * slack_));
+      bounds.nearest = hn::Add(depth, all(4.0f * slack_));
       return hn::Eq(depth, depth);
     }
-    const M8 clear = hn::Gt(depth, hn::Set(eight, 64.0f * slack_));
-    const V8 most = hn::Set(eight, inf), least = hn::Set(eight, -inf);
+    const M clear = hn::Gt(depth, all(64.0f * slack_));
+    const V most = all(inf), least = all(-inf);
     bounds.u_min = hn::IfThenElse(clear, bounds.u_min, least),
     bounds.u_max = hn::IfThenElse(clear, bounds.u_max, most);
     bounds.v_min = hn::IfThenElse(clear, bounds.v_min, least),
     bounds.v_max = hn::IfThenElse(clear, bounds.v_max, most);
-    const V8 near = hn::Div(hn::Set(eight, 1.0f + 0x1p-20f), hn::Sub(depth, hn::Set(eight, slack_)));
+    const V near = hn::Div(all(1.0f + 0x1p-20f), hn::Sub(depth, all(slack_)));
     bounds.nearest = hn::IfThenElse(clear, near, most);
     return clear;
   }

@@ -129,9 +129,10 @@ class BlockClosest {
     alignas(64) std::uint32_t rank[batch + packet_rays], order[batch];
     unsigned never[batch / 8], backs[batch / 8] = {};
     std::size_t count = 0;
-    for (std::size_t first = 0; first < waiting; first += 8)
-      count = find_asked(pending_.first(waiting).subspan(first, std::min<std::size_t>(8, waiting - first)),
-                         count, nearest);
+    for (std::size_t first = 0; first < waiting; first += PacketSpans::together) {
+      const std::size_t together = std::min(PacketSpans::together, waiting - first);
+      count = find_asked(pending_.first(waiting).subspan(first, together), count, nearest);
+    }
     pending_.drop(waiting);
     for (std::size_t first = 0; first < count; first += 8) {
       std::uint32_t leaves[8];
@@ -153,14 +154,14 @@ class BlockClosest {
     if (taken) update_limit();
   }
 
-  /// Adds those of eight leaves that packets ask for to `count` others; returns how many there are then.
+  /// Adds those of up to PacketSpans::together leaves that packets ask for to `count` others; returns how many there are then.
   std::size_t find_asked(std::span<const std::uint32_t> leaves, std::size_t count, float* nearest) {
     BoundsRows bounds;
     EdgeLines lines;
     PacketSpans u, v;
     plane_.projection().of_leaves(leaves, bounds, lines);
-    place_eight(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), bounds.u_min, bounds.u_max, u);
-    place_eight(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), bounds.v_min, bounds.v_max, v);
+    place_bounds(plane_.columns, 0x1p-21 * std::abs(plane_.columns.first), bounds.u_min, bounds.u_max, u);
+    place_bounds(plane_.rows, 0x1p-21 * std::abs(plane_.rows.first), bounds.v_min, bounds.v_max, v);
     const unsigned not_missed = met_by_rays(u, v, lines);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       if ((not_missed >> i & 1) == 0) continue;
@@ -172,24 +173,24 @@ class BlockClosest {
     return count;
   }
 
-  /// Bits of those of eight leaves that one of their rays does not surely miss. Looked at are those of up to two rays each
+  /// Bits of those leaves that one of their rays does not surely miss. Looked at are those of up to two rays each
   /// way, since most triangles that are smaller than pixels lie between all rays.
   unsigned met_by_rays(const PacketSpans& u, const PacketSpans& v, const EdgeLines& lines) const {
-    const V8 u_two = hn::Set(eight, static_cast<float>(1.5 * plane_.columns.width));
-    const V8 v_two = hn::Set(eight, static_cast<float>(1.5 * plane_.rows.width));
+    const V u_two = all(static_cast<float>(1.5 * plane_.columns.width));
+    const V v_two = all(static_cast<float>(1.5 * plane_.rows.width));
     unsigned met = 0;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(eight)) {
-      const auto at = [&](const float* row) { return hn::Load(eight, row + i); };
-      const V8 at_u[2] = {at(u.low), at(u.high)}, at_v[2] = {at(v.low), at(v.high)};
+    for (std::size_t i = 0; i < PacketSpans::together; i += lanes()) {
+      const auto at = [&](const float* row) { return hn::Load(f, row + i); };
+      const V at_u[2] = {at(u.low), at(u.high)}, at_v[2] = {at(v.low), at(v.high)};
       auto may = hn::Or(hn::Gt(hn::Sub(at_u[1], at_u[0]), u_two), hn::Gt(hn::Sub(at_v[1], at_v[0]), v_two));
       for (std::size_t ray = 0; ray < 4; ++ray) {
         const auto side = [&](std::size_t e) {
-          return hn::MulAdd(at(lines.across[e]), at_u[ray % 2],
-                            hn::MulAdd(at(lines.down[e]), at_v[ray / 2], at(lines.constant[e])));
+          return value(at(lines.across[e]), at(lines.down[e]), at(lines.constant[e]), at_u[ray % 2],
+                       at_v[ray / 2]);
         };
-        may = hn::Or(may, hn::Ge(hn::Min(side(0), hn::Min(side(1), side(2))), hn::Zero(eight)));
+        may = hn::Or(may, hn::Ge(hn::Min(side(0), hn::Min(side(1), side(2))), all(0.0f)));
       }
-      met |= mask_bits(eight, may) << i;
+      met |= bits_of(may) << i;
     }
     return met;
   }
