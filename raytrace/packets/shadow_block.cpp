@@ -138,11 +138,9 @@ class BlockShadows {
       const std::uint64_t touching = regions_.touching(tile, bounds_, count);
       if (touching == 0) continue;
       const unsigned packets = tiles_[tile].packets().touched_by(around);
-      const std::size_t tests =
-          (count + lanes() - 1) / lanes() * static_cast<std::size_t>(std::popcount(packets));
-      concern |= static_cast<std::size_t>(std::popcount(touching)) <= tests
-                     ? list_by_leaf(touching, tile)
-                     : list_by_packet(packets, tile, count);
+      const int by_leaf = std::popcount(touching) * static_cast<int>(packet_steps);
+      const int by_packet = std::popcount(packets) * static_cast<int>((count + lanes() - 1) / lanes());
+      concern |= by_leaf <= by_packet ? list_by_leaf(touching, tile) : list_by_packet(packets, tile, count);
     }
     return concern;
   }
