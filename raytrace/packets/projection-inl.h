@@ -15,7 +15,6 @@
 #include <bit>
 #include <cfloat>
 #include <span>
-#include <utility>
 
 #include "raytrace/packets/leaf_corners-inl.h"
 
@@ -91,8 +90,8 @@ class Projection {
             hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
   }
 
-  /// Of up to run_size leaves; what follows them up to a multiple of leaves_together is anything. As near as their boxes: where a
-  /// triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
+  /// Of up to run_size leaves; what follows them up to a multiple of leaves_together is anything. As near as their boxes:
+  /// where a triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
   void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows, EdgeLines& lines) const {
     for (std::size_t i = 0; i < leaves.size(); i += leaves_together)
       of_some(leaves.subspan(i, std::min(leaves_together, leaves.size() - i)), i, rows, lines);

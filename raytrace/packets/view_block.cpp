@@ -154,7 +154,8 @@ class BlockClosest {
     if (taken) update_limit();
   }
 
-  /// Adds those of up to PacketSpans::together leaves that packets ask for to `count` others; returns how many there are then.
+  /// Adds those of up to PacketSpans::together leaves that packets ask for to `count` others; returns how many there are
+  /// then.
   std::size_t find_asked(std::span<const std::uint32_t> leaves, std::size_t count, float* nearest) {
     BoundsRows bounds;
     EdgeLines lines;
