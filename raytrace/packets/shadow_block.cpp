@@ -192,7 +192,7 @@ class BlockShadows {
   static std::size_t list_bits(std::uint64_t bits, std::size_t other, std::uint16_t* out) {
     std::size_t listed = 0;
     while (bits != 0) {
-      const unsigned i = static_cast<unsigned>(std::countr_zero(bits)) & ~7u;
+      const std::size_t i = static_cast<std::size_t>(std::countr_zero(bits)) & ~std::size_t{7};
       const auto these = static_cast<std::size_t>(bits >> i & 0xff);
       const auto base = hn::Set(eight_pairs, static_cast<std::uint16_t>(unit * i + other));
       for (std::size_t k = 0; k < 8; k += hn::Lanes(eight_pairs)) {
