@@ -41,7 +41,7 @@ class Tile {
       : cache_(cache), receivers_(receivers), quantised_(receivers.tiles[index]), rect_(rect) {}
 
   ShadowCounts classify(Image<PointVisibility>& visibility, Image<Decision>* decisions) {
-    prefetch(&quantised_ + 1);
+    prefetch(&quantised_ + 1);  // while this one is classified; beyond the last one nothing is read
     if (!quantised_.any) {
       fill(visibility, PointVisibility::lit);
       if (decisions != nullptr) fill(*decisions, Decision::not_asked);
@@ -62,12 +62,6 @@ class Tile {
   const LaneMask& ambiguous() const { return all_.ambiguous; }
 
  private:
-  /// The next tile comes from memory while this one is classified. Beyond the last one nothing is read.
-  static void prefetch(const QuantisedTile* next) {
-    const char* bytes = reinterpret_cast<const char*>(next);
-    for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
-  }
-
   Decision decide(const SurfacePoint& point) const {
     if (light_cannot_reach(cache_.light, point.position, point.normal)) return Decision::not_asked;
     switch (cache_.sheets.at(point.position, point.primitive)) {

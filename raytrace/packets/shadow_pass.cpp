@@ -85,7 +85,7 @@ class ShadowPass {
     std::uint64_t rays = 0;
     std::array<ShadowTileRays, most_shadow_tiles> in_block;
     for (std::size_t t = 0; t < count; ++t) {
-      if (t + 1 < count) prefetch(tiles[t + 1].quantised);
+      if (t + 1 < count && tiles[t + 1].quantised != nullptr) prefetch(tiles[t + 1].quantised);
       rays += prepare(frame.setup, tiles[t]);
       in_block[t] = {&tiles[t].rays, &tiles[t].shadows};
     }
@@ -95,13 +95,6 @@ class ShadowPass {
       shadows_in_block(receivers_.tracer.structures(), frame.setup, {in_block.data(), count});
     for (const Tile& tile : tiles) finish(frame, tile, scratch.points.data());
     return rays;
-  }
-
-  /// The next tile comes from memory while this one is prepared.
-  static void prefetch(const QuantisedTile* next) {
-    if (next == nullptr) return;
-    const char* bytes = reinterpret_cast<const char*>(next);
-    for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
   }
 
   LightFrame frame_of(const Aabb& bounds) const {
