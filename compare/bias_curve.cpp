@@ -1,5 +1,6 @@
 #include "compare/bias_curve.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <set>
@@ -66,7 +67,8 @@ std::vector<float> gaps_where(const raster::LightRecord& record, const Image<flo
     return is_compared(labels.data[i]) && (lit ? truth.data[i] > 0.5f : truth.data[i] < 0.5f);
   });
   std::vector<float> values(pixels.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = record.gap.data[pixels[i]];
+  tbb::parallel_for(std::size_t{0}, values.size(),
+                    [&](std::size_t i) { values[i] = record.gap.data[pixels[i]]; });
   return values;
 }
 

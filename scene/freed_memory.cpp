@@ -1,6 +1,8 @@
 #include "scene/freed_memory.h"
 
+#include <algorithm>
 #include <limits>
+#include <thread>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -12,6 +14,9 @@ void keep_freed_memory() {
 #if defined(__GLIBC__)
   mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  constexpr unsigned threads_per_arena = 4;
+  mallopt(M_ARENA_MAX,
+          static_cast<int>(std::max(1U, std::thread::hardware_concurrency() / threads_per_arena)));
 #endif
 }
 
