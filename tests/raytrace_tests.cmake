@@ -36,11 +36,19 @@ gnomon_test(raytrace_models_test
 
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 gnomon_test_support(bench_scenes SOURCES bench/bench_scenes.cpp LIBS raytrace_support test_places)
-add_executable(gnomon_bench bench/gnomon_bench.cpp bench/tracer_bench.cpp bench/ball_light.cpp bench/embree_peer.cpp
+add_executable(gnomon_bench bench/gnomon_bench.cpp bench/tracer_bench.cpp bench/ball_light.cpp bench/embree_peer.cpp bench/tinybvh_peer.cpp
   ${PROJECT_SOURCE_DIR}/app/large_pages.cpp ${PROJECT_SOURCE_DIR}/app/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
 target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings test_places bench_scenes embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_compile_together(gnomon_bench)
+# tinybvh (github.com/jbikker/tinybvh) is one header and no part of the set-up: -DGNOMON_TINYBVH=FOLDER says where it is.
+find_path(GNOMON_TINYBVH tiny_bvh.h)
+mark_as_advanced(GNOMON_TINYBVH)
+if(GNOMON_TINYBVH)
+  target_include_directories(gnomon_bench SYSTEM PRIVATE "${GNOMON_TINYBVH}")
+  set_source_files_properties(bench/tinybvh_peer.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma;-w"
+    SKIP_UNITY_BUILD_INCLUSION ON)
+endif()
 # Of --json - the rows alone go to stdout.
 add_test(NAME gnomon_bench_runs COMMAND sh -c
   "\"$1\" --scene teapot --runs 1 --size 160x90 --json - | /usr/bin/python3 -m json.tool" sh $<TARGET_FILE:gnomon_bench>)

@@ -10,6 +10,7 @@
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
+#include "tinybvh_peer.h"
 
 namespace gnomon::bench {
 namespace {
@@ -34,6 +35,7 @@ class Bench {
         world_(make_world(scene.scene)),
         tracer_(world_, Accel::bvh),
         embree_(world_, embree_settings(settings)),
+        tiny_(make_tiny_bvh(world_)),
         view_(make_view(scene.scene.camera, settings.size)),
         primary_(primary_rays(view_)),
         grid_{settings.size},
@@ -136,6 +138,10 @@ class Bench {
     against(
         "primary, hits alone", [&] { our_hits(); }, [&] { embree_.closest_single(primary_, peer_); },
         "Embree single", std::nullopt);
+    if (tiny_ != nullptr)
+      against(
+          "primary, hits alone", [&] { our_hits(); }, [&] { tiny_->closest(primary_, peer_); },
+          "tinybvh single", std::nullopt);
     // Like for like: the rows above say which primitive alone, Embree says where on it as well.
     against(
         "primary, stored receivers", [&] { our_receivers(); }, packets, "Embree 16 coherent", 1.5);
@@ -148,10 +154,14 @@ class Bench {
     const auto packets = [&] { embree_.occluded_packets(shadow_[light], occluded_); };
     const auto ours = [&] { our_shadows(light); };
     add(name, threads, rays, in_turn(settings_.runs, threads, ours, packets), "Embree 16 coherent", 1.5);
-    if (threads == 1)
+    if (threads > 1) return;
+    add(name, threads, rays,
+        in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
+        "Embree single", std::nullopt);
+    if (tiny_ != nullptr)
       add(name, threads, rays,
-          in_turn(settings_.runs, threads, ours, [&] { embree_.occluded_single(shadow_[light], occluded_); }),
-          "Embree single", std::nullopt);
+          in_turn(settings_.runs, threads, ours, [&] { tiny_->occluded(shadow_[light], occluded_); }),
+          "tinybvh single", std::nullopt);
   }
 
   /// The same pass on one thread and on two; wall clock both.
@@ -179,18 +189,21 @@ class Bench {
       if (rays.valid[i] != 0)
         ours.push_back({Vec3(Vec3f(rays.ox[i], rays.oy[i], rays.oz[i])),
                         Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
-    std::size_t hits = 0, theirs = 0;
-    const auto ms = in_turn(
-        settings_.runs, 1,
-        [&] {
-          hits = 0;
-          for (const Ray& ray : ours) hits += tracer_.closest_hit(ray) ? 1 : 0;
-        },
-        [&] { embree_.closest_single(rays, peer_); });
-    for (std::size_t i = 0; i < rays.valid.size(); ++i)
-      theirs += rays.valid[i] != 0 && peer_.primitive[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-    fmt::print(settings_.table(), "  mirrored rays that hit: {} here, {} by Embree\n", hits, theirs);
-    add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, "Embree single", 1.2);
+    std::size_t hits = 0;
+    const auto trace = [&] {
+      hits = 0;
+      for (const Ray& ray : ours) hits += tracer_.closest_hit(ray) ? 1 : 0;
+    };
+    const auto against = [&](const char* peer, std::optional<double> goal, const auto& closest) {
+      const auto ms = in_turn(settings_.runs, 1, trace, closest);
+      std::size_t theirs = 0;
+      for (std::size_t i = 0; i < rays.valid.size(); ++i)
+        theirs += rays.valid[i] != 0 && peer_.primitive[i] != no_id ? 1 : 0;
+      fmt::print(settings_.table(), "  mirrored rays that hit: {} here, {} by {}\n", hits, theirs, peer);
+      add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, peer, goal);
+    };
+    against("Embree single", 1.2, [&] { embree_.closest_single(rays, peer_); });
+    if (tiny_ != nullptr) against("tinybvh single", std::nullopt, [&] { tiny_->closest(rays, peer_); });
   }
 
   void ball_light() {
@@ -298,6 +311,7 @@ class Bench {
   World world_;
   Tracer tracer_;
   Embree embree_;
+  std::unique_ptr<TinyBvh> tiny_;
   View view_;
   PeerRays primary_;
   std::vector<PeerRays> shadow_;
