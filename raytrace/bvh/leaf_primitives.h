@@ -73,6 +73,12 @@ class LeafPrimitives {
     __builtin_prefetch(&triangles_[first + count - 1]);
   }
 
+  /// The same of one leaf of the tree for single rays: the lines of its first and last triangle, between which is at most one.
+  [[gnu::always_inline]] void prefetch_leaf(std::size_t first, std::size_t count) const {
+    __builtin_prefetch(&triangles_[first]);
+    __builtin_prefetch(&triangles_[first + count - 1]);
+  }
+
  private:
   using Triangle = std::array<std::uint16_t, 3>;  ///< numbers of corners in the group
   static constexpr std::size_t group_bits = 12, group_size = std::size_t{1} << group_bits;

@@ -198,8 +198,10 @@ bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
 template <class Test, class Counts>
 HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandidates& found,
                                  const Counts& counts) {
+  const LeafPrimitives& primitives = tree.origin->primitives;
   const auto traversed =
       traverse<typename Test::Leaf>(tree, ray, counts, [&](const typename Test::Leaf& leaf) {
+        primitives.prefetch_leaf(leaf.triangles.first(), leaf.triangles.last() + 1);
         return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
           const float t = test.t_below(i);
           if (t > ray.t_max) return false;
