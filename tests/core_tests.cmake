@@ -1,1 +1,2 @@
 gnomon_test(core_geometry_test SOURCES core_geometry_test.cpp scene_cascade_test.cpp LIBS small_scenes fmt::fmt)
+gnomon_test(core_freed_memory_test SOURCES core_freed_memory_test.cpp LIBS gnomon::scene)
