@@ -1,13 +1,12 @@
 #include "app/heatmap.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 
 #include "compare/palette.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {
@@ -74,7 +73,7 @@ Image<raytrace::WorkCounts> primary_ray_work(const raytrace::Tracer& tracer, con
                                              ImageSize size) {
   const View view = make_view(camera, size);
   Image<raytrace::WorkCounts> work(size);
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x)
       tracer.closest_seen(pixel_ray(view, x + 0.5, y + 0.5), work.at(x, y));
   });

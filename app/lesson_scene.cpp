@@ -1,6 +1,6 @@
 #include "app/lesson_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -3,7 +3,7 @@
 // command_line.cpp and never leaves this room.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <span>

@@ -1,6 +1,6 @@
 #include "app/picture_command.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/effect_options.h"
 #include "app/interrupt.h"

@@ -1,6 +1,6 @@
 #include "app/picture_samples.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,5 @@
 #include "app/render_json.h"
+#include "scene/parallel.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "app/run_files.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

@@ -158,10 +158,6 @@ ThreadLimit::ThreadLimit(int threads, Console& console) : impl_(std::make_unique
 
 ThreadLimit::~ThreadLimit() = default;
 
-int threads_in_use() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
-
 std::string default_output(const std::string& path_or_name) {
   const std::string name = std::filesystem::path(path_or_name).stem().string();
   return "out/" + (name.empty() ? "scene" : name);

@@ -66,9 +66,6 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Of the ray tracer, as result.json counts them.
-int threads_in_use();
-
 /// out/NAME, NAME being that of the scene without folder and extension.
 std::string default_output(const std::string& path_or_name);
 

@@ -1,6 +1,6 @@
 #include "app/strongest_lights.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // Numbers are read with std::from_chars: no locale, nothing left over, nothing rounded twice.
 #include "app/values.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

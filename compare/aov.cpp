@@ -2,7 +2,7 @@
 // 0 except R,G,B (the background), the ladder (1: lit) and class.V, object.V and primitive.V (-1). gap.V is
 // -infinity where the receiver's texel holds nothing. Ids are exact up to 2^24, as far as 32-bit floats
 // count.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #include "compare/bias_advice.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

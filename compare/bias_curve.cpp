@@ -1,11 +1,9 @@
 #include "compare/bias_curve.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <set>
 
 #include "compare/pixel_list.h"
+#include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
@@ -67,8 +65,7 @@ std::vector<float> gaps_where(const raster::LightRecord& record, const Image<flo
     return is_compared(labels.data[i]) && (lit ? truth.data[i] > 0.5f : truth.data[i] < 0.5f);
   });
   std::vector<float> values(pixels.size());
-  tbb::parallel_for(std::size_t{0}, values.size(),
-                    [&](std::size_t i) { values[i] = record.gap.data[pixels[i]]; });
+  parallel_for(values.size(), [&](std::size_t i) { values[i] = record.gap.data[pixels[i]]; });
   return values;
 }
 
@@ -80,7 +77,7 @@ GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth,
   };
   GapLists gaps;
   gaps.ties = count_ties(truth, labels);
-  tbb::parallel_invoke([&] { gaps.lit = sorted(true); }, [&] { gaps.shadowed = sorted(false); });
+  parallel_invoke([&] { gaps.lit = sorted(true); }, [&] { gaps.shadowed = sorted(false); });
   return gaps;
 }
 

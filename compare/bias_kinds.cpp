@@ -1,8 +1,6 @@
 #include "compare/bias_kinds.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +11,7 @@
 #include "compare/sweep/engine.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
+#include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
@@ -49,7 +48,7 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
     biases[k] = bias_of(static_cast<Kind>(k), bias);
     gaps[k].resize(pixels.size());
   }
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+  parallel_for(pixels.size(), [&](std::size_t i) {
     const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
     const Vec3 to_light = light_at(in.light, receiver.position).to_light;
     std::size_t texel = 0;
@@ -201,17 +200,12 @@ std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<floa
   KindSettings found = settings_of_kinds(in, truth, labels);
   if (found.lit.empty() && found.ties == 0) return {};
   std::array<GapLists, kind_count> lists;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, kind_count, 1),
-      [&](const auto& range) {
-        for (std::size_t k = range.begin(); k != range.end(); ++k) {
-          put_into_lists(found.settings[k], found.lit, lists[k]);
-          lists[k].ties = found.ties;
-          sort_numbers(std::span(lists[k].lit));
-          sort_numbers(std::span(lists[k].shadowed));
-        }
-      },
-      tbb::simple_partitioner());
+  parallel_tasks(kind_count, [&](std::size_t k) {
+    put_into_lists(found.settings[k], found.lit, lists[k]);
+    lists[k].ties = found.ties;
+    sort_numbers(std::span(lists[k].lit));
+    sort_numbers(std::span(lists[k].shadowed));
+  });
   std::vector<BiasKind> kinds;
   for (const KindOfBias kind : kinds_in_order) kinds.push_back(kind_of_bias(kind, in, lists[kind]));
   sort_kinds(kinds);

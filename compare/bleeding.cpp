@@ -1,8 +1,7 @@
 #include "compare/bleeding.h"
 
-#include <tbb/parallel_for.h>
-
 #include "compare/filter_probe.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -22,7 +21,7 @@ void BleedingSum::add(const LadderInput& in, const std::array<Image<float>, rung
   if (!raster::uses_moments(in.drawn.options.map.technique)) return;
   const auto width = static_cast<std::size_t>(labels.size.width);
   std::vector<BleedingStats> rows(static_cast<std::size_t>(labels.size.height));
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+  parallel_for(rows.size(), [&](std::size_t y) {
     for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
       const float bled = rungs[6].data[i];
       if (!is_compared(labels.data[i]) || bled < visible_step || !shadowed_up_to_bias(rungs, i)) continue;

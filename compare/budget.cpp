@@ -1,10 +1,7 @@
 #include "compare/budget.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include "compare/labelling.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -18,7 +15,7 @@ void sum_compared(const Image<Label>& labels, const Add& add, std::array<double,
   using Sums = std::array<double, count>;
   std::vector<Sums> rows(static_cast<std::size_t>(labels.size.height), Sums{});
   const auto width = static_cast<std::size_t>(labels.size.width);
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+  parallel_for(rows.size(), [&](std::size_t y) {
     Sums sums{};
     for (std::size_t i = y * width; i < (y + 1) * width; ++i)
       if (is_compared(labels.data[i])) add(sums, i);
@@ -31,11 +28,10 @@ void sum_compared(const Image<Label>& labels, const Add& add, std::array<double,
 /// How many pixels have each label.
 Labels count_labels(const Image<Label>& labels) {
   constexpr std::size_t block = 1 << 16;
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, labels.data.size(), block), Labels{},
-      [&](const auto& range, Labels counts) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-          ++counts[static_cast<std::uint8_t>(labels.data[i])];
+  return parallel_reduce(
+      labels.data.size(), block, Labels{},
+      [&](std::size_t first, std::size_t last, Labels counts) {
+        for (std::size_t i = first; i < last; ++i) ++counts[static_cast<std::uint8_t>(labels.data[i])];
         return counts;
       },
       [](Labels a, const Labels& b) {

@@ -1,10 +1,8 @@
 #include "compare/cascades.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include "compare/biased_test.h"
 #include "compare/surfaces.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -99,10 +97,10 @@ std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& 
       record.face.data.size() != labels.data.size())
     return std::nullopt;
   const SeamCounter counter(in, labels);
-  return tbb::parallel_reduce(
-      tbb::blocked_range<int>(within.first, within.end()), SeamCount{},
-      [&](const tbb::blocked_range<int>& rows, SeamCount sum) {
-        for (int y = rows.begin(); y < rows.end(); ++y) counter.count_row(y, sum);
+  return parallel_reduce(
+      static_cast<std::size_t>(within.count), 1, SeamCount{},
+      [&](std::size_t first, std::size_t last, SeamCount sum) {
+        for (std::size_t i = first; i < last; ++i) counter.count_row(within.first + static_cast<int>(i), sum);
         return sum;
       },
       [](const SeamCount& a, const SeamCount& b) {

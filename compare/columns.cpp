@@ -1,8 +1,8 @@
 #include "compare/columns.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -34,8 +34,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
 
 std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {
   std::vector<TexelCentre> centres(keys.size());
-  tbb::parallel_for(std::size_t{0}, keys.size(),
-                    [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
+  parallel_for(keys.size(), [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
   return centres;
 }
 
@@ -99,7 +98,7 @@ ColumnSet::ColumnSet(const LadderInput& in, const TexelGroups& groups,
       surfaces_(in.world, in.topology) {
   std::vector<char> needed(groups.keys.size(), 0);
   const auto mark = [&](const auto& is_needed) {
-    tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
+    parallel_for(groups.keys.size(), [&](std::size_t g) {
       for (const std::uint32_t pixel : groups[g]) needed[g] |= static_cast<char>(is_needed(g, pixel));
     });
   };

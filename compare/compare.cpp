@@ -1,9 +1,8 @@
 #include "compare/compare.h"
 
-#include <tbb/global_control.h>
-
 #include "compare/light_comparison.h"
 #include "scene/exposure.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -44,8 +43,7 @@ Expected<Comparison> compare_drawn(const raytrace::Tracer& tracer, raster::Raste
   const Scene& scene = *world.scene;
   Comparison out;
   out.world = &world;
-  out.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  out.threads = threads_in_use();
   out.plan = plan_effects(scene);
   out.raster = std::move(drawn);
 

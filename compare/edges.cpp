@@ -1,6 +1,6 @@
 #include "compare/edges.h"
 
-#include <tbb/parallel_for.h>
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -181,7 +181,7 @@ struct EdgeWalk : EdgeInput {
 void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& total) {
   const EdgeWalk walk(input);
   std::vector<EdgeSums> by_row(static_cast<std::size_t>(rows.count));
-  tbb::parallel_for(0, rows.count, [&](int i) {
+  parallel_for(rows.count, [&](int i) {
     EdgeSums& sums = by_row[static_cast<std::size_t>(i)];
     walk.at_edges_of_row(rows.first + i,
                          [&](int px, int py, int qx, int qy) { walk.measure(px, py, qx, qy, sums); });
@@ -230,9 +230,10 @@ Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& r
   const int begin = std::max(0, rows.first - beside);
   const int end = std::min(rows.end() + beside, input.labels.size.height);
   std::vector<std::vector<Stroke>> strokes(static_cast<std::size_t>(end - begin));
-  tbb::parallel_for(begin, end, [&](int y) {
-    std::vector<Stroke>& own = strokes[static_cast<std::size_t>(y - begin)];
-    walk.at_edges_of_row(y, [&](int px, int py, int qx, int qy) { add_strokes(px, py, qx, qy, own); });
+  parallel_for(strokes.size(), [&](std::size_t row) {
+    std::vector<Stroke>& own = strokes[row];
+    walk.at_edges_of_row(begin + static_cast<int>(row),
+                         [&](int px, int py, int qx, int qy) { add_strokes(px, py, qx, qy, own); });
   });
   for (const std::vector<Stroke>& row : strokes)  // one after the other: of equal ones the first stays
     for (const auto& [pixel, texels] : row)
@@ -334,7 +335,7 @@ Detachment DetachmentSum::stats() const {
 Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
                             const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
   Image<float> map(labels.size, std::numeric_limits<float>::quiet_NaN());
-  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+  parallel_for(labels.data.size(), [&](std::size_t i) {
     if (labels.data[i] != Label::peter_panning) return;
     if (const auto distance = detachment_distance(tracer, light, receivers.data[i]))
       map.data[i] = static_cast<float>(*distance);

@@ -1,6 +1,6 @@
 #include "compare/filter_parameters.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

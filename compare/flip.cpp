@@ -4,8 +4,6 @@
 // both pictures of a patch are equal nothing is to be computed: the error is 0.
 #include "compare/flip.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "compare/weighted_rows.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -355,7 +354,7 @@ Image<float> flip_of(const ImageSize& size, const Linear& reference, const Linea
   Image<float> error(size);
   const int columns = (size.width + patch_width - 1) / patch_width;
   const int rows = (size.height + patch_height - 1) / patch_height;
-  tbb::parallel_for(0, columns * rows, [&](int i) {
+  parallel_for(columns * rows, [&](int i) {
     const int x0 = i % columns * patch_width, y0 = i / columns * patch_height;
     const Patch patch{x0, y0, std::min(patch_width, size.width - x0),
                       std::min(patch_height, size.height - y0)};
@@ -388,7 +387,7 @@ double mean_flip(const ColorImage& reference_linear, const ColorImage& test_line
 double mean_flip(const Image<float>& error) {
   std::vector<double> rows(static_cast<std::size_t>(error.size.height), 0.0);
   const auto width = static_cast<std::size_t>(error.size.width);
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+  parallel_for(rows.size(), [&](std::size_t y) {
     for (std::size_t i = y * width; i < (y + 1) * width; ++i) rows[y] += static_cast<double>(error.data[i]);
   });
   const double sum = std::accumulate(rows.begin(), rows.end(), 0.0);

@@ -3,8 +3,6 @@
 // precision.
 #include "compare/ladder.h"
 
-#include <tbb/parallel_for.h>
-
 #include <optional>
 
 #include "compare/columns.h"
@@ -13,6 +11,7 @@
 #include "compare/pixel_list.h"
 #include "raster/technique_traits.h"
 #include "raytrace/sheets/shape_sheets.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 #include "scene/stages.h"
 
@@ -39,7 +38,7 @@ bool ray_leaves_doubt(const raytrace::LightTruth& truth, std::size_t pixel) {
 Image<Label> sort_pixels(const LadderInput& in) {
   const TimedStage stage("labels");
   Image<Label> labels(in.drawn.primitive.size, Label::background);
-  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+  parallel_for(labels.data.size(), [&](std::size_t i) {
     const SurfacePoint& receiver = in.traced.receiver.data[i];
     if (receiver.primitive != in.drawn.primitive.data[i]) {
       labels.data[i] = Label::silhouette;
@@ -57,7 +56,7 @@ Image<Label> sort_pixels(const LadderInput& in) {
 Image<Label> labels_climbed(const LadderInput& in, const Image<Label>& labels) {
   Image<Label> climbed = labels;
   if (in.truth.standard_error.data.empty()) return climbed;
-  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+  parallel_for(labels.data.size(), [&](std::size_t i) {
     if (labels.data[i] == Label::uncertain && !ray_leaves_doubt(in.truth, i)) climbed.data[i] = Label::right;
   });
   return climbed;
@@ -226,7 +225,7 @@ bool lacks_map(const LadderInput& in) {
 // Of a picture alone the light's size is known, and that the rest is what some map made of it.
 Climb climb_unexplained(const LadderInput& in, Climb out) {
   const Image<Label> climbed = labels_climbed(in, out.labels);
-  tbb::parallel_for(std::size_t{0}, out.labels.data.size(), [&](std::size_t i) {
+  parallel_for(out.labels.data.size(), [&](std::size_t i) {
     if (!is_compared(climbed.data[i])) return;
     out.rungs[0].data[i] = true_visibility(in, i);
     out.rungs[1].data[i] = point_rung(in, i);
@@ -272,10 +271,9 @@ std::size_t texel_of_group(const LowerClimb& lower, std::size_t group) {
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
   const TimedStage stage("columns and sheets");
-  tbb::parallel_for(std::size_t{0}, rungs.size(),
-                    [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
+  parallel_for(rungs.size(), [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
   groups = group_by_texel(in.record, compared_pixels(labels_climbed(in, sorted)), outside);
-  tbb::parallel_for(std::size_t{0}, outside.size(), [&](std::size_t i) {
+  parallel_for(outside.size(), [&](std::size_t i) {
     rungs[0].data[outside[i]] = true_visibility(in, outside[i]);
     rungs[1].data[outside[i]] = point_rung(in, outside[i]);
   });
@@ -283,7 +281,7 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
   centres.reserve(rays.size());
   for (const TexelCentre& ray : rays) centres.push_back({ray.depth, ray.hit ? ray.hit->primitive : no_id});
   columns = std::make_unique<ColumnSet>(input, groups, rays);
-  tbb::parallel_for(std::size_t{0}, groups.keys.size(), [&](std::size_t g) {
+  parallel_for(groups.keys.size(), [&](std::size_t g) {
     const Column column = columns->column(g);
     for (const std::uint32_t pixel : groups[g]) climb_lower(column, rays[g], groups.keys[g], pixel, *this);
   });
@@ -297,16 +295,15 @@ namespace {
 Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
   const TimedStage stage("labels");
   if (!raster::compares_depths(in.drawn.options.map.technique)) return climb_without_map(in, std::move(out));
-  tbb::parallel_for(std::size_t{0}, lower.outside.size(),
-                    [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
+  parallel_for(lower.outside.size(), [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
   const std::size_t count = lower.groups.keys.size();
   std::vector<char> wrong(count, 0);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
+  parallel_for(count, [&](std::size_t g) {
     for (const std::uint32_t pixel : lower.groups[g])
       wrong[g] |= static_cast<char>(drawn_wrong(in, out, pixel));
   });
   lower.columns->add(wrong);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) { climb_group(lower, in, g, out); });
+  parallel_for(count, [&](std::size_t g) { climb_group(lower, in, g, out); });
   return out;
 }
 

@@ -1,7 +1,5 @@
 #include "compare/light_parts.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include "compare/option_names.h"
 #include "compare/pixel_list.h"
 #include "compare/sweep/engine.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -23,7 +22,7 @@ std::vector<double> texel_widths(const LadderInput& in, const Image<Label>& labe
   if (pixels.empty()) return {};
   if (has_one_texel_size(view)) pixels.erase(pixels.begin() + 1, pixels.end());
   std::vector<double> sizes(pixels.size());
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+  parallel_for(pixels.size(), [&](std::size_t i) {
     const Vec3& x = in.traced.receiver.data[pixels[i]].position;
     sizes[i] = texel_world_size(view, project_to_face(view, in.record.face.data[pixels[i]], x));
   });

@@ -1,6 +1,6 @@
 #include "compare/number_text.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <cmath>

@@ -15,6 +15,6 @@ function(gnomon_compare_outputs target)
   gnomon_embed(${target} report "${report}/page/dist/page.html" "${report}/page/dist/lesson.html" "${report}/phrases.json")  # built by npm run build in report/page, and checked in
   file(GLOB lessons CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lessons/*.md")
   gnomon_embed(${target} lessons ${lessons})
-  target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json TBB::tbb)
+  target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
 endfunction()
 cmake_language(DEFER CALL gnomon_compare_outputs gnomon_compare)

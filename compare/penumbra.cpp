@@ -1,8 +1,8 @@
 #include "compare/penumbra.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -175,7 +175,7 @@ void PenumbraMeasure::add_widths(const std::vector<Sample>& samples, PenumbraSta
 PenumbraMeasure::Pixels PenumbraMeasure::pixels_of(const LadderInput& in, const Image<float>& truth,
                                                    const Image<Label>& labels) {
   Pixels out{Image<Vec3>(labels.size), Image<std::uint32_t>(labels.size), truth, in.record.visibility};
-  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+  parallel_for(labels.data.size(), [&](std::size_t i) {
     out.positions.data[i] = in.traced.receiver.data[i].position;
     out.objects.data[i] =
         is_compared(labels.data[i]) ? in.world.object_of(in.drawn.primitive.data[i]) : no_id;
@@ -206,7 +206,7 @@ void PenumbraMeasure::count(const Pixels& rows) {
 void PenumbraMeasure::measure(const PictureRows& rows) {
   const Walker walker(pixels_, first_);
   std::vector<std::vector<Sample>> by_row(static_cast<std::size_t>(rows.count));
-  tbb::parallel_for(0, rows.count, [&](int i) {
+  parallel_for(rows.count, [&](int i) {
     const int y = rows.first - first_ + i;
     std::vector<Sample>& row = by_row[static_cast<std::size_t>(i)];
     for (int x = 0; x < pixels_.objects.size.width; ++x) {

@@ -1,7 +1,6 @@
 #include "compare/picture_set.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <functional>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "scene/files/image_io.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -77,7 +77,7 @@ void add_light_jobs(std::vector<Job>& jobs, const Comparison& c, const Rgb8Image
 
 Expected<void> run_jobs(const std::vector<Job>& jobs) {
   std::vector<std::optional<Error>> errors(jobs.size());
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+  parallel_for(jobs.size(), [&](std::size_t i) {
     const Rgb8Image image = jobs[i].draw();
     Expected<std::string> png = encode_png(image);
     if (!png)
@@ -119,7 +119,7 @@ raster::ShadowMap reduced_map(const raster::ShadowMap& map, int step) {
                          static_cast<std::size_t>(small.view.size) *
                          static_cast<std::size_t>(small.view.size),
                      empty);
-  tbb::parallel_for(0, map.view.face_count * small.view.size, [&](int line) {
+  parallel_for(map.view.face_count * small.view.size, [&](int line) {
     const int face = line / small.view.size, small_row = line % small.view.size;
     for (int row = small_row * step; row < std::min((small_row + 1) * step, map.view.size); ++row)
       for (int column = 0; column < map.view.size; ++column) {

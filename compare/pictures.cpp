@@ -1,6 +1,5 @@
 // The pictures of a comparison as 8-bit sRGB images, row 0 at the top. Pixel-wise work runs on oneTBB, row by
 // row.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include "compare/palette.h"
 #include "hybrid/hard_shadows.h"
 #include "scene/files/image_io.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 template <class Function>
 Rgb8Image picture(ImageSize size, const Function& colour_of) {
   Rgb8Image image(size);
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) image.at(x, y) = colour_of(image.index(x, y));
   });
   return image;
@@ -127,7 +127,7 @@ Rgb8Image depth_map_picture(const raster::ShadowMap& map) {
   const int across = std::min(faces, 3), down = (faces + across - 1) / across;  // +x -x +y over -y +z -z
   const int gap = faces > 1 ? std::max(1, n / 64) : 0;
   Rgb8Image image({across * n + (across - 1) * gap, down * n + (down - 1) * gap}, nothing_stored_colour);
-  tbb::parallel_for(0, faces * n, [&](int line) {
+  parallel_for(faces * n, [&](int line) {
     const int face = line / n, row = line % n;
     const int left = (face % across) * (n + gap), top = (face / across) * (n + gap);
     for (int column = 0; column < n; ++column) {

@@ -1,11 +1,11 @@
 // The places in an image that something holds of, in ascending order, looked for by all threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <cstdint>
 #include <numeric>
 #include <vector>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -18,11 +18,10 @@ std::vector<std::uint32_t> pixels_where(std::size_t count, const Predicate& hold
       if (holds(i)) act(static_cast<std::uint32_t>(i));
   };
   std::vector<std::size_t> before(blocks + 1, 0);
-  tbb::parallel_for(std::size_t{0}, blocks,
-                    [&](std::size_t b) { each_of(b, [&](std::uint32_t) { ++before[b + 1]; }); });
+  parallel_for(blocks, [&](std::size_t b) { each_of(b, [&](std::uint32_t) { ++before[b + 1]; }); });
   std::partial_sum(before.begin(), before.end(), before.begin());
   std::vector<std::uint32_t> pixels(before.back());
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  parallel_for(blocks, [&](std::size_t b) {
     std::size_t next = before[b];
     each_of(b, [&](std::uint32_t i) { pixels[next++] = i; });
   });

@@ -1,8 +1,8 @@
 #include "compare/seen_surfaces.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -15,8 +15,7 @@ SeenSurface::SeenSurface(const raytrace::SurfacePoint& receiver) : primitive(rec
 
 Image<SeenSurface> seen_surfaces(const Image<raytrace::SurfacePoint>& receivers) {
   Image<SeenSurface> out(receivers.size);
-  tbb::parallel_for(std::size_t{0}, out.data.size(),
-                    [&](std::size_t i) { out.data[i] = SeenSurface(receivers.data[i]); });
+  parallel_for(out.data.size(), [&](std::size_t i) { out.data[i] = SeenSurface(receivers.data[i]); });
   return out;
 }
 

@@ -2,13 +2,12 @@
 // in parallel, so that the result does not depend on the number of threads.
 #include "compare/ssim.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "compare/ssim_rows.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -46,7 +45,7 @@ Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
   const auto weights = gaussian();
   const ImageSize out_size{size.width - ssim_window + 1, size.height - ssim_window + 1};
   Image<float> map(out_size);
-  tbb::parallel_for(0, out_size.height, [&](int y) {
+  parallel_for(out_size.height, [&](int y) {
     thread_local MomentRows sums;
     std::array<const float*, ssim_window> first{}, second{};
     for (std::size_t k = 0; k < ssim_window; ++k)

@@ -1,6 +1,6 @@
 // The summary that `gnomon compare` prints: per light the verdict, the counts, the budget and what the time
 // bought. At most 80 columns; colour is the terminal's own bold and dim, so that it follows the user's theme.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,10 +1,8 @@
 #include "compare/surfaces.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -38,9 +36,7 @@ void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) 
 void Surfaces::connect() const {
   parent_.resize(world_.vertex_count());
   const auto for_each = [](std::size_t count, const auto& work) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) work(static_cast<std::uint32_t>(i));
-    });
+    parallel_for(static_cast<std::uint32_t>(count), 8192, work);
   };
   for_each(parent_.size(), [&](std::uint32_t v) { parent_[v] = v; });
   for_each(world_.triangle_count(), [&](std::uint32_t t) {
@@ -52,7 +48,7 @@ void Surfaces::connect() const {
 
 void Surfaces::prepare() const {
   // Threads that wait for this one must not be given work that asks it.
-  std::call_once(once_, [this] { tbb::this_task_arena::isolate([this] { connect(); }); });
+  std::call_once(once_, [this] { run_isolated([this] { connect(); }); });
 }
 
 bool Surfaces::same(std::uint32_t a, std::uint32_t b) const {

@@ -56,7 +56,7 @@ class TexelNumbers {
 std::vector<std::uint64_t> sorted_entries(const raster::LightRecord& record,
                                           std::span<const std::uint32_t> pixels, const TexelNumbers& texels) {
   std::vector<std::uint64_t> entries(pixels.size());
-  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+  parallel_for(pixels.size(), [&](std::size_t i) {
     TexelKey key;
     const bool inside = texel_of_pixel(record, pixels[i], key);
     entries[i] = Entry(inside ? texels.number(key) : outside_map, pixels[i]).packed();
@@ -79,10 +79,9 @@ TexelGroups group_by_texel(const raster::LightRecord& record, std::span<const st
   groups.offsets = pixels_where(inside, [&](std::size_t i) { return i == 0 || texel(i) != texel(i - 1); });
   groups.keys.resize(groups.offsets.size());
   groups.pixels.resize(inside);
-  tbb::parallel_for(std::size_t{0}, groups.keys.size(),
-                    [&](std::size_t g) { groups.keys[g] = texels.key(texel(groups.offsets[g])); });
-  tbb::parallel_for(std::size_t{0}, inside,
-                    [&](std::size_t i) { groups.pixels[i] = Entry(entries[i]).pixel(); });
+  parallel_for(groups.keys.size(),
+               [&](std::size_t g) { groups.keys[g] = texels.key(texel(groups.offsets[g])); });
+  parallel_for(inside, [&](std::size_t i) { groups.pixels[i] = Entry(entries[i]).pixel(); });
   groups.offsets.push_back(static_cast<std::uint32_t>(inside));
   outside.clear();
   for (std::size_t i = inside; i < entries.size(); ++i) outside.push_back(Entry(entries[i]).pixel());

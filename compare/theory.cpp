@@ -1,7 +1,5 @@
 #include "compare/theory.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <memory>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include "compare/biased_test.h"
 #include "scene/camera.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -115,7 +114,7 @@ class Predictor {
 /// Where each row's compared pixels begin among all of them; at last their number.
 std::vector<std::size_t> compared_before(const Image<Label>& labels, const PictureRows& rows) {
   std::vector<std::size_t> before(static_cast<std::size_t>(rows.count) + 1, 0);
-  tbb::parallel_for(0, rows.count, [&](int i) {
+  parallel_for(rows.count, [&](int i) {
     for (int x = 0; x < labels.size.width; ++x)
       before[static_cast<std::size_t>(i) + 1] += is_compared(labels.at(x, rows.first + i)) ? 1 : 0;
   });
@@ -131,7 +130,7 @@ TheoryValues theory_values(const LadderInput& in, const Image<Label>& labels, co
   TheoryValues values;
   for (std::vector<double>& v : values) v.resize(before.back());
   const Predictor predictor(in, labels, picture_height);
-  tbb::parallel_for(0, rows.count, [&](int row) {
+  parallel_for(rows.count, [&](int row) {
     std::size_t i = before[static_cast<std::size_t>(row)];
     const int y = rows.first + row;
     for (int x = 0; x < labels.size.width; ++x) {
@@ -154,8 +153,7 @@ Distribution& distribution_of(TheoryStats& stats, std::size_t value) {
 TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
   TheoryValues values = theory_values(in, labels, {0, labels.size.height}, labels.size.height);
   TheoryStats stats;
-  tbb::parallel_for(std::size_t{0}, values.size(),
-                    [&](std::size_t k) { distribution_of(stats, k) = distribution(values[k]); });
+  parallel_for(values.size(), [&](std::size_t k) { distribution_of(stats, k) = distribution(values[k]); });
   return stats;
 }
 

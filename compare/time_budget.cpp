@@ -1,6 +1,6 @@
 #include "compare/time_budget.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,13 +1,12 @@
 #include "hybrid/hard_shadows.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <bit>
 #include <cstring>
 
 #include "hybrid/classify.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
+#include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -139,7 +138,7 @@ ShadowCounts sum_of(const std::vector<ShadowCounts>& tiles) {
 /// The parts of texels that receivers without an answer look up.
 std::vector<std::uint64_t> ambiguous_parts(const LightSheets& sheets, const Image<SurfacePoint>& receivers,
                                            const std::vector<LaneMask>& ambiguous) {
-  tbb::enumerable_thread_specific<std::vector<std::uint64_t>> found;
+  PerThread<std::vector<std::uint64_t>> found;
   for_each_tile(raytrace::TileGrid{receivers.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
     for_each_lane({x0, y0, x1, y1}, ambiguous[i], [&](int x, int y, std::size_t) {
       const auto part = sheets.part_of(receivers.at(x, y).position);

@@ -1,8 +1,7 @@
 #include "hybrid/light_facing.h"
 
-#include <tbb/parallel_for.h>
-
 #include "raytrace/error_bounds.h"
+#include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -56,23 +55,18 @@ WorldBounds world_bounds(const World& world, const LightView& view) {
 std::vector<TriangleFacing> find_facing(const World& world, const Topology& topology, const LightView& view,
                                         const WorldBounds& bounds) {
   std::vector<TriangleFacing> out(world.triangle_count());
-  const tbb::blocked_range<std::uint32_t> all(0, world.triangle_count(), grain);
-  tbb::parallel_for(all, [&](const auto& range) {
-    for (std::uint32_t t = range.begin(); t != range.end(); ++t)
-      out[t].facing = facing_of(world.corners(t), view, bounds);
-  });
-  tbb::parallel_for(all, [&](const auto& range) {
-    for (std::uint32_t t = range.begin(); t != range.end(); ++t) {
-      const bool masked = world.is_masked(t);
-      unsigned bits = masked || out[t].facing == 0 ? TriangleFacing::whole : 0U;
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t across = topology.across(t, k);
-        const bool inner = across != Topology::boundary && across != Topology::non_manifold &&
-                           out[t].facing != 0 && out[across].facing == out[t].facing;
-        bits |= inner ? 0U : 1U << k;
-      }
-      out[t].boundary = static_cast<std::uint8_t>(bits);
+  parallel_for(world.triangle_count(), grain,
+               [&](std::uint32_t t) { out[t].facing = facing_of(world.corners(t), view, bounds); });
+  parallel_for(world.triangle_count(), grain, [&](std::uint32_t t) {
+    const bool masked = world.is_masked(t);
+    unsigned bits = masked || out[t].facing == 0 ? TriangleFacing::whole : 0U;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t across = topology.across(t, k);
+      const bool inner = across != Topology::boundary && across != Topology::non_manifold &&
+                         out[t].facing != 0 && out[across].facing == out[t].facing;
+      bits |= inner ? 0U : 1U << k;
     }
+    out[t].boundary = static_cast<std::uint8_t>(bits);
   });
   return out;
 }

@@ -1,9 +1,7 @@
 #include "hybrid/light_sheets.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include "raytrace/error_bounds.h"
+#include "scene/parallel.h"
 #include "scene/timing.h"
 
 namespace gnomon::hybrid {
@@ -14,9 +12,8 @@ constexpr std::uint64_t parts_per_tile = std::uint64_t{tile_texels} * tile_texel
 std::vector<ProjectedPoint> project(const World& world, const SheetGrid& grid, int face) {
   constexpr std::size_t grain = 4096;  // vertices per task
   std::vector<ProjectedPoint> points(world.vertex_count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      points[i] = grid.point(face, world.position(static_cast<std::uint32_t>(i)));
+  parallel_for(points.size(), grain, [&](std::size_t i) {
+    points[i] = grid.point(face, world.position(static_cast<std::uint32_t>(i)));
   });
   return points;
 }
@@ -48,9 +45,9 @@ void LightSheets::build_face(int face) {
   TileBins bins(world_, grid_, points);
   faces_.push_back({std::move(points), std::move(bins)});
   const Face& made = faces_.back();
-  tbb::enumerable_thread_specific<TileBuilder> builders(
+  PerThread<TileBuilder> builders(
       [&] { return TileBuilder(world_, topology_, grid_, facing_, face, made.points, *store_); });
-  tbb::parallel_for(0, grid_.tiles * grid_.tiles, [&](int i) {
+  parallel_for(grid_.tiles * grid_.tiles, [&](int i) {
     const int x = i % grid_.tiles, y = i / grid_.tiles;
     tiles_[grid_.tile_index(face, x, y)] =
         builders.local().build(x, y, made.bins.triangles(static_cast<std::size_t>(i)));
@@ -93,7 +90,7 @@ std::size_t LightSheets::refine(std::vector<std::uint64_t> parts) {
     if (i == 0 || parts[i] / parts_per_tile != parts[i - 1] / parts_per_tile) first.push_back(i);
   first.push_back(parts.size());
   const auto per_face = static_cast<std::size_t>(grid_.tiles) * static_cast<std::size_t>(grid_.tiles);
-  tbb::parallel_for(std::size_t{0}, first.size() - 1, [&](std::size_t k) {
+  parallel_for(first.size() - 1, [&](std::size_t k) {
     const std::size_t tile = parts[first[k]] / parts_per_tile, on_face = tile % per_face;
     std::vector<std::uint32_t> asked;
     for (std::size_t i = first[k]; i < first[k + 1]; ++i) asked.push_back(in_tile(parts[i]));

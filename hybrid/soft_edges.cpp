@@ -1,8 +1,7 @@
 #include "hybrid/soft_edges.h"
 
-#include <tbb/parallel_for.h>
-
 #include "raytrace/error_bounds.h"
+#include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -43,7 +42,7 @@ SoftEdges::SoftEdges(const World& world, const raytrace::Topology& topology, con
                      double position_error) {
   std::vector<std::int8_t> side(world.triangle_count());
   std::vector<char> whole(world.triangle_count());
-  tbb::parallel_for(std::uint32_t{0}, world.triangle_count(), [&](std::uint32_t t) {
+  parallel_for(world.triangle_count(), [&](std::uint32_t t) {
     const auto corners = world.corners(t);
     side[t] = static_cast<std::int8_t>(side_of_light(corners, hull, position_error));
     const Material& material = world.scene->materials[world.material_of(t)];

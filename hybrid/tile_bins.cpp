@@ -1,6 +1,6 @@
 #include "hybrid/tile_bins.h"
 
-#include <tbb/parallel_for.h>
+#include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -59,7 +59,7 @@ TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<
   const auto each = [&](std::size_t c, const auto& body) {
     for (std::size_t t = c * chunk; t < std::min(triangles, (c + 1) * chunk); ++t) body(t);
   };
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+  parallel_for(chunks, [&](std::size_t c) {
     each(c, [&](std::size_t t) {
       const auto v = world.triangle(static_cast<std::uint32_t>(t));
       rects[t] = rect_of(grid, {points[v[0]], points[v[1]], points[v[2]]});
@@ -78,7 +78,7 @@ TileBins::TileBins(const World& world, const SheetGrid& grid, const std::vector<
   }
   first_[tile_count] = sum;
   triangles_.resize(sum);
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+  parallel_for(chunks, [&](std::size_t c) {
     each(c, [&](std::size_t t) {
       for_each_tile(rects[t], grid.tiles, [&](std::size_t tile) {
         triangles_[next[c * tile_count + tile]++] = static_cast<std::uint32_t>(t);

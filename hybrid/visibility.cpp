@@ -1,7 +1,5 @@
 #include "hybrid/visibility.h"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <map>
 
@@ -9,6 +7,7 @@
 #include "hybrid/receivers.h"
 #include "hybrid/soft_shadows.h"
 #include "raster/bands.h"
+#include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
@@ -123,7 +122,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
   // To the light's centre: what single rays through the hierarchy would test, for those cast and for all.
   void count_tests(const Light& light, ExternalCosts& costs) const {
     std::atomic<std::uint64_t> cast = 0, all = 0;
-    tbb::parallel_for(0, receivers_.points.size.height, [&](int y) {
+    parallel_for(receivers_.points.size.height, [&](int y) {
       raytrace::WorkCounts cast_here, all_here;
       for (int x = 0; x < receivers_.points.size.width; ++x) {
         const Decision decision = decision_.at(x, y);

@@ -1,6 +1,6 @@
 #include "raster/context.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

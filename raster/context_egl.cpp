@@ -1,6 +1,6 @@
 // EGL without a window: a hardware device first, then Mesa's surfaceless platform, then any device. The few
 // declarations are those of EGL/egl.h and EGL/eglext.h, so that building needs no EGL headers.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

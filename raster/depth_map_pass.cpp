@@ -1,6 +1,6 @@
 #include "raster/depth_map_pass.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #define GLAD_GL_IMPLEMENTATION
 #include "raster/gl.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

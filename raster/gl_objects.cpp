@@ -1,6 +1,6 @@
 #include "raster/gl_objects.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #include "raster/gl_program.h"
 
 #include <embedded/shaders.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

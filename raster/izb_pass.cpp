@@ -1,6 +1,6 @@
 #include "raster/izb_pass.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

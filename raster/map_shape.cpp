@@ -1,6 +1,6 @@
 #include "raster/map_shape.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

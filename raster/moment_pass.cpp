@@ -1,6 +1,6 @@
 #include "raster/moment_pass.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 

@@ -1,6 +1,6 @@
 #include "raster/options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "raster/options_check.h"
 #include "raster/technique_traits.h"

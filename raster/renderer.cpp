@@ -3,7 +3,7 @@
 // given back at the end.
 #include "raster/renderer.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <new>

@@ -1,12 +1,11 @@
 #include "raster/shading_pass.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "raster/impostors.h"
+#include "scene/parallel.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -250,7 +249,7 @@ void ShadingPass::read_records(LightRecord& record) const {
   record.distance = Image<float>(size);
   record.gap = Image<float>(size);
   record.outside_map = Image<std::uint8_t>(size);
-  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+  parallel_for(values.size(), [&](std::size_t i) {
     record.texel_uv.data[i] = Vec2f(values[i]);
     record.distance.data[i] = values[i].z;
     // A slope without bound leaves no number: nothing is above the bias then.

@@ -1,5 +1,5 @@
 // Which shader each technique is drawn by, and which pass of its own it has.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

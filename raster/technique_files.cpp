@@ -1,6 +1,6 @@
 #include "raster/technique_files.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "raster/texel_pages.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <vector>

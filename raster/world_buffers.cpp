@@ -1,14 +1,13 @@
 #include "raster/world_buffers.h"
 
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
 #include "raster/expression_glsl.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 #include "shaders/shared_constants.h"
 
@@ -128,10 +127,7 @@ Expected<void> check_size(const Gl& gl, const World& world, const StoredMeshes& 
 /// put(i) for 0 ... count - 1, on every thread.
 template <class Put>
 void for_each_index(std::size_t count, const Put& put) {
-  constexpr std::size_t at_a_time = 8192;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, at_a_time), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) put(static_cast<std::uint32_t>(i));
-  });
+  parallel_for(static_cast<std::uint32_t>(count), 8192, put);
 }
 
 }  // namespace

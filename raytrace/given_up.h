@@ -2,9 +2,9 @@
 // ended one of its threads: what the loop was to make is then not there. Who needs it asks here first.
 #pragma once
 
-#include <tbb/task_group.h>
-
 #include <exception>
+
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 
@@ -15,7 +15,7 @@ struct GivenUp : std::exception {
 
 /// After a parallel loop that may lie inside another one. Throws GivenUp when the work around it was given up.
 inline void leave_if_given_up() {
-  if (tbb::is_current_task_group_canceling()) throw GivenUp();
+  if (is_given_up()) throw GivenUp();
 }
 
 }  // namespace gnomon::raytrace

@@ -2,12 +2,10 @@
 // the same for any number of threads.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <stop_token>
 
 #include "scene/image.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 
@@ -26,15 +24,13 @@ struct TileGrid {
 /// tile(tile index, x0, y0, x1, y1) for every tile.
 template <class Tile>
 void for_each_tile(const TileGrid& grid, const Tile& tile) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.count(), 1),
-                    [&](const tbb::blocked_range<std::size_t>& r) {
-                      for (std::size_t i = r.begin(); i != r.end() && !grid.stop.stop_requested(); ++i) {
-                        const int x0 = static_cast<int>(i % grid.columns()) * tile_pixels;
-                        const int y0 = static_cast<int>(i / grid.columns()) * tile_pixels;
-                        tile(i, x0, y0, std::min(x0 + tile_pixels, grid.size.width),
-                             std::min(y0 + tile_pixels, grid.size.height));
-                      }
-                    });
+  parallel_for(grid.count(), [&](std::size_t i) {
+    if (grid.stop.stop_requested()) return;
+    const int x0 = static_cast<int>(i % grid.columns()) * tile_pixels;
+    const int y0 = static_cast<int>(i / grid.columns()) * tile_pixels;
+    tile(i, x0, y0, std::min(x0 + tile_pixels, grid.size.width),
+         std::min(y0 + tile_pixels, grid.size.height));
+  });
 }
 
 /// pixel(x, y, tile index) for every pixel.

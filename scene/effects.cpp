@@ -1,6 +1,6 @@
 #include "scene/effects.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <functional>
 #include <set>

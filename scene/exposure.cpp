@@ -2,15 +2,13 @@
 // any order.
 #include "scene/exposure.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+
+#include "scene/parallel.h"
 
 namespace gnomon {
 
@@ -23,12 +21,12 @@ using Counts = std::vector<std::uint32_t>;
 
 constexpr std::size_t block = 1 << 16;  // pixels per task
 
-/// act(bits) for the luminance of each pixel of a range that is positive and finite.
-template <class Range, class Act>
-void for_each_luminance(std::span<const Vec3f> linear, const Range& range, const Act& act) {
+/// act(bits) for the luminance of each pixel that is positive and finite.
+template <class Act>
+void for_each_luminance(std::span<const Vec3f> linear, const Act& act) {
   const Vec3f weights(0.2126f, 0.7152f, 0.0722f);  // ITU-R BT.709-6, item 3.2
-  for (std::size_t i = range.begin(); i != range.end(); ++i) {
-    const float value = glm::dot(weights, linear[i]);
+  for (const Vec3f& color : linear) {
+    const float value = glm::dot(weights, color);
     if (std::isfinite(value) && value > 0.0f) act(std::bit_cast<std::uint32_t>(value));
   }
 }
@@ -38,10 +36,11 @@ void for_each_luminance(std::span<const Vec3f> linear, const Range& range, const
 AutoExposure::AutoExposure() : counts_(classes, 0) {}
 
 void AutoExposure::count(std::span<const Vec3f> linear) {
-  tbb::enumerable_thread_specific<Counts> shares(Counts(classes, 0));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, linear.size(), block), [&](const auto& range) {
+  PerThread<Counts> shares([] { return Counts(classes, 0); });
+  parallel_ranges(linear.size(), block, [&](std::size_t first, std::size_t last) {
     Counts& counts = shares.local();
-    for_each_luminance(linear, range, [&](std::uint32_t bits) { ++counts[bits >> class_shift]; });
+    for_each_luminance(linear.subspan(first, last - first),
+                       [&](std::uint32_t bits) { ++counts[bits >> class_shift]; });
   });
   for (const Counts& share : shares)
     for (std::size_t k = 0; k < classes; ++k) counts_[k] += share[k];
@@ -57,7 +56,7 @@ bool AutoExposure::choose() {
 }
 
 void AutoExposure::collect(std::span<const Vec3f> linear) {
-  for_each_luminance(linear, tbb::blocked_range<std::size_t>(0, linear.size()), [&](std::uint32_t bits) {
+  for_each_luminance(linear, [&](std::uint32_t bits) {
     if (bits >> class_shift == chosen_) members_.push_back(bits);
   });
 }

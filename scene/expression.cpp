@@ -1,7 +1,7 @@
 // Recursive descent with a depth cap; constants are folded and equal steps shared while parsing.
 #include "scene/expression.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,7 @@
 // How near to a light the nearest surface is, and how far the farthest.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include "scene/light_fit_parts.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon::light_fit {
@@ -41,10 +40,10 @@ double distance_to_box(const Vec3& p, const ShapeGeometry& solid) {
 /// The best of `start` and value(0 ... count - 1), of each two better(a, b); on every thread.
 template <class Value, class Better>
 double best_of(std::size_t count, double start, const Value& value, const Better& better) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 8192), start,
-      [&](const auto& range, double best) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) best = better(best, value(i));
+  return parallel_reduce(
+      count, 8192, start,
+      [&](std::size_t first, std::size_t last, double best) {
+        for (std::size_t i = first; i < last; ++i) best = better(best, value(i));
         return best;
       },
       better);

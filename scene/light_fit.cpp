@@ -2,8 +2,6 @@
 // the camera frustum projected along the light (a shadow has the light-space position of its caster, so
 // nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot
 // and point: the light's own cone or cube, with the tightest depth range that clips nothing.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <array>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include "scene/light_fit_parts.h"
 #include "scene/light_window.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -115,10 +114,10 @@ Sum over_extents(const World& world, const LightFace& face, const Vec3& referenc
   Sum sum = none;
   for (const WorldPart& part : world.parts) {
     if (part.kept() && makes_no_difference(sum, extent_of(part, face, reference))) continue;
-    join(sum, tbb::parallel_reduce(
-                  tbb::blocked_range<std::size_t>(0, part.triangle_count(), at_a_time), none,
-                  [&](const auto& range, Sum some) {
-                    for (std::size_t t = range.begin(); t != range.end(); ++t) {
+    join(sum, parallel_reduce(
+                  part.triangle_count(), at_a_time, none,
+                  [&](std::size_t first, std::size_t last, Sum some) {
+                    for (std::size_t t = first; t < last; ++t) {
                       Aabb box;
                       for (const Vec3& corner : part.corners(t))
                         box.grow(to_light_space(face, corner - reference));

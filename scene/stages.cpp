@@ -1,6 +1,6 @@
 #include "scene/stages.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <time.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #include "scene/tessellate.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "scene/files/defaults.h"
 #include "scene/solid.h"

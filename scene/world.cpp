@@ -1,26 +1,22 @@
 #include "scene/world.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon {
 namespace {
 
-using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t at_a_time = 8192;
 
 /// True when each(i) is for all of 0 … count-1.
 template <class Each>
 bool all_of_many(std::size_t count, const Each& each) {
-  return tbb::parallel_reduce(
-      Range(0, count, at_a_time), true,
-      [&](const Range& range, bool so_far) {
-        for (std::size_t i = range.begin(); i != range.end() && so_far; ++i) so_far = each(i);
+  return parallel_reduce(
+      count, at_a_time, true,
+      [&](std::size_t first, std::size_t last, bool so_far) {
+        for (std::size_t i = first; i < last && so_far; ++i) so_far = each(i);
         return so_far;
       },
       [](bool a, bool b) { return a && b; });
@@ -54,9 +50,8 @@ void flatten(World& world, WorldPart& part) {
     return;
   }
   const auto moved = std::make_shared<std::vector<Vec3>>(part.mesh->positions.size());
-  tbb::parallel_for(Range(0, moved->size(), at_a_time), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      (*moved)[i] = placed_vertex(part.world_from_object, part.mesh->positions[i]);
+  parallel_for(moved->size(), at_a_time, [&](std::size_t i) {
+    (*moved)[i] = placed_vertex(part.world_from_object, part.mesh->positions[i]);
   });
   part.positions = start_of(*moved);
   world.moved.push_back(moved);
@@ -64,10 +59,10 @@ void flatten(World& world, WorldPart& part) {
 
 /// The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
 Aabb bounds_of(const WorldPart& part) {
-  return tbb::parallel_reduce(
-      Range(0, part.triangle_count(), at_a_time), Aabb{},
-      [&](const Range& range, Aabb bounds) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
+  return parallel_reduce(
+      part.triangle_count(), at_a_time, Aabb{},
+      [&](std::size_t first, std::size_t last, Aabb bounds) {
+        for (std::size_t i = first; i < last; ++i)
           for (const Vec3& corner : part.corners(i)) bounds.grow(corner);
         return bounds;
       },
@@ -163,13 +158,12 @@ void put_parts(World& world, const std::vector<char>& kept) {
   }
   number_parts(world);
   std::vector<char> flat(world.parts.size());
-  tbb::parallel_for(std::size_t{0}, world.parts.size(), [&](std::size_t i) {
+  parallel_for(world.parts.size(), [&](std::size_t i) {
     flat[i] = kept[scene.instances[i].mesh] == 0 || !can_be_kept(world.parts[i]);
   });
   for (std::size_t i = 0; i < world.parts.size(); ++i)
     if (flat[i] != 0) flatten(world, world.parts[i]);
-  tbb::parallel_for(std::size_t{0}, world.parts.size(),
-                    [&](std::size_t i) { world.parts[i].bounds = bounds_of(world.parts[i]); });
+  parallel_for(world.parts.size(), [&](std::size_t i) { world.parts[i].bounds = bounds_of(world.parts[i]); });
   for (const WorldPart& part : world.parts) world.finite_bounds.grow(part.bounds);
 }
 

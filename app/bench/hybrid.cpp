@@ -1,8 +1,7 @@
 // The hybrid's hard shadows against pure ray tracing of the same receivers, in turn: rays, triangles tested,
 // and time: of a new light as the cost estimate has it, with the sheets built anew, and with the sheets kept.
 // An error when the two differ.
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <atomic>
 
@@ -11,6 +10,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {
@@ -119,7 +119,7 @@ class HybridBench {
   /// By single rays: for those cast, and for all.
   std::pair<std::uint64_t, std::uint64_t> triangle_tests() const {
     std::atomic<std::uint64_t> cast = 0, all = 0;
-    tbb::parallel_for(0, input_.size.height, [&](int y) {
+    parallel_for(input_.size.height, [&](int y) {
       for (int x = 0; x < input_.size.width; ++x) {
         const Decision decision = decisions_.at(x, y);
         if (decision == Decision::not_asked) continue;

@@ -3,9 +3,7 @@
 // which compares the arithmetic alone. Wrong shadows are counted on adversarial rays, aimed at corners and
 // edges, against rational numbers. A single triangle is wrong where the ray passes its edges by more than rounding: nearer
 // than that robust decides as rounding falls, but alike for both triangles of an edge, so that none slips between them.
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
+#include <fmt/core.h>
 
 #include <atomic>
 
@@ -13,6 +11,7 @@
 #include "app/verify/adversarial.h"
 #include "app/verify/rational.h"
 #include "raytrace/frame.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {
@@ -72,7 +71,7 @@ template <class Pixel>
 double time_pixels(const BenchInput& input, const Pixel& pixel) {
   Times times;
   const auto pass = [&] {
-    tbb::parallel_for(0, input.size.height, [&](int y) {
+    parallel_for(input.size.height, [&](int y) {
       for (int x = 0; x < input.size.width; ++x) pixel(x, y);
     });
   };
@@ -107,10 +106,10 @@ template <class Try>
 Wrong count_wrong(std::uint64_t rays, std::uint64_t seed, const Try& try_one) {
   constexpr std::uint64_t block = 4096;
   const std::uint64_t blocks = (rays + block - 1) / block;
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::uint64_t>(0, blocks, 1), Wrong{},
-      [&](const auto& range, Wrong wrong) {
-        for (std::uint64_t b = range.begin(); b < range.end(); ++b) {
+  return parallel_reduce(
+      blocks, 1, Wrong{},
+      [&](std::size_t first, std::size_t last, Wrong wrong) {
+        for (std::uint64_t b = first; b < last; ++b) {
           verify::Random random(seed * 0x9e3779b97f4a7c15ULL + b);
           for (std::uint64_t i = b * block; i < std::min(rays, (b + 1) * block); ++i) try_one(random, wrong);
         }

@@ -1,14 +1,14 @@
 // Acceleration structures side by side: the same single rays in double precision through each, primary rays
 // of the picture and shadow rays from what they hit to the scene's first light. Brute force gets every n-th
 // ray only, so many as its cost allows.
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <atomic>
 
 #include "app/bench/row.h"
 #include "app/options.h"
 #include "raytrace/single_rays.h"
+#include "scene/parallel.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -31,9 +31,7 @@ struct Rays {
 template <class Body>
 void for_each_ray(std::size_t count, std::size_t step, const Body& body) {
   const std::size_t traced = (count + step - 1) / step;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, traced, grain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) body(i * step);
-  });
+  parallel_for(traced, grain, [&](std::size_t i) { body(i * step); });
 }
 
 Rays make_rays(const Tracer& tracer, const Scene& scene, ImageSize size) {

@@ -1,6 +1,7 @@
 #include "app/bench/tune.h"
+#include "scene/parallel.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

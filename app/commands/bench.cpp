@@ -1,6 +1,6 @@
 // gnomon bench: the whole benchmark against Embree; or, on a scene, what the acceleration structures, the
 // precisions or the shadow techniques cost and bring, as a table.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -14,6 +14,7 @@
 #include "app/options.h"
 #include "app/render_json.h"
 #include "app/values.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 

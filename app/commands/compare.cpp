@@ -1,7 +1,7 @@
 // gnomon compare: the main job. Load, render twice, climb the ladder, write the folder, print the table.
 #include "compare/compare.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // gnomon export: a scene as glTF 2.0, for other renderers.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

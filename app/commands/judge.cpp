@@ -1,7 +1,7 @@
 // gnomon judge: what another renderer drew, in the place of Gnomon's own picture. Its folder is that of compare.
 #include "compare/judge/judge.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // gnomon lessons: the lessons as a site that works from disk.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <array>

@@ -1,5 +1,5 @@
 // gnomon plan: which effects the scene calls for, which are simulated, and why.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // gnomon raytrace: the ray-traced picture alone.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,5 +1,5 @@
 // gnomon scenes: the built-in scenes and lessons, whose names work wherever a scene file does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

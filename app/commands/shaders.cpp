@@ -1,5 +1,5 @@
 // gnomon shaders: the rasterizer's GLSL, to be read and edited; --shader-dir takes what was edited.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

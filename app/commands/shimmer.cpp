@@ -1,5 +1,5 @@
 // gnomon shimmer: what shadows do from frame to frame that they should not.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

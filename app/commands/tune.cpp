@@ -1,7 +1,7 @@
 // gnomon tune: the cheapest setting that is good enough, as a command line.
 #include "compare/tune/tune.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

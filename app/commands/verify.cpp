@@ -1,5 +1,5 @@
 // gnomon verify: the hard cases, run on this machine, as a table.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // gnomon view: the interactive window.
 #include "app/view/view.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "app/grade/check_runs.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

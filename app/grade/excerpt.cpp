@@ -1,6 +1,6 @@
 #include "app/grade/excerpt.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <sstream>

@@ -1,6 +1,6 @@
 #include "app/grade/grade.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>

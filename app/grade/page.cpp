@@ -1,7 +1,7 @@
 #include "app/grade/page.h"
 
 #include <embedded/grade_page.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cctype>
 #include <sstream>

@@ -1,6 +1,6 @@
 #include "app/lessons/comparison.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

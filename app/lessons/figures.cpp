@@ -1,6 +1,6 @@
 #include "app/lessons/figures.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <sstream>
 

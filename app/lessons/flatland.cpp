@@ -1,6 +1,6 @@
 #include "app/lessons/flatland.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

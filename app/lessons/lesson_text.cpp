@@ -1,6 +1,6 @@
 #include "app/lessons/lesson_text.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <sstream>

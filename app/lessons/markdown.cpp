@@ -1,7 +1,7 @@
 #include "app/lessons/markdown.h"
 
 #include <embedded/lesson_images.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <md4c-html.h>
 #include <md4c.h>
 

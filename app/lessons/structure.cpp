@@ -1,6 +1,6 @@
 #include "app/lessons/structure.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "app/suite/write.h"
 
 #include <embedded/suite.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/interrupt.h"
 #include "app/suite/scenes.h"

@@ -1,7 +1,7 @@
 // CLI11 throws; what is thrown here is caught in command_line.cpp and never leaves this room.
 #include "app/sweep/axes.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

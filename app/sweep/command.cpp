@@ -1,6 +1,6 @@
 #include "app/sweep/command.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "app/sweep/make_cells.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <deque>
 #include <future>

@@ -1,6 +1,6 @@
 #include "app/sweep/slurm.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>

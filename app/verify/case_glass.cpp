@@ -1,5 +1,5 @@
 // Refraction against Fresnel's equations in 128 bits, and glass that must not be seen.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cfloat>
 

@@ -1,5 +1,5 @@
 // Where shadow rays start and end. Oracles: closed forms on axis-parallel scenes whose numbers are exact.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/verify/cases.h"
 #include "app/verify/quad.h"

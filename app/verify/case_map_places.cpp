@@ -1,7 +1,7 @@
 // Where points fall on the map: behind the light, beside the map, on the borders of texels and of cube faces.
 // The oracles work out places from the map's frame with arithmetic of their own, and from how the scene was
 // built.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/verify/cases.h"
 #include "app/verify/drawn_world.h"

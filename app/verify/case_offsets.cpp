@@ -1,6 +1,6 @@
 // Rays that leave a convex body do not meet it: convexity is the oracle. The gap that the ray-offset policy
 // leaves is measured against the rounding of the body's place.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cfloat>
 

@@ -1,5 +1,5 @@
 // Closed meshes are watertight. The oracle is topology: a ray from inside a closed surface must meet it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/verify/cases.h"
 #include "app/verify/small_world.h"

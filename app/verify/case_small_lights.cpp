@@ -1,6 +1,6 @@
 // Lights that shrink from a radius of 1 to nothing: what is seen of them must approach the hard light's
 // visibility, closer with every step, and be it in the end.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/verify/cases.h"
 #include "app/verify/small_world.h"

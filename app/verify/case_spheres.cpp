@@ -1,5 +1,5 @@
 // Spheres against the textbook quadratic in 128 bits, on the same ray.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/verify/cases.h"
 #include "app/verify/quad.h"

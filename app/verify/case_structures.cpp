@@ -1,6 +1,6 @@
 // Every structure against brute force, which is itself held against Moeller-Trumbore in 128 bits wherever a
 // rounding of doubles could not turn the answer.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 

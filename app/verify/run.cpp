@@ -1,7 +1,6 @@
 #include "app/verify/run.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "scene/parallel.h"
 
 namespace gnomon::verify {
 
@@ -30,11 +29,12 @@ void Run::blocks(Row row, std::uint64_t trials, const Block& block) {
   for (std::uint64_t first = 0; first < count; first += blocks_between_reports) {
     if (progress_) progress_(row.name, static_cast<double>(first) / static_cast<double>(count));
     const std::uint64_t end = std::min(count, first + blocks_between_reports);
-    tbb::parallel_for(first, end, [&](std::uint64_t b) {
+    parallel_for(end - first, [&](std::uint64_t i) {
+      const std::uint64_t b = first + i;
       Random random(block_seed(options_.seed, number_, rows_.size(), b));
       Tally tally;
       block(random, std::min(block_trials, trials - b * block_trials), tally);
-      tallies[b - first] = tally;
+      tallies[i] = tally;
     });
     for (std::uint64_t b = first; b < end; ++b) {
       const Tally& tally = tallies[b - first];

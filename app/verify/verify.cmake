@@ -12,4 +12,4 @@ add_library(gnomon_verify STATIC
   verify/case_triangles.cpp verify/cases.cpp verify/oracle.cpp verify/random_scene.cpp verify/rational.cpp verify/run.cpp)
 add_library(gnomon::verify ALIAS gnomon_verify)
 target_link_libraries(gnomon_verify PUBLIC gnomon_flags gnomon::small_world gnomon::raster gnomon::raytrace gnomon::scene
-  PRIVATE gnomon_warnings fmt::fmt gmpxx gmp TBB::tbb)
+  PRIVATE gnomon_warnings fmt::fmt gmpxx gmp)

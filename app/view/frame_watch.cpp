@@ -1,6 +1,6 @@
 #include "app/view/frame_watch.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <time.h>
 
 #include <algorithm>

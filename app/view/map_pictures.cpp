@@ -1,12 +1,11 @@
 #include "app/view/map_pictures.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "compare/palette.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 
@@ -17,7 +16,7 @@ constexpr glm::u8vec3 unseen{60, 62, 66};
 template <class Function>
 Rgb8Image picture(ImageSize size, const Function& colour_of) {
   Rgb8Image image(size);
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) image.at(x, y) = colour_of(x, y);
   });
   return image;

@@ -1,6 +1,6 @@
 #include "app/view/meter.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

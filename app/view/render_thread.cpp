@@ -1,6 +1,6 @@
 #include "app/view/render_thread.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <exception>

@@ -1,6 +1,6 @@
 #include "app/view/save_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <filesystem>

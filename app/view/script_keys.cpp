@@ -1,6 +1,6 @@
 #include "app/view/script_keys.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "app/view/state.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "app/view/view.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/output_path.h"
 #include "app/session.h"

@@ -1,6 +1,6 @@
 #include "app/view/viewer.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"

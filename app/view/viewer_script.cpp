@@ -1,5 +1,5 @@
 // How a script drives the window: its steps, one after another, between the frames.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "app/view/worker.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <exception>
 #include <stop_token>

@@ -1,7 +1,5 @@
 #include "compare/bands/bands.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 
 #include "compare/aov.h"
@@ -11,6 +9,7 @@
 #include "raster/bands.h"
 #include "raytrace/band.h"
 #include "scene/exposure.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -278,8 +277,7 @@ Expected<BandedComparison> compare_in_bands(const BandedInput& in, const Progres
   const World& world = in.tracer.world();
   c.world = &world;
   c.command = in.command;
-  c.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  c.threads = threads_in_use();
   c.plan = plan_effects(*world.scene);
   c.precision = in.options.precision;
   c.accel_build_ms = in.tracer.stats().build_ms;

@@ -1,13 +1,12 @@
 // Steps that do not hang on each other, over all threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <functional>
 #include <vector>
 
 #include "scene/expected.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -18,8 +17,7 @@ using Step = std::function<Expected<void>()>;
 inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t together = 64) {
   for (std::size_t first = 0; first < steps.size(); first += together) {
     std::vector<Expected<void>> results(std::min(together, steps.size() - first));
-    tbb::parallel_for(std::size_t{0}, results.size(),
-                      [&](std::size_t i) { results[i] = steps[first + i](); });
+    parallel_for(results.size(), [&](std::size_t i) { results[i] = steps[first + i](); });
     for (const Expected<void>& result : results)
       if (!result) return result;
   }

@@ -1,10 +1,10 @@
 #include "compare/judge/advice.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include "compare/bias_kinds.h"
 #include "compare/biased_test.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -1,6 +1,6 @@
 #include "compare/judge/align.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "scene/stages.h"
 

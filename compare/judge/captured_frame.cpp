@@ -1,12 +1,11 @@
 #include "compare/judge/captured_frame.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 
 #include "compare/biased_test.h"
 #include "compare/columns.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -66,7 +65,7 @@ raster::BiasRounding rounding_of(const LightView& view, const World& world) {
 Image<std::uint32_t> shown_primitives(const FrameInput& in) {
   Image<std::uint32_t> shown(in.capture.size, no_id);
   const bool masked = !in.pictures.drawn.data.empty();
-  tbb::parallel_for(std::size_t{0}, shown.data.size(), [&](std::size_t i) {
+  parallel_for(shown.data.size(), [&](std::size_t i) {
     const std::uint32_t primitive = in.traced.receiver.data[i].primitive;
     const bool drawn = !masked || in.pictures.drawn.data[i] != 0;
     if (primitive == no_id)
@@ -76,7 +75,7 @@ Image<std::uint32_t> shown_primitives(const FrameInput& in) {
   });
   // Facing away is known without a picture: such pixels keep their surface.
   const Light& light = in.world.scene->lights[in.traced.lights.front().light];
-  tbb::parallel_for(std::size_t{0}, shown.data.size(), [&](std::size_t i) {
+  parallel_for(shown.data.size(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     const bool unlit = point.primitive != no_id && in.pictures.reached.data[i] == 0;
     if (unlit && light_cannot_reach(light, point.position, point.normal)) shown.data[i] = point.primitive;
@@ -164,9 +163,9 @@ void find_primitives(const FrameInput& in, const raster::Bias& bias, bool all, r
     const Vec3 to_light = light_at(light, point.position).to_light;
     if (const auto lookup = biased_lookup(record, bias, to_light, point, i)) set(lookup->key);
   };
-  tbb::parallel_for(std::size_t{0}, in.traced.receiver.data.size(), mark);
+  parallel_for(in.traced.receiver.data.size(), mark);
   const auto n = static_cast<std::size_t>(record.map.view.size);
-  tbb::parallel_for(std::size_t{0}, texels, [&](std::size_t t) {
+  parallel_for(texels, [&](std::size_t t) {
     if (wanted[t] == 0) return;
     const std::size_t in_face = t % (n * n);
     record.map.primitive[t] = surface_of(in.tracer, record.map, static_cast<int>(t / (n * n)),
@@ -222,7 +221,7 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
   record.outside_map = Image<std::uint8_t>(size, 0);
   const Light& light = in.world.scene->lights[record.light];
   const bool has_map = record.captured->unit_world > 0.0;
-  tbb::parallel_for(std::size_t{0}, size.pixels(), [&](std::size_t i) {
+  parallel_for(size.pixels(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
     const TexelCoordinate at = project_to_texel(record.map.view, point.position);

@@ -1,9 +1,9 @@
 #include "compare/judge/evidence.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <tuple>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -229,7 +229,7 @@ Evidence gather(const EvidenceInput& in, const Samples& samples, const Suspect& 
   constexpr std::size_t block = 512;
   const std::size_t count = samples.grid.size() + samples.border.size();
   std::vector<Tallies> parts((count + block - 1) / block);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+  parallel_for(parts.size(), [&](std::size_t p) {
     for (std::size_t i = p * block; i < std::min(count, (p + 1) * block); ++i) {
       if (i < samples.grid.size())
         gatherer.grid(samples.grid[i], parts[p]);

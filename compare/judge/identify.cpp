@@ -1,6 +1,6 @@
 #include "compare/judge/identify.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "compare/judge/judge.h"
 
-#include <fmt/format.h>
-#include <tbb/global_control.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -10,6 +9,7 @@
 #include "compare/judge/captured_frame.h"
 #include "compare/light_comparison.h"
 #include "scene/exposure.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -138,8 +138,7 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   Comparison out;
   out.world = &world;
   out.judged = std::make_shared<Judged>(describe_capture(capture));
-  out.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  out.threads = threads_in_use();
   out.plan = plan_effects(scene);
   report("ray tracing", 0.2);
   const raytrace::Tracer tracer(world, options.accel, options.precision);

@@ -1,6 +1,6 @@
 #include "compare/judge/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "compare/judge/advice.h"
 #include "compare/number_text.h"

@@ -1,9 +1,8 @@
 #include "compare/judge/receivers.h"
 
-#include <tbb/parallel_for.h>
-
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/picture.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -89,7 +88,7 @@ Retraced retrace(const raytrace::Tracer& tracer, const Sight& sight, const Captu
   const Retracer retracer{tracer, sight, pictures, options, frame, reach_of_scene * scene};
   const ImageSize size = sight.view.size;
   Retraced out{Image<std::uint8_t>(size, 0)};
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) {
       const std::size_t i = frame.receiver.index(x, y);
       const bool placed = !pictures.position.data.empty() && pictures.drawn.data[i] != 0;

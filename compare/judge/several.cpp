@@ -1,6 +1,6 @@
 #include "compare/judge/several.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "compare/judge/suspects.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace gnomon::compare {
 namespace {

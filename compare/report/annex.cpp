@@ -1,5 +1,5 @@
 // The end of the page: what it cost, what was simulated, where the numbers come from.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

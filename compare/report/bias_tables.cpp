@@ -1,5 +1,5 @@
 // Other kinds of bias, and the bias drawn with in the units of engines, as tables.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "compare/engine_units.h"
 #include "compare/option_names.h"

@@ -1,12 +1,10 @@
 #include "compare/report/channels.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 
@@ -35,13 +33,9 @@ nlohmann::ordered_json Packer::add(const PackOptions& options, Numbers numbers, 
 }
 
 void Packer::run() {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, jobs_.size(), 1),
-      [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-          jobs_[i].text = packed(jobs_[i].numbers(), jobs_[i].options, jobs_[i].sources);
-      },
-      tbb::simple_partitioner());
+  parallel_tasks(jobs_.size(), [&](std::size_t i) {
+    jobs_[i].text = packed(jobs_[i].numbers(), jobs_[i].options, jobs_[i].sources);
+  });
 }
 
 std::string Packer::filled(const nlohmann::ordered_json& json, std::size_t first) const {

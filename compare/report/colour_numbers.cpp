@@ -1,11 +1,11 @@
 // A picture has some millions of numbers: the logarithm of a mantissa is looked up by its first bits.
 #include "compare/report/colour_numbers.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -47,7 +47,7 @@ std::array<std::vector<std::uint16_t>, 3> colour_numbers(const ColorImage& image
   const Steps& steps = steps_of_mantissas();
   std::array<std::vector<std::uint16_t>, 3> numbers;
   for (auto& channel : numbers) channel.resize(image.data.size());
-  tbb::parallel_for(std::size_t{0}, image.data.size(), [&](std::size_t i) {
+  parallel_for(image.data.size(), [&](std::size_t i) {
     for (int k = 0; k < 3; ++k) numbers[static_cast<std::size_t>(k)][i] = number_of(image.data[i][k], steps);
   });
   return numbers;

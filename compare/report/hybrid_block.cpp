@@ -1,5 +1,5 @@
 // What the hybrid did for one light: which pixels the sheets decided, where rays were cast, and what it took.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "compare/option_names.h"
 #include "compare/output_parts.h"

@@ -1,6 +1,6 @@
 #include "compare/report/lessons.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

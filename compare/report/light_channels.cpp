@@ -5,8 +5,7 @@
 // is exact.
 #include "compare/report/light_channels.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "compare/output_parts.h"
 #include "compare/report/sections.h"
 #include "compare/sweep/engine.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -57,7 +57,7 @@ MapNumbers map_numbers(const raster::ShadowMap& map) {
   const double unit = depth_step(view), near_depth = view.depth_range().min;
   out.side = static_cast<std::size_t>(view.size);
   out.depths.resize(depth.size());
-  tbb::parallel_for(std::size_t{0}, depth.size(), [&](std::size_t i) {
+  parallel_for(depth.size(), [&](std::size_t i) {
     const double stored = depth[i];
     const auto face = static_cast<int>(i / (out.side * out.side));
     const double v = static_cast<double>(i / out.side % out.side) + 0.5;
@@ -119,7 +119,7 @@ LookupNumbers lookup_of(const raster::LightRecord& record) {
   const double step = depth_step(record.map.view);
   LookupNumbers out{std::vector<std::uint32_t>(n), std::vector<std::uint32_t>(n),
                     std::vector<std::uint32_t>(n)};
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+  parallel_for(n, [&](std::size_t i) {
     out.u[i] = integer(std::floor(position_steps * double{record.texel_uv.data[i].x}));
     out.v[i] = integer(std::floor(position_steps * double{record.texel_uv.data[i].y}));
     out.distance[i] = rounded(double{record.distance.data[i]} / step);

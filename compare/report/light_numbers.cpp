@@ -1,5 +1,5 @@
 // The numbers of one light: the ladder, every constant bias, edges and gaps, the depth map.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

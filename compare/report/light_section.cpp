@@ -1,6 +1,6 @@
 // One light: the viewer, the pictures of what is wrong, the labels and what causes and cures them; then its
 // numbers.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "compare/report/log_chart.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The first screen: both pictures with their times, and for each light the verdict beside its error budget.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

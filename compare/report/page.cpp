@@ -1,6 +1,6 @@
 #include "compare/report/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <limits>
 

@@ -2,8 +2,7 @@
 // percent), corners of triangles to 2^-20 of the scene's size.
 #include "compare/report/page_data.h"
 
-#include <fmt/format.h>
-#include <tbb/task_group.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include "compare/report/light_channels.h"
 #include "compare/report/section_mesh.h"
 #include "compare/report/shown_materials.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -233,17 +233,19 @@ PageData page_data(const PageInput& in) {
     parts.push_back({std::move(name), make(), first});
   };
   std::optional<Geometry> geometry;
-  tbb::task_group meanwhile;
-  meanwhile.run([&] { geometry.emplace(*c.world); });
-  const PixelSurfaces surfaces = pixel_surfaces(c);
-  const ShownMaterials materials(*c.world);
-  head["rays"] = rays_json(surfaces.rays);
-  head["materials"] = materials_json(materials);
-  out.head = head.dump();
-  add("pixels", [&] { return pixels_json(c, packer, surfaces, materials); });
-  for (std::size_t i = 0; i < c.lights.size(); ++i)
-    add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, surfaces, materials); });
-  meanwhile.wait();
+  std::optional<PixelSurfaces> surfaces;
+  std::optional<ShownMaterials> materials;
+  const auto describe_pixels = [&] {
+    surfaces.emplace(pixel_surfaces(c));
+    materials.emplace(*c.world);
+    head["rays"] = rays_json(surfaces->rays);
+    head["materials"] = materials_json(*materials);
+    out.head = head.dump();
+    add("pixels", [&] { return pixels_json(c, packer, *surfaces, *materials); });
+    for (std::size_t i = 0; i < c.lights.size(); ++i)
+      add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, *surfaces, *materials); });
+  };
+  parallel_invoke(describe_pixels, [&] { geometry.emplace(*c.world); });
   add("geometry", [&] { return geometry_json(*c.world, *geometry, packer); });
   packer.run();
   for (const Part& part : parts) out.parts.push_back({part.name, packer.filled(part.json, part.first)});

@@ -1,6 +1,6 @@
 #include "compare/report/pixel_words.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <embedded/report.h>
 #include <algorithm>

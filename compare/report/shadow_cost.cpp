@@ -1,7 +1,7 @@
 // What the shadows cost on the page: the map and its lookups beside the light's structure and its rays.
 #include "compare/shadow_cost.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "compare/number_text.h"
 #include "compare/output_parts.h"

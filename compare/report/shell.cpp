@@ -1,6 +1,6 @@
 #include "compare/report/shell.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <embedded/report.h>
 

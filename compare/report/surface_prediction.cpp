@@ -1,12 +1,11 @@
 #include "compare/report/surface_prediction.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <optional>
 
 #include "compare/report/channels.h"
 #include "compare/report/light_channels.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -97,7 +96,7 @@ LookupNumbers predicted_lookups(const PixelSurfaces& surfaces, const LightView& 
                                 const Image<std::uint8_t>& faces, const LookupNumbers& numbers,
                                 double depth_step) {
   LookupNumbers out = numbers;
-  tbb::parallel_for(std::size_t{0}, out.u.size(), [&](std::size_t i) {
+  parallel_for(out.u.size(), [&](std::size_t i) {
     const auto [u, v, distance] = predicted(surfaces, light, faces, numbers, depth_step, i);
     out.u[i] = u;
     out.v[i] = v;

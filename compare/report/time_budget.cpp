@@ -1,5 +1,5 @@
 // The time budget on the page: where the process's time went, stage by stage, up to the making of the page.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

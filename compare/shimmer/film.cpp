@@ -1,7 +1,5 @@
 #include "compare/shimmer/film.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
@@ -9,6 +7,7 @@
 #include "compare/palette.h"
 #include "scene/exposure.h"
 #include "scene/files/image_io.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -17,7 +16,7 @@ namespace {
 template <class Colour>
 Rgb8Image painted(const ImageSize& size, const Colour& colour) {
   Rgb8Image out(size);
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     for (std::size_t i = out.index(0, y), end = i + static_cast<std::size_t>(size.width); i < end; ++i)
       out.data[i] = colour(i);
   });

@@ -1,6 +1,6 @@
 #include "compare/shimmer/film_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>

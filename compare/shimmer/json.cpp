@@ -1,6 +1,6 @@
 // result.json of `gnomon shimmer` (shimmer.schema.json). Conventions: result_json.cpp. Means are over the pairs of
 // following frames of every receiver that is counted in both.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "compare/option_names.h"
 #include "compare/result_parts.h"

@@ -1,6 +1,6 @@
 #include "compare/shimmer/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

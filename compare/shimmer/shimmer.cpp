@@ -1,7 +1,6 @@
 #include "compare/shimmer/shimmer.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -9,6 +8,7 @@
 #include "raster/map_camera.h"
 #include "raster/technique_traits.h"
 #include "scene/cascade_fit.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -173,7 +173,7 @@ std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image
 std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, const Image<Label>& labels) {
   std::array<Image<float>, rung_count> rungs;
   rungs.fill(input.record.visibility);
-  tbb::parallel_for(std::size_t{0}, labels.data.size(), [&](std::size_t i) {
+  parallel_for(labels.data.size(), [&](std::size_t i) {
     if (is_compared(labels.data[i])) rungs[0].data[i] = true_visibility(input, i);
   });
   return rungs;

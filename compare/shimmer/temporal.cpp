@@ -1,11 +1,10 @@
 #include "compare/shimmer/temporal.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "compare/ladder.h"
 #include "compare/surfaces.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -59,7 +58,7 @@ ReceiverSpacing receiver_spacing(const Image<raytrace::SurfacePoint>& receivers,
                                  int step) {
   const ImageSize size = receivers.size;
   ReceiverSpacing out{Image<float>(size, 0.0f), Image<float>(size, 0.0f), Image<float>(size, 0.0f)};
-  tbb::parallel_for(0, size.height, [&](int y) {
+  parallel_for(size.height, [&](int y) {
     if (y % step != 0) return;
     for (int x = 0; x < size.width; x += step) {
       if (x + step >= size.width || y + step >= size.height) continue;
@@ -133,7 +132,7 @@ const TemporalSums& TemporalBudget::add(RungFrame next) {
   TemporalSums sums;
   if (has_last_) {
     std::vector<TemporalSums> rows(static_cast<std::size_t>(next.counted.size.height));
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+    parallel_for(rows.size(), [&](std::size_t y) {
       if (static_cast<int>(y) % step_ == 0) add_row(static_cast<int>(y), next, rows[y]);
     });
     for (const TemporalSums& row : rows) sums += row;

@@ -1,6 +1,6 @@
 #include "compare/shimmer/write.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

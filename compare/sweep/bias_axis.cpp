@@ -1,7 +1,5 @@
 #include "compare/sweep/bias_axis.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "compare/edges.h"
 #include "compare/exact_depth.h"
 #include "compare/labelling.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -88,9 +87,8 @@ class BiasAxis {
 
   void run() {
     prepare_columns();
-    tbb::parallel_for(std::size_t{0}, lower_.outside.size(),
-                      [&](std::size_t i) { add_outside(lower_.outside[i]); });
-    tbb::parallel_for(std::size_t{0}, lower_.groups.keys.size(), [&](std::size_t g) { add_group(g); });
+    parallel_for(lower_.outside.size(), [&](std::size_t i) { add_outside(lower_.outside[i]); });
+    parallel_for(lower_.groups.keys.size(), [&](std::size_t g) { add_group(g); });
     totals_.assign(biases_.count() + std::size_t{1}, {});
     for (const Share& share : shares_) {
       for (std::size_t i = 0; i < totals_.size(); ++i) totals_[i].add(share.changes[i], 1);
@@ -125,7 +123,7 @@ class BiasAxis {
 
   void prepare_columns() {
     std::vector<char> wrong(lower_.groups.keys.size(), 0);
-    tbb::parallel_for(std::size_t{0}, wrong.size(), [&](std::size_t g) {
+    parallel_for(wrong.size(), [&](std::size_t g) {
       for (const std::uint32_t pixel : lower_.groups[g]) wrong[g] |= static_cast<char>(ever_wrong(pixel));
     });
     lower_.columns->add(wrong);
@@ -207,7 +205,7 @@ class BiasAxis {
   const LowerClimb& lower_;
   const LadderInput& in_;
   Biases biases_;
-  tbb::enumerable_thread_specific<Share> shares_;
+  PerThread<Share> shares_;
   std::vector<Counts> totals_;
   std::vector<Gap> gaps_;
   std::vector<WrongSpan> spans_;
@@ -270,7 +268,7 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
   const GapLists gaps = sort_gaps(in.record, lower.rungs[0], lower.sorted);
   BiasTable out{std::vector<LightComparison>(asked.size()), axis.biases().place, axis.take_spans()};
   std::vector<LightComparison>& lights = out.lights;
-  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+  parallel_for(asked.size(), [&](std::size_t i) {
     const std::size_t place = axis.biases().place[i];
     lights[i] = without_images(drawn);
     fill_counts(axis.counts(place), lights[i]);

@@ -1,8 +1,5 @@
 #include "compare/sweep/engine.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +7,7 @@
 #include "compare/sweep/engine_impl.h"
 #include "raster/technique_traits.h"
 #include "scene/exposure.h"
+#include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
@@ -81,7 +79,7 @@ raster::Bias with_constant(const raster::MapOptions& map, double constant_world,
 void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record) {
   record.bias_constant_world = constant_world;
   const auto bias = static_cast<float>(constant_world);
-  tbb::parallel_for(std::size_t{0}, record.gap.data.size(), [&](std::size_t i) {
+  parallel_for(record.gap.data.size(), [&](std::size_t i) {
     const bool shadowed = primitive.data[i] != no_id && record.gap.data[i] > bias;
     record.visibility.data[i] = shadowed ? 0.0f : 1.0f;
   });
@@ -302,8 +300,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
 Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual)
     : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {
   impl_->comparison.world = &world;
-  impl_->comparison.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  impl_->comparison.threads = threads_in_use();
 }
 
 Engine::~Engine() = default;

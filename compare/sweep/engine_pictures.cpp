@@ -1,5 +1,4 @@
 // A cell in pictures: its thumbnail, its drawing in small, and its labels as codes.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "compare/outputs.h"
 #include "compare/palette.h"
 #include "compare/sweep/engine_impl.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -21,7 +21,7 @@ Rgb8Image reduced(ImageSize full, int width, const Colour& colour) {
   const auto edge = [](int i, int count, int pixels) {
     return static_cast<int>(static_cast<std::int64_t>(i) * pixels / count);
   };
-  tbb::parallel_for(0, rows, [&](int y) {
+  parallel_for(rows, [&](int y) {
     for (int x = 0; x < columns; ++x)
       small.at(x, y) = colour(edge(x, columns, full.width), edge(x + 1, columns, full.width),
                               edge(y, rows, full.height), edge(y + 1, rows, full.height));
@@ -87,7 +87,7 @@ glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, 
 
 Image<std::uint8_t> Engine::Impl::codes_of_images() const {
   Image<std::uint8_t> codes(comparison.raytraced.receiver.size);
-  tbb::parallel_for(std::size_t{0}, codes.data.size(), [&](std::size_t p) {
+  parallel_for(codes.data.size(), [&](std::size_t p) {
     std::uint8_t code = code_of(lower.empty() ? Label::background : lower.front()->sorted.data[p]);
     for (std::size_t i = 0; i < lower.size(); ++i) {
       if (!is_compared(lower[i]->sorted.data[p])) continue;

@@ -1,6 +1,6 @@
 // The grid of thumbnails. A thumbnail shows the ray-traced picture in grey with false shadow and missed
 // shadow in their two colours; under it stands the share of wrong pixels, so that colour never speaks alone.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

@@ -1,11 +1,10 @@
 #include "compare/sweep/journal.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "compare/sweep/cell_files.h"
 #include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -306,7 +306,7 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   sweep.lines = whole_lines(read_all(path_in(folder, "sweep.jsonl")));
   sweep.times = whole_lines(read_all(path_in(folder, "sweep_times.jsonl")));
   std::vector<char> whole(sweep.lines.size(), 0);
-  tbb::parallel_for(std::size_t{0}, whole.size(), [&](std::size_t i) {
+  parallel_for(whole.size(), [&](std::size_t i) {
     whole[i] = static_cast<char>(is_sealed(sweep.lines[i]) && !axes_of_line(sweep.lines[i]).empty());
   });
   if (const auto bad = std::find(whole.begin(), whole.end(), 0); bad != whole.end())

@@ -1,6 +1,6 @@
 #include "compare/sweep/merge.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <map>

@@ -1,6 +1,6 @@
 #include "compare/sweep/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // How the error of each technique falls with the map's size.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

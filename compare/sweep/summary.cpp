@@ -1,13 +1,12 @@
 #include "compare/sweep/summary.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "compare/number_text.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
@@ -124,8 +123,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
 
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
   std::vector<Expected<CellSummary>> read(sweep.lines.size());
-  tbb::parallel_for(std::size_t{0}, read.size(),
-                    [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
+  parallel_for(read.size(), [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
   std::vector<CellSummary> cells;
   for (Expected<CellSummary>& cell : read) {
     if (!cell) return fail(cell.error());

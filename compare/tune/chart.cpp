@@ -1,5 +1,5 @@
 // The bias curves of all kinds in one drawing: lines told apart by colour, dashes and their names.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,6 @@
 // What accuracy costs: every map that the search drew as a point, the error wanted small against
 // milliseconds, the goal as a line, and those that no other beats in both joined and named.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // Why each family won or lost, in words.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "compare/tune/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

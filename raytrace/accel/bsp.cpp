@@ -1,11 +1,10 @@
 #include "raytrace/accel/bsp.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "raytrace/accel/polytope.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -88,7 +87,7 @@ class BspBuilder {
     if (parent < bsp_parallel_threshold)
       build_below(), build_above();
     else
-      tbb::parallel_invoke(build_below, build_above);
+      parallel_invoke(build_below, build_above);
     return node;
   }
 

@@ -1,10 +1,10 @@
 #include "raytrace/accel/grid.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -106,7 +106,7 @@ bool find_references(const UniformGrid& grid, const CellItems& items, std::uint6
   constexpr std::uint32_t block = 512;
   blocks.assign((items.count() + block - 1) / block, {});
   std::atomic<std::uint64_t> total = 0;
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+  parallel_for(blocks.size(), [&](std::size_t b) {
     const auto begin = static_cast<std::uint32_t>(b) * block, end = std::min(items.count(), begin + block);
     for (std::uint32_t item = begin; item < end; ++item)
       for_each_cell(grid, items, item, [&](std::uint32_t cell) {

@@ -1,9 +1,9 @@
 #include "raytrace/accel/kdtree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <memory>
+
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -121,7 +121,7 @@ class KdBuilder {
     if (parent < kd_parallel_threshold)
       build_left(), build_right();
     else
-      tbb::parallel_invoke(build_left, build_right);
+      parallel_invoke(build_left, build_right);
     return node;
   }
 

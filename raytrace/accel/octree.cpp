@@ -1,9 +1,9 @@
 #include "raytrace/accel/octree.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <memory>
+
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -62,7 +62,7 @@ class OctreeBuilder {
     if (parent < octree_parallel_threshold)
       for (std::size_t i = 0; i < 8; ++i) build_child(i);
     else
-      tbb::parallel_for(std::size_t{0}, std::size_t{8}, build_child);
+      parallel_for(std::size_t{8}, build_child);
     return node;
   }
 

@@ -13,8 +13,8 @@
 #include "raytrace/accel/median_bvh.h"
 #include "raytrace/accel/octree.h"
 #include "raytrace/accel/two_level.h"
-#include "raytrace/function_ref.h"
 #include "raytrace/tracer.h"
+#include "scene/function_ref.h"
 
 namespace gnomon::raytrace {
 

@@ -1,8 +1,8 @@
 #include "raytrace/accel/two_level.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -107,7 +107,7 @@ class TwoLevelBuilder {
   void build() {
     for (const auto& group : groups_of(scene_, parts_)) plan(group);
     out_.trees.resize(jobs_.size());
-    tbb::parallel_for(std::size_t{0}, jobs_.size(), [&](std::size_t j) { build_tree(j); });
+    parallel_for(jobs_.size(), [&](std::size_t j) { build_tree(j); });
     for (std::uint32_t i = shapes_begin(); i < finite_.boxes.size(); ++i) {
       const BoxRef& box = finite_.boxes[i];
       out_.leaves.ids[i] = box.id;

@@ -1,8 +1,8 @@
 // The boxes of a world's primitives, for every structure's builder: raytrace/bvh/bvh.h.
-#include <tbb/parallel_for.h>
 
 #include "raytrace/bvh/bvh.h"
 #include "raytrace/given_up.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon::raytrace {
@@ -38,7 +38,7 @@ void append_triangles(const World& world, bool with_kept, FinitePrimitives& out)
   const std::uint32_t count = world.triangle_count();
   std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
   out.boxes.resize(count);
-  tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t block) {
+  parallel_for(kept.size(), [&](std::size_t block) {
     const auto first = static_cast<std::uint32_t>(block) * block_size;
     BoxRef* at = out.boxes.data() + first;
     for (std::uint32_t id = first; id < std::min(first + block_size, count); ++id) {

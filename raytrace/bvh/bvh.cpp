@@ -4,13 +4,11 @@
 // primitives, these get a finer grid of their own.
 #include "raytrace/bvh/bvh.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include "raytrace/bvh/clusters.h"
 #include "raytrace/bvh/instance.h"
 #include "raytrace/bvh/treelet.h"
 #include "raytrace/given_up.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon::raytrace {
@@ -106,7 +104,7 @@ class Builder {
 
   Bvh& bvh_;
   NodeStore nodes_;
-  tbb::enumerable_thread_specific<TreeletScratch> scratches_;
+  PerThread<TreeletScratch> scratches_;
 };
 
 /// The part of the tree above the runs of one grid.
@@ -163,12 +161,7 @@ class Top {
     if (range.count < Config::parallel_threshold)
       for (std::size_t i = 0; i < 4; ++i) put_child(i);
     else
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, 4, 1),
-          [&](const auto& r) {
-            for (std::size_t i = r.begin(); i != r.end(); ++i) put_child(i);
-          },
-          tbb::simple_partitioner());
+      parallel_tasks(4, put_child);
     leave_if_given_up();
     return BvhChild::node(index);
   }

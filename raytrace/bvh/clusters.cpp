@@ -1,10 +1,6 @@
 #include "raytrace/bvh/clusters.h"
 #include "raytrace/given_up.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-#include <tbb/task_arena.h>
+#include "scene/parallel.h"
 
 #include <bit>
 
@@ -64,8 +60,7 @@ class Sorter {
         cell_(in.size()),
         shares_(in.size() < parallel_count
                     ? 1
-                    : std::clamp<std::size_t>(
-                          static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), 1, 16)) {}
+                    : std::clamp<std::size_t>(static_cast<std::size_t>(threads_for_loops()), 1, 16)) {}
 
   Clusters run() {
     Clusters out;
@@ -80,12 +75,7 @@ class Sorter {
  private:
   template <class Work>
   void for_each_share(const Work& work) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, shares_.size(), 1),
-        [&](const auto& r) {
-          for (std::size_t i = r.begin(); i != r.end(); ++i) work(i);
-        },
-        tbb::simple_partitioner());
+    parallel_tasks(shares_.size(), work);
     leave_if_given_up();
   }
   std::size_t begin_of(std::size_t share) const { return in_.size() * share / shares_.size(); }
@@ -125,14 +115,12 @@ class Sorter {
 
   static void bound(Clusters& out) {
     out.boxes.resize(out.clusters.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.clusters.size(), 512), [&](const auto& r) {
-      for (std::size_t i = r.begin(); i != r.end(); ++i) {
-        const Cluster cluster = out.clusters[i];
-        Box box = Box::empty();
-        for (std::uint32_t k = 0; k < cluster.count; ++k) box.grow(out.refs[cluster.first + k].box);
-        box.min[3] = std::bit_cast<float>(static_cast<std::uint32_t>(i)), box.max[3] = 0.0f;
-        out.boxes[i].box = box;
-      }
+    parallel_for(out.clusters.size(), 512, [&](std::size_t i) {
+      const Cluster cluster = out.clusters[i];
+      Box box = Box::empty();
+      for (std::uint32_t k = 0; k < cluster.count; ++k) box.grow(out.refs[cluster.first + k].box);
+      box.min[3] = std::bit_cast<float>(static_cast<std::uint32_t>(i)), box.max[3] = 0.0f;
+      out.boxes[i].box = box;
     });
     leave_if_given_up();
   }
@@ -153,10 +141,10 @@ Clusters cluster_by_cells(std::span<const Ref> refs, const Box& centroids) {
 }
 
 Box centroid_bounds(std::span<const BoxRef> boxes) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, boxes.size(), parallel_count), Box::empty(),
-      [&](const auto& r, Box box) {
-        for (std::size_t i = r.begin(); i != r.end(); ++i) {
+  return parallel_reduce(
+      boxes.size(), parallel_count, Box::empty(),
+      [&](std::size_t first, std::size_t last, Box box) {
+        for (std::size_t i = first; i < last; ++i) {
           const Row c = ref_of(boxes[i]).centroid2();
           lower(box.min, c), raise(box.max, c);
         }

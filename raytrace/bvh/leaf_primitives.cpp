@@ -1,11 +1,10 @@
 #include "raytrace/bvh/leaf_primitives.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 
 #include "raytrace/given_up.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 
@@ -77,7 +76,7 @@ class LeafGroup {
 LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triangles_(count) {
   const std::size_t groups = (count + group_size - 1) / group_size;
   std::vector<std::vector<Vec3>> corners(groups);
-  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+  parallel_for(groups, [&](std::size_t g) {
     LeafGroup group;
     const std::size_t end = std::min(count, (g + 1) * group_size);
     for (std::size_t i = g * group_size; i < end; ++i) triangles_[i] = group.triangle(source, i);
@@ -89,7 +88,7 @@ LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triang
   corners_ = HugeArray<Vec3>(first[groups] + 1);
   corners_[first[groups]] = Vec3(0.0);
   for (std::size_t g = 0; g < groups; ++g) groups_.push_back(corners_.data() + first[g]);
-  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+  parallel_for(groups, [&](std::size_t g) {
     std::copy(corners[g].begin(), corners[g].end(), corners_.data() + first[g]);
   });
   leave_if_given_up();

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "raytrace/function_ref.h"
 #include "raytrace/huge_array.h"
+#include "scene/function_ref.h"
 #include "scene/math.h"
 
 namespace gnomon::raytrace {

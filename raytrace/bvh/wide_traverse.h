@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "raytrace/bvh/wide_ray.h"
-#include "raytrace/function_ref.h"
+#include "scene/function_ref.h"
 #include "scene/ray.h"
 
 namespace gnomon::raytrace {

@@ -1,8 +1,5 @@
 #include "raytrace/bvh/wide_tree.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -11,6 +8,7 @@
 
 #include "raytrace/bvh/wide_pack.h"
 #include "raytrace/given_up.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -161,7 +159,7 @@ class Collapse {
       parts[k] = part_of(node.child[used[k]], wide_box_of(node, used[k]));
     };
     if (bvh_.below[child.index()].count > parallel_size)
-      tbb::parallel_for(std::size_t{0}, count, make);
+      parallel_for(count, make);
     else
       for (std::size_t k = 0; k < count; ++k) make(k);
     leave_if_given_up();
@@ -274,7 +272,7 @@ class Collapse {
         collapse(piece, place, depth + 1);
     };
     if (depth < parallel_depth)
-      tbb::parallel_for(std::size_t{0}, pieces.count, put_child);
+      parallel_for(pieces.count, put_child);
     else
       for (std::size_t i = 0; i < pieces.count; ++i) put_child(i);
     leave_if_given_up();
@@ -371,7 +369,7 @@ std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world,
 void WideOnDemand::collapse(const Bvh& bvh, const World& world) {
   if (begun_.exchange(true)) return;
   try {
-    tbb::this_task_arena::isolate(
+    run_isolated(
         [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
   } catch (const std::bad_alloc&) {  // not tried again: the default hierarchy answers every ray
   } catch (...) {                    // given up with the work around it: the next work begins anew

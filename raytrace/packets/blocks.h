@@ -1,13 +1,11 @@
 // A picture in blocks of up to 4 x 4 tiles, which are worked on together.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <stop_token>
 
 #include "raytrace/tiles.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 
@@ -39,11 +37,10 @@ template <class Block>
 void for_each_block(ImageSize size, const std::stop_token& stop, const Block& block) {
   const int columns = (size.width + block_pixels - 1) / block_pixels;
   const int rows = (size.height + block_pixels - 1) / block_pixels;
-  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), [&](const tbb::blocked_range<int>& r) {
-    for (int i = r.begin(); i != r.end() && !stop.stop_requested(); ++i) {
-      const int x = i % columns * block_pixels, y = i / columns * block_pixels;
-      block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
-    }
+  parallel_for(columns * rows, [&](int i) {
+    if (stop.stop_requested()) return;
+    const int x = i % columns * block_pixels, y = i / columns * block_pixels;
+    block(BlockRect{x, y, std::min(x + block_pixels, size.width), std::min(y + block_pixels, size.height)});
   });
 }
 

@@ -1,7 +1,5 @@
 #include "raytrace/packets/shadow_pass.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <atomic>
 #include <cstring>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "raytrace/packets/places.h"
 #include "raytrace/packets/prepare.h"
 #include "raytrace/packets/shadow_block.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -55,7 +54,7 @@ class ShadowPass {
       : receivers_(receivers), light_(light), asked_(asked), visibility_(visibility) {}
 
   std::uint64_t run(const std::stop_token& stop) {
-    tbb::enumerable_thread_specific<Scratch> scratch;
+    PerThread<Scratch> scratch;
     std::atomic<std::uint64_t> rays = 0;
     for_each_block(receivers_.size, stop,
                    [&](const BlockRect& rect) { rays += run_block(rect, scratch.local()); });

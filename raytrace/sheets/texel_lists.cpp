@@ -1,12 +1,12 @@
 // The primitives of each texel's column, by descending the hierarchy with the column's planes. Boxes are
 // tested in floats with the rounding given away, primitives in double by raytrace/sheets/column.h.
-#include <tbb/parallel_for.h>
 
 #include <bit>
 
 #include "raytrace/kernels.h"
 #include "raytrace/sheets.h"
 #include "raytrace/sheets/column.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -205,7 +205,7 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
   const std::size_t count = lists.keys.size(), blocks = (count + block - 1) / block;
   std::vector<std::vector<std::uint32_t>> found(blocks);
   lists.offsets.assign(count + 1, 0);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  parallel_for(blocks, [&](std::size_t b) {
     const std::size_t begin = b * block, size = std::min(count, begin + block) - begin;
     Collector(s, bvh, view)
         .collect(std::span(lists.keys).subspan(begin, size),
@@ -214,7 +214,7 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
   std::vector<std::uint64_t> first(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + found[b].size();
   lists.primitives.resize(first[blocks]);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+  parallel_for(blocks, [&](std::size_t b) {
     std::copy(found[b].begin(), found[b].end(),
               lists.primitives.begin() + static_cast<std::ptrdiff_t>(first[b]));
     for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i)

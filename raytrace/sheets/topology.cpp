@@ -1,7 +1,6 @@
 // Which triangle lies across which edge, with vertices welded by exact position. Kept instances (scene/world.h) share
 // what their mesh has, unless they touch something: then they are worked out in the world, with all that is flattened.
 // The result is the same for any number of threads, and whether instances are kept or not.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
+#include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 #include "scene/stages.h"
 
@@ -35,8 +35,8 @@ class Soup {
     }
     moved_.resize(vertices_.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i)
-      tbb::parallel_for(std::uint32_t{0}, parts[i]->vertex_count(),
-                        [&](std::uint32_t v) { moved_[vertices_.begin_of(i) + v] = parts[i]->position(v); });
+      parallel_for(parts[i]->vertex_count(),
+                   [&](std::uint32_t v) { moved_[vertices_.begin_of(i) + v] = parts[i]->position(v); });
     positions_ = moved_;
   }
 
@@ -79,12 +79,11 @@ class Weld {
 
   std::vector<std::uint32_t> run() {
     const std::size_t count = positions_.size();
-    tbb::parallel_for(std::size_t{0}, count,
-                      [&](std::size_t i) { order_[i] = hash_of(positions_[i]) << 32 | i; });
+    parallel_for(count, [&](std::size_t i) { order_[i] = hash_of(positions_[i]) << 32 | i; });
     sort_numbers(std::span(order_));
     std::vector<std::uint32_t> welded(count);
     const auto hash_at = [&](std::size_t i) { return order_[i] >> 32; };
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t first) {
+    parallel_for(count, [&](std::size_t first) {
       if (first > 0 && hash_at(first) == hash_at(first - 1)) return;
       std::size_t end = first + 1;
       while (end < count && hash_at(end) == hash_at(first)) ++end;
@@ -138,7 +137,7 @@ class Pairing {
 
   void run() {
     sort_by_lower_vertex();
-    tbb::parallel_for(std::size_t{0}, welded_.size(), [&](std::size_t v) {
+    parallel_for(welded_.size(), [&](std::size_t v) {
       const std::span<HalfEdge> edges(edges_.data() + ends_[v], edges_.data() + ends_[v + 1]);
       std::sort(edges.begin(), edges.end());
       for (std::size_t first = 0; first < edges.size();) {
@@ -155,7 +154,7 @@ class Pairing {
   void sort_by_lower_vertex() {
     ends_.assign(welded_.size() + 1, 0);
     const auto each_edge = [&](const auto& use) {
-      tbb::parallel_for(std::uint32_t{0}, soup_.triangle_count(), [&](std::uint32_t t) {
+      parallel_for(soup_.triangle_count(), [&](std::uint32_t t) {
         const auto corners = soup_.triangle(t);
         for (std::uint32_t k = 0; k < 3; ++k) {
           const std::uint32_t a = welded_[corners[k]], b = welded_[corners[(k + 1) % 3]];
@@ -210,7 +209,7 @@ class Touching {
     std::vector<std::uint64_t> shared;
     for (std::uint64_t pass = 0; pass < passes_; ++pass) append_shared(pass, shared);
     std::sort(shared.begin(), shared.end());
-    tbb::parallel_for(std::size_t{0}, touches_.size(), [&](std::size_t i) {
+    parallel_for(touches_.size(), [&](std::size_t i) {
       const WorldPart& part = world_.parts[i];
       touches_[i] = !part.kept();
       if (part.kept() && !shared.empty())
@@ -233,7 +232,7 @@ class Touching {
   /// Of the hashes of this pass those that two vertices have, once each.
   void append_shared(std::uint64_t pass, std::vector<std::uint64_t>& shared) const {
     std::vector<std::vector<std::uint64_t>> of_part(world_.parts.size());
-    tbb::parallel_for(std::size_t{0}, of_part.size(), [&](std::size_t i) {
+    parallel_for(of_part.size(), [&](std::size_t i) {
       each_vertex(world_.parts[i], [&](std::uint64_t hash) {
         if (hash % passes_ == pass) of_part[i].push_back(hash);
       });
@@ -285,8 +284,8 @@ Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   across_.resize(across_.size() + 3 * std::size_t{soup.triangle_count()}, boundary);
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
   welded_.resize(welded_.size() + welded.size());
-  tbb::parallel_for(std::size_t{0}, welded.size(),
-                    [&](std::size_t v) { welded_[place.welded + v] = soup.world_vertex(welded[v]); });
+  parallel_for(welded.size(),
+               [&](std::size_t v) { welded_[place.welded + v] = soup.world_vertex(welded[v]); });
   return place;
 }
 

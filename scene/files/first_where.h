@@ -1,11 +1,10 @@
 // The first of many things that is so, looked for on every thread.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cstddef>
+
+#include "scene/parallel.h"
 
 namespace gnomon {
 
@@ -13,12 +12,12 @@ namespace gnomon {
 template <class Is>
 std::size_t first_where(std::size_t count, const Is& is) {
   constexpr std::size_t at_a_time = 8192;
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, at_a_time), count,
-      [&](const auto& range, std::size_t first) {
-        for (std::size_t i = range.begin(); i < range.end() && i < first; ++i)
+  return parallel_reduce(
+      count, at_a_time, count,
+      [&](std::size_t first, std::size_t last, std::size_t none) {
+        for (std::size_t i = first; i < last; ++i)
           if (is(i)) return i;
-        return first;
+        return none;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }

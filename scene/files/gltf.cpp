@@ -1,7 +1,7 @@
 // glTF 2.0 and GLB: checked by gltf_check, parsed by tinygltf, brought into the scene model here. One instance for each
 // node with a mesh, or as many as EXT_mesh_gpu_instancing says; lights by KHR_lights_punctual in their own units (lux,
 // candela); the first perspective camera.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <exception>
 #include <glm/gtc/matrix_transform.hpp>

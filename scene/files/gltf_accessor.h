@@ -2,9 +2,6 @@
 // sparse.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -12,6 +9,7 @@
 #include <vector>
 
 #include "scene/math.h"
+#include "scene/parallel.h"
 
 namespace tinygltf {
 class Model;
@@ -36,10 +34,10 @@ class GltfAccessor {
   template <class Visit>
   void for_each(const Visit& visit) const {
     constexpr std::size_t at_a_time = 1024;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count_, at_a_time), [&](const auto& range) {
+    parallel_ranges(count_, at_a_time, [&](std::size_t first, std::size_t last) {
       std::array<double, at_a_time * 16> values;  // the largest element is a matrix of 4 x 4
-      for (std::size_t from = range.begin(); from < range.end(); from += at_a_time) {
-        const std::size_t to = std::min(from + at_a_time, range.end());
+      for (std::size_t from = first; from < last; from += at_a_time) {
+        const std::size_t to = std::min(from + at_a_time, last);
         read(from, to, values.data());
         for (std::size_t i = from; i < to; ++i) visit(i, &values[(i - from) * components_]);
       }

@@ -1,6 +1,6 @@
 #include "scene/files/gltf_check.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "scene/files/gltf_container.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 

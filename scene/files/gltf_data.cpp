@@ -1,7 +1,6 @@
 #include "scene/files/gltf_data.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "scene/files/gltf_meshopt.h"
 #include "scene/files/hex_digit.h"
 #include "scene/files/read_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {
@@ -128,7 +128,7 @@ Expected<void> GltfData::open_buffers() {
 Expected<void> GltfData::open_views() {
   const std::vector<JsonValue>& views = gltf_list(checked_->document.root, "bufferViews");
   std::vector<Expected<std::vector<char>>> unpacked(views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+  parallel_for(views.size(), [&](std::size_t i) {
     if (const JsonValue* packed = meshopt_of(views[i]); packed != nullptr)
       unpacked[i] = unpack_meshopt(*packed, buffers_, number_of(&views[i], "byteLength", 0.0));
   });

@@ -4,12 +4,13 @@
 #include <draco/compression/point_cloud/point_cloud_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <cstring>
 #include <set>
+
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {
@@ -156,7 +157,7 @@ class Unpacker {
                 add_task(model_.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p));
             !added)
           return added;
-    tbb::parallel_for(std::size_t{0}, tasks_.size(), [&](std::size_t i) { unpack(model_, tasks_[i]); });
+    parallel_for(tasks_.size(), [&](std::size_t i) { unpack(model_, tasks_[i]); });
     for (Task& task : tasks_) {
       if (!task.reason.empty()) return error(task.field, task.reason);
       put(task);

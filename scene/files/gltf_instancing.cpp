@@ -1,6 +1,6 @@
 #include "scene/files/gltf_instancing.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -247,7 +247,7 @@ void GltfMeshReader::apply_skin(Mesh& mesh, const Part& part, const std::vector<
       }
     });
   }
-  tbb::parallel_for(std::size_t{0}, part.count, [&](std::size_t i) {
+  parallel_for(part.count, [&](std::size_t i) {
     if (!(blends[i].weight > 0.0)) return;
     const Mat4 matrix = blends[i].matrix / blends[i].weight;
     Vec3& position = mesh.positions[part.first + i];

@@ -1,6 +1,6 @@
 #include "scene/files/gltf_meshopt.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <meshoptimizer.h>
 
 #include <cmath>

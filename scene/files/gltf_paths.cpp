@@ -1,6 +1,6 @@
 #include "scene/files/gltf_paths.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <set>

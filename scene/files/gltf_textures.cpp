@@ -1,14 +1,13 @@
 #include "scene/files/gltf_textures.h"
 
-#include <fmt/format.h>
-
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
 #include "scene/files/gltf_value.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
+#include "scene/parallel.h"
 #include "scene/texture_sample.h"
 
 namespace gnomon {
@@ -84,7 +83,7 @@ void GltfTextures::decode_ahead(const std::set<int>& colours, const std::set<int
   std::vector<Decoded> all;
   list_images(colours, true, all);
   list_images(means, false, all);
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+  parallel_for(all.size(), [&](std::size_t i) {
     Decoded& one = all[i];
     auto texture = decode(one.image, one.srgb);
     if (!texture) return;

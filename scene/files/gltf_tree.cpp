@@ -1,6 +1,6 @@
 #include "scene/files/gltf_tree.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "scene/files/gltf_writer.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <limits>
 

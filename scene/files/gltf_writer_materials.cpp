@@ -1,7 +1,7 @@
 // Blinn-Phong with mirror and transmission, said in glTF's metallic-roughness terms as nearly as these allow:
 // the other way round of gltf_materials.h, so that other programs show something alike. The exact numbers
 // stand in the extras.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_writer_parts.h"

@@ -1,5 +1,5 @@
 // Meshes, one primitive for each material, and a node for each instance.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>

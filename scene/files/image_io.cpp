@@ -1,8 +1,6 @@
 #include "scene/files/image_io.h"
 
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +10,7 @@
 #include "scene/files/read_file.h"
 #include "scene/files/texture_file.h"
 #include "scene/files/write_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {
@@ -154,15 +153,12 @@ Rgb8Image display_image(const ColorImage& linear, double exposure) {
   static const SrgbCodes codes;
   constexpr std::size_t at_a_time = 16384;
   Rgb8Image out(linear.size);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, linear.data.size(), at_a_time), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          const Vec3 color = exposure * Vec3(linear.data[i]);
-          const bool has_nan = std::isnan(color.x) || std::isnan(color.y) || std::isnan(color.z);
-          out.data[i] = has_nan ? glm::u8vec3(255, 0, 255)
-                                : glm::u8vec3(codes.of(color.x), codes.of(color.y), codes.of(color.z));
-        }
-      });
+  parallel_for(linear.data.size(), at_a_time, [&](std::size_t i) {
+    const Vec3 color = exposure * Vec3(linear.data[i]);
+    const bool has_nan = std::isnan(color.x) || std::isnan(color.y) || std::isnan(color.z);
+    out.data[i] = has_nan ? glm::u8vec3(255, 0, 255)
+                          : glm::u8vec3(codes.of(color.x), codes.of(color.y), codes.of(color.z));
+  });
   return out;
 }
 

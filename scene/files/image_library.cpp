@@ -1,7 +1,7 @@
 #include "scene/files/image_library.h"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

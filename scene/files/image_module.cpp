@@ -2,7 +2,7 @@
 // the project is linked into it: what it shares with the program are types that headers define.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

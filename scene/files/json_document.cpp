@@ -1,6 +1,6 @@
 #include "scene/files/json_document.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Meshes, instances and shapes of a JSON scene.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>

@@ -1,5 +1,5 @@
 // Lights of a JSON scene.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

@@ -1,5 +1,5 @@
 // Materials and textures of a JSON scene.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include "scene/files/image_io.h"

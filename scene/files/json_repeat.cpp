@@ -1,5 +1,5 @@
 // An instance repeated on a lattice: the "repeat" of a JSON scene's instance.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,5 +1,5 @@
 // The top level of a JSON scene: version, camera, picture settings and includes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

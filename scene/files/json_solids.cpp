@@ -1,6 +1,6 @@
 // Quadrics, tori and implicit surfaces of a JSON scene. Each has a place ("center", or "base" and "axis") and
 // may be rotated about it; lengths are world units.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "scene/files/json_parts.h"
 #include "scene/files/read_file.h"

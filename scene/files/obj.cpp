@@ -1,7 +1,7 @@
 // OBJ: read by obj_text, its materials by tinyobjloader, cut into triangles by polygon.h and brought into the scene model
 // here. One mesh and one instance per object or group; v of texture coordinates
 // is turned over.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tiny_obj_loader.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "scene/files/obj_materials.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "scene/files/obj_text.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

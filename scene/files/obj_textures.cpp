@@ -1,7 +1,6 @@
 #include "scene/files/obj_textures.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "scene/files/read_file.h"
 #include "scene/files/texture_mask.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {
@@ -128,7 +128,7 @@ Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materia
     files_.push_back(std::move(*files));
   }
   std::vector<Expected<Made>> all(wanted.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = make(wanted[i]); });
+  parallel_for(all.size(), [&](std::size_t i) { all[i] = make(wanted[i]); });
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i]) return fail(all[i].error());
     known_.emplace(wanted[i], Known{static_cast<std::uint32_t>(scene_.textures.size()), all[i]->mask});

@@ -3,7 +3,7 @@
 // KEYS: {"interpolation": "linear" | "cubic" | "step", "times": [seconds], "values": [[x, y, z]]}
 #include "scene/files/path_keys.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "scene/files/read_file.h"
 

@@ -2,11 +2,9 @@
 // for any number of threads: the scene is cut into the same blocks, and what these give is joined in their order.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 
+#include "scene/parallel.h"
 #include "scene/scene.h"
 
 namespace gnomon {
@@ -42,14 +40,14 @@ Sum over_placed_triangles(const Scene& scene, const Sum& none, const Add& add, c
   for (const MeshInstance& instance : scene.instances)
     first.push_back(first.back() + scene.meshes[instance.mesh].triangles.size());
   constexpr std::size_t at_a_time = 8192;
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::uint64_t>(0, first.back(), at_a_time), none,
-      [&](const auto& range, Sum sum) {
-        auto i = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), range.begin()) -
-                                          first.begin() - 1);
-        for (std::uint64_t at = range.begin(); at < range.end(); at = first[++i])
+  return parallel_reduce(
+      first.back(), at_a_time, none,
+      [&](std::size_t begin, std::size_t end, Sum sum) {
+        auto i =
+            static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), begin) - first.begin() - 1);
+        for (std::uint64_t at = begin; at < end; at = first[++i])
           visit_placed(scene, scene.instances[i], at - first[i],
-                       std::min(range.end(), first[i + 1]) - first[i],
+                       std::min<std::uint64_t>(end, first[i + 1]) - first[i],
                        [&](const PlacedTriangle& t) { add(sum, t); });
         return sum;
       },

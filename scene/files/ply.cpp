@@ -1,6 +1,6 @@
 // PLY models (Turk 1994), text and both binary encodings: vertices with positions, and normals and texture
 // coordinates where they have them (v is turned over), colours, and faces of any number of corners.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

@@ -1,6 +1,6 @@
 #include "scene/files/ply_header.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

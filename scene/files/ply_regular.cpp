@@ -1,8 +1,5 @@
 #include "scene/files/ply_regular.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -11,6 +8,7 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/validate.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {
@@ -28,8 +26,8 @@ template <class Row>
 bool all_rows(std::size_t count, const Row& row) {
   constexpr std::size_t at_a_time = 8192;
   std::atomic<bool> good{true};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, at_a_time), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
+  parallel_ranges(count, at_a_time, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
       if (!row(i)) return good.store(false);
   });
   return good;

@@ -1,7 +1,7 @@
 // PNG files of 8 bits: the container by libpng, the pixels' stream by libdeflate. Pictures of at most 256
 // colours get a palette, the rest is RGB or, where texels are not opaque, RGBA. No filters: rendered pictures come out as large as with them. Not
 // through OpenImageIO, whose loading alone takes longer than encoding does (image_library.h).
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <png.h>
 
 #include <algorithm>

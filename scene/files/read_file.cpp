@@ -1,7 +1,7 @@
 #include "scene/files/read_file.h"
 #include "scene/one_line.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include "scene/files/validate.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Columns and arcades, after the Tuscan order in Vignola's "Regola delli cinque ordini d'architettura"
 // (1562): plinth, torus, shaft with entasis, astragal, echinus, abacus. Every stone is a closed body; stones
 // that rest on each other run a few millimetres into each other, so that no two faces coincide.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 

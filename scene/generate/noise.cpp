@@ -2,9 +2,8 @@
 // per texel.
 #include "scene/generate/noise.h"
 
-#include <tbb/parallel_for.h>
-
 #include "scene/generate/random.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 
@@ -42,7 +41,7 @@ void add_octave(Image<float>& sum, const glm::ivec2& cells, float weight, std::u
   }
   const std::vector<Between> across = place(sum.size.width, cells.x), down = place(sum.size.height, cells.y);
   const auto stride = static_cast<std::size_t>(cells.x);
-  tbb::parallel_for(std::size_t{0}, down.size(), [&](std::size_t y) {
+  parallel_for(down.size(), [&](std::size_t y) {
     const float *above = &values[down[y].first * stride], *below = &values[down[y].second * stride];
     float* row = &sum.data[y * across.size()];
     for (std::size_t x = 0; x < across.size(); ++x) {

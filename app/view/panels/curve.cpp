@@ -1,5 +1,5 @@
 // The error of every constant bias from one rendering, with the bias as a line that can be dragged.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include <algorithm>

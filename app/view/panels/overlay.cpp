@@ -1,6 +1,6 @@
 // What lies over the pictures: their names, the line of a swipe, the pixel that is explained and the one under the
 // pointer in every pane, the light's handle, and the edges of the map.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // The pixel that was clicked: why it is wrong, its ladder, and the cut through the map there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The results: what is wrong, how much of it, why, what another bias would make of it, and what it took.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include <algorithm>

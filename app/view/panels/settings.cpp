@@ -1,5 +1,5 @@
 // The settings: technique, map, biases, filter, light. Only what the technique reads is there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // One line below: what was last done, or what is wrong with what was asked for.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui/imgui.h>
 
 #include "app/view/panels/panels.h"

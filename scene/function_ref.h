@@ -1,10 +1,10 @@
-// Somebody else's callable behind two pointers: what a traversal reports to that is compiled once, not once per visitor.
+// Somebody else's callable behind two pointers: what is called through it is compiled once, not once per callable.
 #pragma once
 
 #include <memory>
 #include <utility>
 
-namespace gnomon::raytrace {
+namespace gnomon {
 
 template <class Signature>
 class FunctionRef;
@@ -27,4 +27,4 @@ class FunctionRef<Result(Arguments...)> {
   Result (*call_)(const void* self, Arguments... arguments);
 };
 
-}  // namespace gnomon::raytrace
+}  // namespace gnomon
