@@ -49,6 +49,14 @@ bool may_use_opengl(std::string_view path) {
   return path.starts_with("raster/") || path.starts_with("app/view/") || path.starts_with("tests/");
 }
 
+/// Loops over all threads are those of scene/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
+/// a sort, a limit and an observer of threads, is used where it is needed.
+bool may_use_tbb(std::string_view path) {
+  constexpr std::string_view files[] = {"scene/parallel.cpp", "compare/sweep/bias_axis.cpp",
+                                        "app/session.cpp", "app/view/priority.cpp"};
+  return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
+}
+
 bool is_opengl_header(std::string_view include) {
   constexpr std::string_view prefixes[] = {"glad/", "GL/", "GLES2/", "GLES3/", "EGL/", "KHR/", "GLFW/"};
   return std::any_of(std::begin(prefixes), std::end(prefixes),
@@ -119,6 +127,7 @@ std::string check_include(const std::string& file, const Include& include,
                           const std::set<std::string>& opengl, const Files& files) {
   const std::string from = room_of(file);
   if (is_opengl_header(include.path) && !may_use_opengl(file)) return "OpenGL is private to raster";
+  if (include.path.starts_with("tbb/") && !may_use_tbb(file)) return "loops are those of scene/parallel.h";
   if (opengl.contains(include.path) && !may_use_opengl(file)) return "that raster header shows OpenGL";
   if (include.path.starts_with("embedded/shaders") && !allowed(from, "shaders")) {
     return from + " may not see the shaders";
@@ -256,6 +265,12 @@ TEST(Arrows, OpenGlStaysInRaster) {
   EXPECT_EQ(broken_by("compare/a.cpp", "#include \"raster/object.h\"\n").size(), 1u);
   EXPECT_EQ(broken_by("compare/a.cpp", "#include <embedded/shaders.h>\n").size(), 1u);
   EXPECT_TRUE(broken_by("raster/a.cpp", "#include <GL/gl.h>\n#include <embedded/shaders.h>\n").empty());
+}
+
+TEST(Arrows, LoopsAreThoseOfOneHeader) {
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include <tbb/parallel_for.h>\n").size(), 1u);
+  EXPECT_TRUE(broken_by("scene/parallel.cpp", "#include <tbb/parallel_for.h>\n").empty());
+  EXPECT_TRUE(broken_by("tests/a.cpp", "#include <tbb/global_control.h>\n").empty());
 }
 
 TEST(Arrows, OwnHeadersAreNamedFromTheRoot) {
