@@ -1,5 +1,4 @@
 #include "app/render_json.h"
-#include "scene/parallel.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "compare/option_names.h"
 #include "raster/technique_traits.h"
 #include "scene/files/write_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {

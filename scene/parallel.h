@@ -36,6 +36,7 @@ void parallel_for(Index count, const Body& body) {
 
 namespace parallel_detail {
 
+/// So that neighbouring sums are objects of their own: the elements of a std::vector<bool> share bytes.
 template <class Sum>
 struct Slot {
   Sum sum;

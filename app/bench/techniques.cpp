@@ -1,5 +1,4 @@
 #include "app/bench/techniques.h"
-#include "scene/parallel.h"
 
 #include <fmt/core.h>
 
@@ -11,6 +10,7 @@
 #include "app/technique_options.h"
 #include "compare/shadow_cost.h"
 #include "scene/files/write_file.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {

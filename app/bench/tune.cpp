@@ -1,5 +1,4 @@
 #include "app/bench/tune.h"
-#include "scene/parallel.h"
 
 #include <fmt/core.h>
 
@@ -11,6 +10,7 @@
 #include "app/tune_families.h"
 #include "compare/tune/full_grid.h"
 #include "raster/technique_traits.h"
+#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {

@@ -1,8 +1,9 @@
 #include "raytrace/bvh/clusters.h"
-#include "raytrace/given_up.h"
-#include "scene/parallel.h"
 
 #include <bit>
+
+#include "raytrace/given_up.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace::binned {
 namespace {
