@@ -8,8 +8,9 @@ target_include_directories(gnomon_flags INTERFACE "$<BUILD_INTERFACE:${PROJECT_S
 target_compile_options(gnomon_flags INTERFACE -ffp-contract=off)
 target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
 
-# A definition for targets with files that Highway compiles once per instruction set: for AVX-512, AVX2 and a baseline.
-set(GNOMON_INSTRUCTION_SETS "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
+# A definition for targets with files that Highway compiles once per instruction set: for AVX-512, AVX2, SSE4 and a baseline,
+# which is one number at a time.
+set(GNOMON_INSTRUCTION_SETS HWY_DISABLED_TARGETS=HWY_SSSE3)
 
 add_library(gnomon_warnings INTERFACE)
 target_compile_options(gnomon_warnings INTERFACE -Wall -Wextra -Wpedantic

@@ -22,8 +22,8 @@ struct alignas(64) EdgeSetupRows {
 };
 
 struct EdgeSetupPass {
-  Vec3 origin;
-  Vec3 axes[3];
+  Vec3 origin{0.0};
+  Vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   double largest = 0.0;   ///< no coordinate in the pass is larger
   double radius = 0.0;    ///< of the world, for a direction
   double farthest = 0.0;  ///< for a direction: no corner is farther from any receiver

@@ -77,8 +77,8 @@ int main(int argc, char** argv) {
       ->delimiter('x')
       ->check(CLI::Range(16, 16384));
   app.add_option("--target", settings.target,
-                 "hold both to an older instruction set: avx2 (default: the best that the machine has)")
-      ->check(CLI::IsMember({"avx2"}));
+                 "hold both to an older instruction set: avx2, sse4 (default: the best that the machine has)")
+      ->check(CLI::IsMember({"avx2", "sse4"}));
   app.add_option("--json", settings.json,
                  "also write the rows to this file; -: to stdout, the table to stderr");
   try {

@@ -16,7 +16,8 @@ struct InstructionSet {
 
 /// What other machines have, tried on this one: both are held to the same.
 inline const std::map<std::string, InstructionSet>& instruction_sets() {
-  static const std::map<std::string, InstructionSet> sets{{"avx2", {"isa=avx2", HWY_AVX2}}};
+  static const std::map<std::string, InstructionSet> sets{{"avx2", {"isa=avx2", HWY_AVX2}},
+                                                          {"sse4", {"isa=sse4.2", HWY_SSE4}}};
   return sets;
 }
 
