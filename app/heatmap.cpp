@@ -15,7 +15,7 @@ using compare::viridis;
 
 constexpr int octaves = 12;  // the scale ends at 2^12 - 1
 constexpr int strip_height = 12, label_height = 16, digit_scale = 2;
-constexpr glm::u8vec3 ground{0xff, 0xff, 0xff}, ink{0x20, 0x20, 0x20};
+constexpr glm::u8vec3 background{0xff, 0xff, 0xff}, ink{0x20, 0x20, 0x20};
 
 // Digits of three by five dots, row by row from the top, the left dot highest.
 constexpr std::array<std::array<std::uint8_t, 5>, 10> digits{{{7, 5, 5, 5, 7},
@@ -86,7 +86,7 @@ double heat_share(std::uint64_t count) {
 
 Rgb8Image heatmap_image(const Image<raytrace::WorkCounts>& work, HeatmapOf what) {
   const ImageSize size{work.size.width, work.size.height + strip_height + label_height};
-  Rgb8Image image(size, ground);
+  Rgb8Image image(size, background);
   for (int y = 0; y < work.size.height; ++y)
     for (int x = 0; x < work.size.width; ++x)
       image.at(x, y) = viridis(heat_share(count_of(work.at(x, y), what)));

@@ -9,9 +9,9 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr std::size_t help_width = 80;   // columns
-constexpr std::size_t text_indent = 6;   // columns before an option's description
-constexpr std::size_t name_column = 12;  // columns of a subcommand's name
+constexpr std::size_t help_width = 80;      // columns
+constexpr std::size_t text_indent = 6;      // columns before an option's description
+constexpr std::size_t command_column = 12;  // columns of a subcommand's name
 
 std::string examples(const CLI::App& command) {
   std::string text = "Examples:\n";
@@ -50,8 +50,9 @@ std::string command_help(const CLI::App& command) {
 std::string program_help(const CLI::App& program) {
   std::string commands, options;
   for (const CLI::App* command : program.get_subcommands({})) {
-    const std::string text = wrap(command->get_description(), 2 + name_column, help_width);
-    commands += fmt::format("  {:<{}}{}", command->get_name(), name_column, text.substr(2 + name_column));
+    const std::string text = wrap(command->get_description(), 2 + command_column, help_width);
+    commands +=
+        fmt::format("  {:<{}}{}", command->get_name(), command_column, text.substr(2 + command_column));
   }
   for (const CLI::Option* option : program.get_options()) options += option_help(*option);
   return fmt::format(

@@ -34,7 +34,7 @@ void add_named(CLI::App& app, const char* name, const char* text,
   });
 }
 
-void add_real(CLI::App& app, const char* name, NumberRange range, const char* unit, const char* text,
+void add_real(CLI::App& app, const char* name, OptionRange range, const char* unit, const char* text,
               CaptureOptions& options, const std::function<void(double)>& store) {
   const std::string help = describe(text, fmt::format("{}, {}", unit, range_text(range)), "the capture's");
   add_value(app, name, "NUMBER", help, [range, store, &options](const std::string& value) -> Expected<void> {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
 constexpr double most_by_default = 2.0 * gibibyte;
-constexpr NumberRange memory_range{0.0, 1e18, true};
+constexpr OptionRange memory_range{0.0, 1e18, true};
 
 std::string text_of_bytes(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", std::ceil(bytes / 1e6))

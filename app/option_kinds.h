@@ -64,7 +64,7 @@ inline void add_integer(CLI::App& command, const std::string& name, int& field, 
       [&field, min, max](const std::string& value) { return assign(field, parse_integer(value, min, max)); });
 }
 
-inline void add_number(CLI::App& command, const std::string& name, double& field, NumberRange range,
+inline void add_number(CLI::App& command, const std::string& name, double& field, OptionRange range,
                        const char* unit, const char* what) {
   add_value(command, name, "NUMBER",
             describe(what, fmt::format("{}, {}", unit, range_text(range)), number_text(field)),

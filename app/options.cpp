@@ -45,8 +45,8 @@ constexpr std::pair<std::string_view, raytrace::Precision> precisions[] = {
 
 // Ranges that no struct states. Each is far beyond what is useful and short of what overflows a float.
 constexpr int max_map_size = 65536;  // texels; the OpenGL context's own limit is checked when the map is made
-constexpr NumberRange slope_range{-1000.0, 1000.0};
-constexpr NumberRange normal_offset_range{0.0, 1000.0};
+constexpr OptionRange slope_range{-1000.0, 1000.0};
+constexpr OptionRange normal_offset_range{0.0, 1000.0};
 constexpr int max_threads = 1024;
 constexpr int max_runs = 1000;
 
@@ -321,7 +321,7 @@ void add_samples(CLI::App& command, int& samples) {
 }
 
 void add_ray_count(CLI::App& command, std::uint64_t& rays) {
-  constexpr NumberRange range{1e3, 1e12};
+  constexpr OptionRange range{1e3, 1e12};
   add_value(command, "--rays", "N",
             describe("rays of each row of the table; costly rows take a fixed share of it", range_text(range),
                      number_text(static_cast<double>(rays))),

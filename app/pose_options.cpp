@@ -64,8 +64,9 @@ void add_pose_value(CLI::App& command, const std::string& name, const char* type
       ->type_name(type);
 }
 
-void add_number(CLI::App& command, const std::string& name, const char* type, std::optional<double>& field,
-                const NumberRange& range, const std::string& what, const char* unit) {
+void add_pose_number(CLI::App& command, const std::string& name, const char* type,
+                     std::optional<double>& field, const OptionRange& range, const std::string& what,
+                     const char* unit) {
   add_pose_value(command, name, type, field, fmt::format("{} [{}, {}", what, unit, range_text(range)),
                  [range](const std::string& value) { return parse_number(value, range); });
 }
@@ -94,8 +95,8 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
           "above the horizon [degrees, {} and {}",
           range_text(azimuth_range), range_text(camera_elevation_range)),
       parse_orbit);
-  add_number(command, "--camera-distance", "D", poses.camera_distance, distance_range,
-             "distance of the eye from the camera's target", "world units");
+  add_pose_number(command, "--camera-distance", "D", poses.camera_distance, distance_range,
+                  "distance of the eye from the camera's target", "world units");
   add_pose_value(
       command, "--camera-target", "X,Y,Z", poses.camera_target,
       fmt::format("what the camera looks at and turns about [world units, {}", range_text(coordinate_range)),
@@ -104,21 +105,22 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
                  fmt::format("the camera's up vector, about which --camera-orbit turns [{}, not 0,0,0",
                              range_text(coordinate_range)),
                  parse_up);
-  add_number(
+  add_pose_number(
       command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
       "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",
       "degrees");
-  add_number(
+  add_pose_number(
       command, "--light-elevation", "DEG", poses.light_elevation, light_elevation_range,
       "how high the light stands above the horizon; a lamp's angles are those seen from the scene's centre",
       "degrees");
-  add_number(command, "--light-distance", "D", poses.light_distance, distance_range,
-             "distance of a lamp from the scene's centre; a sun has none", "world units");
-  add_number(command, "--light-size", "S", poses.light_size, size_range,
-             "how large the light is: of a sun the angular diameter of its disc, at most 90 degrees; of a "
-             "lamp the radius "
-             "of its sphere or disc, or half a rectangle's diagonal; 0 is a hard light",
-             "degrees or world units");
+  add_pose_number(command, "--light-distance", "D", poses.light_distance, distance_range,
+                  "distance of a lamp from the scene's centre; a sun has none", "world units");
+  add_pose_number(
+      command, "--light-size", "S", poses.light_size, size_range,
+      "how large the light is: of a sun the angular diameter of its disc, at most 90 degrees; of a "
+      "lamp the radius "
+      "of its sphere or disc, or half a rectangle's diagonal; 0 is a hard light",
+      "degrees or world units");
 }
 
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,

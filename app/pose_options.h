@@ -19,13 +19,13 @@ namespace gnomon::app {
 struct LoadedScene;
 
 // What the options take, and the lab's script with them: degrees, and world units.
-inline constexpr NumberRange azimuth_range{-360.0, 360.0};
-inline constexpr NumberRange camera_elevation_range{-max_camera_elevation_degrees,
+inline constexpr OptionRange azimuth_range{-360.0, 360.0};
+inline constexpr OptionRange camera_elevation_range{-max_camera_elevation_degrees,
                                                     max_camera_elevation_degrees};
-inline constexpr NumberRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
-inline constexpr NumberRange distance_range{0.0, 1e12, true};
-inline constexpr NumberRange coordinate_range{-1e12, 1e12};
-inline constexpr NumberRange size_range{0.0, 1e12};
+inline constexpr OptionRange light_elevation_range{-max_light_elevation_degrees, max_light_elevation_degrees};
+inline constexpr OptionRange distance_range{0.0, 1e12, true};
+inline constexpr OptionRange coordinate_range{-1e12, 1e12};
+inline constexpr OptionRange size_range{0.0, 1e12};
 
 struct PoseOptions {
   std::optional<Vec2> camera_orbit;                      ///< azimuth, elevation: degrees

@@ -28,8 +28,8 @@ constexpr std::pair<std::string_view, CameraPath> camera_paths[] = {{"orbit", Ca
                                                                     {"still", CameraPath::still}};
 constexpr std::pair<std::string_view, LightPath> light_paths[] = {
     {"orbit", LightPath::orbit}, {"sun", LightPath::sun}, {"still", LightPath::still}};
-constexpr NumberRange speed_range{-1e6, 1e6};
-constexpr NumberRange drift_range{-1000.0, 1000.0};
+constexpr OptionRange speed_range{-1e6, 1e6};
+constexpr OptionRange drift_range{-1000.0, 1000.0};
 constexpr int most_frames = 10000;
 constexpr int most_anchors = 64;
 
@@ -136,7 +136,7 @@ void add_movement(CLI::App& app, FilmOptions& film) {
       [&film](const std::string& text) { return assign(film.drift_texels, parse_drift(text)); });
 }
 
-bool is_given(const FilmOptions& film, std::string_view option) {
+bool is_film_option(const FilmOptions& film, std::string_view option) {
   return std::any_of(film.given.begin(), film.given.end(),
                      [&](const auto& given) { return given.first == option; });
 }
@@ -144,10 +144,10 @@ bool is_given(const FilmOptions& film, std::string_view option) {
 // What would change nothing is refused.
 Expected<void> check_use(const FilmOptions& film, const compare::ShimmerPath& path) {
   const bool by_keys = path.camera == CameraPath::keys || path.light == LightPath::keys;
-  if (by_keys && is_given(film, "--speed"))
+  if (by_keys && is_film_option(film, "--speed"))
     return fail(ErrorKind::usage,
                 "--speed: belongs to paths that are built in; keys have times of their own");
-  if (path.camera != CameraPath::drift && is_given(film, "--drift"))
+  if (path.camera != CameraPath::drift && is_film_option(film, "--drift"))
     return fail(ErrorKind::usage, "--drift: belongs to --path drift");
   return {};
 }
@@ -191,7 +191,7 @@ Expected<std::optional<KeyedPath>> find_keys(const FilmOptions& film, const std:
     if (film.paths.size() == 1 && own.name == film.paths.front())
       return std::optional(of_kept_lights(own, scene));
   const bool asked =
-      film.moves || !film.paths.empty() || is_given(film, "--speed") || is_given(film, "--drift");
+      film.moves || !film.paths.empty() || is_film_option(film, "--speed") || is_film_option(film, "--drift");
   if (asked || own_paths.empty()) return std::optional<KeyedPath>();
   const KeyedPath& first = own_paths.front();
   console.note(fmt::format("the scene's path {} is taken; it lasts {:g} s (--path takes another)", first.name,
@@ -208,7 +208,7 @@ void add_film_options(CLI::App& app, FilmOptions& film) {
       [&film](const std::string& text) {
         return assign(film.time.frames, parse_integer(text, 2, most_frames));
       });
-  constexpr NumberRange fps{0.0, 1e6, true};
+  constexpr OptionRange fps{0.0, 1e6, true};
   add_kept(app, film, "--fps", "NUMBER",
            describe("speed of the film", fmt::format("frames a second, {}", range_text(fps)),
                     number_text(film.time.fps)),

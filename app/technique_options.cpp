@@ -19,40 +19,40 @@ using raster::FilterKernelTraits;
 using raster::MapOption;
 using raster::TechniqueTraits;
 
-struct Row {
+struct OptionRow {
   std::string_view name;  ///< without "--"
   MapOption option;
 };
-constexpr Row rows[] = {{"bias", MapOption::bias},
-                        {"slope-bias", MapOption::slope_bias},
-                        {"normal-offset", MapOption::normal_offset},
-                        {"receiver-plane", MapOption::receiver_plane},
-                        {"adaptive-bias", MapOption::adaptive_bias},
-                        {"depth-format", MapOption::depth_format},
-                        {"cull", MapOption::cull},
-                        {"filter-kernel", MapOption::filter_kernel},
-                        {"filter-radius", MapOption::filter_radius},
-                        {"filter-plane", MapOption::filter_plane},
-                        {"filter-samples", MapOption::filter_samples},
-                        {"blocker-samples", MapOption::blocker_samples},
-                        {"search-radius", MapOption::search_radius},
-                        {"blur-radius", MapOption::blur_radius},
-                        {"mipmaps", MapOption::mipmaps},
-                        {"bleeding-reduction", MapOption::bleeding_reduction},
-                        {"esm-exponent", MapOption::esm_exponent},
-                        {"evsm-exponent", MapOption::evsm_exponent},
-                        {"evsm-negative-exponent", MapOption::evsm_negative_exponent},
-                        {"moment-bias", MapOption::moment_bias},
-                        {"cascades", MapOption::cascades},
-                        {"cascade-lambda", MapOption::cascade_lambda},
-                        {"no-snap", MapOption::no_snap},
-                        {"cascade-fit", MapOption::cascade_fit},
-                        {"cascade-blend", MapOption::cascade_blend},
-                        {"snap", MapOption::snap}};
+constexpr OptionRow rows[] = {{"bias", MapOption::bias},
+                              {"slope-bias", MapOption::slope_bias},
+                              {"normal-offset", MapOption::normal_offset},
+                              {"receiver-plane", MapOption::receiver_plane},
+                              {"adaptive-bias", MapOption::adaptive_bias},
+                              {"depth-format", MapOption::depth_format},
+                              {"cull", MapOption::cull},
+                              {"filter-kernel", MapOption::filter_kernel},
+                              {"filter-radius", MapOption::filter_radius},
+                              {"filter-plane", MapOption::filter_plane},
+                              {"filter-samples", MapOption::filter_samples},
+                              {"blocker-samples", MapOption::blocker_samples},
+                              {"search-radius", MapOption::search_radius},
+                              {"blur-radius", MapOption::blur_radius},
+                              {"mipmaps", MapOption::mipmaps},
+                              {"bleeding-reduction", MapOption::bleeding_reduction},
+                              {"esm-exponent", MapOption::esm_exponent},
+                              {"evsm-exponent", MapOption::evsm_exponent},
+                              {"evsm-negative-exponent", MapOption::evsm_negative_exponent},
+                              {"moment-bias", MapOption::moment_bias},
+                              {"cascades", MapOption::cascades},
+                              {"cascade-lambda", MapOption::cascade_lambda},
+                              {"no-snap", MapOption::no_snap},
+                              {"cascade-fit", MapOption::cascade_fit},
+                              {"cascade-blend", MapOption::cascade_blend},
+                              {"snap", MapOption::snap}};
 
-const Row* row_of(std::string_view option) {
-  const Row* found =
-      std::find_if(std::begin(rows), std::end(rows), [&](const Row& row) { return row.name == option; });
+const OptionRow* row_of(std::string_view option) {
+  const OptionRow* found = std::find_if(std::begin(rows), std::end(rows),
+                                        [&](const OptionRow& row) { return row.name == option; });
   return found == std::end(rows) ? nullptr : found;
 }
 
@@ -115,22 +115,22 @@ std::string given_text(std::span<const Technique> techniques, std::span<const Fi
 
 std::vector<std::string_view> technique_options() {
   std::vector<std::string_view> names;
-  for (const Row& row : rows) names.push_back(row.name);
+  for (const OptionRow& row : rows) names.push_back(row.name);
   return names;
 }
 
 bool technique_reads(std::string_view option, const raster::MapOptions& map) {
-  const Row* row = row_of(option);
+  const OptionRow* row = row_of(option);
   return row == nullptr || raster::reads_option(map, row->option);
 }
 
 bool technique_reads(std::string_view option, Technique technique) {
-  const Row* row = row_of(option);
+  const OptionRow* row = row_of(option);
   return row == nullptr || raster::traits_of(technique).reads.has(row->option);
 }
 
 std::string readers_of(std::string_view option) {
-  const Row* row = row_of(option);
+  const OptionRow* row = row_of(option);
   if (row == nullptr) return "all";
   const std::string readers = techniques_text(row->option, true);
   const std::string others = "all but " + techniques_text(row->option, false);
@@ -154,7 +154,7 @@ Expected<void> check_read(std::string_view option, std::span<const Technique> te
 }
 
 void name_readers(CLI::App& command) {
-  for (const Row& row : rows) {
+  for (const OptionRow& row : rows) {
     CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.name));
     if (option != nullptr)
       option->description(fmt::format("{}: {}", readers_of(row.name), option->get_description()));
@@ -162,7 +162,7 @@ void name_readers(CLI::App& command) {
 }
 
 void finish_map_options(const CLI::App& command, raster::MapOptions& map) {
-  for (const Row& row : rows) {
+  for (const OptionRow& row : rows) {
     const CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", row.name));
     if (option == nullptr || option->count() == 0) continue;
     const auto read = check_read(row.name, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));

@@ -35,7 +35,7 @@ bool take_texels(std::string_view& text) {
   return false;
 }
 
-bool contains(const NumberRange& range, double value) {
+bool contains(const OptionRange& range, double value) {
   return std::isfinite(value) && value <= range.max &&
          (range.min_excluded ? value > range.min : value >= range.min);
 }
@@ -46,11 +46,11 @@ std::string number_text(double value) {
   return fmt::format("{}", value);
 }
 
-std::string range_text(const NumberRange& range) {
+std::string range_text(const OptionRange& range) {
   return fmt::format("{}{} to {}", range.min_excluded ? "above " : "", range.min, range.max);
 }
 
-Expected<double> parse_number(std::string_view text, const NumberRange& range) {
+Expected<double> parse_number(std::string_view text, const OptionRange& range) {
   const std::optional<double> value = whole_number<double>(text);
   if (!value) return wrong("not a number", text, range_text(range));
   if (!contains(range, *value)) return wrong("out of range", text, range_text(range));
@@ -121,7 +121,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
     if (out.measure == ErrorMeasure::wrong_and_mean) return wrong("not a limit", text, threshold_range);
   }
   if (out.measure == ErrorMeasure::edge) {
-    constexpr NumberRange texels{0.0, 1e6};
+    constexpr OptionRange texels{0.0, 1e6};
     take_texels(number);
     const std::optional<double> value = whole_number<double>(number);
     if (!value || !contains(texels, *value)) return wrong("not a limit", text, "edge: and texels, 0 to 1e6");

@@ -18,9 +18,9 @@ constexpr std::array<const char*, rung_count> rung_channels{"truth.V",  "point.V
                                                             "stored.V", "biased.V", "drawn.V"};
 
 // Collects channels of one size; `value` maps a pixel's index to its number.
-class Channels {
+class AovChannels {
  public:
-  explicit Channels(std::size_t pixels) : pixels_(pixels) {}
+  explicit AovChannels(std::size_t pixels) : pixels_(pixels) {}
 
   template <class Value>
   void add(std::string name, const Value& value) {
@@ -39,7 +39,7 @@ double id_value(std::uint32_t id) {
   return id == no_id ? -1.0 : static_cast<double>(id);
 }
 
-void add_receiver(Channels& channels, const AovRows& c) {
+void add_receiver(AovChannels& channels, const AovRows& c) {
   const auto& points = c.raytraced.receiver.data;
   const auto seen = [&points](std::size_t i) { return points[i].primitive != no_id; };
   constexpr std::array<const char*, 3> axes{"X", "Y", "Z"};
@@ -51,7 +51,7 @@ void add_receiver(Channels& channels, const AovRows& c) {
                  [&](std::size_t i) { return seen(i) ? points[i].normal[k] : 0.0; });
 }
 
-void add_ids(Channels& channels, const AovRows& c) {
+void add_ids(AovChannels& channels, const AovRows& c) {
   const auto& points = c.raytraced.receiver.data;
   channels.add("object.V", [&](std::size_t i) {
     return points[i].primitive == no_id ? -1.0 : id_value(c.world.object_of(points[i].primitive));
@@ -59,13 +59,13 @@ void add_ids(Channels& channels, const AovRows& c) {
   channels.add("primitive.V", [&](std::size_t i) { return id_value(points[i].primitive); });
 }
 
-void add_ladder(Channels& channels, const AovRows& light) {
+void add_ladder(AovChannels& channels, const AovRows& light) {
   for (std::size_t k = 0; k < rung_count; ++k)
     channels.add(rung_channels[k], [&](std::size_t i) { return light.rungs[k].data[i]; });
   channels.add("class.V", [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); });
 }
 
-void add_lookup(Channels& channels, const AovRows& c) {
+void add_lookup(AovChannels& channels, const AovRows& c) {
   const raster::LightRecord& record = c.record;
   const auto drawn = [&c](std::size_t i) { return c.raster.primitive.data[i] != no_id; };
   channels.add("texel_uv.U", [&](std::size_t i) { return drawn(i) ? record.texel_uv.data[i].x : 0.0f; });
@@ -76,7 +76,7 @@ void add_lookup(Channels& channels, const AovRows& c) {
     channels.add("decision.V", [&](std::size_t i) { return record.external->decision.data[i]; });
 }
 
-void add_picture(Channels& channels, const AovRows& c) {
+void add_picture(AovChannels& channels, const AovRows& c) {
   const auto& colour = c.raytraced.color.data;
   channels.add("R", [&](std::size_t i) { return colour[i].r; });
   channels.add("G", [&](std::size_t i) { return colour[i].g; });
@@ -86,7 +86,7 @@ void add_picture(Channels& channels, const AovRows& c) {
 }  // namespace
 
 std::vector<Channel> aov_channels(const AovRows& rows) {
-  Channels channels(rows.labels.data.size());
+  AovChannels channels(rows.labels.data.size());
   add_receiver(channels, rows);
   add_ladder(channels, rows);
   add_ids(channels, rows);

@@ -113,7 +113,7 @@ std::string subject(const BiasKind& kind, const LightComparison& light) {
 }
 
 // Settings that do as well, where there is room beside the one named.
-std::string range_text(const BiasKind& kind) {
+std::string alike_text(const BiasKind& kind) {
   if (!kind.of_slope || !(kind.to > 1.2 * kind.bias.slope)) return {};
   return std::isfinite(kind.to)
              ? fmt::format("; anything from {} to {} does about as well", plain_number(kind.from),
@@ -128,7 +128,7 @@ std::string best_kind(const LightComparison& light, const raster::MapOptions& dr
   if (!is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
     return "No other kind of bias does clearly better.";
   return fmt::format("{} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias, drawn),
-                     range_text(best), rest_text(best.wrong_fraction, light));
+                     alike_text(best), rest_text(best.wrong_fraction, light));
 }
 
 // Beside the best kind, where a constant comes to clearly less.

@@ -25,7 +25,7 @@ int radius_of(const Kernel& kernel) {
 }
 
 /// A patch's numbers, row by row.
-struct Plane {
+struct FloatPlane {
   int width = 0, height = 0;
   std::vector<float> data;
   void reset(int w, int h) {
@@ -33,11 +33,11 @@ struct Plane {
     data.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0.0f);
   }
   float* row(int y) { return data.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
-  const float* row(int y) const { return const_cast<Plane*>(this)->row(y); }
+  const float* row(int y) const { return const_cast<FloatPlane*>(this)->row(y); }
 };
 
 /// The source filtered along rows, without its margin to the left and right.
-void filter_rows(const Plane& source, int margin, const Kernel& kernel, Plane& target) {
+void filter_rows(const FloatPlane& source, int margin, const Kernel& kernel, FloatPlane& target) {
   thread_local std::vector<const float*> shifted;
   target.reset(source.width - 2 * margin, source.height);
   for (int y = 0; y < source.height; ++y) {
@@ -49,7 +49,7 @@ void filter_rows(const Plane& source, int margin, const Kernel& kernel, Plane& t
 }
 
 /// target += the source filtered along columns, without its margin above and below.
-void add_filtered_columns(const Plane& source, int margin, const Kernel& kernel, Plane& target) {
+void add_filtered_columns(const FloatPlane& source, int margin, const Kernel& kernel, FloatPlane& target) {
   thread_local std::vector<const float*> rows;
   for (int y = 0; y < target.height; ++y) {
     rows.clear();
@@ -209,8 +209,8 @@ struct Patch {
 
 /// What is made of a patch; kept from patch to patch for its memory.
 struct Perceived {
-  Plane opponent_y, opponent_cx, opponent_cz, luminance;              // with the margin
-  Plane y, cx, cz, edges_x, edges_y, points_x, points_y, along_rows;  // without
+  FloatPlane opponent_y, opponent_cx, opponent_cz, luminance;              // with the margin
+  FloatPlane y, cx, cz, edges_x, edges_y, points_x, points_y, along_rows;  // without
   std::vector<Vec3f> colour;         // Hunt-adjusted CIELAB after the eye's blur
   std::vector<float> edges, points;  // strength of features in luminance
 };
@@ -231,7 +231,7 @@ void for_each_pixel(const ImageSize& size, const Patch& patch, int margin, const
 template <class Linear>
 void opponent_planes(const ImageSize& size, const Patch& patch, int margin, const Linear& linear,
                      Perceived& p) {
-  for (Plane* plane : {&p.opponent_y, &p.opponent_cx, &p.opponent_cz, &p.luminance})
+  for (FloatPlane* plane : {&p.opponent_y, &p.opponent_cx, &p.opponent_cz, &p.luminance})
     plane->reset(patch.width + 2 * margin, patch.height + 2 * margin);
   static const glm::mat3 xyz = relative_xyz_from_rgb();
   for_each_pixel(size, patch, margin, [&](std::size_t i, std::size_t place) {
@@ -243,7 +243,8 @@ void opponent_planes(const ImageSize& size, const Patch& patch, int margin, cons
   });
 }
 
-void blur(const Plane& source, int margin, const std::vector<Blur>& blurs, Plane& along_rows, Plane& target) {
+void blur(const FloatPlane& source, int margin, const std::vector<Blur>& blurs, FloatPlane& along_rows,
+          FloatPlane& target) {
   target.reset(source.width - 2 * margin, source.height - 2 * margin);
   for (const Blur& b : blurs) {
     filter_rows(source, margin, b.rows, along_rows);
@@ -268,7 +269,7 @@ void perceive_colour(const Filters& filters, Perceived& p) {
   }
 }
 
-void lengths(const Plane& x, const Plane& y, std::vector<float>& out) {
+void lengths(const FloatPlane& x, const FloatPlane& y, std::vector<float>& out) {
   out.resize(x.data.size());
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = std::sqrt(x.data[i] * x.data[i] + y.data[i] * y.data[i]);
@@ -276,7 +277,7 @@ void lengths(const Plane& x, const Plane& y, std::vector<float>& out) {
 
 void perceive_features(const Filters& filters, Perceived& p) {
   const FeatureKernels& k = filters.features;
-  const auto columns = [&](const Kernel& kernel, Plane& target) {
+  const auto columns = [&](const Kernel& kernel, FloatPlane& target) {
     target.reset(p.y.width, p.y.height);
     add_filtered_columns(p.along_rows, filters.margin, kernel, target);
   };

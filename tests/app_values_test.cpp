@@ -18,7 +18,7 @@ namespace gnomon::app {
 namespace {
 
 TEST(Values, NumbersAreWholeTextsAndFinite) {
-  const NumberRange range{-1.0, 2.0};
+  const OptionRange range{-1.0, 2.0};
   EXPECT_EQ(parse_number("1.5", range).value(), 1.5);
   EXPECT_EQ(parse_number("+1e-3", range).value(), 1e-3);
   EXPECT_EQ(parse_number("-1", range).value(), -1.0);
@@ -102,7 +102,7 @@ TEST(Values, SharesAndExposures) {
 
 RC_GTEST_PROP(Values, NumbersReadBackExactly, (double value)) {
   RC_PRE(std::isfinite(value));
-  const NumberRange any{-1e308, 1e308};
+  const OptionRange any{-1e308, 1e308};
   RC_PRE(std::abs(value) <= 1e308);
   RC_ASSERT(parse_number(number_text(value), any).value() == value);
 }

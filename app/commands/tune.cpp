@@ -29,7 +29,7 @@ namespace {
 
 using Values = OptionValues;
 
-constexpr NumberRange time_range{0.0, 1e9, true};  // milliseconds
+constexpr OptionRange time_range{0.0, 1e9, true};  // milliseconds
 
 /// Drawings in turn of those that come near the best.
 constexpr int usual_runs = 5;

@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 using Step = decltype(ScriptStep::what);
 
 constexpr std::int64_t max_wait_frames = 1'000'000;
-constexpr NumberRange pixel_range{-1e6, 1e6};
+constexpr OptionRange pixel_range{-1e6, 1e6};
 constexpr std::array<std::string_view, 13> verbs{"set",        "key",   "open", "show", "drag",
                                                  "click",      "point", "drop", "wait", "screenshot",
                                                  "save-scene", "print", "quit"};

@@ -12,11 +12,11 @@ namespace {
 
 using Values = std::vector<std::string>;
 
-constexpr NumberRange hour_range{0.0, 24.0};
-constexpr NumberRange film_range{0.0, 1e6};
-constexpr NumberRange share_range{0.0, 1.0};
-constexpr NumberRange zoom_range{1.0, max_picture_zoom};
-constexpr NumberRange scale_range{least_ui_scale, most_ui_scale};
+constexpr OptionRange hour_range{0.0, 24.0};
+constexpr OptionRange film_range{0.0, 1e6};
+constexpr OptionRange share_range{0.0, 1.0};
+constexpr OptionRange zoom_range{1.0, max_picture_zoom};
+constexpr OptionRange scale_range{least_ui_scale, most_ui_scale};
 constexpr int most_pixels = 65536;
 
 /// Hands the error of `value` on, or the change made of it.
@@ -27,7 +27,7 @@ Expected<Change> change_of(const Expected<Value>& value, const Make& make) {
 }
 
 /// A key with one number.
-template <class Kind, const NumberRange& range>
+template <class Kind, const OptionRange& range>
 Expected<Change> number(const Values& values) {
   return change_of(parse_number(values[0], range), [](double v) { return Kind{v}; });
 }

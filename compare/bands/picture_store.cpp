@@ -51,7 +51,7 @@ Expected<void> encode(const Comparison& whole, const PictureStore& store, std::s
   return {};
 }
 
-struct Job {
+struct StoredPicture {
   EncodedPicture* target;
   const char* name;
   Wanted wanted;
@@ -63,10 +63,10 @@ Draw of_light(Rgb8Image (*draw)(const LightComparison&)) {
   return [draw](const Comparison&, const LightComparison& light) { return draw(light); };
 }
 
-std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
-  std::vector<Job> jobs;
+std::vector<StoredPicture> pictures_of(const StoredLight& stored, LightPictures& out) {
+  std::vector<StoredPicture> pictures;
   const auto add = [&](EncodedPicture& target, const char* name, const Wanted& wanted, Draw draw) {
-    jobs.push_back({&target, name, wanted, std::move(draw)});
+    pictures.push_back({&target, name, wanted, std::move(draw)});
   };
   add(out.difference, "difference", {.raster = true, .visibility = true},
       [](const Comparison& c, const LightComparison& l) { return difference_picture(c, l); });
@@ -74,20 +74,20 @@ std::vector<Job> jobs_of(const StoredLight& stored, LightPictures& out) {
   add(out.error, "error", {.visibility = true}, of_light(error_picture));
   if (!stored.decisions.empty())
     add(out.decisions, "decisions", {.raster = true, .decisions = true}, decision_picture);
-  if (stored.edges.empty()) return jobs;
+  if (stored.edges.empty()) return pictures;
   add(out.edges, "edge-displacement", {.visibility = true, .edges = true}, of_light(edge_picture));
   add(out.detachment, "detachment", {.detachment = true}, of_light(detachment_picture));
   add(out.flip, "flip", {.flip = true}, of_light(flip_picture));
   add(out.ssim, "ssim", {.ssim = true}, of_light(ssim_picture));
-  return jobs;
+  return pictures;
 }
 
 void add_steps(std::vector<Step>& steps, const Comparison& c, const PictureStore& store, std::size_t i,
                LightPictures& out) {
-  for (Job& job : jobs_of(store.lights[i], out)) {
-    job.target->file_name = job.name + light_suffix(c, c.lights[i]) + ".png";
-    steps.emplace_back([&c, &store, i, job = std::move(job)] {
-      return encode(c, store, i, job.wanted, job.draw, *job.target);
+  for (StoredPicture& picture : pictures_of(store.lights[i], out)) {
+    picture.target->file_name = picture.name + light_suffix(c, c.lights[i]) + ".png";
+    steps.emplace_back([&c, &store, i, picture = std::move(picture)] {
+      return encode(c, store, i, picture.wanted, picture.draw, *picture.target);
     });
   }
   steps.emplace_back([&c, i, &out] { return encode_depth_maps(c, c.lights[i], out); });

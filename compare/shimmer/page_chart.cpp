@@ -10,15 +10,15 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double left = 70.0, right = 980.0, top = 16.0,
-                 bottom = 220.0;  // of the plot, in the drawing's units
+constexpr double plot_left = 70.0, plot_right = 980.0, plot_top = 16.0,
+                 plot_bottom = 220.0;  // of the plot, in the drawing's units
 
 double x_of(std::size_t step, std::size_t steps) {
-  return left + (right - left) * (steps > 1 ? double(step) / double(steps - 1) : 0.5);
+  return plot_left + (plot_right - plot_left) * (steps > 1 ? double(step) / double(steps - 1) : 0.5);
 }
 
 double y_of(double value, double most) {
-  return bottom - (bottom - top) * value / most;
+  return plot_bottom - (plot_bottom - plot_top) * value / most;
 }
 
 std::string ticks(double most, std::size_t steps) {
@@ -27,14 +27,14 @@ std::string ticks(double most, std::size_t steps) {
     out += fmt::format(
         "<line class=\"grid\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/><text class=\"end\" "
         "x=\"{3}\" y=\"{4:.1f}\">{5}</text>",
-        left, right, y_of(tick, most), left - 8, y_of(tick, most) + 4, plain_number(tick));
+        plot_left, plot_right, y_of(tick, most), plot_left - 8, y_of(tick, most) + 4, plain_number(tick));
   for (const double tick : nice_ticks(2.0, double(steps) + 1.0, 8)) {  // frames are counted from one
     if (tick != std::floor(tick)) continue;
     out += fmt::format("<text class=\"middle\" x=\"{:.1f}\" y=\"{}\">{:g}</text>",
-                       x_of(static_cast<std::size_t>(tick) - 2, steps), bottom + 18, tick);
+                       x_of(static_cast<std::size_t>(tick) - 2, steps), plot_bottom + 18, tick);
   }
-  return out + fmt::format("<text class=\"middle\" x=\"{}\" y=\"{}\">to frame</text>", 0.5 * (left + right),
-                           bottom + 36);
+  return out + fmt::format("<text class=\"middle\" x=\"{}\" y=\"{}\">to frame</text>",
+                           0.5 * (plot_left + plot_right), plot_bottom + 36);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::string flips_chart(const Shimmer& shimmer, const ShimmerLight& light, std::
       "x1=\"{}\" x2=\"{}\" "
       "y1=\"{}\" y2=\"{}\"/></svg>",
       escaped(shimmer.world->scene->lights[light.light].name), index, ticks(most, steps.size()), points, dots,
-      left, left, top, bottom);
+      plot_left, plot_left, plot_top, plot_bottom);
 }
 
 }  // namespace gnomon::compare

@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t styles = 6;  // line-0 ... in report.css
 
-using Line = std::map<double, const CellSummary*>;  // size -> the cell with the least wrong fraction
+using SizeCurve = std::map<double, const CellSummary*>;  // size -> the cell with the least wrong fraction
 
-std::map<std::string, Line> lines_of(const std::vector<CellSummary>& cells) {
-  std::map<std::string, Line> lines;
+std::map<std::string, SizeCurve> lines_of(const std::vector<CellSummary>& cells) {
+  std::map<std::string, SizeCurve> lines;
   for (const CellSummary& cell : cells) {
     const auto [entry, first] = lines[cell.technique].emplace(cell.map_size, &cell);
     if (!first && cell.error() < entry->second->error()) entry->second = &cell;
@@ -26,7 +26,8 @@ std::map<std::string, Line> lines_of(const std::vector<CellSummary>& cells) {
   return lines;
 }
 
-std::string drawing(const LogPlot& plot, const Line& line, std::string_view stroke, std::string_view fill) {
+std::string drawing(const LogPlot& plot, const SizeCurve& line, std::string_view stroke,
+                    std::string_view fill) {
   std::string points, dots;
   for (const auto& [size, cell] : line) {
     const double x = plot.x(size), y = plot.y(cell->error());
@@ -38,7 +39,7 @@ std::string drawing(const LogPlot& plot, const Line& line, std::string_view stro
 }
 
 // From the worst of the smallest maps on; nothing where all is right.
-std::string sampling_slope(const LogPlot& plot, const std::map<std::string, Line>& lines, double first,
+std::string sampling_slope(const LogPlot& plot, const std::map<std::string, SizeCurve>& lines, double first,
                            double last, ChartLabels& labels) {
   double start = 0.0;
   for (const auto& [name, line] : lines)
@@ -56,7 +57,7 @@ std::string sampling_slope(const LogPlot& plot, const std::map<std::string, Line
 }  // namespace
 
 std::string size_chart(const std::vector<CellSummary>& cells) {
-  const std::map<std::string, Line> lines = lines_of(cells);
+  const std::map<std::string, SizeCurve> lines = lines_of(cells);
   std::vector<double> sizes, shares;
   for (const auto& [name, line] : lines)
     for (const auto& [size, cell] : line) sizes.push_back(size), shares.push_back(cell->error());

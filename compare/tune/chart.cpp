@@ -12,7 +12,7 @@ namespace gnomon::compare {
 namespace {
 
 constexpr double width = 980.0, height = 360.0;  // SVG units
-constexpr double left = 58.0, right = 342.0, top = 20.0, bottom = 48.0;
+constexpr double margin_left = 58.0, margin_right = 342.0, margin_top = 20.0, margin_bottom = 48.0;
 constexpr double leader = 16.0;        // from a line's end to its name
 constexpr double most_texels = 4.0;    // of bias, on the chart
 constexpr std::size_t most_lines = 6;  // line-0 … in report.css
@@ -54,7 +54,7 @@ class Chart {
         width, height);
     svg += fmt::format(
         R"(<defs><clipPath id="tune-clip"><rect x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/></clipPath></defs>)",
-        left, top, width - left - right, height - top - bottom);
+        margin_left, margin_top, width - margin_left - margin_right, height - margin_top - margin_bottom);
     svg += axes();
     for (std::size_t i = 0; i < lines_.size(); ++i) svg += line(i);
     return svg + "</svg>";
@@ -71,9 +71,11 @@ class Chart {
     lines_.resize(std::min(lines_.size(), most_lines));
   }
 
-  double x(double texels) const { return left + texels / most_texels * (width - left - right); }
+  double x(double texels) const {
+    return margin_left + texels / most_texels * (width - margin_left - margin_right);
+  }
   double y(double wrong) const {
-    return height - bottom - std::min(wrong / highest_, 2.0) * (height - top - bottom);
+    return height - margin_bottom - std::min(wrong / highest_, 2.0) * (height - margin_top - margin_bottom);
   }
 
   std::string axes() const {
@@ -81,27 +83,28 @@ class Chart {
     for (const double v : nice_ticks(0.0, highest_, 4))
       out += fmt::format(
           R"(<line class="grid" x1="{:.0f}" x2="{:.0f}" y1="{:.1f}" y2="{:.1f}"/><text class="tick end" x="{:.0f}" y="{:.1f}">{:.3g} %</text>)",
-          left, width - right, y(v), y(v), left - 8, y(v) + 4, 100.0 * v);
+          margin_left, width - margin_right, y(v), y(v), margin_left - 8, y(v) + 4, 100.0 * v);
     for (const double v : nice_ticks(0.0, most_texels, 4))
       out += fmt::format(R"(<text class="tick middle" x="{:.1f}" y="{:.0f}">{:.3g}</text>)", x(v),
-                         height - bottom + 20, v);
+                         height - margin_bottom + 20, v);
     return out + fmt::format(R"(<text class="tick middle" x="{:.0f}" y="{:.0f}">bias, texels</text>)",
-                             (left + width - right) / 2, height - 8);
+                             (margin_left + width - margin_right) / 2, height - 8);
   }
 
   // The names stand at the lines' right ends, moved apart.
   void place_labels() {
     std::vector<Line*> order;
     for (Line& l : lines_) {
-      l.end_y = l.label_y = std::max(top, y(share(*l.attempt, last_shown(*l.attempt))));
+      l.end_y = l.label_y = std::max(margin_top, y(share(*l.attempt, last_shown(*l.attempt))));
       order.push_back(&l);
     }
     std::stable_sort(order.begin(), order.end(),
                      [](const Line* a, const Line* b) { return a->label_y < b->label_y; });
     constexpr double spacing = 17.0;
     for (std::size_t i = 0; i < order.size(); ++i)
-      order[i]->label_y = std::max(order[i]->label_y, i == 0 ? top + 8 : order[i - 1]->label_y + spacing);
-    const double excess = std::max(0.0, order.back()->label_y - (height - bottom));
+      order[i]->label_y =
+          std::max(order[i]->label_y, i == 0 ? margin_top + 8 : order[i - 1]->label_y + spacing);
+    const double excess = std::max(0.0, order.back()->label_y - (height - margin_bottom));
     for (Line* l : order) l->label_y -= excess;
   }
 
@@ -124,8 +127,8 @@ class Chart {
         R"svg(<g clip-path="url(#tune-clip)"><polyline class="curve {0}" points="{1}"/></g><circle class="{0}" cx="{2:.1f}" cy="{3:.1f}" r="4"/><polyline class="curve {0}" points="{4:.0f},{5:.1f} {6:.0f},{7:.1f}"/><text class="name" x="{8:.0f}" y="{9:.1f}">{10}</text>)svg",
         style, points,
         x(std::clamp(l.attempt->best.constant_world / l.attempt->texel_world, 0.0, most_texels)),
-        y(l.attempt->best.wrong_fraction), width - right, l.end_y, width - right + leader, l.label_y,
-        width - right + leader + 6.0, l.label_y + 4,
+        y(l.attempt->best.wrong_fraction), width - margin_right, l.end_y, width - margin_right + leader,
+        l.label_y, width - margin_right + leader + 6.0, l.label_y + 4,
         escaped(fmt::format("{} ({})", l.family->family.name, l.attempt->size)));
   }
 

@@ -29,7 +29,7 @@ struct KdBuildNode {
   std::vector<std::uint32_t> items;
 };
 
-struct Split {
+struct PlaneSplit {
   int axis = -1;
   float at = 0.0f;
   double cost = infinity;
@@ -49,7 +49,7 @@ bool is_inside(const CellBox& cell, std::size_t axis, float at) {
 }
 
 /// Every box' wall is tried: the counts change nowhere else.
-void sweep(std::span<const Reference> refs, const CellBox& cell, std::size_t axis, Split& best) {
+void sweep(std::span<const Reference> refs, const CellBox& cell, std::size_t axis, PlaneSplit& best) {
   std::vector<float> begins, ends;
   for (const Reference& r : refs) begins.push_back(r.box.min[axis]), ends.push_back(r.box.max[axis]);
   std::sort(begins.begin(), begins.end());
@@ -66,7 +66,7 @@ void sweep(std::span<const Reference> refs, const CellBox& cell, std::size_t axi
     report(e == ends.size() || (b < begins.size() && begins[b] <= ends[e]) ? begins[b++] : ends[e++]);
 }
 
-void try_bins(std::span<const Reference> refs, const CellBox& cell, std::size_t axis, Split& best) {
+void try_bins(std::span<const Reference> refs, const CellBox& cell, std::size_t axis, PlaneSplit& best) {
   std::array<std::size_t, bin_count> begins{}, ends{};
   const double scale = bin_count / cell.extent(axis);
   const auto bin = [&](float at) {
@@ -101,7 +101,7 @@ class KdBuilder {
   std::unique_ptr<KdBuildNode> build(std::vector<Reference> refs, const CellBox& cell, int depth,
                                      ReferenceBudget budget) {
     auto node = std::make_unique<KdBuildNode>();
-    const Split split = depth < max_depth_ ? choose(refs, cell, depth) : Split{};
+    const PlaneSplit split = depth < max_depth_ ? choose(refs, cell, depth) : PlaneSplit{};
     if (split.axis < 0) return leaf(std::move(node), refs);
     const auto axis = static_cast<std::size_t>(split.axis);
     CellBox below = cell, above = cell;
@@ -131,9 +131,9 @@ class KdBuilder {
     return node;
   }
 
-  Split choose(std::span<const Reference> refs, const CellBox& cell, int depth) const {
+  PlaneSplit choose(std::span<const Reference> refs, const CellBox& cell, int depth) const {
     if (rule_ == KdSplit::cyclic_median) return median(refs, cell, depth);
-    Split best;
+    PlaneSplit best;
     best.cost = intersection_cost * static_cast<double>(refs.size());
     for (std::size_t axis = 0; axis < 3; ++axis)
       refs.size() <= swept_exactly ? sweep(refs, cell, axis, best) : try_bins(refs, cell, axis, best);
@@ -141,7 +141,7 @@ class KdBuilder {
   }
 
   /// The axis whose turn it is, or the next one on which the median centroid lies inside the cell.
-  Split median(std::span<const Reference> refs, const CellBox& cell, int depth) const {
+  PlaneSplit median(std::span<const Reference> refs, const CellBox& cell, int depth) const {
     if (refs.size() <= textbook_leaf) return {};
     for (int turn = depth; turn < depth + 3; ++turn) {
       const auto axis = static_cast<std::size_t>(turn % 3);

@@ -22,8 +22,8 @@ double largest_entry(const Mat3& m) {
       {max_component(glm::abs(m[0])), max_component(glm::abs(m[1])), max_component(glm::abs(m[2]))});
 }
 
-bool all_finite(const Mat3& m) {
-  return raytrace::all_finite(m[0]) && raytrace::all_finite(m[1]) && raytrace::all_finite(m[2]);
+bool all_entries_finite(const Mat3& m) {
+  return all_finite(m[0]) && all_finite(m[1]) && all_finite(m[2]);
 }
 
 /// An inverse, near enough; its error is found afterwards. By way of entries near one: determinants of tiny
@@ -63,16 +63,16 @@ std::optional<Placement> place(const MeshSpace& space, const Mat4& world_from_ob
   const Mat3 linear(world_from_object);
   const Mat3 world_from_tree = scaled(linear, space.exponent);
   const double size = largest_entry(world_from_tree);
-  if (!all_finite(world_from_tree) || !(size < largest_size && size > 1.0 / largest_size))
+  if (!all_entries_finite(world_from_tree) || !(size < largest_size && size > 1.0 / largest_size))
     return std::nullopt;
   if (scaled(world_from_tree, -space.exponent) != linear) return std::nullopt;  // entries lost to underflow
   Placement p{};
   p.tree_from_world = near_inverse(world_from_tree);
-  if (!all_finite(p.tree_from_world)) return std::nullopt;
+  if (!all_entries_finite(p.tree_from_world)) return std::nullopt;
   const Vec3 rest = residual(p.tree_from_world, world_from_tree);
   if (!(max_component(rest) < largest_residual)) return std::nullopt;  // NaN too
   p.center = Vec3(world_from_object * Vec4(space.center, 1.0));
-  if (!raytrace::all_finite(p.center)) return std::nullopt;
+  if (!all_finite(p.center)) return std::nullopt;
   // The world's corners have four roundings each (scene/world.cpp), and so has the centre.
   const Vec3 rounding =
       2.0 * error_gamma(8) * (absolute(linear) * space.largest + glm::abs(Vec3(world_from_object[3])));

@@ -13,15 +13,15 @@ constexpr std::size_t few_triangles = 8;
 using Boxes = std::span<const BoxRef>;
 
 /// An instance's triangles that can be hit, in the order of their ids.
-struct Part {
+struct InstancePart {
   std::uint32_t first_id;  ///< of all its triangles
   std::uint32_t first;     ///< of `boxes` among all primitives
   Boxes boxes;
   std::uint32_t local(std::size_t i) const { return boxes[i].id - first_id; }
 };
 
-std::vector<Part> parts_of(const World& world, Boxes all) {
-  std::vector<Part> parts;
+std::vector<InstancePart> parts_of(const World& world, Boxes all) {
+  std::vector<InstancePart> parts;
   std::uint32_t first_id = 0;
   std::size_t at = 0;
   for (const MeshInstance& instance : world.scene->instances) {
@@ -36,7 +36,7 @@ std::vector<Part> parts_of(const World& world, Boxes all) {
 
 /// Whether the same triangles of the same mesh are left: rounding may have taken a triangle's area from one
 /// instance alone.
-bool same_triangles(const Part& a, const Part& b) {
+bool same_triangles(const InstancePart& a, const InstancePart& b) {
   if (a.boxes.size() != b.boxes.size()) return false;
   for (std::size_t i = 0; i < a.boxes.size(); ++i)
     if (a.local(i) != b.local(i)) return false;
@@ -44,7 +44,7 @@ bool same_triangles(const Part& a, const Part& b) {
 }
 
 /// Instances that can share a tree, by their numbers.
-std::vector<std::vector<std::uint32_t>> groups_of(const Scene& scene, std::span<const Part> parts) {
+std::vector<std::vector<std::uint32_t>> groups_of(const Scene& scene, std::span<const InstancePart> parts) {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<std::vector<std::size_t>> of_mesh(scene.meshes.size());
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
@@ -73,14 +73,14 @@ CellBox bounds_of(Boxes boxes) {
   return all;
 }
 
-MeshSpace space_of(const Mesh& mesh, const Part& part) {
+MeshSpace space_of(const Mesh& mesh, const InstancePart& part) {
   Aabb box;
   for (std::size_t i = 0; i < part.boxes.size(); ++i)
     for (const std::uint32_t corner : mesh.triangles[part.local(i)]) box.grow(mesh.positions[corner]);
   return MeshSpace(box);
 }
 
-std::vector<BoxRef> boxes_in_tree(const Mesh& mesh, const Part& part, const MeshSpace& space) {
+std::vector<BoxRef> boxes_in_tree(const Mesh& mesh, const InstancePart& part, const MeshSpace& space) {
   std::vector<BoxRef> boxes(part.boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     Aabb box;
@@ -129,7 +129,7 @@ class TwoLevelBuilder {
 
   /// Which of the group's instances share a tree, and which get their own.
   void plan(const std::vector<std::uint32_t>& group) {
-    const Part& part = parts_[group[0]];
+    const InstancePart& part = parts_[group[0]];
     std::vector<std::uint32_t> alone = group, shared;
     std::vector<Placement> placements;
     std::optional<MeshSpace> space;
@@ -163,7 +163,7 @@ class TwoLevelBuilder {
 
   void build_tree(std::size_t j) {
     const Job& job = jobs_[j];
-    const Part& model = parts_[job.instances[0]];
+    const InstancePart& model = parts_[job.instances[0]];
     std::vector<BoxRef> boxes;
     if (job.space) {
       boxes = boxes_in_tree(scene_.meshes[scene_.instances[job.instances[0]].mesh], model, *job.space);
@@ -173,7 +173,7 @@ class TwoLevelBuilder {
     }
     Bvh tree = build_bvh(boxes);
     for (const std::uint32_t instance : job.instances) {
-      const Part& part = parts_[instance];
+      const InstancePart& part = parts_[instance];
       for (std::size_t i = 0; i < boxes.size(); ++i)
         out_.leaves.ids[part.first + i] = part.boxes[tree.ids[i]].id;
     }
@@ -197,7 +197,7 @@ class TwoLevelBuilder {
   const Scene& scene_;
   TwoLevel& out_;
   FinitePrimitives finite_;
-  std::vector<Part> parts_;
+  std::vector<InstancePart> parts_;
   std::vector<Job> jobs_;
 };
 

@@ -71,14 +71,14 @@ inline Ref as_ref(const BoxRef& box) {
 }
 
 /// Of a range of primitives: their box and that of their centroids, doubled.
-struct Bounds {
+struct NodeBounds {
   Box box = Box::empty(), centroids = Box::empty();
   void grow_centroids(const Ref& ref) {
     const Row c = ref.centroid2();
     lower(centroids.min, c), raise(centroids.max, c);
   }
   void grow(const Ref& ref) { box.grow(ref.box), grow_centroids(ref); }
-  void grow(const Bounds& b) { box.grow(b.box), centroids.grow(b.centroids); }
+  void grow(const NodeBounds& b) { box.grow(b.box), centroids.grow(b.centroids); }
 };
 
 struct Split {
@@ -148,7 +148,7 @@ inline std::array<Box, 2> boxes_of(const Bins& bins, std::size_t used, const Spl
 /// Reorders by goes_left(ref), keeping the order on both sides, and finds the bounds of their centroids on
 /// the way. `scratch`: room for as many. Returns how many went left.
 template <class GoesLeft>
-std::uint32_t partition(std::span<Ref> refs, Ref* scratch, std::array<Bounds, 2>& bounds,
+std::uint32_t partition(std::span<Ref> refs, Ref* scratch, std::array<NodeBounds, 2>& bounds,
                         const GoesLeft& goes_left) {
   std::size_t left = 0, right = 0;
   for (std::size_t i = 0; i < refs.size(); ++i) {

@@ -51,7 +51,7 @@ void read_primitives(const World& world, Bvh& bvh) {
 }
 
 Box centroids_of(std::span<const Ref> refs) {
-  Bounds bounds;
+  NodeBounds bounds;
   for (const Ref& ref : refs) bounds.grow_centroids(ref);
   return bounds.centroids;
 }
@@ -59,7 +59,7 @@ Box centroids_of(std::span<const Ref> refs) {
 /// A range of clusters, and where their primitives begin in the order of the leaves.
 struct ClusterRange {
   std::uint32_t first_cluster, clusters, first, count;
-  Bounds bounds;
+  NodeBounds bounds;
   int depth;  // in binary splits
   bool is_whole = false;
 };
@@ -173,7 +173,7 @@ class Top {
     const Bins bins =
         fill_bins(boxes, binning, [&](const Ref& box) { return grid_.clusters[box.id()].count; });
     const Split best = find_best_split(bins, binning);
-    std::array<Bounds, 2> bounds;
+    std::array<NodeBounds, 2> bounds;
     std::uint32_t middle = fallback_split(range);
     if (best.bin >= 0)
       middle = partition(boxes, scratch_.data() + range.first_cluster, bounds,

@@ -17,8 +17,8 @@ constexpr std::uint32_t few = Config::sorted_size;
 /// A range of primitives, to be split further or not.
 struct Range {
   std::uint32_t first, count;
-  Bounds bounds;  // of few, the box alone
-  int depth;      // in binary splits
+  NodeBounds bounds;  // of few, the box alone
+  int depth;          // in binary splits
   bool is_whole = false;
 };
 
@@ -147,7 +147,7 @@ class Treelet {
   std::optional<std::array<Range, 2>> split(const Range& range) {
     if (range.count <= Config::leaf_size) return std::nullopt;
     const std::span<Ref> refs = refs_.subspan(range.first, range.count);
-    std::array<Bounds, 2> bounds;
+    std::array<NodeBounds, 2> bounds;
     std::uint32_t middle = 0;
     if (range.depth >= Config::sah_depth)
       middle = fallback_split(refs, range, bounds);
@@ -159,7 +159,7 @@ class Treelet {
   }
 
   // These return how many go left.
-  std::uint32_t split_sorted(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+  std::uint32_t split_sorted(std::span<Ref> refs, const Range& range, std::array<NodeBounds, 2>& bounds) {
     const Order order(refs);
     const Cut best = find_best_cut(refs, order);
     if (best.left == 0) return fallback_split(refs, range, bounds);
@@ -172,7 +172,7 @@ class Treelet {
     return static_cast<std::uint32_t>(best.left);
   }
 
-  std::uint32_t split_binned(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+  std::uint32_t split_binned(std::span<Ref> refs, const Range& range, std::array<NodeBounds, 2>& bounds) {
     const Binning binning(range.bounds.centroids, Config::few_bins, Config::flat);
     const Bins bins = fill_bins(refs, binning, [](const Ref&) { return 1u; });
     const Split best = find_best_split(bins, binning);
@@ -184,7 +184,7 @@ class Treelet {
   }
 
   // Half to each side by (centroid along the widest axis, id): defined even when all centroids are equal.
-  std::uint32_t fallback_split(std::span<Ref> refs, const Range& range, std::array<Bounds, 2>& bounds) {
+  std::uint32_t fallback_split(std::span<Ref> refs, const Range& range, std::array<NodeBounds, 2>& bounds) {
     const Box& centroids = range.bounds.centroids;
     std::size_t axis = 0;
     for (std::size_t a = 1; a < 3; ++a)

@@ -4,12 +4,12 @@ namespace gnomon {
 namespace {
 
 /// Twice its area beside the square of its longest edge: less is a line up to the rounding of the transform.
-constexpr double narrowest = 1e-12;
+constexpr double narrowest_share = 1e-12;
 
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-  return glm::length(glm::cross(ab, ac)) > narrowest * longest;
+  return glm::length(glm::cross(ab, ac)) > narrowest_share * longest;
 }
 
 }  // namespace

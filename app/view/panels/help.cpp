@@ -10,7 +10,7 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr float keys_width = 13.0f, column_width = 36.0f;  // in heights of the font
+constexpr float keys_width = 13.0f, text_width = 36.0f;  // in heights of the font
 
 void group_table(const KeyGroup& group) {
   ImGui::TextDisabled("%.*s", static_cast<int>(group.title.size()), group.title.data());
@@ -29,7 +29,7 @@ void group_table(const KeyGroup& group) {
 /// In two columns where there is room, so that nothing has to be scrolled.
 void all_groups(float width) {
   const std::span<const KeyGroup> groups = key_groups();
-  const bool two = width > 2.0f * column_width * ImGui::GetFontSize();
+  const bool two = width > 2.0f * text_width * ImGui::GetFontSize();
   constexpr std::size_t at_left = 2;  // half of all keys
   ImGui::BeginGroup();
   for (std::size_t i = 0; i < groups.size(); ++i) {

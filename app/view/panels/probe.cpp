@@ -41,7 +41,7 @@ void ladder(const PanelContext& context, const PixelStory& story) {
 }
 
 /// From (texels, distance) to the screen: the light is above, distance grows downwards.
-struct Frame {
+struct SlicePlot {
   ImVec2 corner, size;
   double first, last, near, far;
   ImVec2 at(double t, double distance) const {
@@ -51,8 +51,8 @@ struct Frame {
   }
 };
 
-Frame frame_of(const LightCut& cut) {
-  Frame frame;
+SlicePlot frame_of(const LightCut& cut) {
+  SlicePlot frame;
   frame.corner = ImGui::GetCursorScreenPos();
   frame.size = {ImGui::GetContentRegionAvail().x, 11.0f * ImGui::GetFontSize()};
   frame.first = cut.first;
@@ -73,7 +73,7 @@ Frame frame_of(const LightCut& cut) {
   return frame;
 }
 
-void texel_columns(const PanelContext& context, const LightCut& cut, const Frame& frame) {
+void texel_columns(const PanelContext& context, const LightCut& cut, const SlicePlot& frame) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float em = ImGui::GetFontSize();
   const ImU32 shade =
@@ -95,7 +95,7 @@ void texel_columns(const PanelContext& context, const LightCut& cut, const Frame
 }
 
 void drawing(const PanelContext& context, const LightCut& cut, const PixelStory& story) {
-  const Frame frame = frame_of(cut);
+  const SlicePlot frame = frame_of(cut);
   const float em = ImGui::GetFontSize();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end{frame.corner.x + frame.size.x, frame.corner.y + frame.size.y};

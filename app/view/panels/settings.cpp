@@ -24,7 +24,8 @@ struct Note {
         acne(row.acne),
         peter_panning(row.peter_panning),
         options(fmt::format("--{}", row.option)) {}
-  Note(std::string_view does, std::string_view on_acne, std::string_view on_peter_panning, const char* options_of)
+  Note(std::string_view does, std::string_view on_acne, std::string_view on_peter_panning,
+       const char* options_of)
       : what(does), acne(on_acne), peter_panning(on_peter_panning), options(options_of) {}
 
   void show() const {
