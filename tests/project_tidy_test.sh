@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # clang-tidy 14 (.clang-tidy) over the project's own sources, or over the files named, each compiled by itself: the release
-# preset compiles the files of a folder together, so build/tidy is configured to tell how one alone is compiled. The whole
+# preset compiles a target's files together, so build/tidy is configured to tell how one alone is compiled. The whole
 # project takes long; what ctest gives it is told in project_tests.cmake. Exit 77 (skipped) without clang-tidy 14, the
 # version of Debian 12: other versions look for other things.
 #
 #   project_tidy_test.sh [FILE...]         each file by itself
-#   project_tidy_test.sh --together ROOM   the sources at the top of a room as the release preset compiles them, which takes
-#                                          a tenth of the time: most of it goes into the headers that they share
+#   project_tidy_test.sh --together ROOM   a room's sources as the release preset compiles them, which takes a tenth of
+#                                          the time: most of it goes into the headers that they share
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
 
@@ -30,23 +30,22 @@ tidy() {
 }
 
 # What a check cannot tell of files compiled together: a using-declaration that one of them does not need.
-unneeded_using() {
-  awk '
+# shellcheck disable=SC2016  # awk expands these
+unneeded_using='
     function unneeded(name) { for (name in named) if (words[name] < 2) { print file ": using " name " is not needed"; found = 1 } }
     FNR == 1 { unneeded(); file = FILENAME; delete named; delete words }
     { line = $0; gsub(/[^A-Za-z0-9_]+/, " ", line); n = split(line, word, " "); for (i = 1; i <= n; ++i) ++words[word[i]] }
     /^using [A-Za-z0-9_:]+::[A-Za-z0-9_]+;/ { named[word[n]] = 1 }
-    END { unneeded(); exit found }' "$@"
-}
+    END { unneeded(); exit found }'
 
 # What Highway compiles several times stands alone in the release preset, too, and is told by its own name.
 tidy_together() {
   local room=$1 units status=0
-  units="/(gnomon_$room\\.dir/Unity/unity_in__[0-9]+_cxx\\.cxx|$room/[^/]*\\.cpp)\$"
+  units="/(gnomon_${room}(_untimed)?\\.dir/Unity/unity_part_[0-9]+_cxx\\.cxx|$room/[^/]*\\.cpp)\$"
   grep -qE "\"file\": \"[^\"]*${units%\$}\"" "$built/compile_commands.json" || { echo "nothing of $room is compiled in $built"; return 1; }
   # CMake's own file of a unit includes sources.
   tidy "$built" -checks=-bugprone-suspicious-include -header-filter="/$room/.*" "$units" || status=1
-  unneeded_using "$room"/*.cpp || status=1
+  find "$room" -name '*.cpp' -print0 | sort -z | xargs -0 awk "$unneeded_using" || status=1
   return "$status"
 }
 

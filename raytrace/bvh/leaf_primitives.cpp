@@ -12,7 +12,10 @@ namespace gnomon::raytrace {
 /// bits, for files give a vertex twice where its normal or its texture has a seam.
 class LeafGroup {
  public:
-  LeafGroup() { known_.reserve(LeafPrimitives::group_size), corners_.reserve(LeafPrimitives::group_size); }
+  LeafGroup() {
+    by_vertex_.fill(vacant), by_position_.fill(vacant);
+    corners_.reserve(LeafPrimitives::group_size);
+  }
 
   LeafPrimitives::Triangle triangle(const LeafPrimitives::Source& source, std::size_t leaf) {
     const auto vertices = source.vertices(leaf);
@@ -23,53 +26,41 @@ class LeafGroup {
   const std::vector<Vec3>& corners() const { return corners_; }
 
  private:
-  /// Hashed numbers, with linear probing.
-  class Numbers {
-   public:
-    Numbers() { slots_.fill(vacant); }
-    /// The number that is equal(number), or the new one of add().
-    template <class Equal, class Add>
-    std::uint16_t find(std::uint64_t hash, const Equal& equal, const Add& add) {
-      for (std::size_t at = hash >> (64 - slot_bits);; at = (at + 1) % slots_.size()) {
-        if (slots_[at] == vacant) return slots_[at] = static_cast<std::uint16_t>(add());
-        if (equal(slots_[at])) return slots_[at];
-      }
-    }
-
-   private:
-    static constexpr std::size_t slot_bits = LeafPrimitives::group_bits + 2;
-    static constexpr std::uint16_t vacant = 0xffff;
-    static_assert(3 * LeafPrimitives::group_size < std::size_t{1} << slot_bits && slot_bits < 16);
-    std::array<std::uint16_t, std::size_t{1} << slot_bits> slots_;
-  };
-  struct Known {
-    std::uint32_t vertex;
-    std::uint16_t corner;
-  };
+  static constexpr std::size_t slot_bits = LeafPrimitives::group_bits + 2,
+                               slots = std::size_t{1} << slot_bits;
+  static constexpr std::uint16_t vacant = 0xffff;
   static constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
+  static_assert(3 * LeafPrimitives::group_size < slots && slot_bits < 16);
+
+  /// Hashed with linear probing: where is(slot) first holds, or the first vacant slot.
+  template <class Is>
+  static std::size_t find(const std::array<std::uint16_t, slots>& corner, std::uint64_t hash, const Is& is) {
+    std::size_t at = hash >> (64 - slot_bits);
+    while (corner[at] != vacant && !is(at)) at = (at + 1) % slots;
+    return at;
+  }
 
   std::uint16_t corner_of(std::uint32_t vertex, const LeafPrimitives::Source& source) {
-    const auto number = by_vertex_.find(
-        vertex * factor, [&](std::size_t i) { return known_[i].vertex == vertex; },
-        [&] {
-          known_.push_back({vertex, corner_at(source.position(vertex))});
-          return known_.size() - 1;
-        });
-    return known_[number].corner;
+    const std::size_t at =
+        find(by_vertex_, vertex * factor, [&](std::size_t slot) { return vertex_[slot] == vertex; });
+    if (by_vertex_[at] == vacant) vertex_[at] = vertex, by_vertex_[at] = corner_at(source.position(vertex));
+    return by_vertex_[at];
   }
   std::uint16_t corner_at(const Vec3& position) {
     const auto bits = std::bit_cast<std::array<std::uint64_t, 3>>(position);
-    return by_position_.find(
-        ((bits[0] * factor ^ bits[1]) * factor ^ bits[2]) * factor,
-        [&](std::size_t i) { return std::bit_cast<std::array<std::uint64_t, 3>>(corners_[i]) == bits; },
-        [&] {
-          corners_.push_back(position);
-          return corners_.size() - 1;
+    const std::size_t at =
+        find(by_position_, ((bits[0] * factor ^ bits[1]) * factor ^ bits[2]) * factor, [&](std::size_t slot) {
+          return std::bit_cast<std::array<std::uint64_t, 3>>(corners_[by_position_[slot]]) == bits;
         });
+    if (by_position_[at] == vacant) {
+      by_position_[at] = static_cast<std::uint16_t>(corners_.size());
+      corners_.push_back(position);
+    }
+    return by_position_[at];
   }
 
-  Numbers by_vertex_, by_position_;
-  std::vector<Known> known_;
+  std::array<std::uint16_t, slots> by_vertex_, by_position_;  ///< corners
+  std::array<std::uint32_t, slots> vertex_;  ///< of the corner in the same slot of by_vertex_
   std::vector<Vec3> corners_;
 };
 
