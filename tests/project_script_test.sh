@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # When ./gnomon configures a build: the first time, where the checkout was moved or copied (CMake cannot move a build), and
-# after the presets have changed; and then no more. CMake and Ninja are stand-ins that note what they are asked.
+# after the presets have changed; and then no more. Ninja is asked where something has changed since, and else is not:
+# that takes longer than starting the program. CMake and Ninja are stand-ins that note what they are asked.
 # usage: project_script_test.sh SOURCE_DIR
 set -euo pipefail
 source=$1
@@ -18,7 +19,7 @@ echo >"$2/build/release/build.ninja"
 EOF
 cat >"$work/bin/ninja" <<'EOF'
 #!/bin/sh
-case "$*" in *-n*) echo 'ninja: no work to do.'; exit ;; esac
+echo "$*" >>"$WORK/built"
 printf '#!/bin/sh\necho "$0"\n' >"$2/app/gnomon" && chmod +x "$2/app/gnomon"
 EOF
 chmod +x "$work/bin/cmake" "$work/bin/ninja"
@@ -49,3 +50,23 @@ expect second -
 cp -a "$work/second" "$work/copy"
 expect copy '--fresh -DGNOMON_TESTS=OFF'
 expect second -
+
+# expect_build YES: whether Ninja is asked.
+expect_build() {
+  : >"$work/built"
+  expect copy -
+  [[ $([[ -s $work/built ]] && echo yes || echo no) == "$1" ]] || fail "$2: was Ninja asked? not '$1'"
+}
+expect_build no 'nothing has changed'
+mkdir "$work/copy/scene"
+expect_build yes 'a new folder'
+expect_build no 'built since'
+touch -d '1 hour ago' "$work/copy/scene/old.cpp"
+expect_build yes 'a file that was put there, though an old one'
+echo >>"$work/copy/scene/old.cpp"
+expect_build yes 'an edited file'
+rm "$work/copy/scene/old.cpp"
+expect_build yes 'a file that is gone'
+mkdir -p "$work/copy/.git/logs" && touch "$work/copy/.git/logs/HEAD"
+expect_build yes 'another commit'
+expect_build no 'built since'
