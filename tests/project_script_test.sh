@@ -51,7 +51,7 @@ cp -a "$work/second" "$work/copy"
 expect copy '--fresh -DGNOMON_TESTS=OFF'
 expect second -
 
-# expect_build YES: whether Ninja is asked.
+# expect_build yes|no WHEN: whether Ninja is asked.
 expect_build() {
   : >"$work/built"
   expect copy -
@@ -70,3 +70,5 @@ expect_build yes 'a file that is gone'
 mkdir -p "$work/copy/.git/logs" && touch "$work/copy/.git/logs/HEAD"
 expect_build yes 'another commit'
 expect_build no 'built since'
+rm "$work/copy/build/release/app/gnomon"
+expect_build yes 'the program is gone'
