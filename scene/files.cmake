@@ -29,3 +29,8 @@ set_target_properties(gnomon_images PROPERTIES CXX_VISIBILITY_PRESET hidden)
 add_dependencies(gnomon_scene gnomon_images)
 set_source_files_properties(files/image_library.cpp PROPERTIES COMPILE_DEFINITIONS
   "GNOMON_IMAGE_MODULE=\"$<TARGET_FILE:gnomon_images>\";GNOMON_IMAGE_MODULE_FROM_BIN=\"../lib/gnomon\"")
+# Sanitized programs have it from the start: GCC 12's leak checker can crash at exit ("Tracer caught signal 11") where a
+# library that was loaded late has variables of its own in each thread.
+if(GNOMON_SANITIZE)
+  target_link_options(gnomon_scene INTERFACE -Wl,--push-state,--no-as-needed $<TARGET_FILE:gnomon_images> -Wl,--pop-state)
+endif()
