@@ -25,7 +25,7 @@ struct Hit {
 };
 
 /// A point on a surface with a bound on how far rounding may have moved it.
-struct SurfacePoint {
+struct alignas(32) SurfacePoint {
   Vec3 position;
   Vec3 position_error;  ///< componentwise bound, world units (Pharr et al., PBR 4th ed., section 6.8)
   Vec3 normal;          ///< geometric, unit, on the side the ray came from

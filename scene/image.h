@@ -22,7 +22,7 @@ struct Image {
   std::vector<Pixel> data;
 
   Image() = default;
-  explicit Image(ImageSize s, Pixel fill = Pixel{}) : size(s), data(s.pixels(), fill) {}
+  explicit Image(ImageSize s, const Pixel& fill = Pixel{}) : size(s), data(s.pixels(), fill) {}
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
   }

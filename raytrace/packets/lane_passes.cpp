@@ -26,10 +26,11 @@ std::uint64_t known_tile(const Tracer& tracer, const View& view, int first_row,
     TileHits known;
     for_each_place(rect, [&](int x, int y, std::size_t lane) {
       const std::uint32_t id = primitives.at(x, y);
-      known.leaf[lane] = id == no_id || !tracer.world().is_triangle(id) ? nothing_hit : leaf_of[id];
+      const bool flat = id != no_id && (tracer.world().is_triangle(id) || leaf_of[id] >= first_plane);
+      known.leaf[lane] = flat ? leaf_of[id] : nothing_hit;
     });
     const TileRect shown{rect.x0, rect.y0 + first_row, rect.x1, rect.y1 + first_row};
-    left = store_receivers(s.bvh, view, shown.x0, shown.y0, axis_of(view, shown), known,
+    left = store_receivers(s, view, shown, known,
                            {.points = &receivers.at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(receivers.size.width),
                             .quantised = &quantised,

@@ -2,7 +2,6 @@
 
 #include "raytrace/packets/known_hit.h"
 #include "raytrace/packets/places.h"
-#include "raytrace/packets/plane_receivers.h"
 #include "raytrace/packets/receivers.h"
 #include "raytrace/packets/view_block.h"
 #include "raytrace/tiles.h"
@@ -41,10 +40,6 @@ TileRect in_picture(TileRect rect, int first_row) {
   return {rect.x0, rect.y0 + first_row, rect.x1, rect.y1 + first_row};
 }
 
-std::size_t place_in_tile(const TileRect& rect, int x, int y) {
-  return static_cast<std::size_t>(tile_pixels * (y - rect.y0) + x - rect.x0);
-}
-
 TileHits those_of(const TileHits& hits, const LaneMask& bits) {
   TileHits some;
   for (std::size_t lane = 0; lane < tile_rays; ++lane)
@@ -56,21 +51,22 @@ TileHits those_of(const TileHits& hits, const LaneMask& bits) {
 LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, int first_row,
                           const TileHits& hits, Image<SurfacePoint>* receivers, QuantisedTile* quantised,
                           TileDraft& draft) {
-  const Bvh& bvh = tracer.structures().bvh;
-  const int axis = axis_of(view, in_picture(rect, first_row)), y0 = rect.y0 + first_row;
+  const Structures& s = tracer.structures();
+  const TileRect shown = in_picture(rect, first_row);
   if (receivers != nullptr || quantised == nullptr)
-    return store_receivers(bvh, view, rect.x0, y0, axis, hits,
+    return store_receivers(s, view, shown, hits,
                            {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(view.size.width),
+                            .around_caches = receivers != nullptr,
                             .quantised = quantised,
                             .draft = &draft});
-  const DraftLeft left = draft_receivers(bvh, view, rect.x0, y0, hits, *quantised, draft);
-  if (left.ill == LaneMask{}) return left.others;
-  const TileHits ill = those_of(hits, left.ill);
-  LaneMask still = store_receivers(bvh, view, rect.x0, y0, axis, ill,
-                                   {.points = nullptr, .stride = 0, .quantised = quantised, .draft = &draft});
-  for (std::size_t p = 0; p < tile_packets; ++p)
-    still[p] = static_cast<std::uint16_t>((still[p] & left.ill[p]) | left.others[p]);
+  const DraftLeft left = draft_receivers(s.bvh, view, shown.x0, shown.y0, hits, *quantised, draft);
+  LaneMask asked = left.others;
+  for (std::size_t p = 0; p < tile_packets; ++p) asked[p] |= left.ill[p];
+  if (asked == LaneMask{}) return asked;
+  LaneMask still =
+      store_receivers(s, view, shown, those_of(hits, asked), {.quantised = quantised, .draft = &draft});
+  for (std::size_t p = 0; p < tile_packets; ++p) still[p] &= asked[p];
   return still;
 }
 
@@ -83,16 +79,6 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
   if (quantised != nullptr) quantised->clear();
   const LaneMask left =
       vector_receivers(tracer, view, rect, sinks.first_row, hits, receivers, quantised, draft);
-  const bool any_planes = !tracer.structures().planes.empty();
-  HugeArray<SurfacePoint> on_planes(any_planes ? tile_rays : 0);
-  LaneMask found{};
-  if (any_planes)
-    found = find_plane_receivers(tracer.structures(), view, in_picture(rect, sinks.first_row), hits, left,
-                                 on_planes.data());
-  const auto store = [&](int x, int y, std::size_t lane, const SurfacePoint& point) {
-    if (receivers != nullptr) receivers->at(x, y) = point;
-    if (quantised != nullptr) quantised->put(lane, point, draft);
-  };
   std::vector<std::uint32_t> leaves;
   for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
     const std::uint32_t leaf = hits.leaf[lane];
@@ -100,8 +86,6 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
       if (receivers != nullptr) receivers->at(x, y) = SurfacePoint{};
       return;
     }
-    if ((found[lane / packet_rays] & bit_of(lane)) != 0)
-      return store(x, y, lane, on_planes[static_cast<std::size_t>(place_in_tile(rect, x, y))]);
     Candidates candidates;
     if (leaf == ambiguous_hit) {
       leaves.clear();
@@ -111,7 +95,8 @@ void store_tile(const Tracer& tracer, const View& view, BlockHits& block, std::s
     }
     const SurfacePoint point = receiver_of(tracer, view, x, y + sinks.first_row, leaf, candidates);
     if (leaf == ambiguous_hit) hits.leaf[lane] = leaf_of(tracer, candidates, point.primitive);
-    store(x, y, lane, point);
+    if (receivers != nullptr) receivers->at(x, y) = point;
+    if (quantised != nullptr) quantised->put(lane, point, draft);
   });
   if (quantised != nullptr) quantised->finish(draft, view.eye);
 }
@@ -145,20 +130,17 @@ SurfacePoint ReceiverSource::at(const TileRect& rect, std::size_t lane) const {
 void ReceiverSource::fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const {
   LaneMask left = asked;
   if (stored == nullptr) {
-    const Bvh& bvh = tracer->structures().bvh;
-    const TileRect shown = in_picture(rect, first_row);
+    const Structures& s = tracer->structures();
     for_each_place(rect, asked, [&](int, int, std::size_t lane) {
-      if (hits->leaf[lane] < bvh.leaf_count()) bvh.prefetch(hits->leaf[lane]);
+      if (hits->leaf[lane] < s.bvh.leaf_count()) s.bvh.prefetch(hits->leaf[lane]);
     });
-    const LaneMask others =
-        store_receivers(bvh, *view, shown.x0, shown.y0, axis_of(*view, shown), those_of(*hits, asked),
-                        {.points = points, .stride = tile_pixels});
+    const LaneMask others = store_receivers(s, *view, in_picture(rect, first_row), those_of(*hits, asked),
+                                            {.points = points, .stride = tile_pixels});
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= others[p];
-    const LaneMask found = find_plane_receivers(tracer->structures(), *view, shown, *hits, left, points);
-    for (std::size_t p = 0; p < tile_packets; ++p) left[p] &= static_cast<std::uint16_t>(~found[p]);
   }
-  for_each_place(rect, left,
-                 [&](int x, int y, std::size_t lane) { points[place_in_tile(rect, x, y)] = at(rect, lane); });
+  for_each_place(rect, left, [&](int x, int y, std::size_t lane) {
+    points[tile_pixels * (y - rect.y0) + x - rect.x0] = at(rect, lane);
+  });
 }
 
 }  // namespace gnomon::raytrace

@@ -3,13 +3,12 @@
 // instruction set.
 #pragma once
 
-#include "raytrace/packets/passes.h"
+#include "raytrace/packets/receivers.h"
 
 namespace gnomon::raytrace {
 
-/// Writes the receivers of the asked pixels that see planes for sure, by place: points[16 * y + x]. Returns the bits of
-/// those it wrote.
-LaneMask find_plane_receivers(const Structures& structures, const View& view, const TileRect& rect,
-                              const TileHits& hits, const LaneMask& asked, SurfacePoint* points);
+/// Writes the receivers of the asked pixels that see planes for sure. Returns the bits of those that it left alone.
+LaneMask store_plane_receivers(const Structures& structures, const View& view, const TileRect& rect,
+                               const TileHits& hits, const LaneMask& asked, const ReceiverSinks& sinks);
 
 }  // namespace gnomon::raytrace

@@ -1,5 +1,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raytrace/packets/quantised_tile.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -48,13 +49,13 @@ class Draft {
     const M here = mask_of(sound);
     for (std::size_t a = 0; a < 3; ++a) {
       hn::Store(position[a], d, draft_.position[a] + lane);
-      hn::Store(hn::DemoteTo(half, normal[a]), half, tile_.normal[a] + lane);
+      hn::Store(hn::DemoteTo(half, normal[a]), half, draft_.normal[a] + lane);
       low_[a] = hn::IfThenElse(here, hn::Min(low_[a], position[a]), low_[a]);
       high_[a] = hn::IfThenElse(here, hn::Max(high_[a], position[a]), high_[a]);
     }
     for (unsigned left = sound; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      tile_.source[lane + i] = bvh_.id_at(leaf[i]);
+      draft_.source[lane + i] = bvh_.id_at(leaf[i]);
     }
     tile_.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
     return sound;
@@ -114,17 +115,29 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
   return left;
 }
 
+template <class T>
+void stream_packet(const T* from, T* to) {
+  constexpr hn::CappedTag<T, packet_rays> tag;
+  for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(tag))
+    hn::Stream(hn::Load(tag, from + i), tag, to + i);
+}
+
 void settle_kernel(const TileDraft& draft, QuantisedTile& tile) {
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (tile.present[p] == 0) continue;
+    const std::size_t first = p * packet_rays;
     for (std::size_t a = 0; a < 3; ++a) {
       const V origin = all(tile.origin[static_cast<int>(a)]);
-      for (std::size_t i = p * packet_rays; i < (p + 1) * packet_rays; i += hn::Lanes(d)) {
-        const V offset = hn::Sub(hn::Load(d, draft.position[a] + i), origin);
-        hn::Store(hn::DemoteTo(half, offset), half, tile.position[a] + i);
-      }
+      alignas(64) float offset[packet_rays];
+      for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d))
+        hn::Store(hn::DemoteTo(half, hn::Sub(hn::Load(d, draft.position[a] + first + i), origin)), half,
+                  offset + i);
+      stream_packet(offset, tile.position[a] + first);
+      stream_packet(draft.normal[a] + first, tile.normal[a] + first);
     }
+    stream_packet(draft.source + first, tile.source + first);
   }
+  hwy::FlushStream();
 }
 
 }  // namespace
@@ -147,9 +160,9 @@ void QuantisedTile::put(std::size_t lane, const SurfacePoint& point, TileDraft& 
   draft.bounds.grow(point.position);
   for (int a = 0; a < 3; ++a) {
     draft.position[a][lane] = point.position[a];
-    normal[a][lane] = static_cast<float>(point.normal[a]);
+    draft.normal[a][lane] = static_cast<float>(point.normal[a]);
   }
-  source[lane] = point.primitive;
+  draft.source[lane] = point.primitive;
 }
 
 void QuantisedTile::finish(const TileDraft& draft, const Vec3& eye) {

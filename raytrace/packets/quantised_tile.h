@@ -8,9 +8,11 @@
 
 namespace gnomon::raytrace {
 
-/// Positions in double, until their middle is known.
+/// What a quantised tile is made of: positions in double, until their middle is known.
 struct alignas(64) TileDraft {
   double position[3][tile_rays];
+  float normal[3][tile_rays];
+  std::uint32_t source[tile_rays];
   Aabb bounds;  ///< of the positions, world
 };
 
@@ -26,7 +28,8 @@ struct alignas(64) QuantisedTile {
   void clear() { present.fill(0), any = false, bounds = Aabb{}, extent = 0.0; }
   /// A receiver by itself; clear() comes first.
   void put(std::size_t lane, const SurfacePoint& point, TileDraft& draft);
-  /// From the draft; `eye`: where the receivers were seen from.
+  /// From the draft; `eye`: where the receivers were seen from. Written around the caches: a picture's tiles are read
+  /// after all of them are written.
   void finish(const TileDraft& draft, const Vec3& eye);
 };
 

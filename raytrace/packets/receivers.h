@@ -3,8 +3,7 @@
 // instruction set.
 #pragma once
 
-#include <array>
-
+#include "raytrace/packets/blocks.h"
 #include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
 #include "scene/camera.h"
@@ -15,14 +14,17 @@ namespace gnomon::raytrace {
 struct ReceiverSinks {
   SurfacePoint* points = nullptr;
   std::size_t stride = 0;
+  /// For a picture, which is read long after it was written: around the processor's caches, and the packets that show
+  /// nothing are written as well.
+  bool around_caches = false;
   QuantisedTile* quantised = nullptr;  ///< these two together; finish() is left to the caller
   TileDraft* draft = nullptr;
 };
 
-/// Writes the receivers of a tile that lie on triangles. `axis`: the world axis along which the rays are
-/// longest, for most of them. Returns per packet the bits of those that it left alone: no triangle hit for
-/// sure, an edge function of zero, a ray whose largest component is not that axis or has exponent 1.
-LaneMask store_receivers(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
+/// Writes the receivers of a tile that lie on triangles and planes. Returns per packet the bits of those that it left
+/// alone: no triangle and no plane hit for sure, an edge function of zero, a ray whose largest component is not that of
+/// most of the tile's or has exponent 1. `rect`: the tile in the picture that is seen.
+LaneMask store_receivers(const Structures& s, const View& view, const TileRect& rect, const TileHits& hits,
                          const ReceiverSinks& sinks);
 
 }  // namespace gnomon::raytrace

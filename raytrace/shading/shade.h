@@ -121,9 +121,10 @@ class Shader {
     return radiance;
   }
 
-  /// Radiance along a path that intersects the point after `length`, through what is no boundary of its
+  /// Radiance along a path that intersects the `first` point after `length`, through what is no boundary of its
   /// medium. `count` counts the rays that go on behind that.
-  Vec3f arriving(SurfacePoint point, double length, Path path, std::uint64_t& count) {
+  Vec3f arriving(const SurfacePoint& first, double length, Path path, std::uint64_t& count) {
+    SurfacePoint point = first;
     if constexpr (Kind::refracts) {
       for (int passed = 0; !is_boundary(point, path.inside); ++passed) {
         if (passed == max_glass_surfaces) return Vec3f(0.0f);
