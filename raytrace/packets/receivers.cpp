@@ -100,6 +100,25 @@ inline Points points_of(const V3& direction, const HitTriangles& triangles, cons
   return points;
 }
 
+/// A packet's, found for all of it at once: a chain of operations as long as the processor looks ahead.
+class PacketDirections {
+ public:
+  void set(const View& view, const PixelPlane& pixels, std::size_t packet) {
+    for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
+      const std::size_t lane = packet * packet_rays + i;
+      const V3 ray = pixel_direction(view, hn::Load(d, pixels.x + lane), hn::Load(d, pixels.y + lane));
+      hn::Store(ray.x, d, along_[0] + i), hn::Store(ray.y, d, along_[1] + i),
+          hn::Store(ray.z, d, along_[2] + i);
+    }
+  }
+  V3 at(std::size_t i) const {
+    return {hn::Load(d, along_[0] + i), hn::Load(d, along_[1] + i), hn::Load(d, along_[2] + i)};
+  }
+
+ private:
+  alignas(64) double along_[3][packet_rays];
+};
+
 inline bool shows_nothing(const std::uint32_t* leaf) {
   constexpr hn::CappedTag<std::uint32_t, packet_rays> ids;
   bool nothing = true;
@@ -116,6 +135,7 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
   const V3 origin = all(view.eye);
   ReceiverWriter writer(sinks);
   HitTriangles triangles;
+  PacketDirections directions;
   LaneMask left{};
   for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -124,6 +144,7 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
       writer.put_nothing(p);
       continue;
     }
+    directions.set(view, pixels, p);
     unsigned done = 0;
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
       const std::size_t lane = p * packet_rays + i;
@@ -131,7 +152,7 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
       const unsigned known = on_triangles(bvh, leaf);
       if (known == 0) continue;
       triangles.load(bvh, leaf, known);
-      const V3 direction = pixel_direction(view, hn::Load(d, pixels.x + lane), hn::Load(d, pixels.y + lane));
+      const V3 direction = directions.at(i);
       const Weights weights = intersect<axis>(direction, origin, triangles.from.corner);
       const unsigned sound = bits_of(weights.sound) & known;
       if (sound == 0) continue;
