@@ -87,9 +87,10 @@ class QuantisedRays {
 };
 
 void quantised_kernel(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
-                      const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
+                      const QuantisedTile* next, const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
   QuantisedRays some(light, setup, tile);
   for (std::size_t p = 0; p < tile_packets; ++p) {
+    if (next != nullptr) prefetch(*next, p);
     unsigned reached = 0, perhaps = 0, usable = 0;
     const unsigned present = tile.present[p] & asked[p];
     for (std::size_t i = 0; i < packet_rays && present != 0; i += hn::Lanes(d)) {
@@ -118,8 +119,8 @@ namespace gnomon::raytrace {
 HWY_EXPORT(quantised_kernel);
 
 void prepare_quantised(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
-                       const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
-  HWY_DYNAMIC_DISPATCH(quantised_kernel)(light, setup, tile, asked, rays, lanes);
+                       const QuantisedTile* next, const LaneMask& asked, TileRays& rays, ShadowLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(quantised_kernel)(light, setup, tile, next, asked, rays, lanes);
 }
 
 }  // namespace gnomon::raytrace

@@ -19,8 +19,8 @@ struct ShadowLanes {
 };
 
 /// The rays of those of a tile's quantised receivers that are asked for (bits per packet); alive rays include the
-/// grazing ones. A spot light's cone is not looked at.
+/// grazing ones. A spot light's cone is not looked at. `next`, or null: the tile that comes next, of which memory is asked.
 void prepare_quantised(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,
-                       const LaneMask& asked, TileRays& rays, ShadowLanes& lanes);
+                       const QuantisedTile* next, const LaneMask& asked, TileRays& rays, ShadowLanes& lanes);
 
 }  // namespace gnomon::raytrace

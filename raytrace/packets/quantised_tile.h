@@ -33,7 +33,16 @@ struct alignas(64) QuantisedTile {
   void finish(const TileDraft& draft, const Vec3& eye);
 };
 
-/// Asks memory for a tile that is read next. Inlined by force: GCC leaves out calls of functions that do nothing else.
+/// Asks memory for a packet of a tile that is read next. Inlined by force: GCC leaves out calls of functions that do nothing
+/// else.
+[[gnu::always_inline]] inline void prefetch(const QuantisedTile& next, std::size_t packet) {
+  const std::size_t first = packet * packet_rays;
+  for (std::size_t a = 0; a < 3; ++a)
+    __builtin_prefetch(next.position[a] + first), __builtin_prefetch(next.normal[a] + first);
+  __builtin_prefetch(next.source + first);
+}
+
+/// The whole tile; none need be there.
 [[gnu::always_inline]] inline void prefetch(const QuantisedTile* next) {
   const char* bytes = reinterpret_cast<const char*>(next);
   for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);

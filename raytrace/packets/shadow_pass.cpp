@@ -80,12 +80,12 @@ class ShadowPass {
     });
     if (count == 0) return 0;
     const std::span<Tile> tiles(scratch.tiles.data(), count);
+    if (tiles[0].quantised != nullptr) prefetch(tiles[0].quantised);
     const LightFrame frame = frame_of(bounds);
     std::uint64_t rays = 0;
     std::array<ShadowTileRays, most_shadow_tiles> in_block;
     for (std::size_t t = 0; t < count; ++t) {
-      if (t + 1 < count && tiles[t + 1].quantised != nullptr) prefetch(tiles[t + 1].quantised);
-      rays += prepare(frame.setup, tiles[t]);
+      rays += prepare(frame.setup, tiles[t], t + 1 < count ? tiles[t + 1].quantised : nullptr);
       in_block[t] = {&tiles[t].rays, &tiles[t].shadows};
     }
     if (rays <= few_rays)
@@ -128,12 +128,12 @@ class ShadowPass {
     return any && tile.asked != LaneMask{};
   }
 
-  /// Returns the number of rays.
-  std::uint64_t prepare(const EdgeSetup& setup, Tile& tile) const {
+  /// Returns the number of rays. `next`: the tile that comes next, or null.
+  std::uint64_t prepare(const EdgeSetup& setup, Tile& tile, const QuantisedTile* next) const {
     const bool reached = !asked_.empty();  // the light is known to reach all that is asked for
     if (tile.quantised != nullptr && (reached || light_.type != LightType::spot) &&
         quantisation_applies(setup, *tile.quantised)) {
-      prepare_quantised(light_, setup, *tile.quantised, tile.asked, tile.rays, tile.lanes);
+      prepare_quantised(light_, setup, *tile.quantised, next, tile.asked, tile.rays, tile.lanes);
       if (!reached) decide_grazing(tile);
     } else {
       prepare_one_by_one(setup, tile);
