@@ -63,6 +63,11 @@ inline V3 size_of(const V3& a) {
 inline void store(const V3& a, double (&rows)[3][8]) {
   hn::Store(a.x, d, rows[0]), hn::Store(a.y, d, rows[1]), hn::Store(a.z, d, rows[2]);
 }
+/// A normal on the side that a ray comes from; `away`: where it points along the ray.
+inline V3 facing(const V3& normal, M away) {
+  const auto turned = [&](V component) { return hn::IfThenElse(away, hn::Neg(component), component); };
+  return {turned(normal.x), turned(normal.y), turned(normal.z)};
+}
 /// In the order of glm's operations, none of them fused.
 inline V dot(const V3& a, const V3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));

@@ -57,7 +57,7 @@ LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect
     return store_receivers(s, view, shown, hits,
                            {.points = receivers == nullptr ? nullptr : &receivers->at(rect.x0, rect.y0),
                             .stride = static_cast<std::size_t>(view.size.width),
-                            .around_caches = receivers != nullptr,
+                            .non_temporal = receivers != nullptr,
                             .quantised = quantised,
                             .draft = &draft});
   const DraftLeft left = draft_receivers(s.bvh, view, shown.x0, shown.y0, hits, *quantised, draft);

@@ -36,10 +36,8 @@ inline PlanePoints points_on(const Plane& plane, std::uint32_t id, const View& v
   const V3 on_plane = minus(near, times(above, normal));
   const V3 error = plus(times(distance_error, normal_size), times(all(error_gamma(2)), size_of(on_plane)));
   const M away = hn::Gt(slope, all(0.0));
-  const auto facing = [&](V component) { return hn::IfThenElse(away, hn::Neg(component), component); };
-  PlanePoints found{
-      {on_plane, error, {facing(normal.x), facing(normal.y), facing(normal.z)}, all(0.0), all(0.0), {}},
-      hn::And(hn::Gt(t, all(1e-200)), hn::Lt(t, all(1e200)))};
+  PlanePoints found{{on_plane, error, facing(normal, away), all(0.0), all(0.0), {}},
+                    hn::And(hn::Gt(t, all(1e-200)), hn::Lt(t, all(1e200)))};
   std::fill_n(found.points.ids, 8, id);
   return found;
 }

@@ -28,8 +28,8 @@ struct alignas(64) QuantisedTile {
   void clear() { present.fill(0), any = false, bounds = Aabb{}, extent = 0.0; }
   /// A receiver by itself; clear() comes first.
   void put(std::size_t lane, const SurfacePoint& point, TileDraft& draft);
-  /// From the draft; `eye`: where the receivers were seen from. Written around the caches: a picture's tiles are read
-  /// after all of them are written.
+  /// From the draft; `eye`: where the receivers were seen from. With non-temporal stores: a picture's tiles are
+  /// read after all of them are written.
   void finish(const TileDraft& draft, const Vec3& eye);
 };
 

@@ -59,7 +59,7 @@ class ReceiverWriter {
   }
 
   void finish() const {
-    if (sinks_.around_caches) hwy::FlushStream();
+    if (sinks_.non_temporal) hwy::FlushStream();
     if (sinks_.quantised == nullptr) return;
     Aabb& bounds = sinks_.draft->bounds;
     for (int a = 0; a < 3; ++a) {
@@ -90,7 +90,7 @@ class ReceiverWriter {
     for (std::size_t i = 0; i < hn::Lanes(d); i += row_pixels) {
       SurfacePoint* row = place_of(lane + i);
       unsigned left = sound >> i & whole;
-      if (left == whole && sinks_.around_caches) {
+      if (left == whole && sinks_.non_temporal) {
         for (std::size_t k = 0; k < row_pixels; ++k)
           copy(part, i + k, row + k, [](auto v, auto tag, double* to) { hn::Stream(v, tag, to); });
         continue;

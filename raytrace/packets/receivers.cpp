@@ -89,18 +89,13 @@ inline Points points_of(const V3& direction, const HitTriangles& triangles, cons
   const V3 reach = times(all(error_gamma(7)), plus(plus(size_of(a), size_of(b)), size_of(c)));
   const V3& normal = triangles.normal;
   const M away = hn::Gt(dot(normal, direction), all(0.0));
-  const auto facing = [&](V component) { return hn::IfThenElse(away, hn::Neg(component), component); };
-  Points points{plus(plus(a, b), c),
-                plus(reach, V3{widest, widest, widest}),
-                {facing(normal.x), facing(normal.y), facing(normal.z)},
-                w.b1,
-                w.b2,
-                {}};
+  Points points{
+      plus(plus(a, b), c), plus(reach, V3{widest, widest, widest}), facing(normal, away), w.b1, w.b2, {}};
   std::copy(triangles.ids, triangles.ids + 8, points.ids);
   return points;
 }
 
-/// A packet's, found for all of it at once: a chain of operations as long as the processor looks ahead.
+/// A packet's. All of them are found before the first receiver, so that their long chains of operations overlap.
 class PacketDirections {
  public:
   void set(const View& view, const PixelPlane& pixels, std::size_t packet) {
@@ -119,6 +114,11 @@ class PacketDirections {
   alignas(64) double along_[3][packet_rays];
 };
 
+inline bool shows_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
+  unsigned any = 0;
+  for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) any |= on_triangles(bvh, leaf + i);
+  return any != 0;
+}
 inline bool shows_nothing(const std::uint32_t* leaf) {
   constexpr hn::CappedTag<std::uint32_t, packet_rays> ids;
   bool nothing = true;
@@ -140,8 +140,12 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
   for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);
-    if (sinks.around_caches && shows_nothing(hits.leaf + p * packet_rays)) {
+    if (sinks.non_temporal && shows_nothing(hits.leaf + p * packet_rays)) {
       writer.put_nothing(p);
+      continue;
+    }
+    if (!shows_triangles(bvh, hits.leaf + p * packet_rays)) {
+      left[p] = 0xffff;
       continue;
     }
     directions.set(view, pixels, p);

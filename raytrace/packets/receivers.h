@@ -14,9 +14,9 @@ namespace gnomon::raytrace {
 struct ReceiverSinks {
   SurfacePoint* points = nullptr;
   std::size_t stride = 0;
-  /// For a picture, which is read long after it was written: around the processor's caches, and the packets that show
+  /// Points of a picture, which are read long after they were written: with non-temporal stores, and the packets that show
   /// nothing are written as well.
-  bool around_caches = false;
+  bool non_temporal = false;
   QuantisedTile* quantised = nullptr;  ///< these two together; finish() is left to the caller
   TileDraft* draft = nullptr;
 };
